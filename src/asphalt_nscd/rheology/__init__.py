@@ -1,0 +1,1 @@
+"""Linear viscoelastic laws, their shifts and their fits."""

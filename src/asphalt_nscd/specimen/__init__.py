@@ -1,0 +1,1 @@
+"""Numerical specimens: grading, deposit, trimming, bond network."""
