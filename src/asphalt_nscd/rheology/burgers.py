@@ -1,0 +1,66 @@
+"""Burgers law: a Maxwell element in series with a Kelvin-Voigt element, Eqs. (27)-(29)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asphalt_nscd.errors import InputError
+
+
+@dataclass(frozen=True)
+class Burgers:
+    """Macroscopic Burgers law of one temperature.
+
+    modulus_m, viscosity_m: Maxwell element E_m [Pa], eta_m [Pa s];
+    modulus_k, viscosity_k: Kelvin-Voigt element E_k [Pa], eta_k [Pa s].
+    """
+
+    modulus_m: float
+    viscosity_m: float
+    modulus_k: float
+    viscosity_k: float
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if not np.isfinite(value) or value <= 0:
+                raise InputError(f"Burgers law: {field.name} = {value:g} must be positive; give Pa or Pa s.")
+
+    def complex_compliance(self, omega: ArrayLike) -> NDArray[np.complex128]:
+        """D* = D' - i D'' [1/Pa] at angular frequencies omega [rad/s], Eqs. (28)-(29)."""
+        i_omega = 1j * np.asarray(omega, dtype=float)
+        return (
+            1.0 / self.modulus_m
+            + 1.0 / (i_omega * self.viscosity_m)
+            + 1.0 / (self.modulus_k + i_omega * self.viscosity_k)
+        )
+
+    def complex_modulus(self, omega: ArrayLike) -> NDArray[np.complex128]:
+        """E* = 1/D* [Pa] at angular frequencies omega [rad/s], Eq. (27)."""
+        return 1.0 / self.complex_compliance(omega)
+
+    def creep_compliance(self, time: ArrayLike) -> NDArray[np.float64]:
+        """Strain per unit of constant stress [1/Pa] at times [s] after loading."""
+        time = np.asarray(time, dtype=float)
+        delayed = -np.expm1(-time * self.modulus_k / self.viscosity_k) / self.modulus_k
+        return 1.0 / self.modulus_m + time / self.viscosity_m + delayed
+
+    def relaxation_modulus(self, time: ArrayLike) -> NDArray[np.float64]:
+        """Stress per unit of constant strain [Pa] at times [s] after loading.
+
+        Inverse Laplace transform of 1/(s D(s)), D(s) = 1/E_m + 1/(s eta_m) + 1/(E_k + s eta_k): two
+        exponentials whose rates are the roots of p2 s^2 - p1 s + 1 (Findley, Lai & Onaran 1976, ch. 5).
+        """
+        time = np.asarray(time, dtype=float)
+        retardation = self.viscosity_k / self.modulus_k
+        p1 = self.viscosity_m / self.modulus_m + self.viscosity_m / self.modulus_k + retardation
+        p2 = self.viscosity_m / self.modulus_m * retardation
+        root = np.sqrt(p1**2 - 4.0 * p2)
+        slow = 2.0 / (p1 + root)  # not (p1 - root)/(2 p2), which cancels
+        fast = (p1 + root) / (2.0 * p2)
+        weight_slow = self.viscosity_m * (1.0 - retardation * slow) / root
+        weight_fast = self.viscosity_m * (retardation * fast - 1.0) / root
+        return weight_slow * np.exp(-slow * time) + weight_fast * np.exp(-fast * time)
