@@ -1,0 +1,68 @@
+"""The Burgers law of one temperature: refitted to measurements, or as published in Table 3."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asphalt_nscd.csvinput import Limits, Table, read_csv
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.measurements import LIMITS, read_reduced
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.fitting import fit_burgers
+from asphalt_nscd.rheology.laws_io import write_law
+
+PUBLISHED_COLUMNS = ("Em_kPa", "eta_m_kPa_s", "Ek_kPa", "eta_k_kPa_s")
+UNITS = {"kPa": 1e3, "Pa": 1.0}  # readings of Table 3; the table prints Pa, kPa is what fits
+SAME_TEMPERATURE = 1e-6  # K
+
+
+def fit_temperature(measured: str | Path, temperature: float, output: str | Path) -> dict[str, Any]:
+    """Fit the Burgers law to all specimens of a reduced table at one temperature [degC]; write it."""
+    frame = read_reduced(measured)
+    points = frame[np.abs(frame["temperature_C"] - temperature) < SAME_TEMPERATURE]
+    if points.empty:
+        raise InputError(f"{measured}: no test at {temperature:g} degC; {_available(frame['temperature_C'])}.")
+    modulus = points["E_MPa"] * 1e6 * np.exp(1j * np.radians(points["phase_deg"]))
+    try:
+        fit = fit_burgers(2.0 * np.pi * points["frequency_Hz"].to_numpy(), modulus.to_numpy())
+    except InputError as error:
+        raise InputError(f"{measured}, {temperature:g} degC: {error}") from None
+    return write_law(
+        output,
+        fit.law,
+        source="fitted",
+        temperature=temperature,
+        std_error=fit.std_error,
+        rms_log_residual=fit.rms_log_residual,
+    )
+
+
+def published_law(table: str | Path, temperature: float, unit: str, output: str | Path) -> dict[str, Any]:
+    """Write one row of Table 3 as a law, its numbers read in kPa (the default) or in Pa (as printed)."""
+    temperatures, laws = read_published(table, unit)
+    match = np.flatnonzero(np.abs(temperatures - temperature) < SAME_TEMPERATURE)
+    if not match.size:
+        raise InputError(f"{table}: no law at {temperature:g} degC; {_available(temperatures)}.")
+    return write_law(output, laws[match[0]], source="published", temperature=temperature)
+
+
+def read_published(path: str | Path, unit: str = "kPa") -> tuple[np.ndarray, list[Burgers]]:
+    """Temperatures [degC] and Burgers laws of a table like Table 3."""
+    if unit not in UNITS:
+        raise InputError(f"unit {unit!r} is not known; read Table 3 in {' or '.join(UNITS)}.")
+    table: Table = read_csv(path)
+    table.require(["temperature_C", *PUBLISHED_COLUMNS])
+    temperatures = table.numbers("temperature_C", LIMITS["temperature_C"])
+    for row in range(1, temperatures.size):
+        if temperatures[row] in temperatures[:row]:
+            raise table.error(row, f"{temperatures[row]:g} degC stands twice; keep one line for it.")
+    positive = Limits(1e-3, 1e15, "give a positive value in kPa or kPa s")
+    columns = [table.numbers(name, positive) * UNITS[unit] for name in PUBLISHED_COLUMNS]
+    return temperatures, [Burgers(*(float(value) for value in row)) for row in zip(*columns, strict=True)]
+
+
+def _available(temperatures: Any) -> str:
+    return "give one of " + ", ".join(f"{t:g}" for t in np.unique(temperatures))
