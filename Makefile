@@ -1,0 +1,39 @@
+# The doorway: sets up .venv and hands over to Snakemake, which does the work.
+#
+#   make            the paper study
+#   make smoke      the same chain at reduced size, in minutes
+#   make test       the tests
+#   make study CONFIG=my.yaml     any other study
+#
+# CORES=1 limits the cores; PYTHON=/path/to/python3.12 chooses the Python.
+
+CORES ?= all
+CONFIG ?= config/paper.yaml
+READY := .venv/.ready
+
+# Packages compile their bytecode once, at installation, not in every job.
+unexport PYTHONDONTWRITEBYTECODE
+
+# An environment that was moved, or that does not start any more, is made again.
+ifneq ($(shell cat $(READY) 2>/dev/null),$(CURDIR))
+.PHONY: $(READY)
+else ifneq ($(shell .venv/bin/asphalt-nscd --version >/dev/null 2>&1 && echo works),works)
+.PHONY: $(READY)
+endif
+
+.PHONY: paper smoke study test
+
+paper: $(READY)
+	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
+
+smoke: $(READY)
+	@.venv/bin/snakemake --cores $(CORES) --configfile config/smoke.yaml
+
+study: $(READY)
+	@.venv/bin/snakemake --cores $(CORES) --configfile $(CONFIG)
+
+test: $(READY)
+	.venv/bin/python -m pytest
+
+$(READY): requirements.txt pyproject.toml
+	@sh tools/venv.sh

@@ -1,0 +1,100 @@
+"""The command `asphalt-nscd`: one subcommand for each computing step, one module for each subcommand."""
+
+from __future__ import annotations
+
+import ctypes
+import errno
+import os
+import pkgutil
+import re
+import signal
+import sys
+from collections.abc import Callable
+from importlib import import_module
+
+# One core or many must give identical numbers, and jobs run side by side: every step is one thread.
+for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
+    os.environ[_variable] = "1"
+
+import click  # noqa: E402
+
+from asphalt_nscd import __version__  # noqa: E402
+from asphalt_nscd.errors import InputError  # noqa: E402
+
+# Set by the workflow: a step must not outlive a killed Snakemake, which would run it a second time.
+DIE_WITH_PARENT = "ASPHALT_NSCD_DIE_WITH_PARENT"
+
+_MENDS = {
+    errno.ENOSPC: "free some space and run the same command again",
+    errno.EDQUOT: "free some of your quota and run the same command again",
+    errno.EFBIG: "raise the limit on file sizes (ulimit -f) and run the same command again",
+    errno.EACCES: "allow access or choose another path",
+    errno.EPERM: "allow access or choose another path",
+    errno.EROFS: "choose a path that can be written",
+    errno.ENOENT: "check the path",
+    errno.ENOTDIR: "check the path",
+    errno.EISDIR: "give a file, not a folder",
+}
+
+
+class _Steps(click.Group):
+    """Subcommands found among this package's modules and imported when called."""
+
+    def list_commands(self, context: click.Context) -> list[str]:
+        modules = (module.name for module in pkgutil.iter_modules(__path__))
+        return sorted(name.replace("_", "-") for name in modules if not name.startswith("_"))
+
+    def get_command(self, context: click.Context, name: str) -> click.Command | None:
+        if name not in self.list_commands(context):
+            return None
+        return import_module(f"{__name__}.{name.replace('-', '_')}").command
+
+
+@click.group(cls=_Steps, context_settings={"show_default": True, "help_option_names": ["-h", "--help"]})
+@click.version_option(__version__)
+def group() -> None:
+    """Complex modulus of asphalt concrete by nonsmooth contact dynamics, step by step."""
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run one step. Exit status 2 with one sentence if input or files cannot be used."""
+    if os.environ.get(DIE_WITH_PARENT) and sys.platform == "linux":
+        prctl_set_death_signal = 1
+        ctypes.CDLL(None).prctl(prctl_set_death_signal, signal.SIGTERM)
+    sys.exit(_status(lambda: group.main(arguments, prog_name="asphalt-nscd", standalone_mode=False)))
+
+
+def _status(step: Callable[[], object]) -> int:
+    try:
+        step()
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except InputError as error:
+        return _say(str(error), 2)
+    except (KeyboardInterrupt, click.Abort):
+        return _say("interrupted; nothing half-written is left.", 130)
+    except (OSError, RuntimeError) as error:
+        sentence = _file_trouble(error)
+        if sentence is None:
+            raise
+        return _say(sentence, 2)
+    return 0
+
+
+def _file_trouble(error: OSError | RuntimeError) -> str | None:
+    """One sentence on a full disk and its like; HDF5 reports them as text in either class."""
+    number = getattr(error, "errno", None)
+    if number is None:
+        found = re.search(r"errno = (\d+)", str(error))
+        number = int(found.group(1)) if found else None
+    if number is None:
+        return None
+    name = getattr(error, "filename", None) or "output file"
+    mend = _MENDS.get(number, "mend that and run the same command again")
+    return f"{name}: {os.strerror(number).lower()}; {mend}."
+
+
+def _say(sentence: str, status: int) -> int:
+    click.echo(f"error: {sentence}", err=True)
+    return status

@@ -1,0 +1,35 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+@click.command()
+@click.argument("laws_table", type=_options.File)
+@_options.geometry
+@click.option("--seed", required=True, type=int, help="Seed of the scatter.")
+@click.option("--specimens", default=4, help="Number of specimens to draw.")
+@click.option("--specimen-scatter", default=0.03, help="Relative scatter of the modulus between specimens.")
+@click.option("--modulus-scatter", default=0.01, help="Relative scatter of the modulus between tests.")
+@click.option("--phase-scatter-deg", default=0.3, help="Scatter of the phase between tests, degrees.")
+@click.option("--amplitude-m", default=63e-6, help="Amplitude of the head's displacement, m.")
+@click.option("--frequencies-hz", required=True, help="Test frequencies, comma-separated, Hz.")
+@click.option("--law-output", type=_options.File, help="File for the law behind the table.")
+@_options.output
+def command(
+    laws_table: Path, output: Path, frequencies_hz: str, amplitude_m: float, **options: object
+) -> None:
+    """Draw measurements about the smooth law behind a published table of Burgers laws."""
+    from asphalt_nscd.reconstruct import reconstruct_table
+
+    reconstruct_table(
+        laws_table,
+        options.pop("geometry"),
+        output,
+        frequencies=[float(value) for value in frequencies_hz.split(",")],
+        amplitude=amplitude_m,
+        **options,
+    )

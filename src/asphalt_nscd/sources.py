@@ -1,0 +1,52 @@
+"""Source files that a module depends on, read from its import statements."""
+
+from __future__ import annotations
+
+import ast
+from functools import cache
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parent
+
+
+def source_files(*modules: str) -> list[Path]:
+    """Files of `modules` (dotted, relative to the package) and of all they import from it, sorted.
+
+    Imports inside functions count. A package's `__init__.py` counts only where it is itself imported.
+    """
+    found: set[Path] = set()
+    waiting = [_file(("asphalt_nscd", *module.split("."))) for module in modules]
+    if None in waiting:
+        raise ValueError(f"no module asphalt_nscd.{modules[waiting.index(None)]}")
+    while waiting:
+        path = waiting.pop()
+        if path not in found:
+            found.add(path)
+            waiting.extend(_imported(path))
+    return sorted(found)
+
+
+@cache
+def _imported(path: Path) -> frozenset[Path]:
+    package = ("asphalt_nscd", *path.relative_to(PACKAGE).parent.parts)
+    files = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            files.update(_file(tuple(name.name.split("."))) for name in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else ()
+            base += tuple((node.module or "").split(".")) if node.module else ()
+            for name in node.names:
+                files.add(_file((*base, name.name)) or _file(base))
+    return frozenset(files - {None})
+
+
+def _file(module: tuple[str, ...]) -> Path | None:
+    """File of a dotted module name; None if it is not a module of this package."""
+    if module[:1] != ("asphalt_nscd",):
+        return None
+    place = PACKAGE.joinpath(*module[1:])
+    for path in (place.with_suffix(".py"), place / "__init__.py"):
+        if path.is_file():
+            return path
+    return None

@@ -1,0 +1,169 @@
+"""The configuration of a study: validated against its schema, completed by the schema's defaults."""
+
+from __future__ import annotations
+
+import copy
+import difflib
+import math
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+from jsonschema import Draft202012Validator
+from jsonschema.exceptions import ValidationError, best_match
+
+from asphalt_nscd.errors import InputError
+
+# YAML 1.1 reads 5e-5 as text, because it has no decimal point; the author meant a number.
+_SCIENTIFIC = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
+_TYPES = {
+    "object": "a mapping", "array": "a list", "string": "text",
+    "number": "a number", "integer": "a whole number",
+}  # fmt: skip
+
+
+def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -> dict[str, Any]:
+    """Return `config` checked and with every default filled in; `source` names it in messages."""
+    rules = yaml.safe_load(Path(schema).read_text(encoding="utf-8"))
+    study = _numbers(copy.deepcopy(dict(config)))
+    if not study:
+        raise InputError(f"{source}: the study is empty; give one with --configfile config/paper.yaml.")
+    errors = [
+        part
+        for error in Draft202012Validator(rules).iter_errors(study)
+        for part in (_of_mapping(error) if isinstance(error.instance, dict) else ()) or (error,)
+    ]
+    if errors:
+        unknown = [error for error in errors if error.validator == "additionalProperties"]
+        raise InputError(f"{source}: {_sentence((unknown or [best_match(errors)])[0])}")
+    _fill(study, rules, rules)
+    _check(study, source)
+    return study
+
+
+def label(value: float) -> str:
+    """Temperature or frequency as it stands in file names: 15, -10, 12.5."""
+    return f"{value:g}"
+
+
+def _numbers(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _numbers(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_numbers(item) for item in value]
+    if isinstance(value, str) and _SCIENTIFIC.fullmatch(value):
+        return float(value)
+    return value
+
+
+def _of_mapping(error: ValidationError) -> list[ValidationError]:
+    """What is wrong with the mapping, where a mapping is one of the alternatives."""
+    alternatives = error.validator_value if error.validator == "anyOf" else ()
+    return [part for part in error.context if "$ref" in alternatives[part.schema_path[0]]]
+
+
+def _sentence(error: ValidationError) -> str:
+    where, schema = _path(error.absolute_path), error.schema
+    if error.validator == "additionalProperties":
+        key = next(key for key in error.instance if key not in schema["properties"])
+        close = difflib.get_close_matches(str(key), schema["properties"], n=1)
+        mend = f"did you mean {close[0]!r}?" if close else f"allowed are {', '.join(schema['properties'])}."
+        return f"unknown key {key!r} in {where}; {mend}"
+    if error.validator == "required":
+        key = next(key for key in schema["required"] if key not in error.instance)
+        return f"key {key!r} is missing from {where}; add it."
+    if error.validator in ("minProperties", "maxProperties"):
+        return f"{where} needs exactly one of {', '.join(schema['properties'])}."
+    wanted = _wanted(error)
+    if error.validator == "anyOf":
+        wanted = " or ".join(_TYPES[item.get("type", "object")] for item in error.validator_value)
+    meaning = f" ({schema['description'].rstrip('.')})" if "description" in schema else ""
+    return f"{where} is {error.instance!r}, but must be {wanted}{meaning}."
+
+
+def _wanted(error: ValidationError) -> str:
+    value = error.validator_value
+    return {
+        "type": lambda: _TYPES.get(value, value),
+        "enum": lambda: "one of " + ", ".join(map(str, value)),
+        "minimum": lambda: f"at least {value}",
+        "exclusiveMinimum": lambda: f"greater than {value}",
+        "maximum": lambda: f"at most {value}",
+        "exclusiveMaximum": lambda: f"less than {value}",
+        "minItems": lambda: f"a list of at least {value}",
+        "maxItems": lambda: f"a list of at most {value}",
+        "uniqueItems": lambda: "a list without repetitions",
+        "pattern": lambda: "letters, digits, - and _, the first a letter",
+    }.get(error.validator, lambda: f"{error.validator} {value}")()
+
+
+def _path(keys: Any) -> str:
+    path = ""
+    for key in keys:
+        path += f"[{key}]" if isinstance(key, int) else f".{key}" if path else str(key)
+    return path or "the study"
+
+
+def _fill(value: Any, schema: Mapping[str, Any], root: Mapping[str, Any]) -> None:
+    """Put the schema's defaults where `value` has nothing."""
+    if "$ref" in schema:
+        schema = root["$defs"][schema["$ref"].rsplit("/", 1)[1]]
+    if isinstance(value, dict):
+        for key, rule in schema.get("properties", {}).items():
+            if "default" in rule:
+                value.setdefault(key, copy.deepcopy(rule["default"]))
+            if key in value:
+                _fill(value[key], rule, root)
+
+
+def _check(study: dict[str, Any], source: str) -> None:
+    """What a schema cannot say: values against each other, and files."""
+    for path, value in _leaves(study):
+        if isinstance(value, float) and not math.isfinite(value):
+            raise InputError(f"{source}: {_path(path)} is {value}, but must be a finite number.")
+    for key in ("temperatures_C", "frequencies_Hz"):
+        if len({label(value) for value in study[key]}) < len(study[key]):
+            raise InputError(f"{source}: {key} holds values equal to six digits; keep one of them.")
+    _check_geometry(study, source)
+    published = study["laws"].get("published")
+    if not published and (study["laws"]["simulate"] == "published" or "reconstruct" in study["measurements"]):
+        raise InputError(f"{source}: laws.published is missing, but is to be used; add its table and unit.")
+    temperature = study.get("sensitivity", {}).get("temperature_C")
+    if temperature is not None and temperature not in study["temperatures_C"]:
+        raise InputError(
+            f"{source}: sensitivity.temperature_C {temperature:g} is not in temperatures_C; use one of them."
+        )
+    for where, path in {
+        "measurements.table": study["measurements"].get("table"),
+        "geometry": study["geometry"] if isinstance(study["geometry"], str) else None,
+        "laws.published.table": published and published["table"],
+        "specimens.counts_table": study["specimens"]["counts_table"],
+    }.items():
+        if path is not None and not Path(path).is_file():
+            raise InputError(f"{source}: {where} is {path!r}, but there is no such file; check the path.")
+
+
+def _check_geometry(study: dict[str, Any], source: str) -> None:
+    """The simulated trapezoid is the measured one where that is the same for all specimens."""
+    if "geometry" not in study["specimens"]:
+        if isinstance(study["geometry"], str):
+            raise InputError(
+                f"{source}: geometry is a table and the simulated trapezoid unknown; add specimens.geometry."
+            )
+        study["specimens"]["geometry"] = dict(study["geometry"])
+    for where, holder in (("geometry", study), ("specimens.geometry", study["specimens"])):
+        shape = holder["geometry"]
+        if isinstance(shape, dict) and not shape["b_mm"] < shape["B_mm"]:
+            raise InputError(
+                f"{source}: {where}.b_mm must be smaller than B_mm; exchange them if they are swapped."
+            )
+
+
+def _leaves(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    if isinstance(value, (dict, list)):
+        for key, item in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from _leaves(item, (*path, key))
+    else:
+        yield path, value

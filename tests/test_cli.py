@@ -1,0 +1,153 @@
+from __future__ import annotations
+
+import errno
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+
+import click
+import pytest
+
+from asphalt_nscd import cli
+from asphalt_nscd.errors import InputError
+
+
+def run(*arguments, **options):
+    command = [sys.executable, "-c", "from asphalt_nscd.cli import main; main()", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, **options)
+
+
+def test_every_step_is_listed_and_explains_itself():
+    steps = cli.group.list_commands(None)
+    assert {"reconstruct", "reduce", "fit", "published-law"} <= set(steps)
+    for step in steps:
+        command = cli.group.get_command(None, step)
+        assert command.help, step
+        assert all(option.help for option in command.params if isinstance(option, click.Option)), step
+
+
+def test_help_imports_nothing_heavy():
+    script = (
+        "import sys; from asphalt_nscd.cli import group\n"
+        "[group.get_command(None, name) for name in group.list_commands(None)]\n"
+        "print([name for name in ('numpy', 'pandas', 'scipy', 'numba', 'h5py', 'matplotlib') if name in sys.modules])"
+    )
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout == "[]\n"
+
+
+def test_unknown_step_is_refused():
+    done = run("simulat")
+    assert done.returncode == 2
+    assert "No such command 'simulat'" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "sentence"),
+    [
+        (InputError("m.csv: row 3: no."), 2, "error: m.csv: row 3: no.\n"),
+        (
+            OSError(errno.ENOSPC, "No space left on device", "out.h5"),
+            2,
+            "error: out.h5: no space left on device; free some space and run the same command again.\n",
+        ),
+        (
+            RuntimeError("Unable to flush file's cached information (errno = 28, error message = 'No space left')"),
+            2,
+            "error: output file: no space left on device; free some space and run the same command again.\n",
+        ),
+        (KeyboardInterrupt(), 130, "error: interrupted; nothing half-written is left.\n"),
+    ],
+)
+def test_trouble_is_one_sentence(capsys, error, status, sentence):
+    def step():
+        raise error
+
+    assert cli._status(step) == status
+    assert capsys.readouterr().err == sentence
+
+
+@pytest.mark.parametrize("error", [RuntimeError("a mistake of ours"), ValueError("and another")])
+def test_mistakes_in_the_program_keep_their_traceback(error):
+    def step():
+        raise error
+
+    with pytest.raises(type(error)):
+        cli._status(step)
+
+
+def test_input_that_is_not_there():
+    done = run("fit", "gone.csv", "--temperature-c", 15, "--output", "law.json")
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: gone.csv: ")
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "geometry",
+    ["b_mm=25", "b_mm=25,B_mm=wide", "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.2,x=1"],
+)
+def test_geometry_that_is_incomplete_or_no_number(geometry):
+    done = run("reduce", "m.csv", "--geometry", geometry, "--output", "o.csv")
+    assert done.returncode == 2
+    assert "'--geometry'" in done.stderr and "Traceback" not in done.stderr
+
+
+def write_large(path, kind):
+    """A step that writes a megabyte, in a shell where files may have ten kilobytes."""
+    script = (
+        "import sys, numpy, pandas; from asphalt_nscd import cli, store\n"
+        "steps = {'h5': lambda p: store.save(p, 'test', {'x': numpy.arange(100000)}, {}),\n"
+        "         'csv': lambda p: store.write_table(p, pandas.DataFrame({'x': range(100000)}))}\n"
+        f"sys.exit(cli._status(lambda: steps[{kind!r}]({str(path)!r})))"
+    )
+    limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))  # noqa: E731
+    return subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, preexec_fn=limit)
+
+
+@pytest.mark.parametrize("kind", ["h5", "csv"])
+def test_file_that_cannot_be_written_in_full_is_not_left(tmp_path, kind):
+    done = write_large(tmp_path / f"out.{kind}", kind)
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.startswith("error: ") and done.stderr.count("\n") == 1
+    assert "file too large" in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks the kernel of Linux")
+def test_step_of_the_workflow_ends_with_its_parent(tmp_path):
+    step = (
+        "import time; from asphalt_nscd import cli\n"
+        "cli.group.main = lambda *a, **k: (print('runs', flush=True), time.sleep(60))\n"
+        "cli.main([])"
+    )
+    parent = (
+        "import subprocess, sys, time\n"
+        f"child = subprocess.Popen([sys.executable, '-c', {step!r}])\n"
+        "print(child.pid, flush=True); time.sleep(60)"
+    )
+    environment = {**os.environ, cli.DIE_WITH_PARENT: "1"}
+    process = subprocess.Popen(
+        [sys.executable, "-c", parent], stdout=subprocess.PIPE, text=True, env=environment
+    )
+    child, state = int(process.stdout.readline()), process.stdout.readline()
+    assert state == "runs\n"
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait()
+    for _ in range(100):
+        if not _lives(child):
+            return
+        time.sleep(0.05)
+    os.kill(child, signal.SIGKILL)
+    pytest.fail("the step outlived its parent")
+
+
+def _lives(process: int) -> bool:
+    """Whether a process still runs; one that ended but was not yet reaped counts as dead."""
+    try:
+        with open(f"/proc/{process}/stat") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except FileNotFoundError:
+        return False

@@ -1,0 +1,46 @@
+from __future__ import annotations
+
+import pytest
+
+from asphalt_nscd import sources
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    root = tmp_path / "asphalt_nscd"
+    (root / "core").mkdir(parents=True)
+    files = {
+        "__init__.py": "",
+        "step.py": "def command():\n    from asphalt_nscd.core.solver import solve\n",
+        "core/__init__.py": "from asphalt_nscd import plotting\n",
+        "core/solver.py": "import numpy\nfrom . import kernel\nfrom ..errors import InputError as E\n",
+        "core/kernel.py": "",
+        "errors.py": "",
+        "plotting.py": "import asphalt_nscd.errors\nfrom asphalt_nscd.core import solver\n",
+    }
+    for name, content in files.items():
+        (root / name).write_text(content)
+    monkeypatch.setattr(sources, "PACKAGE", root)
+    sources._imported.cache_clear()
+    return root
+
+
+def names(root, *modules):
+    return [str(path.relative_to(root)) for path in sources.source_files(*modules)]
+
+
+def test_follows_imports_in_functions_and_relative_ones_but_not_the_packages_around(package):
+    assert names(package, "step") == ["core/kernel.py", "core/solver.py", "errors.py", "step.py"]
+
+
+def test_module_that_imports_its_importer_ends(package):
+    assert names(package, "plotting") == ["core/kernel.py", "core/solver.py", "errors.py", "plotting.py"]
+
+
+def test_package_counts_where_it_is_named(package):
+    assert "plotting.py" in names(package, "core")
+
+
+def test_unknown_module_is_refused(package):
+    with pytest.raises(ValueError, match="no module asphalt_nscd.setp"):
+        sources.source_files("setp")

@@ -1,0 +1,61 @@
+#!/bin/sh
+# Make the environment .venv from requirements.txt, with the newest suitable Python and plain pip.
+set -eu
+
+LOWEST_MINOR=11 # requires-python of pyproject.toml
+VENV=.venv
+
+fail() {
+    echo "error: $*" >&2
+    exit 2
+}
+
+suitable() {
+    "$1" -c "import sys; sys.exit(not (3, $LOWEST_MINOR) <= sys.version_info < (4,))" >/dev/null 2>&1
+}
+
+# Newest version first; PYTHON=/path/to/python make overrides the search.
+find_python() {
+    if [ -n "${PYTHON:-}" ]; then
+        suitable "$PYTHON" || fail "PYTHON=$PYTHON is not a Python 3.$LOWEST_MINOR or newer."
+        echo "$PYTHON"
+        return
+    fi
+    names=$(
+        IFS=:
+        for folder in $PATH; do ls "$folder" 2>/dev/null; done |
+            sed -n 's/^python3\.\([0-9][0-9]*\)$/\1/p' | sort -rnu | sed 's/^/python3./'
+    )
+    for name in $names python3 python; do
+        if suitable "$name"; then
+            command -v "$name"
+            return
+        fi
+    done
+    fail "no Python 3.$LOWEST_MINOR or newer on PATH; install one (Debian: apt install python3-venv)" \
+        "or name it with make PYTHON=/path/to/python3."
+}
+
+# Debian ships Python without ensurepip unless python3-venv is installed; a pip outside serves as well.
+make_venv() {
+    rm -rf "$VENV"
+    if "$python" -c "import ensurepip" >/dev/null 2>&1; then
+        "$python" -m venv "$VENV"
+        pip="$VENV/bin/python -m pip"
+    elif "$python" -m pip --version >/dev/null 2>&1; then
+        "$python" -m venv --without-pip "$VENV"
+        pip="$python -m pip --python $VENV/bin/python"
+    else
+        fail "$python has neither ensurepip nor pip; install them (Debian: apt install python3-venv)" \
+            "and run make again."
+    fi
+}
+
+cd "$(dirname "$0")/.."
+python=$(find_python)
+echo "Setting up $VENV with $("$python" --version)."
+make_venv
+$pip install --quiet --disable-pip-version-check --compile --require-hashes --requirement requirements.txt
+$pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+"$VENV/bin/python" -m compileall -q src
+pwd >"$VENV/.ready"

@@ -1,0 +1,60 @@
+# The study, the environment of jobs, and the few helpers that rules use.
+import os
+import sys
+from pathlib import Path
+
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.lock import release_stale_locks
+from asphalt_nscd.sources import source_files
+from asphalt_nscd.study import complete_study, label
+
+if workflow.is_main_process:
+    release_stale_locks(".snakemake")
+
+# `asphalt-nscd` is the one beside this Python, whether or not the environment is activated.
+os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+os.environ["ASPHALT_NSCD_DIE_WITH_PARENT"] = "1"
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+shell.prefix("exec ")
+
+try:
+    STUDY = complete_study(
+        config,
+        source=" + ".join(map(str, workflow.configfiles)) or "configuration",
+        schema=Path(workflow.basedir, "workflow/schemas/study.schema.yaml"),
+    )
+except InputError as error:
+    sys.exit(f"error: {error}")
+
+pathvars:
+    results=f"results/{STUDY['study']}",
+
+TEMPERATURES = [label(value) for value in STUDY["temperatures_C"]]
+FREQUENCIES = [label(value) for value in STUDY["frequencies_Hz"]]
+SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
+
+
+wildcard_constraints:
+    sample=r"s\d+",
+    temperature=r"-?[\d.]+",
+    frequency=r"[\d.]+",
+
+
+def code(*steps):
+    """Source files behind steps of the command line: what a rule's result depends on besides its data."""
+    files = source_files(*(f"cli.{step.replace('-', '_')}" for step in steps))
+    return [os.path.relpath(file) for file in files]
+
+
+def text(value):
+    """A value of the study as one word on the command line."""
+    if isinstance(value, dict):
+        return ",".join(f"{key}={item}" for key, item in value.items())
+    if isinstance(value, list):
+        return ",".join(map(str, value))
+    return value
+
+
+def options(values):
+    """`{"gap_max_mm": 2}` as `--gap-max-mm 2`."""
+    return " ".join(f"--{key.lower().replace('_', '-')} {text(value)}" for key, value in values.items())

@@ -1,0 +1,44 @@
+# Section 2: the two-point bending tests and their reduction, Eqs. (1)-(5).
+
+MEASUREMENTS = STUDY["measurements"].get("table", "<results>/measurements.csv")
+
+
+rule reconstruct:
+    # The authors' measurements are not published; what comes out is labelled "reconstructed" from here on.
+    input:
+        table=STUDY["laws"]["published"]["table"] if "published" in STUDY["laws"] else [],
+        code=code("reconstruct"),
+    output:
+        measurements="<results>/measurements.csv",
+        law="<results>/laws/reconstruction.json",
+    params:
+        geometry=text(STUDY["geometry"]),
+        frequencies=text(STUDY["frequencies_Hz"]),
+        scatter=options(STUDY["measurements"].get("reconstruct", {})),
+    log:
+        "<results>/logs/reconstruct.log",
+    benchmark:
+        "<results>/benchmarks/reconstruct.tsv"
+    message:
+        "Reconstruct measurements from the published laws"
+    shell:
+        "asphalt-nscd reconstruct {input.table} --geometry {params.geometry} --frequencies-hz {params.frequencies} {params.scatter} --law-output {output.law} --output {output.measurements} > {log} 2>&1"
+
+
+rule reduce:
+    # Forces and displacements at the head become complex moduli.
+    input:
+        measurements=MEASUREMENTS,
+        code=code("reduce"),
+    output:
+        "<results>/measured.csv",
+    params:
+        geometry=text(STUDY["geometry"]),
+    log:
+        "<results>/logs/reduce.log",
+    benchmark:
+        "<results>/benchmarks/reduce.tsv"
+    message:
+        "Reduce the measurements to complex moduli, Eqs. (1)-(5)"
+    shell:
+        "asphalt-nscd reduce {input.measurements} --geometry {params.geometry} --output {output} > {log} 2>&1"
