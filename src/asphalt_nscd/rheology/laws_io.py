@@ -55,7 +55,11 @@ def write_law(
 
 def read_law(path: str | Path) -> Burgers:
     """Read a Burgers law."""
-    return Burgers(**_fields(path, "burgers", _BURGERS_KEYS))
+    values = _fields(path, "burgers", _BURGERS_KEYS)
+    try:
+        return Burgers(**values)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
 
 
 def write_spectrum(path: str | Path, law: TwoS2P1D, *, source: str, rms_log_residual: float) -> dict[str, Any]:

@@ -1,0 +1,93 @@
+"""Fits find the law that made the data, and say how well they know it."""
+
+from dataclasses import astuple
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.fitting import fit_burgers, fit_spectrum
+from asphalt_nscd.rheology.spectrum import TwoS2P1D
+
+OMEGA = 2 * np.pi * np.array([3.0, 6, 10, 25, 40])
+LAWS = {-10: Burgers(39.8e9, 62.8e9, 956e9, 14.9e9), 30: Burgers(13.0e9, 0.345e9, 9.31e9, 0.131e9)}
+SPECTRUM = TwoS2P1D(80e6, 42e9, 0.2, 0.6, 1.64, 0.14, 28.0, 11.7, 79.9, 15.0)
+NAMES = ("modulus_m", "viscosity_m", "modulus_k", "viscosity_k")
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_exact_data_give_the_law_back(law):
+    fit = fit_burgers(OMEGA, law.complex_modulus(OMEGA))
+    np.testing.assert_allclose(astuple(fit.law), astuple(law), rtol=1e-6)
+    assert fit.rms_log_residual < 1e-8
+
+
+def test_standard_errors_are_those_of_repeated_experiments():
+    law, noise, points = LAWS[30], 0.01, np.repeat(OMEGA, 4)
+    random = np.random.default_rng(3)
+
+    def repeat():
+        scatter = noise * (random.standard_normal(points.size) + 1j * random.standard_normal(points.size))
+        return fit_burgers(points, law.complex_modulus(points) * np.exp(scatter))
+
+    fits = [repeat() for _ in range(30)]
+    for name in NAMES:
+        seen = np.std([getattr(fit.law, name) for fit in fits], ddof=1)
+        stated = np.mean([fit.std_error[name] for fit in fits])
+        assert stated == pytest.approx(seen, rel=0.4)  # 30 repeats know it to 13 %
+    # |ln ratio|^2 has expectation 2 noise^2 less the share of the four fitted parameters
+    rms = np.sqrt(np.mean([fit.rms_log_residual**2 for fit in fits]))
+    assert rms == pytest.approx(noise * np.sqrt(2 * (1 - 4 / 40)), rel=0.1)
+
+
+def test_standard_errors_are_withheld_where_the_points_cannot_give_them():
+    two = OMEGA[[0, 4]]
+    assert fit_burgers(two, LAWS[30].complex_modulus(two)).std_error is None
+    maxwell = 1 / (1 / 10e9 + 1 / (1j * OMEGA * 1e9))  # no Kelvin element to be seen
+    fit = fit_burgers(OMEGA, maxwell)
+    assert fit.std_error is None
+    np.testing.assert_allclose(fit.law.complex_modulus(OMEGA), maxwell, rtol=1e-4)
+
+
+def test_a_fit_repeats_to_the_last_bit():
+    modulus = SPECTRUM.complex_modulus(OMEGA, 15.0)
+    assert fit_burgers(OMEGA, modulus) == fit_burgers(OMEGA, modulus)
+
+
+def test_spectrum_is_found_from_a_grid_of_tests():
+    temperature = np.repeat([-10.0, 5, 20, 40, 60], OMEGA.size)
+    omega = np.tile(OMEGA, 5)
+    modulus = SPECTRUM.complex_modulus(omega, temperature)
+    fit = fit_spectrum(omega, temperature, modulus, 15.0)
+    np.testing.assert_allclose(astuple(fit.law), astuple(SPECTRUM), rtol=1e-4)
+
+
+def test_reference_temperature_is_only_a_choice():
+    temperature, omega = np.repeat([0.0, 10, 20, 30, 45], OMEGA.size), np.tile(OMEGA, 5)
+    scatter = 0.02 * np.random.default_rng(5).standard_normal(omega.size)
+    modulus = SPECTRUM.complex_modulus(omega, temperature) * np.exp(scatter)
+    rms = [fit_spectrum(omega, temperature, modulus, reference).rms_log_residual for reference in (0.0, 25.0)]
+    assert 0.01 < rms[0] < 0.03
+    assert rms[0] == pytest.approx(rms[1], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("omega", "modulus", "words"),
+    [
+        ([], [], "no points"),
+        (OMEGA, [1e9], "one modulus each"),
+        ([10.0, 10.0], [1e9, 1e9], "at least two frequencies"),
+        ([-1.0, 10.0], [1e9, 1e9], "not positive"),
+        ([1.0, 10.0], [1e9, np.nan], "zero or not finite"),
+        ([1.0, 10.0], [1e9, 0.0], "zero or not finite"),
+    ],
+)
+def test_points_that_cannot_be_fitted_are_refused(omega, modulus, words):
+    with pytest.raises(InputError, match=words):
+        fit_burgers(omega, modulus)
+
+
+def test_too_few_temperatures_for_a_shift_are_refused():
+    with pytest.raises(InputError, match="at least three temperatures"):
+        fit_spectrum(OMEGA, np.full(5, 15.0), SPECTRUM.complex_modulus(OMEGA, 15.0), 15.0)
