@@ -25,7 +25,9 @@ def assert_response(response, rel, degrees):
 @pytest.mark.parametrize("cycles", [None, 1, 3])
 def test_harmonic_fit_is_exact_under_offset_and_drift(frequency, cycles):
     time, force, displacement = record(frequency=frequency)
-    response = harmonic_response(time + 100, force + 300 - 45 * time, displacement + 1e-3 + 2e-4 * time, frequency, cycles)
+    response = harmonic_response(
+        time + 100, force + 300 - 45 * time, displacement + 1e-3 + 2e-4 * time, frequency, cycles
+    )
     assert_response(response, 1e-9, 1e-7)
 
 
@@ -47,7 +49,9 @@ def test_peak_picking_keeps_drift_that_the_harmonic_fit_removes():
 def test_peak_phase_does_not_depend_on_where_the_record_ends(shift):
     time = np.arange(0, 2, 1e-4) + shift
     force, displacement = (np.sin(2 * np.pi * FREQUENCY * time + p) for p in (PHASE, 0.0))
-    assert np.degrees(peak_response(time, force, displacement, FREQUENCY).phase) == pytest.approx(14.2, abs=0.4)
+    assert np.degrees(peak_response(time, force, displacement, FREQUENCY).phase) == pytest.approx(
+        14.2, abs=0.4
+    )
 
 
 def test_only_the_last_cycles_count():
@@ -71,7 +75,9 @@ def test_default_window_is_the_last_ten_seconds():
 def test_five_cycles_of_the_simulation_are_five_cycles():
     """33 333 steps of 5e-5 s fall one third of a step short of five cycles at 3 Hz."""
     time = np.arange(1, 33334) * 5e-5
-    response = harmonic_response(time, np.cos(6 * np.pi * time + 0.2), np.cos(6 * np.pi * time), 3.0, cycles=5)
+    response = harmonic_response(
+        time, np.cos(6 * np.pi * time + 0.2), np.cos(6 * np.pi * time), 3.0, cycles=5
+    )
     assert response.phase == pytest.approx(0.2, abs=1e-9)
 
 
@@ -104,7 +110,10 @@ def changed(name, value, index=100):
         ((*changed("force", np.nan), FREQUENCY), "force of sample 101 is not a finite number"),
         ((*changed("time", np.inf), FREQUENCY), "time of sample 101 is not a finite number"),
         ((*changed("time", 0.0), FREQUENCY), "does not increase at sample 101"),
-        (tuple(np.delete(column, 100) for column in record()) + (FREQUENCY,), "not sampled evenly at sample 101"),
+        (
+            tuple(np.delete(column, 100) for column in record()) + (FREQUENCY,),
+            "not sampled evenly at sample 101",
+        ),
         ((record()[0], record()[1] * 0, record()[2], FREQUENCY), "the force does not vary"),
         ((record()[0][:-1], *record()[1:], FREQUENCY), "differ in length"),
         (tuple(column[:3] for column in record()) + (FREQUENCY,), "holds 3 samples"),

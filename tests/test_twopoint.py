@@ -5,7 +5,14 @@ import pytest
 from scipy.integrate import quad
 
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.twopoint import Geometry, complex_modulus, form_factor, head_response, mass_factor, norm_and_phase
+from asphalt_nscd.twopoint import (
+    Geometry,
+    complex_modulus,
+    form_factor,
+    head_response,
+    mass_factor,
+    norm_and_phase,
+)
 
 PAPER = Geometry(b=25e-3, B=56e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
 
@@ -62,7 +69,12 @@ def test_norm_and_phase():
 
 @pytest.mark.parametrize(
     ("change", "words"),
-    [({"h": 0.0}, "h = 0"), ({"mass": -1.0}, "mass = -1"), ({"e": np.nan}, "e = nan"), ({"b": 0.06}, "exchange b and B")],
+    [
+        ({"h": 0.0}, "h = 0"),
+        ({"mass": -1.0}, "mass = -1"),
+        ({"e": np.nan}, "e = nan"),
+        ({"b": 0.06}, "exchange b and B"),
+    ],
 )
 def test_impossible_geometry_is_refused(change, words):
     values = {"b": 0.025, "B": 0.056, "e": 0.025, "h": 0.25, "mass": 0.6, "mobile_mass": 0.235}

@@ -115,7 +115,9 @@ class Table:
             value = float(text)
         except ValueError:
             problem = f"{name} is empty" if not text else f"{name} = {text!r} is not a number"
-            raise self.error(row, f"{problem}; write a number with a decimal point or remove the line.") from None
+            raise self.error(
+                row, f"{problem}; write a number with a decimal point or remove the line."
+            ) from None
         if not math.isfinite(value):
             raise self.error(row, f"{name} = {text} is not finite; write a number or remove the line.")
         return value
@@ -137,9 +139,13 @@ def read_csv(path: str | Path) -> Table:
         raise InputError(f"{path}: the file is empty; give a header line and one line for each row.")
     header = rows[0][1]
     if len(header) == 1 and re.search("[;\t]", header[0]):
-        raise InputError(f"{path}: columns are not separated by commas; save it with commas and decimal points.")
+        raise InputError(
+            f"{path}: columns are not separated by commas; save it with commas and decimal points."
+        )
     if len(set(header)) < len(header) or "" in header:
-        raise InputError(f"{path}: a column name is empty or stands twice in the header; name each column once.")
+        raise InputError(
+            f"{path}: a column name is empty or stands twice in the header; name each column once."
+        )
     if len(rows) == 1:
         raise InputError(f"{path}: the table has a header but no rows; add at least one.")
     for line, fields in rows[1:]:
@@ -155,5 +161,7 @@ def read_csv(path: str | Path) -> Table:
 def _stem_and_unit(column: str) -> tuple[str, str]:
     """Quantity and unit of a column name such as E_GPa, E (GPa), |E*| [GPa] or phase."""
     bracketed = re.fullmatch(r"(.*?)[\s_]*[(\[](.*)[)\]]", column)
-    stem, unit = bracketed.groups() if bracketed else (column.rpartition("_")[0] or column, column.rpartition("_")[2])
+    stem, unit = (
+        bracketed.groups() if bracketed else (column.rpartition("_")[0] or column, column.rpartition("_")[2])
+    )
     return re.sub(r"[|*\s]", "", stem), unit.strip()

@@ -37,7 +37,8 @@ def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[st
     for specimen in specimens:
         if specimen not in known:
             raise InputError(
-                f"{source}: specimen {specimen!r} has no geometry (known: {', '.join(known)}); add a line for it."
+                f"{source}: specimen {specimen!r} has no geometry (known: {', '.join(known)}); "
+                "add a line for it."
             )
     return {specimen: known[specimen] for specimen in specimens}
 
@@ -69,7 +70,8 @@ def _from_mapping(mapping: Any, name: str) -> Geometry:
         number = isinstance(value, int | float) and not isinstance(value, bool)
         if not number or not limits.low <= value <= limits.high:
             raise InputError(
-                f"{name}: {key} = {value!r} is not a number from {limits.low:g} to {limits.high:g}; {limits.mend}."
+                f"{name}: {key} = {value!r} is not a number from {limits.low:g} to {limits.high:g}; "
+                f"{limits.mend}."
             )
     try:
         return _in_metres(mapping)

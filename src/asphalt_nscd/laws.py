@@ -24,7 +24,9 @@ def fit_temperature(measured: str | Path, temperature: float, output: str | Path
     frame = read_reduced(measured)
     points = frame[np.abs(frame["temperature_C"] - temperature) < SAME_TEMPERATURE]
     if points.empty:
-        raise InputError(f"{measured}: no test at {temperature:g} degC; {_available(frame['temperature_C'])}.")
+        raise InputError(
+            f"{measured}: no test at {temperature:g} degC; {_available(frame['temperature_C'])}."
+        )
     modulus = points["E_MPa"] * 1e6 * np.exp(1j * np.radians(points["phase_deg"]))
     try:
         fit = fit_burgers(2.0 * np.pi * points["frequency_Hz"].to_numpy(), modulus.to_numpy())

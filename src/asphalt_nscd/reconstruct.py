@@ -53,8 +53,10 @@ def reconstruct_table(
         raise InputError(f"specimens = {specimens}; reconstruct at least one.")
     if not frequencies or min(frequencies) <= 0:
         raise InputError(f"frequencies {list(frequencies)} must be positive; give them in Hz.")
-    if min(amplitude, 1.0) <= 0 or min(specimen_scatter, modulus_scatter, phase_scatter_deg) < 0:
+    if not amplitude > 0 or not min(specimen_scatter, modulus_scatter, phase_scatter_deg) >= 0:
         raise InputError("amplitude must be positive and scatter not negative; mend the options.")
+    if seed < 0:
+        raise InputError(f"seed = {seed}; give a whole number from zero.")
     names = [str(number + 1) for number in range(specimens)]
     geometries = read_geometry(geometry, names)
     temperatures, fit = fit_published(table3)

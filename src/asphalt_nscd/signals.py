@@ -37,7 +37,9 @@ def harmonic_response(
     window = _window(time, force, displacement, frequency, cycles)
     phase = 2.0 * np.pi * frequency * window.time
     centred = window.time - window.time.mean()
-    basis = np.column_stack([np.ones_like(phase), centred / np.ptp(window.time), np.cos(phase), np.sin(phase)])
+    basis = np.column_stack(
+        [np.ones_like(phase), centred / np.ptp(window.time), np.cos(phase), np.sin(phase)]
+    )
     signals = np.column_stack([window.force, window.displacement])
     # Scaled to unit range, so that newtons and micrometres are solved with the same relative accuracy.
     scale = np.maximum(np.ptp(signals, axis=0), np.finfo(float).tiny)
@@ -146,6 +148,6 @@ def _require_sinusoid(values: Vector, basis: NDArray[np.float64], solution: Vect
     varying = np.sum((values - trend @ np.linalg.lstsq(trend, values, rcond=None)[0]) ** 2)
     if left > (1.0 - SINUSOID_SHARE) * varying:
         raise InputError(
-            f"the displacement is not a sinusoid of {frequency:g} Hz (it explains "
-            f"{100 * max(0.0, 1 - left / varying):.0f} % of the variation); check the frequency and the channel."
+            f"the displacement is not a sinusoid of {frequency:g} Hz (it explains {100 * max(0.0, 1 - left / varying):.0f} % "
+            "of the variation); check the frequency and the channel."
         )

@@ -39,7 +39,8 @@ class Geometry:
                 raise InputError(f"geometry: {field.name} = {value:g} must be positive; give it in m or kg.")
         if self.b > self.B:
             raise InputError(
-                f"geometry: the head b = {self.b:g} m is wider than the foot B = {self.B:g} m; exchange b and B."
+                f"geometry: the head b = {self.b:g} m is wider than the foot B = {self.B:g} m; "
+                "exchange b and B."
             )
 
 
@@ -76,7 +77,9 @@ def complex_modulus(
     scalars or arrays of one shape.
     """
     omega = 2.0 * np.pi * np.asarray(frequency)
-    stiffness = np.asarray(force_amplitude) / np.asarray(displacement_amplitude) * np.exp(1j * np.asarray(phase))
+    stiffness = (
+        np.asarray(force_amplitude) / np.asarray(displacement_amplitude) * np.exp(1j * np.asarray(phase))
+    )
     return form_factor(geometry) * (stiffness + mass_factor(geometry) * omega**2)
 
 

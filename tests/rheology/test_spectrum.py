@@ -1,6 +1,5 @@
 """2S2P1D with WLF: its limits, and time-temperature superposition."""
 
-import numpy as np
 import pytest
 
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
@@ -24,5 +23,7 @@ def test_temperature_acts_as_a_change_of_frequency():
     decades = -11.7 * (30 - 15) / (79.9 + 30 - 15)
     assert LAW.shift_factor(15.0) == 1.0
     assert LAW.shift_factor(30.0) == pytest.approx(10**decades, rel=1e-12)
-    assert LAW.complex_modulus(100.0, 30.0) == pytest.approx(LAW.complex_modulus(100.0 * 10**decades, 15.0), rel=1e-12)
+    assert LAW.complex_modulus(100.0, 30.0) == pytest.approx(
+        LAW.complex_modulus(100.0 * 10**decades, 15.0), rel=1e-12
+    )
     assert abs(LAW.complex_modulus(100.0, 30.0)) < abs(LAW.complex_modulus(100.0, 15.0))

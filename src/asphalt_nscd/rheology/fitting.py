@@ -118,7 +118,9 @@ def fit_spectrum(
 def _require_points(omega: ArrayLike, modulus: ArrayLike) -> tuple[Vector, NDArray[np.complex128]]:
     omega, modulus = np.asarray(omega, dtype=float), np.asarray(modulus, dtype=complex)
     if omega.shape != modulus.shape or omega.ndim != 1 or omega.size == 0:
-        raise InputError("no points to fit, or frequencies and moduli differ in number; give one modulus each.")
+        raise InputError(
+            "no points to fit, or frequencies and moduli differ in number; give one modulus each."
+        )
     if not (np.all(np.isfinite(omega)) and np.all(omega > 0)):
         raise InputError("a frequency to fit is not positive; give positive frequencies.")
     if not (np.all(np.isfinite(modulus)) and np.all(np.abs(modulus) > 0)):
@@ -138,7 +140,13 @@ def _best_of_starts(
     random = np.random.default_rng(SEED)
     solutions = (
         least_squares(
-            residual, random.uniform(*starts), bounds=bounds, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12
+            residual,
+            random.uniform(*starts),
+            bounds=bounds,
+            x_scale="jac",
+            xtol=1e-12,
+            ftol=1e-12,
+            gtol=1e-12,
         )
         for _ in range(STARTS)
     )

@@ -62,7 +62,9 @@ def read_law(path: str | Path) -> Burgers:
         raise InputError(f"{path}: {error}") from None
 
 
-def write_spectrum(path: str | Path, law: TwoS2P1D, *, source: str, rms_log_residual: float) -> dict[str, Any]:
+def write_spectrum(
+    path: str | Path, law: TwoS2P1D, *, source: str, rms_log_residual: float
+) -> dict[str, Any]:
     """Write a 2S2P1D law, which holds for all temperatures."""
     content = {
         "law": "2s2p1d",
@@ -92,6 +94,8 @@ def _fields(path: str | Path, law: str, keys: dict[str, str]) -> dict[str, float
     for name, key in keys.items():
         value = content.get(key)
         if not isinstance(value, int | float) or isinstance(value, bool):
-            raise InputError(f"{path}: key {key!r} is missing or not a number; delete the file and make it again.")
+            raise InputError(
+                f"{path}: key {key!r} is missing or not a number; delete the file and make it again."
+            )
         values[name] = float(value)
     return values
