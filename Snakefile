@@ -8,13 +8,20 @@
 include: "workflow/rules/common.smk"
 
 
+report: "workflow/report/study.rst"
+
+
 rule all:
     # Everything the study asks for.
     default_target: True
     input:
-        "<results>/measured.csv",
-        expand("<results>/laws/fitted/T{temperature}.json", temperature=TEMPERATURES),
+        "<results>/report.html",
 
 
-include: "workflow/rules/data.smk"  # Section 2
-include: "workflow/rules/fit.smk"  # Section 4.1
+include: "workflow/rules/data.smk"  # Section 2: tests and their reduction
+include: "workflow/rules/fit.smk"  # Section 4.1: Burgers laws
+include: "workflow/rules/report.smk"  # figures, tables, report
+
+
+onsuccess:
+    print(f"Report: {Path('results', STUDY['study'], 'report.html').resolve()}")

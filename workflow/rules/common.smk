@@ -1,4 +1,5 @@
 # The study, the environment of jobs, and the few helpers that rules use.
+import json
 import os
 import sys
 from pathlib import Path
@@ -40,10 +41,9 @@ wildcard_constraints:
     frequency=r"[\d.]+",
 
 
-def code(*steps):
-    """Source files behind steps of the command line: what a rule's result depends on besides its data."""
-    files = source_files(*(f"cli.{step.replace('-', '_')}" for step in steps))
-    return [os.path.relpath(file) for file in files]
+def code(step, *modules):
+    """Source files behind a step of the command line and modules that it picks by name."""
+    return [os.path.relpath(file) for file in source_files(f"cli.{step.replace('-', '_')}", *modules)]
 
 
 def text(value):

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import click
+
+from asphalt_nscd.errors import InputError
 
 GEOMETRY_KEYS = ("b_mm", "B_mm", "e_mm", "h_mm", "mass_kg", "mobile_mass_kg")
 
@@ -32,3 +38,30 @@ class Geometry(click.ParamType):
 
 
 geometry = click.option("--geometry", required=True, type=Geometry(), help="Trapezoidal specimen.")
+
+
+class Data(click.ParamType):
+    """`simulations=results/paper/simulations.csv` as (kind, path)."""
+
+    name = "kind=path"
+
+    def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
+        kind, equals, path = value.partition("=")
+        if not equals or not kind.isidentifier() or not path:
+            self.fail(f"{value!r} is not of the form kind=path.", param, context)
+        return kind, Path(path)
+
+
+def grouped(data: Iterable[tuple[str, Path]]) -> dict[str, list[Path]]:
+    """All paths of each kind."""
+    kinds: dict[str, list[Path]] = {}
+    for kind, path in data:
+        kinds.setdefault(kind, []).append(path)
+    return kinds
+
+
+def part(package: str, name: str) -> ModuleType:
+    """Module `name` of the figures or tables."""
+    if find_spec(f"asphalt_nscd.{package}.{name}") is None:
+        raise InputError(f"{name!r} is not among the {package}; the modules of asphalt_nscd.{package} are.")
+    return import_module(f"asphalt_nscd.{package}.{name}")

@@ -1,0 +1,24 @@
+"""Figures as files: PDF and SVG for print, PNG for the screen, byte for byte reproducible."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import matplotlib
+
+from asphalt_nscd.store import atomic_path
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+# Dates and random identifiers would make every run look different.
+_METADATA = {"pdf": {"CreationDate": None}, "png": {"Software": None}, "svg": {"Date": None}}
+PNG_DPI = 200
+
+
+def save_figure(figure: Figure, stem: str | Path) -> None:
+    """Write stem.pdf, stem.png and stem.svg."""
+    for kind, metadata in _METADATA.items():
+        with atomic_path(f"{stem}.{kind}") as path, matplotlib.rc_context({"svg.hashsalt": "asphalt-nscd"}):
+            figure.savefig(path, format=kind, dpi=PNG_DPI, metadata=metadata, bbox_inches="tight")

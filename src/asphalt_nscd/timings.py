@@ -1,0 +1,32 @@
+"""Where the time goes: Snakemake's benchmark files summed by rule."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+
+from asphalt_nscd.errors import InputError
+
+
+def by_rule(folder: str | Path) -> pd.DataFrame:
+    """One row for each rule, most time first.
+
+    `folder` holds rule.tsv for a single job, rule/.../*.tsv for many. Columns: rule, jobs, wall_s (sum
+    over jobs), cpu_s, longest_s (a single job), memory_MB (largest resident set), share_percent (of wall_s).
+    """
+    folder = Path(folder)
+    rows = []
+    for path in sorted(folder.rglob("*.tsv")):
+        job = pd.read_csv(path, sep="\t", na_values="-").iloc[0]
+        rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
+        rows.append((rule, job["s"], job["cpu_time"], job["max_rss"]))
+    if not rows:
+        raise InputError(f"{folder}: no benchmark files; run the workflow first.")
+    jobs = pd.DataFrame(rows, columns=["rule", "s", "cpu", "memory"]).groupby("rule", as_index=False)
+    table = jobs.agg(
+        jobs=("s", "size"), wall_s=("s", "sum"), cpu_s=("cpu", "sum"),
+        longest_s=("s", "max"), memory_MB=("memory", "max"),
+    )  # fmt: skip
+    table["share_percent"] = 100.0 * table["wall_s"] / table["wall_s"].sum()
+    return table.sort_values("wall_s", ascending=False, ignore_index=True)

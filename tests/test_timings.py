@@ -1,0 +1,36 @@
+from __future__ import annotations
+
+import pandas as pd
+import pytest
+
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.timings import by_rule
+
+HEADER = "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"
+
+
+def benchmark(path, seconds, memory, cpu):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(HEADER + f"{seconds}\t0:00:01\t{memory}\t9\t9\t9\t0\t0\t90\t{cpu}\n")
+
+
+def test_jobs_are_summed_by_rule_most_time_first(tmp_path):
+    benchmark(tmp_path / "reduce.tsv", 2.0, 80.0, 1.5)
+    benchmark(tmp_path / "simulate/s1/T15/f3.tsv", 5.0, 100.0, 4.0)
+    benchmark(tmp_path / "simulate/s2/T15/f3.tsv", 3.0, 120.0, 2.5)
+    expected = pd.DataFrame({
+        "rule": ["simulate", "reduce"], "jobs": [2, 1], "wall_s": [8.0, 2.0], "cpu_s": [6.5, 1.5],
+        "longest_s": [5.0, 2.0], "memory_MB": [120.0, 80.0], "share_percent": [80.0, 20.0],
+    })  # fmt: skip
+    pd.testing.assert_frame_equal(by_rule(tmp_path), expected)
+
+
+def test_job_too_short_to_be_measured_counts_as_none(tmp_path):
+    benchmark(tmp_path / "fit/T15.tsv", 0.1, "-", "-")
+    benchmark(tmp_path / "fit/T20.tsv", 0.3, 50.0, 0.2)
+    assert by_rule(tmp_path).loc[0, ["cpu_s", "memory_MB"]].tolist() == [0.2, 50.0]
+
+
+def test_no_benchmarks(tmp_path):
+    with pytest.raises(InputError, match="no benchmark files; run the workflow first"):
+        by_rule(tmp_path)

@@ -1,0 +1,147 @@
+# What a reader sees: figures, tables, audit, and one report that holds them all.
+
+# name: (category in the report, {kind of data: files})
+FIGURES = {}
+TABLES = {}
+
+COMPUTED = [
+    "<results>/measured.csv",
+    expand("<results>/laws/fitted/T{temperature}.json", temperature=TEMPERATURES),
+]
+RESULTS = [
+    *COMPUTED,
+    "<results>/timings.csv",
+    "<results>/provenance.json",
+    [f"<results>/figures/{name}.{kind}" for name in FIGURES for kind in ("pdf", "png", "svg")],
+    [f"<results>/{name}.csv" for name in TABLES],
+]
+
+
+def pairs(wildcards, input):
+    """`simulations=results/paper/simulations.csv`, for each file that the rule was given by name."""
+    return [f"{kind}={path}" for kind, paths in input.items() if kind != "code" for path in paths]
+
+
+for name, (category, data) in FIGURES.items():
+
+    rule:
+        name:
+            name
+        input:
+            **data,
+            code=code("figure", f"figures.{name}"),
+        output:
+            f"<results>/figures/{name}.pdf",
+            f"<results>/figures/{name}.svg",
+            report(f"<results>/figures/{name}.png", caption=f"../report/{name}.rst", category=category),
+        params:
+            data=pairs,
+            stem=lambda wildcards, output: output[0].removesuffix(".pdf"),
+        log:
+            f"<results>/logs/{name}.log",
+        benchmark:
+            f"<results>/benchmarks/{name}.tsv"
+        message:
+            f"Draw {name}"
+        shell:
+            f"asphalt-nscd figure {name} {{params.data}} --output-stem {{params.stem}} > {{log}} 2>&1"
+
+
+for name, (category, data) in TABLES.items():
+
+    rule:
+        name:
+            name
+        input:
+            **data,
+            code=code("table", f"tables.{name}"),
+        output:
+            report(f"<results>/{name}.csv", caption=f"../report/{name}.rst", category=category),
+        params:
+            data=pairs,
+        log:
+            f"<results>/logs/{name}.log",
+        benchmark:
+            f"<results>/benchmarks/{name}.tsv"
+        message:
+            f"Make {name}"
+        shell:
+            f"asphalt-nscd table {name} {{params.data}} --output {{output}} > {{log}} 2>&1"
+
+
+rule study:
+    # The study in full, defaults included.
+    output:
+        "<results>/study.json",
+    params:
+        study=json.dumps(STUDY),
+    log:
+        "<results>/logs/study.log",
+    benchmark:
+        "<results>/benchmarks/study.tsv"
+    message:
+        "Write down the study in full"
+    shell:
+        "asphalt-nscd study {params.study:q} --output {output} > {log} 2>&1"
+
+
+rule timings:
+    # Where the time goes, from the benchmark files of all that was computed.
+    input:
+        COMPUTED,
+        code=code("timings"),
+    output:
+        report("<results>/timings.csv", caption="../report/timings.rst", category="About this run"),
+    log:
+        "<results>/logs/timings.log",
+    benchmark:
+        "<results>/benchmarks/timings.tsv"
+    params:
+        benchmarks=f"results/{STUDY['study']}/benchmarks",
+    message:
+        "Sum the time by rule"
+    shell:
+        "asphalt-nscd timings {params.benchmarks} --output {output} > {log} 2>&1"
+
+
+rule provenance:
+    # What made these results: study, commit, versions.
+    input:
+        COMPUTED,
+        study="<results>/study.json",
+        code=code("provenance"),
+    output:
+        report("<results>/provenance.json", caption="../report/provenance.rst", category="About this run"),
+    log:
+        "<results>/logs/provenance.log",
+    benchmark:
+        "<results>/benchmarks/provenance.tsv"
+    message:
+        "Write down commit and versions"
+    shell:
+        "asphalt-nscd provenance {input.study} --output {output} > {log} 2>&1"
+
+
+rule results:
+    # Everything but the report about it.
+    input:
+        RESULTS,
+
+
+rule report:
+    # Snakemake's own report, from the results and the records of how they were made.
+    input:
+        RESULTS,
+        study="<results>/study.json",
+    output:
+        "<results>/report.html",
+    params:
+        snakefile=os.path.relpath(workflow.main_snakefile),
+    log:
+        "<results>/logs/report.log",
+    benchmark:
+        "<results>/benchmarks/report.tsv"
+    message:
+        "Put figures, tables and audit into one report"
+    shell:
+        "snakemake results --snakefile {params.snakefile} --configfile {input.study} --report {output} > {log} 2>&1"
