@@ -184,7 +184,8 @@ def _check_reduced(table: Table, frame: pd.DataFrame, form: str) -> None:
             raise table.error(
                 row,
                 f"the {form} give {name} = {frame.at[row, name]:.4g}, outside {limits.low:g} to "
-                f"{limits.high:g}; check the units of force and displacement, the sign of the phase and the geometry.",
+                f"{limits.high:g}; check the units of force and displacement, the sign of the phase "
+                "and the geometry.",
             )
 
 

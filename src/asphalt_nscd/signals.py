@@ -146,8 +146,9 @@ def _require_sinusoid(values: Vector, basis: NDArray[np.float64], solution: Vect
     left = np.sum((values - basis @ solution) ** 2)
     trend = basis[:, :2]
     varying = np.sum((values - trend @ np.linalg.lstsq(trend, values, rcond=None)[0]) ** 2)
-    if left > (1.0 - SINUSOID_SHARE) * varying:
+    explained = 1.0 - left / varying
+    if explained < SINUSOID_SHARE:
         raise InputError(
-            f"the displacement is not a sinusoid of {frequency:g} Hz (it explains {100 * max(0.0, 1 - left / varying):.0f} % "
-            "of the variation); check the frequency and the channel."
+            f"the displacement is not a sinusoid of {frequency:g} Hz (which explains "
+            f"{100 * max(0.0, explained):.0f} % of its variation); check the frequency and the channel."
         )
