@@ -60,10 +60,9 @@ def test_standard_errors_are_withheld_where_the_points_cannot_give_them():
     two = OMEGA[[0, 4]]
     assert fit_burgers(two, LAWS[30].complex_modulus(two)).std_error is None
     maxwell = 1 / (1 / 10e9 + 1 / (1j * OMEGA * 1e9))  # no Kelvin element to be seen
-    for noise in (0, 1e-3j * np.array([1, -1, 0, 1, -1])):
-        fit = fit_burgers(OMEGA, maxwell * np.exp(noise))
-        assert fit.std_error is None
-        np.testing.assert_allclose(fit.law.complex_modulus(OMEGA), maxwell, rtol=3e-3)
+    fit = fit_burgers(OMEGA, maxwell * np.exp(1e-3j * np.array([1, -1, 0, 1, -1])))
+    assert fit.std_error is None
+    np.testing.assert_allclose(fit.law.complex_modulus(OMEGA), maxwell, rtol=3e-3)
 
 
 def test_a_fit_repeats_to_the_last_bit():
