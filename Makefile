@@ -25,9 +25,11 @@ endif
 
 paper: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
+	@echo "Report: $(CURDIR)/results/paper/report.html"
 
 smoke: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/smoke.yaml
+	@echo "Report: $(CURDIR)/results/smoke/report.html"
 
 study: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile $(CONFIG)

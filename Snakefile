@@ -21,7 +21,3 @@ rule all:
 include: "workflow/rules/data.smk"  # Section 2: tests and their reduction
 include: "workflow/rules/fit.smk"  # Section 4.1: Burgers laws
 include: "workflow/rules/report.smk"  # figures, tables, report
-
-
-onsuccess:
-    print(f"Report: {Path('results', STUDY['study'], 'report.html').resolve()}")

@@ -21,7 +21,7 @@ shell.prefix("exec ")
 try:
     STUDY = complete_study(
         config,
-        source=" + ".join(map(str, workflow.configfiles)) or "configuration",
+        source=" + ".join(map(os.path.relpath, workflow.configfiles)) or "configuration",
         schema=Path(workflow.basedir, "workflow/schemas/study.schema.yaml"),
     )
 except InputError as error:

@@ -142,6 +142,6 @@ rule report:
     benchmark:
         "<results>/benchmarks/report.tsv"
     message:
-        "Put figures, tables and audit into one report"
+        "Put figures, tables and audit into one report: {output}"
     shell:
         "snakemake results --snakefile {params.snakefile} --configfile {input.study} --report {output} > {log} 2>&1"

@@ -1,0 +1,94 @@
+"""The Snakefile as a user meets it; only the quick rules are really run here."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from pathlib import Path
+
+import pytest
+
+FITS = ["results/smoke/laws/fitted/T0.json", "results/smoke/laws/fitted/T20.json"]
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Results as bytes, without logs and timings."""
+    files = [*folder.glob("*.csv"), *folder.glob("laws/**/*.json")]
+    return {str(path.relative_to(folder)): path.read_bytes() for path in files if path.name != "timings.csv"}
+
+
+def wait_for(path: Path, seconds: float = 60.0) -> None:
+    until = time.monotonic() + seconds
+    while not path.exists():
+        assert time.monotonic() < until, f"{path} did not appear"
+        time.sleep(0.02)
+
+
+def test_misspelt_key_is_one_sentence(workspace):
+    workspace.configure(temperature_C=[0, 20])
+    done = workspace.run("--dry-run")
+    assert done.returncode != 0
+    sentence = "error: study.yaml: unknown key 'temperature_C' in the study; did you mean 'temperatures_C'?"
+    assert done.stderr.strip().splitlines()[-1] == sentence
+    assert "Traceback" not in done.stderr
+
+
+def test_own_table_replaces_the_reconstruction(workspace):
+    workspace.configure()
+    assert "reconstruct" in workspace.planned()
+    (workspace.folder / "mine.csv").touch()
+    workspace.configure(measurements={"table": "mine.csv"})
+    assert "reconstruct" not in workspace.planned()
+
+
+def test_killed_run_is_finished_by_the_same_command(workspace):
+    workspace.configure()
+    undisturbed = workspace.run("--cores", "2", *FITS)
+    assert undisturbed.returncode == 0, undisturbed.stderr
+    results = workspace.folder / "results/smoke"
+    expected = contents(results)
+    assert len(expected) == 5
+
+    for path in FITS:
+        (workspace.folder / path).unlink()
+    (results / "measured.csv").unlink()
+    running = workspace.start("--cores", "1", *FITS)
+    wait_for(results / "measured.csv")
+    os.kill(running.pid, signal.SIGKILL)
+    running.communicate()
+    assert list((workspace.folder / ".snakemake/locks").iterdir()), "the kill came too late to test anything"
+
+    again = workspace.run("--cores", "2", *FITS)
+    assert again.returncode == 0, again.stderr
+    assert contents(results) == expected
+
+
+def test_second_run_at_the_same_time_is_refused(workspace):
+    workspace.configure()
+    first = workspace.start("--cores", "1", *FITS)
+    try:
+        wait_for(workspace.folder / "results/smoke/logs/reconstruct.log")
+        second = workspace.run("--cores", "1", *FITS)
+        assert first.poll() is None, "the first run ended too early to test anything"
+    finally:
+        first.terminate()
+        first.communicate()
+    assert second.returncode != 0
+    assert "cannot be locked" in second.stderr
+
+
+def test_changed_law_reruns_only_what_depends_on_it(workspace):
+    workspace.configure()
+    assert workspace.run("--cores", "2", *FITS).returncode == 0
+    assert workspace.planned(*FITS) == {}
+    table = workspace.folder / "data/paper/table3_burgers.csv"
+    os.utime(table)
+    assert workspace.planned(*FITS) == {}, "the content is the same"
+    (workspace.folder / FITS[0]).unlink()
+    assert workspace.planned(*FITS) == {"fit": 1}
+    table.write_text(table.read_text().replace("3.55e7", "3.56e7"))
+    assert workspace.planned(*FITS) == {"reconstruct": 1, "reduce": 1, "fit": 2}
+    workspace.configure(measurements={"reconstruct": {"seed": 7, "specimens": 2}})
+    table.write_text(table.read_text().replace("3.56e7", "3.55e7"))
+    assert workspace.planned(*FITS) == {"reconstruct": 1, "reduce": 1, "fit": 2}
