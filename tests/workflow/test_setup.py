@@ -1,0 +1,119 @@
+"""tools/venv.sh on machines with and without a usable Python; nothing is downloaded."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+FAKE = """\
+#!/bin/sh
+# A Python that answers like version 3.{minor} and notes what it is asked to do.
+case "$*" in
+    --version) echo "Python 3.{minor}.0" ;;
+    *version_info*) [ {minor} -ge 11 ] ;;
+    *"import ensurepip"*) {ensurepip} ;;
+    "-m pip --version") {pip} ;;
+    *) echo "3.{minor}: $*" >>"$NOTES"
+       if [ "$2" = venv ]; then for last; do :; done; mkdir -p "$last/bin"; cp "$0" "$last/bin/python"; fi ;;
+esac
+"""
+
+
+@pytest.fixture
+def machine(tmp_path):
+    """A copy of the script, a PATH with the usual tools and whatever Pythons a test puts there."""
+    (tmp_path / "bin").mkdir()
+    for tool in ("sh", "ls", "sed", "sort", "rm", "mkdir", "cp", "dirname"):
+        (tmp_path / "bin" / tool).symlink_to(shutil.which(tool))
+    (tmp_path / "clone/tools").mkdir(parents=True)
+    shutil.copy(ROOT / "tools/venv.sh", tmp_path / "clone/tools")
+    return tmp_path
+
+
+def install(machine: Path, name: str, minor: int, ensurepip: bool = True, pip: bool = True) -> None:
+    answers = {"ensurepip": str(ensurepip).lower(), "pip": str(pip).lower()}
+    path = machine / "bin" / name
+    path.write_text(FAKE.format(minor=minor, **answers))
+    path.chmod(0o755)
+
+
+def set_up(machine: Path, **environment: str) -> tuple[subprocess.CompletedProcess[str], list[str]]:
+    notes = machine / "notes"
+    done = subprocess.run(
+        ["sh", "tools/venv.sh"], cwd=machine / "clone", capture_output=True, text=True,
+        env={"PATH": str(machine / "bin"), "NOTES": str(notes), **environment},
+    )  # fmt: skip
+    return done, notes.read_text().splitlines() if notes.exists() else []
+
+
+def test_newest_python_is_taken_and_hashes_are_required(machine):
+    for name, minor in {"python3": 11, "python3.9": 9, "python3.11": 11, "python3.13": 13}.items():
+        install(machine, name, minor)
+    done, notes = set_up(machine)
+    assert done.returncode == 0, done.stderr
+    assert notes[0] == "3.13: -m venv .venv"
+    assert "--require-hashes --requirement requirements.txt" in notes[1]
+    assert "--no-deps --no-build-isolation --editable ." in notes[2]
+    assert (machine / "clone/.venv/.ready").read_text() == f"{machine / 'clone'}\n"
+
+
+def test_half_made_environment_is_replaced(machine):
+    install(machine, "python3", 12)
+    rubbish = machine / "clone/.venv/lib/rubbish"
+    rubbish.mkdir(parents=True)
+    assert set_up(machine)[0].returncode == 0
+    assert not rubbish.exists()
+
+
+def test_python_can_be_chosen(machine):
+    install(machine, "python3.13", 13)
+    install(machine, "mine", 11)
+    assert set_up(machine, PYTHON="mine")[1][0] == "3.11: -m venv .venv"
+    install(machine, "old", 10)
+    done, notes = set_up(machine, PYTHON="old")
+    assert done.returncode == 2
+    assert done.stderr == "error: PYTHON=old is not a Python 3.11 or newer.\n"
+
+
+def test_without_ensurepip_the_pip_outside_installs(machine):
+    install(machine, "python3", 11, ensurepip=False)
+    done, notes = set_up(machine)
+    assert done.returncode == 0, done.stderr
+    assert notes[0] == "3.11: -m venv --without-pip .venv"
+    assert notes[1].startswith("3.11: -m pip --python .venv/bin/python install ")
+
+
+def test_without_ensurepip_and_pip_one_sentence_says_what_to_install(machine):
+    install(machine, "python3", 11, ensurepip=False, pip=False)
+    done, notes = set_up(machine)
+    assert (done.returncode, notes) == (2, [])
+    assert done.stderr.count("\n") == 1 and "apt install python3-venv" in done.stderr
+
+
+def test_python_too_old_is_one_sentence(machine):
+    install(machine, "python3", 9)
+    done, notes = set_up(machine)
+    assert (done.returncode, notes) == (2, [])
+    assert done.stderr.startswith("error: no Python 3.11 or newer on PATH") and done.stderr.count("\n") == 1
+
+
+def test_failed_installation_leaves_no_stamp(machine):
+    install(machine, "python3", 11)
+    fake = machine / "bin/python3"
+    fake.write_text(fake.read_text().replace('*) echo "3.11', '*require-hashes*) exit 1 ;;\n    *) echo "3.11'))
+    assert set_up(machine)[0].returncode != 0
+    assert not (machine / "clone/.venv/.ready").exists()
+
+
+def test_lock_holds_hashes_and_no_addresses():
+    lock = (ROOT / "requirements.txt").read_text()
+    pins = [line for line in lock.splitlines() if line and line[0] not in "# "]
+    assert all("==" in pin and pin.endswith("\\") for pin in pins)
+    names = {pin.split("==")[0] for pin in pins}
+    assert {"snakemake", "numba", "h5py", "click", "tqdm", "pytest", "setuptools"} <= names
+    assert "://" not in lock
