@@ -1,0 +1,91 @@
+"""Bodies joined by bonds, as matrices.
+
+The opening velocities of all bonds are U = G v, three rows each (normal and two tangents at the
+middle of the gap); the reactions act on the bodies as G^T R. With R = w sigma, w = g for the
+normal and g / (2 (1 + nu)) for the tangents (Eqs. 8-11), the stiffness per unit modulus is the
+purely geometric matrix K = G^T w G [m].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+
+from asphalt_nscd.nscd.compiled import compiled
+
+
+@dataclass(frozen=True)
+class BondedSystem:
+    """Bonded bodies with one driven degree of freedom; only free ones and the driven one are kept.
+
+    Degrees of freedom (d,): three translations [m] and three rotations [rad] of each moving body.
+    """
+
+    operator: sparse.csr_matrix  # G, (3 b, d)
+    weight: np.ndarray  # w, (3 b,) m
+    mass: np.ndarray  # (d,) kg or kg m2
+    load: np.ndarray  # (d,) N or N m, constant
+    driven: int
+    gap: np.ndarray  # (b,) m
+    strength: np.ndarray  # (b,) N, yield force in tension and in shear
+    friction: float
+
+    @cached_property
+    def free(self) -> np.ndarray:
+        """Indices of the degrees of freedom that are not driven."""
+        return np.delete(np.arange(self.mass.size), self.driven)
+
+    def stiffness(self, weight: np.ndarray | None = None) -> sparse.csc_matrix:
+        """K = G^T w G [m]; w may be given with zeros for broken bonds."""
+        weight = self.weight if weight is None else weight
+        return (self.operator.T @ (sparse.diags_array(weight) @ self.operator)).tocsc()
+
+    def utilisation(self, reaction: np.ndarray) -> np.ndarray:
+        """Yield measure (b,): tension or tangential force over strength; above one a bond breaks."""
+        reaction = reaction.reshape(-1, 3)
+        shear = np.hypot(reaction[:, 1], reaction[:, 2])
+        return np.maximum(-reaction[:, 0], shear) / self.strength
+
+
+def opening_operator(
+    first: np.ndarray, second: np.ndarray, frame: np.ndarray, point: np.ndarray, position: np.ndarray
+) -> sparse.csr_matrix:
+    """G (3 b, 6 n) for bonds of frame (b, 3, 3) acting at point (b, 3) [m] between bodies first and
+    second (b,); position (n, 3) [m] of the moving bodies. Bodies numbered n or above are fixed.
+    """
+    n, bonds = position.shape[0], first.size
+    columns, values = _opening_rows(first, second, frame, point, position)
+    keep = columns >= 0
+    rows = np.repeat(np.arange(3 * bonds), 12)[keep.ravel()]
+    entries = (values.ravel()[keep.ravel()], (rows, columns.ravel()[keep.ravel()]))
+    return sparse.csr_matrix(entries, shape=(3 * bonds, 6 * n))
+
+
+@compiled
+def _opening_rows(first, second, frame, point, position):
+    bonds = first.shape[0]
+    columns = np.full((3 * bonds, 12), -1)
+    values = np.zeros((3 * bonds, 12))
+    arm = np.empty(3)
+    for b in range(bonds):
+        for side in range(2):
+            body = first[b] if side == 0 else second[b]
+            sign = -1.0 if side == 0 else 1.0
+            if body >= position.shape[0]:
+                continue
+            for k in range(3):
+                arm[k] = point[b, k] - position[body, k]
+            for c in range(3):
+                row = 3 * b + c
+                for k in range(3):
+                    k1, k2 = (k + 1) % 3, (k + 2) % 3
+                    columns[row, 6 * side + k] = 6 * body + k
+                    columns[row, 6 * side + 3 + k] = 6 * body + 3 + k
+                    values[row, 6 * side + k] = sign * frame[b, c, k]
+                    values[row, 6 * side + 3 + k] = sign * (
+                        arm[k1] * frame[b, c, k2] - arm[k2] * frame[b, c, k1]
+                    )
+    return columns, values

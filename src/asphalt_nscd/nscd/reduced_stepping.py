@@ -1,0 +1,262 @@
+"""Time stepping of the reduced model under a certificate.
+
+Every step is checked before it is accepted: the residual of the full equations, the yield of
+every bond and the gap of every pair. On a violation the model changes: an overstressed bond is
+removed, and the basis is enriched by the exact correction of that step, until the step passes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from asphalt_nscd.nscd.compiled import compiled
+from asphalt_nscd.nscd.condensed import CondensedState, ShiftedOperator
+from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.reduced import ReducedModel, append_columns
+
+_DONE, _OUTSIDE_ENVELOPE, _YIELD, _CLOSED_GAP, _RESIDUAL = range(5)
+
+
+@dataclass
+class ReducedState:
+    """Coordinates of motion and history; `broken` lists bonds in the order in which they broke."""
+
+    displacement: np.ndarray  # q (k,)
+    velocity: np.ndarray  # (k,)
+    sigma: np.ndarray  # s (k,)
+    kelvin: np.ndarray  # kappa (e, k)
+    broken: list[int] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What was verified at every accepted step."""
+
+    largest_residual: float  # of the full equations, relative to the load of the head
+    largest_utilisation: float  # of any bond left unbroken
+    smallest_gap: float  # m
+    enrichments: int
+
+
+class ClosedGap(Exception):
+    """A gap closes in the step after those returned; only the full system can go on."""
+
+    def __init__(self, force: np.ndarray, velocity: np.ndarray) -> None:
+        super().__init__("a gap closes")
+        self.force, self.velocity = force, velocity
+
+
+class ReducedStepper:
+    """Steps a reduced model at constant dt and law; `state` starts at rest."""
+
+    def __init__(
+        self, model: ReducedModel, law: BondLaw, dt: float, tolerance: float, most_enrichments: int = 400
+    ) -> None:
+        k = model.basis.shape[1]
+        elements = np.size(law.kelvin_springs)
+        self.model, self.dt, self.tolerance = model, dt, tolerance
+        self.law = law.step(dt)
+        self.state = ReducedState(np.zeros(k), np.zeros(k), np.zeros(k), np.zeros((elements, k)))
+        self.enrichments, self.most_enrichments = 0, most_enrichments
+        # running maxima: |s_0|, residual, utilisation of watched bonds
+        self._maxima = np.zeros(3)
+        self._reached_sigma, self._reached_motion = np.zeros(k), np.zeros(k)
+        self._operator: ShiftedOperator | None = None
+        self._watch(np.zeros(k), np.zeros(k))
+
+    def run(self, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Follow the driven displacements (n,) [m], one per step.
+
+        Returns the driving force (n,) [N] and the velocity coordinates (n, k) of the basis as it
+        was at the call. Raises ClosedGap, with what was accepted, when a gap closes.
+        """
+        force, velocity = np.empty(driven.size), np.zeros((driven.size, self.model.basis.shape[1]))
+        done = 0
+        while True:
+            taken, code, bond = self._advance(driven[done:], force[done:], velocity[done:])
+            done += taken
+            if code == _DONE:
+                return force, velocity
+            if code == _CLOSED_GAP:
+                raise ClosedGap(force[:done], velocity[:done])
+            if code == _OUTSIDE_ENVELOPE:
+                self._watch(2.0 * np.abs(self._trial[1]), 2.0 * np.abs(self._trial[2]))
+                continue
+            if code == _YIELD:
+                self.state.broken.append(bond)
+                self.model = self.model.with_basis(self.model.basis, self.state.broken)
+            self._enrich(driven[done])
+
+    def full_state(self) -> CondensedState:
+        """The state of the full system at this instant."""
+        state, basis, opening = self.state, self.model.basis, self.model.opening
+        return CondensedState(
+            displacement=basis @ state.displacement, velocity=basis @ state.velocity,
+            sigma=opening @ state.sigma, kelvin=state.kelvin @ opening.T, broken=list(state.broken),
+        )  # fmt: skip
+
+    def certificate(self) -> Certificate:
+        """Bounds over all accepted steps."""
+        model = self.model
+        share = model.utilisation_bound(self._reached_sigma)
+        share[self._may_yield] = 0.0
+        closing = np.abs(model.closing) @ self._reached_motion
+        return Certificate(
+            largest_residual=float(self._maxima[1]),
+            largest_utilisation=max(float(share.max(initial=0.0)), float(self._maxima[2])),
+            smallest_gap=float((model.system.gap * (1.0 - closing)).min()),
+            enrichments=self.enrichments,
+        )
+
+    def _advance(self, driven: np.ndarray, force: np.ndarray, velocity: np.ndarray) -> tuple[int, int, int]:
+        model, state, law = self.model, self.state, self.law
+        self._trial = np.zeros((3, model.basis.shape[1]))
+        taken, code, watched = _advance_reduced(
+            driven, model.mass, model.stiffness, model.load, self._step_inverse(),
+            law.dt, law.compliance, law.memory, law.recall, law.keep, law.gain,
+            model.residual_factor, model.head_norm, model.load_norm, self.tolerance,
+            model.reaction[self._may_yield], model.closing[self._may_close],
+            self._sigma_envelope, self._motion_envelope, self._reached_sigma, self._reached_motion,
+            self._maxima, state.displacement, state.velocity, state.sigma, state.kelvin, self._trial,
+            force, velocity,
+        )  # fmt: skip
+        return taken, code, int(self._may_yield[watched]) if code == _YIELD else -1
+
+    def _step_inverse(self) -> np.ndarray:
+        model = self.model
+        return np.linalg.inv((model.mass + self.dt / self.law.compliance * model.stiffness)[1:, 1:])
+
+    def _watch(self, sigma: np.ndarray, motion: np.ndarray) -> None:
+        """Widen the envelope of s and q, and list the bonds that could yield or close within it."""
+        self._sigma_envelope = np.maximum(sigma, 2.0 * self._reached_sigma)
+        self._motion_envelope = np.maximum(motion, 2.0 * self._reached_motion)
+        self._may_yield, self._may_close = self.model.candidates(self._sigma_envelope, self._motion_envelope)
+
+    def _enrich(self, driven: float) -> None:
+        """Add the correction that makes the coming step exact to the basis."""
+        if self.enrichments >= self.most_enrichments:
+            raise ArithmeticError(f"residual above {self.tolerance:.1e} after {self.enrichments} enrichments")
+        self.enrichments += 1
+        model, state, dt = self.model, self.state, self.dt
+        explicit = self.law.explicit_part(state.sigma, state.kelvin)
+        velocity = np.empty_like(state.velocity)
+        velocity[0] = (driven - state.displacement[0]) / dt
+        scale = dt / self.law.compliance
+        known = model.mass @ state.velocity + dt * model.load + scale * (model.stiffness @ explicit)
+        known -= (model.mass + scale * model.stiffness)[:, 0] * velocity[0]
+        velocity[1:] = self._step_inverse() @ known[1:]
+        sigma = (explicit - velocity) / self.law.compliance
+        system = model.system
+        residual = dt * system.load - system.mass * (model.basis @ (velocity - state.velocity))
+        residual += dt * (system.operator.T @ (model.weight * (model.opening @ sigma)))
+        if self._operator is None:
+            self._operator = ShiftedOperator(system, scale)
+        self._operator.remove(state.broken)
+        correction = np.zeros((system.mass.size, 1))
+        correction[system.free, 0] = self._operator.solve(residual[system.free])
+        self.model = model.with_basis(append_columns(system, model.basis, correction), state.broken)
+        for name in ("displacement", "velocity", "sigma"):
+            setattr(state, name, np.append(getattr(state, name), 0.0))
+        state.kelvin = np.column_stack([state.kelvin, np.zeros(state.kelvin.shape[0])])
+        self._reached_sigma = np.append(self._reached_sigma, 0.0)
+        self._reached_motion = np.append(self._reached_motion, 0.0)
+        self._watch(np.append(self._sigma_envelope, 0.0), np.append(self._motion_envelope, 0.0))
+
+
+@compiled
+def _advance_reduced(
+    driven, mass, stiffness, load, inverse, dt, compliance, memory, recall, keep, gain,
+    residual_factor, head_norm, load_norm, tolerance, reaction, closing, sigma_envelope,
+    motion_envelope, reached_sigma, reached_motion, maxima, q, v, s, kelvin, trial, force, velocity,
+):  # fmt: skip
+    """Steps until the end or the first violation: (steps taken, code, index into the watched bonds).
+
+    State arrays change in place, step by step; `trial` receives v+, s+, q+ of the refused step.
+    """
+    k = q.shape[0]
+    kept = velocity.shape[1]
+    scale = dt / compliance
+    explicit = np.empty(k)
+    known = np.empty(k)
+    combined = np.empty(2 * k + 1)
+    new_v, new_s, new_q = trial[0], trial[1], trial[2]
+    for n in range(driven.shape[0]):
+        for a in range(k):
+            explicit[a] = memory * s[a]
+            for e in range(recall.shape[0]):
+                explicit[a] -= recall[e] * kelvin[e, a]
+        new_v[0] = (driven[n] - q[0]) / dt
+        for a in range(1, k):
+            known[a] = dt * load[a] - (mass[a, 0] + scale * stiffness[a, 0]) * new_v[0]
+            for b in range(k):
+                known[a] += mass[a, b] * v[b] + scale * stiffness[a, b] * explicit[b]
+        for a in range(1, k):
+            new_v[a] = 0.0
+            for b in range(1, k):
+                new_v[a] += inverse[a - 1, b - 1] * known[b]
+        outside = False
+        for a in range(k):
+            new_s[a] = (explicit[a] - new_v[a]) / compliance
+            new_q[a] = q[a] + dt * new_v[a]
+            outside |= abs(new_s[a]) > sigma_envelope[a] or abs(new_q[a]) > motion_envelope[a]
+            combined[a] = (new_v[a] - v[a]) / dt
+            combined[k + a] = new_s[a]
+        combined[2 * k] = 1.0
+        if outside:
+            return n, _OUTSIDE_ENVELOPE, -1
+        worst, most = -1, 1.0
+        for c in range(reaction.shape[0]):
+            share = _utilisation(reaction[c], new_s)
+            if share > most:
+                worst, most = c, share
+        if worst >= 0:
+            return n, _YIELD, worst
+        for c in range(closing.shape[0]):
+            share = 0.0
+            for a in range(k):
+                share += closing[c, a] * new_q[a]
+            if share > 1.0:
+                return n, _CLOSED_GAP, c
+        stress = max(maxima[0], abs(new_s[0]))
+        residual = _norm_of_product(residual_factor, combined) / (head_norm * stress + load_norm)
+        if residual > tolerance:
+            return n, _RESIDUAL, -1
+        maxima[0] = stress
+        maxima[1] = max(maxima[1], residual)
+        for c in range(reaction.shape[0]):
+            maxima[2] = max(maxima[2], _utilisation(reaction[c], new_s))
+        force[n] = -load[0]
+        for b in range(k):
+            force[n] += mass[0, b] * combined[b] - stiffness[0, b] * new_s[b]
+        for a in range(k):
+            v[a], s[a], q[a] = new_v[a], new_s[a], new_q[a]
+            for e in range(recall.shape[0]):
+                kelvin[e, a] = keep[e] * kelvin[e, a] - gain[e] * new_s[a]
+            reached_sigma[a] = max(reached_sigma[a], abs(s[a]))
+            reached_motion[a] = max(reached_motion[a], abs(q[a]))
+            if a < kept:
+                velocity[n, a] = v[a]
+    return driven.shape[0], _DONE, -1
+
+
+@compiled
+def _utilisation(reaction, s):
+    normal = tangent = other = 0.0
+    for a in range(s.shape[0]):
+        normal += reaction[0, a] * s[a]
+        tangent += reaction[1, a] * s[a]
+        other += reaction[2, a] * s[a]
+    return max(-normal, np.sqrt(tangent * tangent + other * other))
+
+
+@compiled
+def _norm_of_product(upper, vector):
+    square = 0.0
+    for a in range(upper.shape[0]):
+        row = 0.0
+        for b in range(a, upper.shape[1]):
+            row += upper[a, b] * vector[b]
+        square += row * row
+    return np.sqrt(square)
