@@ -40,6 +40,24 @@ class Geometry(click.ParamType):
 geometry = click.option("--geometry", required=True, type=Geometry(), help="Trapezoidal specimen.")
 
 
+class Lengths(click.ParamType):
+    """`0.25,0.025,1.6` as so many positive numbers."""
+
+    name = "number,..."
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+
+    def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
+        try:
+            numbers = tuple(float(part) for part in value.split(","))
+        except ValueError:
+            numbers = ()
+        if len(numbers) != self.size or not all(0 < number < float("inf") for number in numbers):
+            self.fail(f"{value!r} is not {self.size} positive numbers joined by commas.", param, context)
+        return numbers
+
+
 class Data(click.ParamType):
     """`simulations=results/paper/simulations.csv` as (kind, path)."""
 

@@ -1,0 +1,253 @@
+"""The complex modulus test on a numerical specimen: condense a specimen, then simulate tests on it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy import sparse
+
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.nscd.bonds import BondedSystem
+from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.reduced import ReducedModel, ritz_basis
+from asphalt_nscd.nscd.reduced_stepping import ClosedGap, ReducedStepper
+from asphalt_nscd.nscd.sweeping import SweepingStepper
+from asphalt_nscd.preparation import read_specimen
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.laws_io import read_law
+from asphalt_nscd.signals import harmonic_response, peak_response
+from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.store import load, save
+from asphalt_nscd.twopoint import Geometry, complex_modulus, norm_and_phase
+
+METHODS = ("reduced", "condensed", "sweeps")
+KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
+RESIDUAL_TOLERANCE = 1e-6  # of the full equations, relative to the load of the head
+REDUCED_CYCLES = 2  # the last ones, for the harmonic fit; the paper's peaks are those of the last cycle
+PROFILE_LAYERS = 50  # of the mean velocity against height, Fig. 8
+PROFILE_SAMPLES = 200  # over the last cycle
+
+Progress = Callable[[int, int], None]
+"""Called with (steps done, steps in all)."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A specimen ready for tests."""
+
+    system: BondedSystem
+    basis: np.ndarray  # (d, k) of the reduced form
+    geometry: Geometry
+    sphere_height: np.ndarray  # (n,) m
+    name: str
+    head: str
+
+
+def condense(
+    specimen_file: str | Path, head: str, poisson: float, yield_stress: float, friction: float,
+    output: str | Path,
+) -> None:  # fmt: skip
+    """Assemble the system of a specimen, find its Ritz basis, and save both."""
+    specimen = read_specimen(specimen_file)
+    system = bending_system(specimen, poisson, yield_stress, friction, head)
+    g = system.operator
+    arrays = {
+        "basis": ritz_basis(system, KRYLOV_STEPS), "operator/indptr": g.indptr, "operator/indices": g.indices,
+        "operator/data": g.data, "weight": system.weight, "mass": system.mass, "load": system.load,
+        "gap": system.gap, "strength": system.strength, "sphere_height": specimen.position[:, 2],
+    }  # fmt: skip
+    attributes = {
+        "name": Path(specimen_file).stem, "head": head, "driven": system.driven, "friction": friction,
+        **{name: getattr(specimen.geometry, name) for name in Geometry.__dataclass_fields__},
+    }  # fmt: skip
+    save(output, "model", arrays, attributes)
+
+
+def read_model(path: str | Path) -> Model:
+    """The model in a file made by `condense`."""
+    arrays, attributes = (record := load(path, "model")).arrays, record.attributes
+    system = BondedSystem(
+        operator=sparse.csr_matrix(
+            (arrays["operator/data"], arrays["operator/indices"], arrays["operator/indptr"]),
+            shape=(arrays["weight"].size, arrays["mass"].size),
+        ),
+        weight=arrays["weight"], mass=arrays["mass"], load=arrays["load"], driven=attributes["driven"],
+        gap=arrays["gap"], strength=arrays["strength"], friction=attributes["friction"],
+    )  # fmt: skip
+    geometry = Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__})
+    return Model(
+        system, arrays["basis"], geometry, arrays["sphere_height"], attributes["name"], attributes["head"]
+    )
+
+
+def bond_law(law: Burgers) -> BondLaw:
+    """The macroscopic law as the law of every bond (Eqs. 30-33, geometry divided out)."""
+    return BondLaw(
+        law.modulus_m, law.viscosity_m, np.array([law.modulus_k]), np.array([law.viscosity_k])
+    )
+
+
+@dataclass
+class Record:
+    """What one test gives: histories and how they were obtained."""
+
+    time: np.ndarray  # (s,) s, from the start of the oscillation
+    displacement: np.ndarray  # (s,) m
+    force: np.ndarray  # (s,) N
+    broken: list[int]
+    residual: float
+    details: dict[str, float | int]
+    velocity: np.ndarray | None = None  # (s, k) coordinates in the basis, of the reduced method
+
+
+def run_test(
+    model: Model, law: BondLaw, frequency: float, amplitude: float, cycles: float, time_step: float,
+    rest_steps: int, method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
+    progress: Progress = lambda done, total: None,
+) -> Record:  # fmt: skip
+    """Gravity for rest_steps, then z = A sin(2 pi f t) at the head for the given number of cycles.
+
+    frequency [Hz], amplitude [m], time_step [s]; tolerance and most_sweeps concern "sweeps" only.
+    """
+    steps = round(cycles / frequency / time_step)
+    times = time_step * np.arange(1, steps + 1)
+    displacement = amplitude * np.sin(2.0 * np.pi * frequency * times)
+    driven = np.concatenate([np.zeros(rest_steps), displacement])
+    if method == "reduced":
+        force, velocity, broken, residual, details = _run_reduced(model, law, time_step, driven, progress)
+    else:
+        state = CondensedState.at_rest(model.system, law)
+        if method == "condensed":
+            stepper = CondensedStepper(model.system, law, time_step, state)
+        else:
+            stepper = SweepingStepper(model.system, law, time_step, state, tolerance, most_sweeps)
+        force, velocity = _march(stepper, driven, 0.0, time_step, progress), None
+        broken = state.broken
+        residual = stepper.largest_change if method == "sweeps" else 0.0
+        details = {"sweeps": stepper.sweeps} if method == "sweeps" else {}
+    return Record(
+        times, displacement, force[rest_steps:], broken, residual, details,
+        None if velocity is None else velocity[rest_steps:],
+    )  # fmt: skip
+
+
+def _run_reduced(
+    model: Model, law: BondLaw, time_step: float, driven: np.ndarray, progress: Progress
+) -> tuple[np.ndarray, np.ndarray, list[int], float, dict[str, float | int]]:
+    stepper = ReducedStepper(ReducedModel(model.system, model.basis), law, time_step, RESIDUAL_TOLERANCE)
+    force, velocity = np.empty(driven.size), np.zeros((driven.size, model.basis.shape[1]))
+    full_steps = 0
+    broken = stepper.state.broken
+    try:
+        force[:], velocity[:] = stepper.run(driven)
+    except ClosedGap as closed:
+        done = closed.force.size
+        force[:done], velocity[:done] = closed.force, closed.velocity
+        state = stepper.full_state()
+        full = CondensedStepper(model.system, law, time_step, state)
+        force[done:] = _march(full, driven[done:], driven[done - 1] if done else 0.0, time_step, progress)
+        velocity[done:] = np.nan
+        full_steps, broken = driven.size - done, state.broken
+    certificate = stepper.certificate()
+    details = {
+        "largest_utilisation": certificate.largest_utilisation,
+        "smallest_gap_m": certificate.smallest_gap,
+        "enrichments": certificate.enrichments,
+        "full_steps": full_steps,
+    }
+    progress(driven.size, driven.size)
+    return force, velocity, broken, certificate.largest_residual, details
+
+
+def _march(
+    stepper: CondensedStepper | SweepingStepper, driven: np.ndarray, start: float, time_step: float,
+    progress: Progress,
+) -> np.ndarray:  # fmt: skip
+    force = np.empty(driven.size)
+    velocity = np.diff(driven, prepend=start) / time_step
+    for n in range(driven.size):
+        force[n] = stepper.advance(velocity[n])
+        if n % 20 == 19:
+            progress(n + 1, driven.size)
+    return force
+
+
+def simulate(
+    model_file: str | Path, law_file: str | Path, temperature: float, frequency: float, amplitude: float,
+    cycles: float, time_step: float, rest_steps: int, output: str | Path, law_source: str = "",
+    method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
+    progress: Progress = lambda done, total: None,
+) -> None:  # fmt: skip
+    """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking."""
+    if cycles < REDUCED_CYCLES:
+        raise InputError(f"cycles = {cycles:g}: the reduction needs {REDUCED_CYCLES}; run at least so many.")
+    if 20.0 * time_step * frequency > 1.0:
+        raise InputError(
+            f"time step {time_step:g} s: fewer than 20 steps per cycle at {frequency:g} Hz; "
+            f"give at most {0.05 / frequency:.2g} s."
+        )
+    law = read_law(law_file)
+    model = read_model(model_file)
+    began = time.process_time()
+    record = run_test(
+        model, bond_law(law), frequency, amplitude, cycles, time_step, rest_steps, method, tolerance,
+        most_sweeps, progress,
+    )  # fmt: skip
+    cpu = time.process_time() - began
+    history = record.time, record.force, record.displacement, frequency
+    harmonic = harmonic_response(*history, cycles=REDUCED_CYCLES)
+    peak = peak_response(*history, cycles=1)
+    columns: dict[str, float | int | str] = {
+        "specimen": model.name, "temperature_C": temperature, "frequency_Hz": frequency,
+        "spheres": model.sphere_height.size, "bonds": model.system.gap.size,
+        "broken_bonds": len(record.broken), "steps": record.time.size,
+    }  # fmt: skip
+    moduli = {
+        "": _modulus(model.geometry, frequency, harmonic),
+        "_peak": _modulus(model.geometry, frequency, peak),
+        "_law": complex(law.complex_modulus(2.0 * np.pi * frequency)),
+    }
+    for suffix, modulus in moduli.items():
+        norm, phase = norm_and_phase(modulus)
+        columns |= {f"E{suffix}_MPa": float(norm) / 1e6, f"phase{suffix}_deg": float(np.degrees(phase))}
+    columns |= {
+        "residual": record.residual, "cpu_s": cpu, "method": method, "head": model.head,
+        "law_source": law_source, "time_step_s": time_step, "amplitude_m": amplitude, **record.details,
+    }  # fmt: skip
+    arrays = {
+        "time_s": record.time, "displacement_m": record.displacement, "force_N": record.force,
+        "broken": np.asarray(record.broken, np.int64), **_velocity_profile(model, record, frequency),
+    }  # fmt: skip
+    save(output, "test", arrays, columns)
+
+
+def _modulus(geometry: Geometry, frequency: float, response) -> complex:
+    return complex_modulus(
+        geometry, frequency, response.force_amplitude, response.displacement_amplitude, response.phase
+    )
+
+
+def _velocity_profile(model: Model, record: Record, frequency: float) -> dict[str, np.ndarray]:
+    """Mean velocity of the spheres along the drive in layers of equal height, over the last cycle."""
+    if record.velocity is None:
+        return {}
+    edges = np.linspace(0.0, model.geometry.h, PROFILE_LAYERS + 1)
+    layer = np.clip(np.digitize(model.sphere_height, edges) - 1, 0, PROFILE_LAYERS - 1)
+    members = np.bincount(layer, minlength=PROFILE_LAYERS)
+    along = model.basis[: 6 * layer.size : 6]
+    mean = np.zeros((PROFILE_LAYERS, along.shape[1]))
+    np.add.at(mean, layer, along)
+    mean /= np.maximum(members, 1)[:, None]
+    last = np.flatnonzero(record.time > record.time[-1] - 1.0 / frequency)
+    taken = last[np.linspace(0, last.size - 1, min(PROFILE_SAMPLES, last.size)).astype(int)]
+    return {
+        "profile/height_m": 0.5 * (edges[1:] + edges[:-1]),
+        "profile/spheres": members,
+        "profile/time_s": record.time[taken],
+        "profile/velocity_m_s": record.velocity[taken] @ mean.T,
+    }

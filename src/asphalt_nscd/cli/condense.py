@@ -1,0 +1,23 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+@click.command()
+@click.argument("specimen", type=_options.File)
+@click.option("--head", default="free", type=click.Choice(["free", "blocked"]), help="Rotation of the head.")
+@click.option("--poisson", default=0.35, help="Ratio nu of Eqs. (8)-(11).")
+@click.option("--yield-pa", default=2.7e6, help="Yield stress of bonds between spheres, Pa.")
+@click.option("--friction", default=0.7, help="Coefficient of friction where a gap closes.")
+@_options.output
+def command(
+    specimen: Path, head: str, poisson: float, yield_pa: float, friction: float, output: Path
+) -> None:  # fmt: skip
+    """Assemble the bonded system of a specimen and its reduced form, which serves every test on it."""
+    from asphalt_nscd.bending import condense
+
+    condense(specimen, head, poisson, yield_pa, friction, output)

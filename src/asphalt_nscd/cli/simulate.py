@@ -1,0 +1,41 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options, _progress
+
+
+@click.command()
+@click.argument("model", type=_options.File)
+@click.option("--law", required=True, type=_options.File, help="Law of the bonds, JSON.")
+@click.option("--law-source", default="", help="Where the law comes from; kept with the result.")
+@click.option("--temperature-c", required=True, type=float, help="Temperature of the law, degrees Celsius.")
+@click.option("--frequency-hz", required=True, type=float, help="Frequency of the head, Hz.")
+@click.option("--amplitude-m", default=63e-6, help="Amplitude of the head, m.")
+@click.option("--cycles", default=5.0, help="Number of cycles.")
+@click.option("--time-step-s", default=5e-5, help="Time step, s.")
+@click.option("--rest-steps", default=1000, help="Steps under gravity before the head moves.")
+@click.option(
+    "--method",
+    default="reduced",
+    type=click.Choice(["reduced", "condensed", "sweeps"]),
+    help="Reduced form, full condensed system, or plain Gauss-Seidel on the bonds.",
+)
+@click.option("--tolerance", default=1e-4, help="Relative change per sweep that stops Gauss-Seidel.")
+@click.option("--most-sweeps", default=50, help="Most sweeps of Gauss-Seidel in a step.")
+@_options.output
+def command(
+    model: Path, law: Path, law_source: str, temperature_c: float, frequency_hz: float, amplitude_m: float,
+    cycles: float, time_step_s: float, rest_steps: int, method: str, tolerance: float, most_sweeps: int,
+    output: Path,
+) -> None:  # fmt: skip
+    """One complex modulus test at one temperature and frequency."""
+    from asphalt_nscd.bending import simulate
+
+    with _progress.bars("steps") as report:
+        simulate(
+            model, law, temperature_c, frequency_hz, amplitude_m, cycles, time_step_s, rest_steps, output,
+            law_source, method, tolerance, most_sweeps, lambda done, total: report("testing", done, total),
+        )  # fmt: skip

@@ -1,0 +1,23 @@
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+@click.command()
+@click.argument("deposit", type=_options.File)
+@_options.geometry
+@click.option("--volume-reduction", default=0.1, help="Part of each sphere's volume taken away.")
+@click.option("--gap-max-mm", default=2.0, help="Pairs with a smaller gap are bonded, mm.")
+@_options.output
+def command(
+    deposit: Path, geometry: Any, volume_reduction: float, gap_max_mm: float, output: Path
+) -> None:  # fmt: skip
+    """Cut the specimen from a deposit, turn it upright, shrink its spheres and bond them."""
+    from asphalt_nscd.preparation import trim_deposit
+
+    trim_deposit(deposit, geometry, volume_reduction, gap_max_mm * 1e-3, output)

@@ -1,0 +1,67 @@
+"""From the layer to the specimen: trim to the trapezoid, turn upright, shrink, weigh, bond."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.specimen.network import Network, bond_network
+from asphalt_nscd.twopoint import Geometry
+
+FEWEST_BONDS = 3
+"""Below three bonds a sphere can still move freely: such grains fall out when the layer is cut."""
+
+
+@dataclass(frozen=True)
+class Specimen:
+    """Bonded spheres between the foot (z = 0, width B) and the head (z = h, width b).
+
+    The bending direction is x, the thickness e lies along y; the origin is the middle of the foot.
+    """
+
+    geometry: Geometry
+    position: np.ndarray  # (n, 3) m
+    radius: np.ndarray  # (n,) m, after the reduction of volume
+    density: float  # kg/m3, matched to the mass of the geometry
+    network: Network
+    loose_grains: int  # removed because they had fewer than three bonds
+
+
+def layer_height(position: np.ndarray, radius: np.ndarray) -> float:
+    """Height [m] of a layer on z = 0: twice the height of its centre of mass."""
+    return float(2.0 * np.average(position[:, 2], weights=radius**3))
+
+
+def trim(
+    position: np.ndarray, radius: np.ndarray, geometry: Geometry, volume_reduction: float, reach: float
+) -> Specimen:
+    """Cut the specimen from the middle of a layer (length along x, width along y, height along z).
+
+    Grains whose barycentre lies outside the trapezoid are removed. The volume of each sphere is
+    reduced by the fraction volume_reduction, and the density raised until the mass is right.
+    """
+    height = layer_height(position, radius)
+    if height < geometry.B:
+        raise InputError(
+            f"the deposited layer is {1e3 * height:.1f} mm high, less than the foot of the specimen "
+            f"({1e3 * geometry.B:.1f} mm); pour more spheres."
+        )
+    axis, across = position[:, 0], position[:, 2] - height / 2.0
+    width = geometry.B + (geometry.b - geometry.B) * axis / geometry.h
+    inside = (2.0 * np.abs(across) <= width) & (axis >= 0.0) & (axis <= geometry.h)
+    upright = np.stack([across, position[:, 1] - geometry.e / 2.0, axis], axis=1)[inside]
+    shrunk = radius[inside] * (1.0 - volume_reduction) ** (1.0 / 3.0)
+    candidates = shrunk.size
+    while True:
+        network = bond_network(upright, shrunk, geometry.h, reach)
+        bonds = np.bincount(np.concatenate([network.first, network.second]), minlength=shrunk.size)
+        held = bonds[: shrunk.size] >= FEWEST_BONDS
+        if held.all():
+            break
+        upright, shrunk = upright[held], shrunk[held]
+    if not shrunk.size:
+        raise InputError("no sphere is left after trimming; pour more spheres or raise the bond distance.")
+    density = geometry.mass / float((4.0 / 3.0 * np.pi * shrunk**3).sum())
+    return Specimen(geometry, upright, shrunk, density, network, candidates - shrunk.size)
