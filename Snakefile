@@ -20,4 +20,8 @@ rule all:
 
 include: "workflow/rules/data.smk"  # Section 2: tests and their reduction
 include: "workflow/rules/fit.smk"  # Section 4.1: Burgers laws
+include: "workflow/rules/specimen.smk"  # Section 3.2: numerical samples
+include: "workflow/rules/bending.smk"  # Section 4.2: bending tests
+include: "workflow/rules/sensitivity.smk"  # Section 4.3: sensitivity of the law's parameters
+include: "workflow/rules/audit.smk"  # other readings, looser samples
 include: "workflow/rules/report.smk"  # figures, tables, report

@@ -12,6 +12,7 @@ from asphalt_nscd.study import complete_study, label
 ROOT = Path(__file__).parents[1]
 SCHEMA = ROOT / "workflow/schemas/study.schema.yaml"
 TRAPEZOID = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.235}
+PACKING = {"frictions": [0.5], "seed": 1, "temperature_C": 15, "frequency_Hz": 3}
 
 
 @pytest.fixture
@@ -62,9 +63,9 @@ def test_config_itself_is_left_alone(config):
 
 
 def test_numbers_in_scientific_notation_without_a_point_are_numbers(config):
-    config["test"] = {"time_step_s": "5e-5", "yield_Pa": "2.7e6"}
+    config["test"] = {"time_step_s": "5e-5", "amplitude_m": "1e-6"}
     assert complete(config)["test"]["time_step_s"] == 5e-5
-    assert complete(config)["test"]["yield_Pa"] == 2.7e6
+    assert complete(config)["test"]["amplitude_m"] == 1e-6
 
 
 def test_every_key_of_the_schema_has_a_description():
@@ -118,6 +119,8 @@ def test_every_mapping_of_the_schema_refuses_unknown_keys():
         ({"geometry": {**TRAPEZOID, "H_mm": 1}}, "unknown key 'H_mm' in geometry; did you mean 'h_mm'?"),
         ({"geometry": {"b_mm": 25}}, "key 'B_mm' is missing from geometry; add it."),
         ({"sensitivity": {"temperature_C": 20}}, "sensitivity.temperature_C 20 is not in temperatures_C"),
+        ({"audit": {"seed": 1, "temperature_C": 15}}, "laws.published is missing, but audit needs it"),
+        ({"packing_study": {**PACKING, "seed": 9}}, "packing_study.seed 9 is not in specimens.seeds"),
     ],
 )
 def test_bad_study_is_refused_in_one_sentence(config, change, sentence):

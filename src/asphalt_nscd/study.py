@@ -22,6 +22,7 @@ _TYPES = {
     "object": "a mapping", "array": "a list", "string": "text",
     "number": "a number", "integer": "a whole number",
 }  # fmt: skip
+_OPTIONAL = ("sensitivity", "packing_study", "audit")
 
 
 def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -> dict[str, Any]:
@@ -128,13 +129,24 @@ def _check(study: dict[str, Any], source: str) -> None:
             raise InputError(f"{source}: {key} holds values equal to six digits; keep one of them.")
     _check_geometry(study, source)
     published = study["laws"].get("published")
-    if not published and (study["laws"]["simulate"] == "published" or "reconstruct" in study["measurements"]):
-        raise InputError(f"{source}: laws.published is missing, but is to be used; add its table and unit.")
-    temperature = study.get("sensitivity", {}).get("temperature_C")
-    if temperature is not None and temperature not in study["temperatures_C"]:
-        raise InputError(
-            f"{source}: sensitivity.temperature_C {temperature:g} is not in temperatures_C; use one of them."
-        )
+    users = {
+        "laws.simulate": study["laws"]["simulate"] == "published",
+        "measurements.reconstruct": "reconstruct" in study["measurements"],
+        "audit": "audit" in study,
+    }
+    if not published and any(users.values()):
+        user = next(name for name, uses in users.items() if uses)
+        raise InputError(f"{source}: laws.published is missing, but {user} needs it; add its table and unit.")
+    choices = {
+        "seed": ("specimens.seeds", study["specimens"]["seeds"]),
+        "temperature_C": ("temperatures_C", study["temperatures_C"]),
+        "frequency_Hz": ("frequencies_Hz", study["frequencies_Hz"]),
+    }
+    for section in _OPTIONAL:
+        for key, (where, allowed) in choices.items():
+            chosen = study.get(section, {}).get(key)
+            if chosen is not None and chosen not in allowed:
+                raise InputError(f"{source}: {section}.{key} {chosen:g} is not in {where}; use one of them.")
     for where, path in {
         "measurements.table": study["measurements"].get("table"),
         "geometry": study["geometry"] if isinstance(study["geometry"], str) else None,

@@ -105,7 +105,8 @@ def test_python_too_old_is_one_sentence(machine):
 def test_failed_installation_leaves_no_stamp(machine):
     install(machine, "python3", 11)
     fake = machine / "bin/python3"
-    fake.write_text(fake.read_text().replace('*) echo "3.11', '*require-hashes*) exit 1 ;;\n    *) echo "3.11'))
+    failing = "    *require-hashes*) exit 1 ;;\n    *) echo"
+    fake.write_text(fake.read_text().replace("    *) echo", failing))
     assert set_up(machine)[0].returncode != 0
     assert not (machine / "clone/.venv/.ready").exists()
 

@@ -36,9 +36,14 @@ SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
 
 
 wildcard_constraints:
-    sample=r"s\d+",
+    seed=r"\d+",
+    sample=r"s\d+(-friction[\d.]+)?",
     temperature=r"-?[\d.]+",
     frequency=r"[\d.]+",
+    head="free|blocked",
+    parameter="Em|eta_m|Ek|eta_k",
+    factor=r"[\d.]+",
+    friction=r"[\d.]+",
 
 
 def code(step, *modules):
@@ -55,6 +60,11 @@ def text(value):
     return value
 
 
-def options(values):
-    """`{"gap_max_mm": 2}` as `--gap-max-mm 2`."""
-    return " ".join(f"--{key.lower().replace('_', '-')} {text(value)}" for key, value in values.items())
+def options(values, *keys):
+    """`{"gap_max_mm": 2}` as `--gap-max-mm 2`; all keys or those named."""
+    return " ".join(f"--{key.lower().replace('_', '-')} {text(values[key])}" for key in keys or values)
+
+
+def pairs(wildcards, input):
+    """`simulations=results/paper/simulations.csv`, for each file that the rule was given by name."""
+    return [f"{kind}={path}" for kind, paths in input.items() if kind != "code" for path in paths]

@@ -7,6 +7,10 @@ TABLES = {}
 COMPUTED = [
     "<results>/measured.csv",
     expand("<results>/laws/fitted/T{temperature}.json", temperature=TEMPERATURES),
+    "<results>/simulations.csv",
+    "<results>/sensitivity.csv" if "sensitivity" in STUDY else [],
+    "<results>/readings.csv" if "audit" in STUDY else [],
+    "<results>/packing.csv" if "packing_study" in STUDY else [],
 ]
 RESULTS = [
     *COMPUTED,
@@ -15,11 +19,6 @@ RESULTS = [
     [f"<results>/figures/{name}.{kind}" for name in FIGURES for kind in ("pdf", "png", "svg")],
     [f"<results>/{name}.csv" for name in TABLES],
 ]
-
-
-def pairs(wildcards, input):
-    """`simulations=results/paper/simulations.csv`, for each file that the rule was given by name."""
-    return [f"{kind}={path}" for kind, paths in input.items() if kind != "code" for path in paths]
 
 
 for name, (category, data) in FIGURES.items():

@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import click
-
-from asphalt_nscd.errors import InputError
 
 GEOMETRY_KEYS = ("b_mm", "B_mm", "e_mm", "h_mm", "mass_kg", "mobile_mass_kg")
 
@@ -56,30 +50,3 @@ class Lengths(click.ParamType):
         if len(numbers) != self.size or not all(0 < number < float("inf") for number in numbers):
             self.fail(f"{value!r} is not {self.size} positive numbers joined by commas.", param, context)
         return numbers
-
-
-class Data(click.ParamType):
-    """`simulations=results/paper/simulations.csv` as (kind, path)."""
-
-    name = "kind=path"
-
-    def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
-        kind, equals, path = value.partition("=")
-        if not equals or not kind.isidentifier() or not path:
-            self.fail(f"{value!r} is not of the form kind=path.", param, context)
-        return kind, Path(path)
-
-
-def grouped(data: Iterable[tuple[str, Path]]) -> dict[str, list[Path]]:
-    """All paths of each kind."""
-    kinds: dict[str, list[Path]] = {}
-    for kind, path in data:
-        kinds.setdefault(kind, []).append(path)
-    return kinds
-
-
-def part(package: str, name: str) -> ModuleType:
-    """Module `name` of the figures or tables."""
-    if find_spec(f"asphalt_nscd.{package}.{name}") is None:
-        raise InputError(f"{name!r} is not among the {package}; the modules of asphalt_nscd.{package} are.")
-    return import_module(f"asphalt_nscd.{package}.{name}")

@@ -4,16 +4,16 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli import _data, _options
 
 
 @click.command()
 @click.argument("name")
-@click.argument("data", nargs=-1, type=_options.Data())
+@click.argument("data", nargs=-1, type=_data.Data())
 @_options.output
 def command(name: str, data: tuple[tuple[str, Path], ...], output: Path) -> None:
     """Make table NAME from DATA, each kind=path."""
     from asphalt_nscd.store import write_table
 
-    make = _options.part("tables", name).make
-    write_table(output, make(**_options.grouped(data)))
+    make = _data.part("tables", name).make
+    write_table(output, make(**_data.grouped(data)))

@@ -1,0 +1,18 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+@click.command()
+@click.argument("tests", nargs=-1, required=True, type=_options.File)
+@_options.output
+def command(tests: tuple[Path, ...], output: Path) -> None:
+    """Collect test files into one table, a row for each."""
+    from asphalt_nscd.collect import collect
+    from asphalt_nscd.store import write_table
+
+    write_table(output, collect(tests))

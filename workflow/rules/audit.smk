@@ -1,0 +1,102 @@
+# Beside the paper: readings of it that fail, and looser samples.
+
+AUDIT = STUDY.get("audit", {"seed": 0, "temperature_C": 0})
+PACKING = STUDY.get("packing_study", {"frictions": [], "seed": 0, "temperature_C": 0, "frequency_Hz": 0})
+PACKED = [f"s{PACKING['seed']}", *(f"s{PACKING['seed']}-friction{value:g}" for value in PACKING["frictions"])]
+AUDITED = expand(
+    "<results>/{{reading}}/s{seed}/T{temperature}/f{frequency}.h5",
+    seed=AUDIT["seed"],
+    temperature=label(AUDIT["temperature_C"]),
+    frequency=FREQUENCIES,
+)
+
+
+use rule published_law as pascal_law with:
+    # Table 3 in the unit that the paper prints.
+    output:
+        "<results>/laws/pascal/T{temperature}.json",
+    params:
+        unit="Pa",
+    log:
+        "<results>/logs/pascal_law/T{temperature}.log",
+    benchmark:
+        "<results>/benchmarks/pascal_law/T{temperature}.tsv"
+    message:
+        "Take the published Burgers law at {wildcards.temperature} degC in Pa, as printed"
+
+
+use rule simulate as simulate_pascal with:
+    # A specimen a thousand times softer: its own resonance falls among the tests.
+    input:
+        compiled="<results>/compiled",
+        model=f"<results>/models/{HEAD}/{{sample}}.h5",
+        law="<results>/laws/pascal/T{temperature}.json",
+        code=code("simulate"),
+    output:
+        "<results>/pascal/{sample}/T{temperature}/f{frequency}.h5",
+    params:
+        source="pascal",
+        test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s", "rest_steps"),
+    log:
+        "<results>/logs/simulate_pascal/{sample}/T{temperature}/f{frequency}.log",
+    benchmark:
+        "<results>/benchmarks/simulate_pascal/{sample}/T{temperature}/f{frequency}.tsv"
+    message:
+        "Test with Table 3 in Pa at {wildcards.frequency} Hz"
+
+
+use rule simulate as simulate_blocked with:
+    # A head that cannot rotate, against the beam theory behind Eqs. (1)-(3).
+    input:
+        compiled="<results>/compiled",
+        model="<results>/models/blocked/{sample}.h5",
+        law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
+        code=code("simulate"),
+    output:
+        "<results>/blocked/{sample}/T{temperature}/f{frequency}.h5",
+    log:
+        "<results>/logs/simulate_blocked/{sample}/T{temperature}/f{frequency}.log",
+    benchmark:
+        "<results>/benchmarks/simulate_blocked/{sample}/T{temperature}/f{frequency}.tsv"
+    message:
+        "Test with the head's rotation blocked at {wildcards.frequency} Hz"
+
+
+use rule simulations as readings with:
+    # One row for each of these tests.
+    input:
+        tests=expand(AUDITED, reading=["pascal", "blocked"]),
+        code=code("collect"),
+    output:
+        report("<results>/readings.csv", caption="../report/readings.rst", category="Audit"),
+    log:
+        "<results>/logs/readings.log",
+    benchmark:
+        "<results>/benchmarks/readings.tsv"
+    message:
+        "Collect the tests under other readings"
+
+
+rule packing:
+    # The same test on samples poured with more friction.
+    input:
+        tests=expand(
+            TESTS,
+            sample=PACKED,
+            temperature=label(PACKING["temperature_C"]),
+            frequency=label(PACKING["frequency_Hz"]),
+        ),
+        deposits=expand("<results>/deposits/{sample}.h5", sample=PACKED),
+        code=code("table", "tables.packing"),
+    output:
+        report("<results>/packing.csv", caption="../report/packing.rst", category="Preparation"),
+    params:
+        data=pairs,
+    log:
+        "<results>/logs/packing.log",
+    benchmark:
+        "<results>/benchmarks/packing.tsv"
+    message:
+        "Set the packing of samples beside their modulus"
+    shell:
+        "asphalt-nscd table packing {params.data} --output {output} > {log} 2>&1"

@@ -1,0 +1,96 @@
+# Section 3.2: numerical samples, from loose spheres to a bonded trapezoid.
+
+
+rule compile:
+    # Compiled once, before jobs run side by side; the cache is keyed by the sources of the core.
+    input:
+        code=code("compile"),
+    output:
+        touch("<results>/compiled"),
+    log:
+        "<results>/logs/compile.log",
+    benchmark:
+        "<results>/benchmarks/compile.tsv"
+    message:
+        "Compile the core"
+    shell:
+        "asphalt-nscd compile > {log} 2>&1"
+
+
+rule deposit:
+    # Table 2's spheres rain into the box and are vibrated by the top wall.
+    input:
+        compiled="<results>/compiled",
+        counts=STUDY["specimens"]["counts_table"],
+        code=code("deposit"),
+    output:
+        "<results>/deposits/s{seed}.h5",
+    params:
+        box=text(STUDY["specimens"]["box_m"]),
+        pouring=options(STUDY["specimens"]["deposit"]),
+    priority: 10  # the longest jobs first
+    log:
+        "<results>/logs/deposit/s{seed}.log",
+    benchmark:
+        "<results>/benchmarks/deposit/s{seed}.tsv"
+    message:
+        "Pour and vibrate sample s{wildcards.seed}; to watch: tail -f {log}"
+    shell:
+        "asphalt-nscd deposit --counts {input.counts} --box-m {params.box} --seed {wildcards.seed} {params.pouring} --output {output} > {log} 2>&1"
+
+
+rule trim:
+    # Cut the trapezoid, turn it upright, shrink the spheres to make room for mastic, bond them.
+    input:
+        deposit="<results>/deposits/{sample}.h5",
+        code=code("trim"),
+    output:
+        "<results>/specimens/{sample}.h5",
+    params:
+        geometry=text(STUDY["specimens"]["geometry"]),
+        bonds=options(STUDY["specimens"]["bonds"], "volume_reduction", "gap_max_mm"),
+    log:
+        "<results>/logs/trim/{sample}.log",
+    benchmark:
+        "<results>/benchmarks/trim/{sample}.tsv"
+    message:
+        "Trim sample {wildcards.sample} and bond its spheres"
+    shell:
+        "asphalt-nscd trim {input.deposit} --geometry {params.geometry} {params.bonds} --output {output} > {log} 2>&1"
+
+
+rule condense:
+    # Assemble the bonded system once for all tests on a sample, with its reduced form.
+    input:
+        compiled="<results>/compiled",
+        specimen="<results>/specimens/{sample}.h5",
+        code=code("condense"),
+    output:
+        "<results>/models/{head}/{sample}.h5",
+    params:
+        bonds=options(STUDY["specimens"]["bonds"], "poisson", "yield_Pa", "friction"),
+    resources:
+        mem_mb=2500,
+    log:
+        "<results>/logs/condense/{head}/{sample}.log",
+    benchmark:
+        "<results>/benchmarks/condense/{head}/{sample}.tsv"
+    message:
+        "Condense the bonds of sample {wildcards.sample}, head {wildcards.head} to rotate"
+    shell:
+        "asphalt-nscd condense {input.specimen} --head {wildcards.head} {params.bonds} --output {output} > {log} 2>&1"
+
+
+use rule deposit as deposit_loose with:
+    # More friction leaves a looser layer.
+    output:
+        "<results>/deposits/s{seed}-friction{friction}.h5",
+    params:
+        box=text(STUDY["specimens"]["box_m"]),
+        pouring=lambda wildcards: options(STUDY["specimens"]["deposit"] | {"friction": wildcards.friction}),
+    log:
+        "<results>/logs/deposit/s{seed}-friction{friction}.log",
+    benchmark:
+        "<results>/benchmarks/deposit_loose/s{seed}-friction{friction}.tsv"
+    message:
+        "Pour sample s{wildcards.seed} with friction {wildcards.friction}; to watch: tail -f {log}"
