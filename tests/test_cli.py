@@ -95,6 +95,16 @@ def test_geometry_that_is_incomplete_or_no_number(geometry):
     assert "'--geometry'" in done.stderr and "Traceback" not in done.stderr
 
 
+def test_table_or_figure_that_does_not_exist_and_data_without_a_kind():
+    done = run("table", "packin", "tests=a.h5", "--output", "o.csv")
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: 'packin' is not among the tables; give one of ")
+    assert "packing" in done.stderr and done.stderr.count("\n") == 1
+    done = run("figure", "fig07", "a.h5", "--output-stem", "o")
+    assert done.returncode == 2
+    assert "'a.h5' is not of the form kind=path" in done.stderr
+
+
 def write_large(path, kind):
     """A step that writes a megabyte, in a shell where files may have ten kilobytes."""
     script = (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
+from pkgutil import iter_modules
 from types import ModuleType
 from typing import Any
 
@@ -36,6 +36,7 @@ def grouped(data: Iterable[tuple[str, Path]]) -> dict[str, list[Path]]:
 
 def part(package: str, name: str) -> ModuleType:
     """Module `name` of the figures or tables."""
-    if find_spec(f"asphalt_nscd.{package}.{name}") is None:
-        raise InputError(f"{name!r} is not among the {package}; the modules of asphalt_nscd.{package} are.")
+    names = sorted(module.name for module in iter_modules(import_module(f"asphalt_nscd.{package}").__path__))
+    if name not in names:
+        raise InputError(f"{name!r} is not among the {package}; give one of {', '.join(names)}.")
     return import_module(f"asphalt_nscd.{package}.{name}")
