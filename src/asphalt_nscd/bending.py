@@ -11,6 +11,7 @@ import numpy as np
 from scipy import sparse
 
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.nscd import harmonic
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.law import BondLaw
@@ -25,7 +26,7 @@ from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.store import load, save
 from asphalt_nscd.twopoint import Geometry, complex_modulus, norm_and_phase
 
-METHODS = ("reduced", "condensed", "sweeps")
+METHODS = ("reduced", "condensed", "sweeps", "harmonic")
 KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
 RESIDUAL_TOLERANCE = 1e-6  # of the full equations, relative to the load of the head
 REDUCED_CYCLES = 2  # the last ones, for the harmonic fit; the paper's peaks are those of the last cycle
@@ -113,11 +114,19 @@ def run_test(
     """Gravity for rest_steps, then z = A sin(2 pi f t) at the head for the given number of cycles.
 
     frequency [Hz], amplitude [m], time_step [s]; tolerance and most_sweeps concern "sweeps" only.
+    "harmonic" gives the steady oscillation of the unbroken system, without gravity or transient.
     """
     steps = round(cycles / frequency / time_step)
     times = time_step * np.arange(1, steps + 1)
     displacement = amplitude * np.sin(2.0 * np.pi * frequency * times)
     driven = np.concatenate([np.zeros(rest_steps), displacement])
+    if method == "harmonic":
+        omega = 2.0 * np.pi * frequency
+        amplitude_of_force = amplitude * harmonic.driving_force(
+            model.system, law.discrete_modulus(omega, 0.0), omega
+        )
+        force = (amplitude_of_force * np.exp(1j * omega * times)).imag
+        return Record(times, displacement, force, [], 0.0, {})
     if method == "reduced":
         force, velocity, broken, residual, details = _run_reduced(model, law, time_step, driven, progress)
     else:

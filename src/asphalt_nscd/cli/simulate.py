@@ -20,8 +20,8 @@ from asphalt_nscd.cli import _options, _progress
 @click.option(
     "--method",
     default="reduced",
-    type=click.Choice(["reduced", "condensed", "sweeps"]),
-    help="Reduced form, full condensed system, or plain Gauss-Seidel on the bonds.",
+    type=click.Choice(["reduced", "condensed", "sweeps", "harmonic"]),
+    help="Reduced form, full condensed system, plain Gauss-Seidel on the bonds, or steady oscillation.",
 )
 @click.option("--tolerance", default=1e-4, help="Relative change per sweep that stops Gauss-Seidel.")
 @click.option("--most-sweeps", default=50, help="Most sweeps of Gauss-Seidel in a step.")

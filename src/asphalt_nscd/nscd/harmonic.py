@@ -9,7 +9,9 @@ from scipy.sparse.linalg import splu
 from asphalt_nscd.nscd.bonds import BondedSystem
 
 
-def driving_force(system: BondedSystem, modulus: complex, omega: float, acceleration_factor: complex | None = None) -> complex:
+def driving_force(
+    system: BondedSystem, modulus: complex, omega: float, acceleration_factor: complex | None = None
+) -> complex:
     """Complex force [N] per unit driven amplitude [m] at angular frequency omega [1/s].
 
     Solves (E* K - omega^2 M) u = 0 with the driven degree of freedom at one, without damping other

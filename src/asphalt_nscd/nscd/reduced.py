@@ -49,16 +49,25 @@ def ritz_basis(system: BondedSystem, iterations: int, shift: float = 1e-2) -> np
 
 
 def append_columns(system: BondedSystem, basis: np.ndarray, extra: np.ndarray) -> np.ndarray:
-    """Columns added after orthonormalising them in the stiffness of the unbroken system."""
-    root = np.sqrt(system.weight)
+    """Columns added after orthonormalising them in the stiffness of the unbroken system.
+
+    A column that adds no direction of its own is left out.
+    """
+    root = np.sqrt(system.weight)[:, None]
+    known = root * (system.operator @ basis[:, 1:])
+    added = []
     for column in extra.T:
+        stretched = (root * (system.operator @ column)[:, None])[:, 0]
+        length = np.linalg.norm(stretched)
         for _ in range(2):  # once more against rounding
-            stretched = root * (system.operator @ column)
-            inner = root[:, None] * (system.operator @ basis[:, 1:])
-            column = column - basis[:, 1:] @ (inner.T @ stretched)
-        norm = np.linalg.norm(root * (system.operator @ column))
-        basis = np.column_stack([basis, column / norm])
-    return basis
+            share = known.T @ stretched
+            column = column - np.column_stack([basis[:, 1:], *added]) @ share
+            stretched = stretched - known @ share
+        norm = np.linalg.norm(stretched)
+        if norm > 1e-12 * length:
+            added.append(column / norm)
+            known = np.column_stack([known, stretched / norm])
+    return np.column_stack([basis, *added])
 
 
 class ReducedModel:

@@ -16,6 +16,10 @@ from asphalt_nscd.nscd.condensed import CondensedState, ShiftedOperator
 from asphalt_nscd.nscd.law import BondLaw
 from asphalt_nscd.nscd.reduced import ReducedModel, append_columns
 
+FIRST_ENRICHMENT, LARGEST_ENRICHMENT = 4, 32
+"""Vectors added at a violation: the correction of the refused step, and those its inertia will need.
+Doubled at every further violation, since each costs a projection of the whole system."""
+
 _DONE, _OUTSIDE_ENVELOPE, _YIELD, _CLOSED_GAP, _RESIDUAL = range(5)
 
 
@@ -52,7 +56,7 @@ class ReducedStepper:
     """Steps a reduced model at constant dt and law; `state` starts at rest."""
 
     def __init__(
-        self, model: ReducedModel, law: BondLaw, dt: float, tolerance: float, most_enrichments: int = 400
+        self, model: ReducedModel, law: BondLaw, dt: float, tolerance: float, most_enrichments: int = 100
     ) -> None:
         k = model.basis.shape[1]
         elements = np.size(law.kelvin_springs)
@@ -154,15 +158,25 @@ class ReducedStepper:
         if self._operator is None:
             self._operator = ShiftedOperator(system, scale)
         self._operator.remove(state.broken)
-        correction = np.zeros((system.mass.size, 1))
-        correction[system.free, 0] = self._operator.solve(residual[system.free])
-        self.model = model.with_basis(append_columns(system, model.basis, correction), state.broken)
-        for name in ("displacement", "velocity", "sigma"):
-            setattr(state, name, np.append(getattr(state, name), 0.0))
-        state.kelvin = np.column_stack([state.kelvin, np.zeros(state.kelvin.shape[0])])
-        self._reached_sigma = np.append(self._reached_sigma, 0.0)
-        self._reached_motion = np.append(self._reached_motion, 0.0)
-        self._watch(np.append(self._sigma_envelope, 0.0), np.append(self._motion_envelope, 0.0))
+        columns = min(FIRST_ENRICHMENT * 2 ** (self.enrichments - 1), LARGEST_ENRICHMENT)
+        extra = np.zeros((system.mass.size, columns))
+        force = residual[system.free]
+        for column in range(columns):
+            extra[system.free, column] = self._operator.solve(force)
+            force = system.mass[system.free] * extra[system.free, column]
+        self.model = model.with_basis(append_columns(system, model.basis, extra), state.broken)
+        more = self.model.basis.shape[1] - state.sigma.size
+        for name in ("displacement", "velocity", "sigma", "kelvin"):
+            setattr(state, name, _widened(getattr(state, name), more))
+        self._reached_sigma = _widened(self._reached_sigma, more)
+        self._reached_motion = _widened(self._reached_motion, more)
+        self._watch(_widened(self._sigma_envelope, more), _widened(self._motion_envelope, more))
+
+
+def _widened(coordinates: np.ndarray, more: int) -> np.ndarray:
+    """Coordinates in a basis with further columns at its end."""
+    padding = [(0, 0)] * (coordinates.ndim - 1) + [(0, more)]
+    return np.pad(coordinates, padding)
 
 
 @compiled
