@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import matplotlib
 
+from asphalt_nscd.figures.style import RC
 from asphalt_nscd.store import atomic_path
 
 if TYPE_CHECKING:
@@ -14,11 +15,14 @@ if TYPE_CHECKING:
 
 # Dates and random identifiers would make every run look different.
 _METADATA = {"pdf": {"CreationDate": None}, "png": {"Software": None}, "svg": {"Date": None}}
-PNG_DPI = 200
+PNG_DPI = 250
 
 
 def save_figure(figure: Figure, stem: str | Path) -> None:
-    """Write stem.pdf, stem.png and stem.svg."""
-    for kind, metadata in _METADATA.items():
-        with atomic_path(f"{stem}.{kind}") as path, matplotlib.rc_context({"svg.hashsalt": "asphalt-nscd"}):
-            figure.savefig(path, format=kind, dpi=PNG_DPI, metadata=metadata, bbox_inches="tight")
+    """Write stem.pdf, stem.png and stem.svg, in the size that the figure was drawn in."""
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()  # a user's matplotlibrc must not show
+        matplotlib.rcParams.update(RC | {"svg.hashsalt": "asphalt-nscd"})
+        for kind, metadata in _METADATA.items():
+            with atomic_path(f"{stem}.{kind}") as path:
+                figure.savefig(path, format=kind, dpi=PNG_DPI, metadata=metadata)

@@ -1,0 +1,119 @@
+"""How the figures look: sizes of a journal column, thin lines, series that differ in grey as in colour."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import wraps
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
+
+SINGLE, WIDE = 90.0, 140.0  # mm, the widths of a journal's column and of a column and a half
+MM = 1.0 / 25.4  # inch
+RC = {
+    "font.family": "DejaVu Sans",  # comes with matplotlib, so that every machine draws the same
+    "font.size": 8.0, "axes.labelsize": 8.0, "legend.fontsize": 7.0,
+    "xtick.labelsize": 7.0, "ytick.labelsize": 7.0, "mathtext.fontset": "dejavusans",
+    "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False,
+    "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
+    "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5, "ytick.minor.size": 1.5,
+    "lines.linewidth": 1.0, "lines.markersize": 4.0, "lines.markeredgewidth": 0.7,
+    "errorbar.capsize": 1.5, "legend.frameon": False, "legend.handlelength": 2.2,
+    "axes.unicode_minus": True, "pdf.fonttype": 42, "svg.fonttype": "path",
+}  # fmt: skip
+INK, GREY, PALE = "#1a1a1a", "#7a7a7a", "#c8c8c8"
+BLUE, ORANGE = "#20558a", "#d9822b"  # dark and light, apart in grey as well
+MARKERS = ("o", "s", "^", "D", "v", "h", "<", ">", "p", "*")
+DASHES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (5, 1.5, 1.2, 1.5)), (0, (8, 2)))
+MOST_LABELLED_FREQUENCIES = 8
+
+
+def journal(draw: Callable[..., Figure]) -> Callable[..., Figure]:
+    """Decorator: draw in this style, whatever the user's matplotlibrc says."""
+
+    @wraps(draw)
+    def styled(*arguments: Any, **data: Any) -> Figure:
+        with matplotlib.rc_context():
+            matplotlib.rcdefaults()
+            matplotlib.rcParams.update(RC)
+            return draw(*arguments, **data)
+
+    return styled
+
+
+def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any):
+    """Figure of width x height [mm] and its axes."""
+    figure = Figure(figsize=(width * MM, height * MM), layout="constrained")
+    figure.get_layout_engine().set(w_pad=0.03, h_pad=0.03)
+    return figure, figure.subplots(rows, columns, **options)
+
+
+def letter(axes: Axes, text: str, explanation: str = "", pad: float = 5.0) -> None:
+    """Panel letter above the axes by `pad` points, at its left, with a few words."""
+    axes.set_title(rf"$\bf{{{text}}}$  {explanation}".rstrip(), loc="left", fontsize=8.0, pad=pad)
+
+
+def series(count: int) -> list[tuple[Any, str]]:
+    """Colour and marker of each of `count` ordered series, dark to light."""
+    shades = colormaps["plasma"](np.linspace(0.0, 0.8, max(count, 2)))[:count]
+    return [(tuple(shade), MARKERS[n % len(MARKERS)]) for n, shade in enumerate(shades)]
+
+
+def frequency_axis(axes: Axes, frequencies: Sequence[float]) -> None:
+    """Logarithmic frequency axis with the tested frequencies as ticks, where these are few."""
+    frequencies = np.unique(np.asarray(frequencies, float))
+    axes.set_xscale("log")
+    axes.set_xlabel("frequency (Hz)")
+    axes.set_xlim(frequencies[0] / 1.15, frequencies[-1] * 1.15)
+    if frequencies.size <= MOST_LABELLED_FREQUENCIES:
+        axes.xaxis.set_major_locator(FixedLocator(list(frequencies)))
+        axes.xaxis.set_minor_locator(NullLocator())
+    else:
+        axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+
+
+def plain_log_axis(axis: Any) -> None:
+    """Logarithmic axis labelled 1, 2, 5, 10, ... instead of powers of ten."""
+    axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def label_ends(axes: Axes, x: float, ends: Sequence[float], texts: Sequence[str], colours: Sequence[Any]) -> None:
+    """Write each text at the right of its line's end (x, y), moved apart where they would overlap."""
+    axes.figure.draw_without_rendering()  # settles the size of the axes
+    points = 72.0 / axes.figure.dpi
+    at = np.array([axes.transData.transform((x, y))[1] for y in ends]) * points
+    for y, text, colour, shift in zip(ends, texts, colours, spread(at, 8.5) - at, strict=True):
+        axes.annotate(
+            text, (x, y), xytext=(5.0, shift), textcoords="offset points", va="center",
+            fontsize=7.0, color=colour, annotation_clip=False,
+        )  # fmt: skip
+
+
+def spread(places: Sequence[float], least: float) -> np.ndarray:
+    """Places moved as little as needed so that neighbours are `least` apart, in unchanged order."""
+    places = np.asarray(places, float)
+    order = np.argsort(places, kind="stable")
+    # Pool adjacent violators: clusters of touching labels are centred on their mean.
+    clusters: list[list[float]] = []
+    for rank, place in enumerate(places[order]):
+        clusters.append([place - rank * least, 1.0])
+        while len(clusters) > 1 and clusters[-2][0] > clusters[-1][0]:
+            (mean, size), (last, more) = clusters[-2], clusters.pop()
+            clusters[-1] = [(mean * size + last * more) / (size + more), size + more]
+    base = np.repeat([mean for mean, _ in clusters], [int(size) for _, size in clusters])
+    result = np.empty_like(places)
+    result[order] = base + least * np.arange(places.size)
+    return result
+
+
+def celsius(temperature: float) -> str:
+    """15 -> "15 °C", with a true minus."""
+    return f"{temperature:g} °C".replace("-", "\N{MINUS SIGN}")

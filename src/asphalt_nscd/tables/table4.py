@@ -1,0 +1,45 @@
+"""Table 4: mean relative error of |E*| and phase for each temperature."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pandas as pd
+
+from asphalt_nscd.agreement import mean_relative_error
+from asphalt_nscd.csvinput import Limits, read_csv
+from asphalt_nscd.results import KEYS, OF_THE_LAW, MODULUS, at_temperature, origin_of, read_measured, read_tests
+from asphalt_nscd.results import the_only
+
+ERRORS = ["mre_E_percent", "mre_phase_percent"]
+PERCENT = Limits(0.0, 1e4, "give a percentage")
+
+
+def make(simulations: list[Path], measured: list[Path], published: Sequence[Path] = ()) -> pd.DataFrame:
+    """Simulation against measurement, the bonds' law against measurement, and the published errors.
+
+    The error of the law is what the simulation could at best reach: it knows nothing else.
+    """
+    tests, data = read_tests(simulations), read_measured(measured)
+    law = tests[[*KEYS, *OF_THE_LAW]].rename(columns=dict(zip(OF_THE_LAW, MODULUS, strict=True)))
+    simulated = _named(mean_relative_error(data, tests), "simulated")
+    table = simulated.merge(_named(mean_relative_error(data, law), "law"), on="temperature_C")
+    if published:
+        printed = read_csv(the_only(published, "published"))
+        printed.require(["temperature_C", *ERRORS])
+        columns = {"temperature_C": printed.numbers("temperature_C")}
+        columns |= {name: printed.numbers(name, PERCENT) for name in ERRORS}
+        table = table.merge(_named(pd.DataFrame(columns), "published"), on="temperature_C", how="left")
+    kinds = ["published", "simulated", "law"] if published else ["simulated", "law"]
+    table["compared_with"] = [origin_of(at_temperature(data, t)) for t in table["temperature_C"]]
+    errors = [_name(error, kind) for error in ERRORS for kind in kinds]
+    return table[["temperature_C", "compared_with", *errors]]
+
+
+def _name(error: str, kind: str) -> str:
+    return error.replace("_percent", f"_{kind}_percent")
+
+
+def _named(errors: pd.DataFrame, kind: str) -> pd.DataFrame:
+    return errors.rename(columns={error: _name(error, kind) for error in ERRORS})
