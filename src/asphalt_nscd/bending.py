@@ -138,7 +138,9 @@ def run_test(
         force, velocity = _march(stepper, driven, 0.0, time_step, progress), None
         broken = state.broken
         residual = stepper.largest_change if method == "sweeps" else 0.0
-        details = {"sweeps": stepper.sweeps} if method == "sweeps" else {}
+        details = {}
+        if method == "sweeps":
+            details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most_sweeps}
     return Record(
         times, displacement, force[rest_steps:], broken, residual, details,
         None if velocity is None else velocity[rest_steps:],
@@ -193,8 +195,8 @@ def simulate(
     progress: Progress = lambda done, total: None,
 ) -> None:  # fmt: skip
     """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking."""
-    if cycles < REDUCED_CYCLES:
-        raise InputError(f"cycles = {cycles:g}: the reduction needs {REDUCED_CYCLES}; run at least so many.")
+    if cycles < 1.0:
+        raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
     if 20.0 * time_step * frequency > 1.0:
         raise InputError(
             f"time step {time_step:g} s: fewer than 20 steps per cycle at {frequency:g} Hz; "
@@ -209,7 +211,7 @@ def simulate(
     )  # fmt: skip
     cpu = time.process_time() - began
     history = record.time, record.force, record.displacement, frequency
-    harmonic = harmonic_response(*history, cycles=REDUCED_CYCLES)
+    steady = harmonic_response(*history, cycles=min(REDUCED_CYCLES, int(cycles)))
     peak = peak_response(*history, cycles=1)
     columns: dict[str, float | int | str] = {
         "specimen": model.name, "temperature_C": temperature, "frequency_Hz": frequency,
@@ -217,7 +219,7 @@ def simulate(
         "broken_bonds": len(record.broken), "steps": record.time.size,
     }  # fmt: skip
     moduli = {
-        "": _modulus(model.geometry, frequency, harmonic),
+        "": _modulus(model.geometry, frequency, steady),
         "_peak": _modulus(model.geometry, frequency, peak),
         "_law": complex(law.complex_modulus(2.0 * np.pi * frequency)),
     }
