@@ -44,3 +44,15 @@ def test_package_counts_where_it_is_named(package):
 def test_unknown_module_is_refused(package):
     with pytest.raises(ValueError, match="no module asphalt_nscd.setp"):
         sources.source_files("setp")
+
+
+def test_plots_are_no_concern_of_the_tests_and_the_core_is():
+    def behind(*modules):
+        return {str(path.relative_to(sources.PACKAGE)) for path in sources.source_files(*modules)}
+
+    simulate, figure = behind("cli.simulate"), behind("cli.figure", "figures.fig09")
+    assert not [name for name in simulate if name.startswith(("figures/", "tables/"))]
+    assert {"nscd/reduced.py", "nscd/bonds.py", "rheology/burgers.py", "bending.py"} <= simulate
+    assert "nscd/granular.py" in behind("cli.deposit")
+    assert "figures/fig09.py" in figure and "figures/fig07.py" not in figure
+    assert not [name for name in figure if name.startswith("nscd/")]

@@ -22,7 +22,7 @@ _TYPES = {
     "object": "a mapping", "array": "a list", "string": "text",
     "number": "a number", "integer": "a whole number",
 }  # fmt: skip
-_OPTIONAL = ("sensitivity", "packing_study", "audit")
+_OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
 
 
 def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -> dict[str, Any]:
@@ -152,6 +152,7 @@ def _check(study: dict[str, Any], source: str) -> None:
         "geometry": study["geometry"] if isinstance(study["geometry"], str) else None,
         "laws.published.table": published and published["table"],
         "specimens.counts_table": study["specimens"]["counts_table"],
+        **{f"published.{key}": path for key, path in study.get("published", {}).items()},
     }.items():
         if path is not None and not Path(path).is_file():
             raise InputError(f"{source}: {where} is {path!r}, but there is no such file; check the path.")

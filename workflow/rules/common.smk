@@ -44,6 +44,7 @@ wildcard_constraints:
     parameter="Em|eta_m|Ek|eta_k",
     factor=r"[\d.]+",
     friction=r"[\d.]+",
+    time_step=r"[\d.e-]+",
 
 
 def code(step, *modules):
