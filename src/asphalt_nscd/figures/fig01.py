@@ -55,7 +55,9 @@ def _dimensions(axes: Axes, geometry: Geometry) -> None:
         "head": np.array([front[3], front[2], front[2] + back, front[3] + back]),
     }
     for name, corners in faces.items():
-        axes.add_patch(Polygon(corners, facecolor=FACES[name], edgecolor=style.INK, lw=0.8, joinstyle="round"))
+        axes.add_patch(
+            Polygon(corners, facecolor=FACES[name], edgecolor=style.INK, lw=0.8, joinstyle="round")
+        )
     down, aside = np.array([0.0, -0.035 * geometry.h]), np.array([0.03 * geometry.h, 0.0])
     _dimension(axes, front[0] + down, front[1] + down, ("B", geometry.B), (0.0, -7.0))
     _dimension(axes, front[3] + back - down, front[2] + back - down, ("b", geometry.b), (0.0, 7.0))
@@ -92,7 +94,9 @@ def _test(axes: Axes, geometry: Geometry, amplitude: float) -> None:
     axes.plot([-0.8 * B, 0.8 * B], [0.0, 0.0], color=style.INK, lw=1.2)
 
     plate, pin = 0.03 * h, 0.018 * h  # thickness, radius
-    axes.add_patch(Rectangle((-0.65 * b, h), 1.3 * b, plate, facecolor=style.GREY, edgecolor=style.INK, lw=0.6))
+    axes.add_patch(
+        Rectangle((-0.65 * b, h), 1.3 * b, plate, facecolor=style.GREY, edgecolor=style.INK, lw=0.6)
+    )
     centre = np.array([0.0, h + plate + pin])
     axes.add_patch(Circle(centre, pin, facecolor="white", edgecolor=style.INK, lw=0.8))
     for side in (-1.0, 1.0):

@@ -48,7 +48,9 @@ def draw(deposit: list[Path], specimen: list[Path]) -> Figure:
     _box(axes, poured.arrays["box"])
     _title(figure, "a", "lattice", EDGE, top)
     heights = poured.attributes["poured_height_m"], poured.attributes["layer_height_m"]
-    for name, text, position, height in zip("bc", ("poured", "vibrated"), (loose, dense), heights, strict=True):
+    for name, text, position, height in zip(
+        "bc", ("poured", "vibrated"), (loose, dense), heights, strict=True
+    ):
         tall = large * _span(position, radius)[1]
         _scene(figure, (position, radius, shades), large, left, top - tall)
         _title(figure, name, f"{text}, {1e3 * height:.1f} mm high", left, top)
@@ -102,7 +104,14 @@ def _box(axes: Axes, size: NDArray[np.float64]) -> None:
     for n in range(8):
         for step in (1, 2, 4):
             if not n & step:
-                axes.plot(*seen[[n, n + step]].T, color=style.INK, lw=0.35, clip_on=False, scalex=False, scaley=False)
+                axes.plot(
+                    *seen[[n, n + step]].T,
+                    color=style.INK,
+                    lw=0.35,
+                    clip_on=False,
+                    scalex=False,
+                    scaley=False,
+                )
 
 
 def _title(figure: Figure, name: str, text: str, left: float, bottom: float) -> None:

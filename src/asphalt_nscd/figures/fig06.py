@@ -14,50 +14,72 @@ from asphalt_nscd.figures import style
 from asphalt_nscd.figures.records import last_cycle
 from asphalt_nscd.store import Record, load
 
+COMPARABLE = 5.0  # ratio of forces up to which the panels share one scale
+
 
 @style.journal
 def draw(converged: Sequence[Path] = (), stopped: Sequence[Path] = ()) -> Figure:
-    """(a) Steps solved to the end; (b) Gauss-Seidel on the bonds stopped early, as its own criterion lets it."""
+    """(a) Every step solved to the end; (b) Gauss-Seidel on the bonds stopped before it converged."""
     panels = [
-        (sorted((load(path, "test") for path in paths), key=_step), text)
+        (sorted((load(path, "test") for path in paths), key=_step, reverse=True), text)
         for paths, text in ((converged, "each step solved"), (stopped, "Gauss-Seidel stopped early"))
         if paths
     ]
     if not panels:
         raise InputError("no test to draw; give converged, stopped, or both.")
     figure, axes = style.new_figure(
-        style.WIDE if len(panels) == 2 else style.SINGLE, 66.0, columns=len(panels), sharey=True, squeeze=False
+        style.WIDE if len(panels) == 2 else style.SINGLE, 70.0, columns=len(panels), squeeze=False
     )
-    for place, panel, (records, text) in zip(axes[0], "ab", panels, strict=False):
-        _panel(place, records)
-        style.letter(place, panel, text)
-    axes[0, 0].set_ylabel("force at the head (N)")
+    extents = [max(np.abs(last_cycle(record)[2]).max() for record in records) for records, _ in panels]
+    comparable = max(extents) < COMPARABLE * min(extents)
+    for place, name, (records, text), extent in zip(axes[0], "ab", panels, extents, strict=False):
+        if comparable:
+            extent = max(extents)
+        _panel(place, records, extent)
+        style.letter(place, name, text)
+    if comparable and len(panels) == 2:
+        time, _, force = last_cycle(panels[0][0][-1])
+        axes[0, 1].plot(1e3 * time, force, color=style.GREY, lw=0.6, zorder=1, label="solved, finest $dt$")
+    for place in axes[0]:
+        place.legend(loc="upper right", borderpad=0.1)
     return figure
 
 
-def _panel(axes: Axes, records: list[Record]) -> None:
+def _panel(axes: Axes, records: list[Record], extent: float) -> None:
+    """Coarse steps thick and light below fine ones thin and dark: curves that coincide stay visible."""
     amplitudes = []
-    # Coarse steps thick and light below fine ones thin and dark: curves that coincide stay visible.
-    for rank, (record, (colour, _)) in enumerate(zip(records[::-1], style.series(len(records))[::-1], strict=True)):
+    for rank, (record, (colour, _)) in enumerate(zip(records, style.series(len(records))[::-1], strict=True)):
         time, _, force = last_cycle(record)
         amplitudes.append(np.ptp(force) / 2.0)
+        dash = style.DASHES[-rank % len(records) % len(style.DASHES)]
         axes.plot(
-            1e3 * time, force, color=colour, lw=3.2 - 2.4 * rank / max(1, len(records) - 1),
-            ls=style.DASHES[(len(records) - 1 - rank) % len(style.DASHES)] if rank else "-",
-            label=f"$dt$ = {_scientific(_step(record))} s", zorder=2 + rank,
+            1e3 * time, force, color=colour, ls=dash, lw=3.0 - 2.2 * rank / max(1, len(records) - 1),
+            label=f"$dt$ = {_power(_step(record))} s", zorder=2 + rank,
         )  # fmt: skip
-    change = 100.0 * (max(amplitudes) / min(amplitudes) - 1.0)
     axes.axhline(0.0, color=style.PALE, lw=0.5, zorder=0)
-    axes.set_xlabel("time in the cycle (ms)")
+    axes.set_xlabel("time in the last cycle (ms)")
+    axes.set_ylabel("force at the head (N)")
     axes.set_xlim(0.0, 1e3 / records[0].attributes["frequency_Hz"])
-    legend = axes.legend(loc="upper right", title=f"amplitudes within {change:.2g} %", title_fontsize=7.0)
-    legend._legend_box.align = "left"
+    axes.set_ylim(-1.4 * extent, 1.15 * extent)
+    axes.text(0.03, 0.03, _agreement(amplitudes), transform=axes.transAxes, fontsize=7.0)
+
+
+def _agreement(amplitudes: list[float]) -> str:
+    ratio = max(amplitudes) / min(amplitudes)
+    if ratio < 2.0:
+        return f"amplitudes agree to {_rounded(100.0 * (ratio - 1.0))} %"
+    return f"amplitudes differ by a factor of {_rounded(ratio)}"
+
+
+def _rounded(value: float) -> str:
+    """Two digits, without a power of ten."""
+    return f"{float(f'{value:.2g}'):g}"
 
 
 def _step(record: Record) -> float:
     return float(record.attributes["time_step_s"])
 
 
-def _scientific(value: float) -> str:
+def _power(value: float) -> str:
     power = int(np.floor(np.log10(value) + 1e-9))
     return rf"${value / 10.0**power:g}\times10^{{{power}}}$"

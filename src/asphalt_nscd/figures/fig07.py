@@ -42,7 +42,9 @@ def draw(test: list[Path]) -> Figure:
     lead = 1e3 * response.phase / (2.0 * np.pi * frequency)
     crest, level = displaced - lead, 1.16 * response.force_amplitude
     for at in (crest, displaced):
-        right.plot([at, at], [response.force_amplitude, 1.2 * response.force_amplitude], color=style.INK, lw=0.5)
+        right.plot(
+            [at, at], [response.force_amplitude, 1.2 * response.force_amplitude], color=style.INK, lw=0.5
+        )
     right.annotate(
         f"$\\Psi$ = {np.degrees(response.phase):.1f}°", (displaced, level), xytext=(6.0, 0.0),
         textcoords="offset points", va="center", fontsize=7.0,

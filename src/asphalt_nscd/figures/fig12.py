@@ -11,8 +11,6 @@ from asphalt_nscd.figures.style import journal
 
 
 @journal
-def draw(
-    sensitivity: list[Path], simulations: list[Path], measured: list[Path], laws: list[Path]
-) -> Figure:
+def draw(sensitivity: list[Path], simulations: list[Path], measured: list[Path], laws: list[Path]) -> Figure:
     """One panel each; the law of the temperature of the study says which base to take."""
     return draw_sensitivity("eta_m", sensitivity, simulations, measured, laws)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -47,7 +46,9 @@ def draw(simulations: list[Path]) -> Figure:
     panels[1].axhline(0.0, color=style.GREY, lw=0.5, zorder=0)
     panels[0].set_ylabel("|E*| simulated / law")
     panels[1].set_ylabel("phase, simulated − law (°)")
-    panels[1].set_xlabel(f"in each run of points {frequencies[0]:g} to {frequencies[-1]:g} Hz from left to right")
+    panels[1].set_xlabel(
+        f"in each run of points {frequencies[0]:g} to {frequencies[-1]:g} Hz from left to right"
+    )
     panels[1].set_xticks(range(len(samples)), [f"sample {name}" for name in samples])
     for axes in panels:
         axes.tick_params(axis="x", length=0.0)
@@ -59,7 +60,9 @@ def draw(simulations: list[Path]) -> Figure:
     ]
     if (tests["broken_bonds"] > 0).any():
         handles.append(
-            Line2D([], [], **point, marker="o", color=style.INK, markerfacecolor="white", label="bonds broken")
+            Line2D(
+                [], [], **point, marker="o", color=style.INK, markerfacecolor="white", label="bonds broken"
+            )
         )
     figure.legend(handles=handles, loc="outside upper left", ncols=8, borderpad=0.1, handlelength=1.0)
     return figure

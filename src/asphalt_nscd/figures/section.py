@@ -40,6 +40,9 @@ def draw_section(axes: Axes, specimen: Record, colours: NDArray[np.float64]) -> 
     shown = met[first] & met[second]
     axes.add_collection(
         LineCollection(
-            np.stack([plane[first[shown]], plane[second[shown]]], axis=1), colors=style.INK, linewidths=0.4, zorder=1
+            np.stack([plane[first[shown]], plane[second[shown]]], axis=1),
+            colors=style.INK,
+            linewidths=0.4,
+            zorder=1,
         )
     )

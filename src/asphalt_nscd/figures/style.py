@@ -60,7 +60,7 @@ def letter(axes: Axes, text: str, explanation: str = "", pad: float = 5.0) -> No
 
 def series(count: int) -> list[tuple[Any, str]]:
     """Colour and marker of each of `count` ordered series, dark to light."""
-    shades = colormaps["plasma"](np.linspace(0.0, 0.8, max(count, 2)))[:count]
+    shades = colormaps["plasma"](np.linspace(0.0, 0.76, max(count, 2)))[:count]
     return [(tuple(shade), MARKERS[n % len(MARKERS)]) for n, shade in enumerate(shades)]
 
 
@@ -85,7 +85,9 @@ def plain_log_axis(axis: Any) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def label_ends(axes: Axes, x: float, ends: Sequence[float], texts: Sequence[str], colours: Sequence[Any]) -> None:
+def label_ends(
+    axes: Axes, x: float, ends: Sequence[float], texts: Sequence[str], colours: Sequence[Any]
+) -> None:
     """Write each text at the right of its line's end (x, y), moved apart where they would overlap."""
     axes.figure.draw_without_rendering()  # settles the size of the axes
     points = 72.0 / axes.figure.dpi

@@ -49,7 +49,7 @@ def counts_of_grading(
     order = np.argsort(sieve)
     sieve, passing = sieve[order], passing[order]
     if (np.diff(passing) < 0).any():
-        raise InputError("the sieve curve falls with the diameter; a larger sieve lets at least as much pass.")
+        raise InputError("the sieve curve falls with the diameter; a larger sieve must let more pass.")
     retained = np.diff(passing, append=100.0)
     kept = (sieve >= smallest * (1.0 - 1e-9)) & (retained > 0.0)
     if not kept.any():

@@ -9,8 +9,16 @@ import pandas as pd
 
 from asphalt_nscd.agreement import mean_relative_error
 from asphalt_nscd.csvinput import Limits, read_csv
-from asphalt_nscd.results import KEYS, OF_THE_LAW, MODULUS, at_temperature, origin_of, read_measured, read_tests
-from asphalt_nscd.results import the_only
+from asphalt_nscd.results import (
+    KEYS,
+    MODULUS,
+    OF_THE_LAW,
+    at_temperature,
+    origin_of,
+    read_measured,
+    read_tests,
+    the_only,
+)
 
 ERRORS = ["mre_E_percent", "mre_phase_percent"]
 PERCENT = Limits(0.0, 1e4, "give a percentage")
