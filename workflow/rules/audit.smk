@@ -28,7 +28,7 @@ use rule published_law as pascal_law with:
 use rule simulate as simulate_pascal with:
     # A specimen a thousand times softer: its own resonance falls among the tests.
     input:
-        compiled="<results>/compiled",
+        compiled="<results>/compiled/simulate",
         model=f"<results>/models/{HEAD}/{{sample}}.h5",
         law="<results>/laws/pascal/T{temperature}.json",
         code=code("simulate"),
@@ -49,7 +49,7 @@ use rule simulate as simulate_pascal with:
 use rule simulate as simulate_blocked with:
     # A head that cannot rotate, against the beam theory behind Eqs. (1)-(3).
     input:
-        compiled="<results>/compiled",
+        compiled="<results>/compiled/simulate",
         model="<results>/models/blocked/{sample}.h5",
         law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
         code=code("simulate"),

@@ -8,7 +8,7 @@ TESTS = "<results>/tests/{sample}/T{temperature}/f{frequency}.h5"
 rule simulate:
     # One test: one sample, one temperature, one frequency.
     input:
-        compiled="<results>/compiled",
+        compiled="<results>/compiled/simulate",
         model=f"<results>/models/{HEAD}/{{sample}}.h5",
         law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
         code=code("simulate"),

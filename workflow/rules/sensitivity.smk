@@ -25,7 +25,7 @@ rule scale_law:
 use rule simulate as simulate_scaled with:
     # The same test with the changed law.
     input:
-        compiled="<results>/compiled",
+        compiled="<results>/compiled/simulate",
         model=f"<results>/models/{HEAD}/{{sample}}.h5",
         law=SCALED_LAW,
         code=code("simulate"),

@@ -2,17 +2,17 @@
 
 
 rule compile:
-    # Compiled once, before jobs run side by side; the cache is keyed by the sources of the core.
+    # Once before jobs run side by side. One stamp for each step, so that editing the tests pours nothing anew.
     input:
-        code=code("compile"),
+        code=lambda wildcards: code(wildcards.step),
     output:
-        touch("<results>/compiled"),
+        touch("<results>/compiled/{step}"),
     log:
-        "<results>/logs/compile.log",
+        "<results>/logs/compile/{step}.log",
     benchmark:
-        "<results>/benchmarks/compile.tsv"
+        "<results>/benchmarks/compile/{step}.tsv"
     message:
-        "Compile the core"
+        "Compile the core for {wildcards.step}"
     shell:
         "asphalt-nscd compile > {log} 2>&1"
 
@@ -20,7 +20,7 @@ rule compile:
 rule deposit:
     # Table 2's spheres rain into the box and are vibrated by the top wall.
     input:
-        compiled="<results>/compiled",
+        compiled="<results>/compiled/deposit",
         counts=STUDY["specimens"]["counts_table"],
         code=code("deposit"),
     output:
@@ -62,7 +62,7 @@ rule trim:
 rule condense:
     # Assemble the bonded system once for all tests on a sample, with its reduced form.
     input:
-        compiled="<results>/compiled",
+        compiled="<results>/compiled/condense",
         specimen="<results>/specimens/{sample}.h5",
         code=code("condense"),
     output:
