@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 import pytest
 from tiny_results import LAWS, modulus
 
@@ -76,13 +77,32 @@ def test_one_sample_and_one_specimen_have_no_bars(results):
     assert "reconstructed, one specimen" in legend_of(figure)
 
 
-def test_many_frequencies_and_no_measurement_at_a_temperature(results):
+def test_many_frequencies_without_laws(results):
     simulations = results.simulations(frequencies=np.geomspace(0.1, 30.0, 20))
     figure = fig10.draw(simulations=simulations, measured=results.measured("measured"), laws=[])
     figure.draw_without_rendering()
     labels = [label.get_text() for label in figure.axes[0].get_xticklabels()]
     assert "1" in labels and len(labels) < 8
     assert "Burgers law of the bonds" not in legend_of(figure)
+
+
+def test_measurements_at_other_frequencies_are_within_the_axes(results):
+    simulations = results.simulations(frequencies=(6.0, 10.0))
+    figure = fig09.draw(simulations=simulations, measured=results.measured(), laws=results.laws(0.0))
+    low, high = figure.axes[0].get_xlim()
+    assert low < 3.0 and high > 40.0
+
+
+def test_temperature_without_measurement_is_drawn_without(results):
+    (measured,) = results.measured()
+    table = pd.read_csv(measured)
+    table[table["temperature_C"] == 0.0].to_csv(measured, index=False)
+    figure = fig09.draw(simulations=results.simulations(), measured=[measured], laws=results.laws(0.0))
+    sizes = [len(line.get_xdata()) for line in points_of(figure.axes[0])["open"]]
+    assert sizes == [3, 0]
+    table.assign(temperature_C=table["temperature_C"] + 55.0).to_csv(measured, index=False)
+    figure = fig09.draw(simulations=results.simulations(), measured=[measured], laws=results.laws(0.0))
+    assert legend_of(figure) == ["simulated, one sample", "Burgers law of the bonds"]
 
 
 def test_table_without_a_column_is_refused(results, tmp_path):

@@ -15,6 +15,7 @@ from asphalt_nscd.figures.records import last_cycle
 from asphalt_nscd.store import Record, load
 
 COMPARABLE = 5.0  # ratio of forces up to which the panels share one scale
+JOLT = 0.05  # of a cycle: where it begins from rest, the scale does not follow the first few steps
 
 
 @style.journal
@@ -30,7 +31,7 @@ def draw(converged: Sequence[Path] = (), stopped: Sequence[Path] = ()) -> Figure
     figure, axes = style.new_figure(
         style.WIDE if len(panels) == 2 else style.SINGLE, 70.0, columns=len(panels), squeeze=False
     )
-    extents = [max(np.abs(last_cycle(record)[2]).max() for record in records) for records, _ in panels]
+    extents = [max(map(_extent, records)) for records, _ in panels]
     comparable = max(extents) < COMPARABLE * min(extents)
     for place, name, (records, text), extent in zip(axes[0], "ab", panels, extents, strict=False):
         if comparable:
@@ -50,7 +51,7 @@ def _panel(axes: Axes, records: list[Record], extent: float) -> None:
     amplitudes = []
     for rank, (record, (colour, _)) in enumerate(zip(records, style.series(len(records))[::-1], strict=True)):
         time, _, force = last_cycle(record)
-        amplitudes.append(np.ptp(force) / 2.0)
+        amplitudes.append(np.ptp(_settled(record)) / 2.0)
         dash = style.DASHES[-rank % len(records) % len(style.DASHES)]
         axes.plot(
             1e3 * time, force, color=colour, ls=dash, lw=3.0 - 2.2 * rank / max(1, len(records) - 1),
@@ -62,6 +63,16 @@ def _panel(axes: Axes, records: list[Record], extent: float) -> None:
     axes.set_xlim(0.0, 1e3 / records[0].attributes["frequency_Hz"])
     axes.set_ylim(-1.4 * extent, 1.15 * extent)
     axes.text(0.03, 0.03, _agreement(amplitudes), transform=axes.transAxes, fontsize=7.0)
+
+
+def _settled(record: Record) -> np.ndarray:
+    """Force of the last cycle [N] without its first steps."""
+    time, _, force = last_cycle(record)
+    return force[time > JOLT / record.attributes["frequency_Hz"]]
+
+
+def _extent(record: Record) -> float:
+    return float(np.abs(_settled(record)).max())
 
 
 def _agreement(amplitudes: list[float]) -> str:

@@ -32,18 +32,19 @@ def draw_isotherms(
     burgers = {read_json(path)["temperature_C"]: read_law(path) for path in laws}
     temperatures = sorted(tests["temperature_C"].unique())
     figure, axes = style.new_figure(style.SINGLE, 92.0)
-    lowest, highest = tests["frequency_Hz"].min(), tests["frequency_Hz"].max()
+    shown = data[data["temperature_C"].isin(temperatures)]
+    frequencies = np.unique(np.concatenate([tests["frequency_Hz"], shown["frequency_Hz"]]))
     ends, colours = [], []
     for temperature, (colour, marker) in zip(temperatures, style.series(len(temperatures)), strict=True):
         points = simulated[simulated["temperature_C"] == temperature]
         known = reference[reference["temperature_C"] == temperature]
         if temperature in burgers:
-            law_line(axes, column, burgers[temperature], (lowest, highest), colour)
+            law_line(axes, column, burgers[temperature], frequencies[[0, -1]], colour)
         error_bars(axes, column, known, 1.0 / APART, marker, colour, filled=False)
         error_bars(axes, column, points, APART, marker, colour, filled=True)
         ends.append(points[column].iloc[-1] * SHOWN_PER_UNIT[column])
         colours.append(colour)
-    style.frequency_axis(axes, tests["frequency_Hz"])
+    style.frequency_axis(axes, frequencies)
     axes.set_ylabel(AXIS[column])
     if column == "E_MPa":
         axes.set_yscale("log")
@@ -51,15 +52,17 @@ def draw_isotherms(
     else:
         axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
     figure.legend(
-        handles=keys(origin_of(data), data, tests, bool(burgers)), loc="outside upper left", ncols=1,
+        handles=keys(shown, tests, bool(burgers)), loc="outside upper left", ncols=1,
         borderpad=0.1, labelspacing=0.3,
     )  # fmt: skip
-    style.label_ends(axes, highest * APART, ends, [style.celsius(t) for t in temperatures], colours)
+    style.label_ends(
+        axes, tests["frequency_Hz"].max() * APART, ends, [style.celsius(t) for t in temperatures], colours
+    )
     return figure
 
 
 def law_line(
-    axes: Axes, column: str, law: Burgers, limits: tuple[float, float], colour: object, **look: object
+    axes: Axes, column: str, law: Burgers, limits: Sequence[float], colour: object, **look: object
 ) -> None:
     """The law as a line between two frequencies [Hz]."""
     frequency = np.geomspace(*limits, 200)
@@ -80,13 +83,13 @@ def error_bars(
     )  # fmt: skip
 
 
-def keys(origin: str, measured: pd.DataFrame, tests: pd.DataFrame, law: bool) -> list[Line2D]:
+def keys(measured: pd.DataFrame, tests: pd.DataFrame, law: bool) -> list[Line2D]:
     """Legend: what open and filled markers and lines are."""
     point = {"ls": "", "marker": "o", "color": style.INK}
-    handles = [
-        Line2D([], [], **point, markerfacecolor="white", label=_of(origin, measured, "specimen")),
-        Line2D([], [], **point, label=_of("simulated", tests, "sample")),
-    ]
+    handles = [Line2D([], [], **point, label=_of("simulated", tests, "sample"))]
+    if not measured.empty:
+        origin = _of(origin_of(measured), measured, "specimen")
+        handles.insert(0, Line2D([], [], **point, markerfacecolor="white", label=origin))
     if law:
         handles.append(Line2D([], [], color=style.INK, lw=0.7, label="Burgers law of the bonds"))
     return handles

@@ -97,6 +97,6 @@ def _shade(depth, owner, centre, radius, colour) -> NDArray[np.float64]:
 
 
 def _blurred(image: NDArray[np.float64], width: float) -> NDArray[np.float64]:
-    """Two box filters, about a Gaussian of standard deviation `width` [pixels], at any width in the same time."""
+    """Two box filters: about a Gaussian of standard deviation `width` [pixels], but as fast for any width."""
     size = max(1, round(width * np.sqrt(6.0)))
     return uniform_filter(uniform_filter(image, size, mode="constant"), size, mode="constant")
