@@ -25,4 +25,5 @@ include: "workflow/rules/bending.smk"  # Section 4.2: bending tests
 include: "workflow/rules/time_step.smk"  # Fig. 6: time step
 include: "workflow/rules/sensitivity.smk"  # Section 4.3: sensitivity of the law's parameters
 include: "workflow/rules/audit.smk"  # other readings, looser samples
+include: "workflow/rules/contents.smk"  # figures and tables, and their data
 include: "workflow/rules/report.smk"  # figures, tables, report

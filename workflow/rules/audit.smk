@@ -69,7 +69,7 @@ use rule simulations as readings with:
         tests=expand(AUDITED, reading=["pascal", "blocked"]),
         code=code("collect"),
     output:
-        report("<results>/readings.csv", caption="../report/readings.rst", category="Audit"),
+        "<results>/readings.csv",
     log:
         "<results>/logs/readings.log",
     benchmark:
@@ -90,7 +90,7 @@ rule packing:
         deposits=expand("<results>/deposits/{sample}.h5", sample=PACKED),
         code=code("table", "tables.packing"),
     output:
-        report("<results>/packing.csv", caption="../report/packing.rst", category="Preparation"),
+        "<results>/packing.csv",
     params:
         data=pairs,
     log:

@@ -35,7 +35,7 @@ rule simulations:
         tests=expand(TESTS, sample=SAMPLES, temperature=TEMPERATURES, frequency=FREQUENCIES),
         code=code("collect"),
     output:
-        report("<results>/simulations.csv", caption="../report/simulations.rst", category="Bending tests"),
+        "<results>/simulations.csv",
     log:
         "<results>/logs/simulations.log",
     benchmark:

@@ -1,6 +1,7 @@
 # The study, the environment of jobs, and the few helpers that rules use.
 import json
 import os
+import re
 import sys
 from pathlib import Path
 
@@ -64,6 +65,12 @@ def text(value):
 def options(values, *keys):
     """`{"gap_max_mm": 2}` as `--gap-max-mm 2`; all keys or those named."""
     return " ".join(f"--{key.lower().replace('_', '-')} {text(values[key])}" for key in keys or values)
+
+
+def title(name):
+    """First line of a caption; numbers padded, because the report sorts by it."""
+    line = Path(workflow.basedir, f"workflow/report/{name}.rst").read_text(encoding="utf-8").splitlines()[0]
+    return re.sub(r"(Fig\.|Table) (\d):", r"\1 0\2:", line.strip("*").replace("\\", ""))
 
 
 def pairs(wildcards, input):

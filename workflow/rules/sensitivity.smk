@@ -55,7 +55,7 @@ use rule simulations as sensitivity with:
         ),
         code=code("collect"),
     output:
-        report("<results>/sensitivity.csv", caption="../report/sensitivity.rst", category="Sensitivity"),
+        "<results>/sensitivity.csv",
     log:
         "<results>/logs/sensitivity.log",
     benchmark:

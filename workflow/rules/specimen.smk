@@ -62,7 +62,7 @@ rule trim:
 rule condense:
     # Assemble the bonded system once for all tests on a sample, with its reduced form.
     input:
-        compiled="<results>/compiled/condense",
+        compiled="<results>/compiled/simulate",
         specimen="<results>/specimens/{sample}.h5",
         code=code("condense"),
     output:

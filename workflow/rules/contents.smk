@@ -1,0 +1,114 @@
+# What the report holds, and from which files it is made.
+
+SIMULATIONS = ["<results>/simulations.csv"]
+MEASURED = ["<results>/measured.csv"]
+USED_LAWS = expand(f"<results>/laws/{LAWS}/T{{temperature}}.json", temperature=TEMPERATURES)
+FITTED_LAWS = expand("<results>/laws/fitted/T{temperature}.json", temperature=TEMPERATURES)
+TYPICAL = TEMPERATURES[len(TEMPERATURES) // 2]  # where the study names no other
+SOFTER = label(SENSITIVITY["temperature_C"]) if "sensitivity" in STUDY else TYPICAL
+FIRST = SAMPLES[0]
+
+# name: category in the report, {kind of data: files}
+FIGURES = {
+    "fig01": ("1 Measurements and laws", {"study": ["<results>/study.json"]}),
+    "fig05": (
+        "2 Preparation",
+        {"deposit": [f"<results>/deposits/{FIRST}.h5"], "specimen": [f"<results>/specimens/{FIRST}.h5"]},
+    ),
+    "fig07": (
+        "3 Bending tests",
+        {"test": expand(TESTS, sample=FIRST, temperature=TYPICAL, frequency=max(FREQUENCIES, key=float))},
+    ),
+    "fig08": (
+        "3 Bending tests",
+        {
+            "test": expand(TESTS, sample=FIRST, temperature=SOFTER, frequency=min(FREQUENCIES, key=float)),
+            "specimen": [f"<results>/specimens/{FIRST}.h5"],
+        },
+    ),
+    "fig09": ("3 Bending tests", {"simulations": SIMULATIONS, "measured": MEASURED, "laws": USED_LAWS}),
+    "fig10": ("3 Bending tests", {"simulations": SIMULATIONS, "measured": MEASURED, "laws": USED_LAWS}),
+    "fig_ratio": ("3 Bending tests", {"simulations": SIMULATIONS}),
+}
+TABLES = {
+    "table3": {
+        "fitted": FITTED_LAWS,
+        "measured": MEASURED,
+        "published": [STUDY["laws"]["published"]["table"]] if "published" in STUDY["laws"] else [],
+    },
+    "table4": {
+        "simulations": SIMULATIONS,
+        "measured": MEASURED,
+        "published": [STUDY["published"]["errors_table"]] if "published" in STUDY else [],
+    },
+}
+# name: category in the report
+PAGES = {
+    "measured": "1 Measurements and laws",
+    "table3": "1 Measurements and laws",
+    "simulations": "3 Bending tests",
+    "table4": "3 Bending tests",
+    "timings": "7 About this run",
+}
+
+if "published" in STUDY:
+    PAGES["table2"] = "2 Preparation"
+    TABLES["table2"] = {
+        "grading": [STUDY["published"]["grading_table"]],
+        "published": [STUDY["published"]["counts_table"]],
+        "used": [STUDY["specimens"]["counts_table"]],
+    }
+if "time_step_study" in STUDY:
+    FIGURES["fig06"] = (
+        "4 Time step",
+        {"converged": expand(STEPPED, method="reduced"), "stopped": expand(STEPPED, method="sweeps")},
+    )
+if "sensitivity" in STUDY:
+    PAGES["sensitivity"] = "5 Sensitivity"
+    for name, parameter in {"fig11": "Em", "fig12": "eta_m", "fig13": "Ek", "fig14": "eta_k"}.items():
+        if parameter in SENSITIVITY["parameters"]:
+            FIGURES[name] = (
+                "5 Sensitivity",
+                {
+                    "sensitivity": ["<results>/sensitivity.csv"],
+                    "simulations": SIMULATIONS,
+                    "measured": MEASURED,
+                    "laws": [f"<results>/laws/{LAWS}/T{label(SENSITIVITY['temperature_C'])}.json"],
+                },
+            )
+if "audit" in STUDY:
+    PAGES["readings"] = "6 Audit"
+    FIGURES["fig_readings"] = ("6 Audit", {"readings": ["<results>/readings.csv"], "simulations": SIMULATIONS})
+if "packing_study" in STUDY:
+    PAGES["packing"] = "2 Preparation"
+    FIGURES["fig_packing"] = ("2 Preparation", {"packing": ["<results>/packing.csv"]})
+if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= set(STUDY):
+    PAGES["audit"] = "6 Audit"
+    TABLES["audit"] = {
+        "grading": [STUDY["published"]["grading_table"]],
+        "counts": [STUDY["published"]["counts_table"]],
+        "laws": [STUDY["laws"]["published"]["table"]],
+        "fitted": FITTED_LAWS,
+        "measured": MEASURED,
+        "simulations": SIMULATIONS,
+        "sensitivity": ["<results>/sensitivity.csv"],
+        "readings": ["<results>/readings.csv"],
+        "packing": ["<results>/packing.csv"],
+        "table4": ["<results>/table4.csv"],
+        "deposits": expand("<results>/deposits/{sample}.h5", sample=SAMPLES),
+        "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
+        "converged": expand(STEPPED, method="reduced"),
+        "stopped": expand(STEPPED, method="sweeps"),
+        "profile": FIGURES["fig08"][1]["test"],
+    }
+
+COMPUTED = [
+    [f"<results>/{name}.csv" for name in PAGES if name != "timings"],
+    [f"<results>/figures/{name}.{kind}" for name in FIGURES for kind in ("pdf", "png", "svg")],
+]
+RESULTS = [
+    COMPUTED,
+    "<results>/timings.csv",
+    "<results>/provenance.json",
+    [f"<results>/pages/{name}.html" for name in PAGES],
+]
