@@ -70,7 +70,7 @@ def options(values, *keys):
 def title(name):
     """First line of a caption; numbers padded, because the report sorts by it."""
     line = Path(workflow.basedir, f"workflow/report/{name}.rst").read_text(encoding="utf-8").splitlines()[0]
-    return re.sub(r"(Fig\.|Table) (\d):", r"\1 0\2:", line.strip("*").replace("\\", ""))
+    return re.sub(r"Fig\. (\d):", r"Fig. 0\1:", line.strip("*").replace("\\", ""))
 
 
 def pairs(wildcards, input):
