@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.timings import by_rule
+from asphalt_nscd.timings import as_markdown, by_rule
 
 HEADER = "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"
 
@@ -34,3 +34,14 @@ def test_job_too_short_to_be_measured_counts_as_none(tmp_path):
 def test_no_benchmarks(tmp_path):
     with pytest.raises(InputError, match="no benchmark files; run the workflow first"):
         by_rule(tmp_path)
+
+
+def test_markdown_sums_what_is_short(tmp_path):
+    for name, seconds in {"deposit": 900.0, "a": 5.0, "b": 3.0}.items():
+        benchmark(tmp_path / f"{name}.tsv", seconds, 100.0, seconds / 2)
+    lines = as_markdown(by_rule(tmp_path)).splitlines()
+    assert lines[2:] == [
+        "| deposit | 1 | 900 | 450 | 900 | 100 | 99 |",
+        "| all others | 2 | 8 | 4 | 5 | 100 | 1 |",
+        "| sum | 3 | 908 | 454 | 900 | 100 | 100 |",
+    ]

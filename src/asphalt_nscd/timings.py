@@ -30,3 +30,24 @@ def by_rule(folder: str | Path) -> pd.DataFrame:
     )  # fmt: skip
     table["share_percent"] = 100.0 * table["wall_s"] / table["wall_s"].sum()
     return table.sort_values("wall_s", ascending=False, ignore_index=True)
+
+
+def as_markdown(table: pd.DataFrame) -> str:
+    """The rules that take a hundredth of the time or more, the others in one line, and the sum."""
+    long = table["share_percent"] >= 1.0
+    lines = [
+        "| rule | jobs | wall time, s | CPU time, s | longest job, s | memory, MB | share, % |",
+        "|---|" + "---:|" * 6,
+        *(_line(rule, table[table["rule"] == rule]) for rule in table.loc[long, "rule"]),
+        _line("all others", table[~long]),
+        _line("sum", table),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _line(name: str, rules: pd.DataFrame) -> str:
+    values = [
+        rules["jobs"].sum(), rules["wall_s"].sum(), rules["cpu_s"].sum(), rules["longest_s"].max(),
+        rules["memory_MB"].max(), rules["share_percent"].sum(),
+    ]  # fmt: skip
+    return f"| {name} | " + " | ".join("" if pd.isna(value) else f"{value:.0f}" for value in values) + " |"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import time
@@ -40,6 +41,26 @@ def test_own_table_replaces_the_reconstruction(workspace):
     (workspace.folder / "mine.csv").touch()
     workspace.configure(measurements={"table": "mine.csv"})
     assert "reconstruct" not in workspace.planned()
+
+
+def test_edited_record_is_reduced_again(workspace):
+    folder = workspace.folder
+    rows = ["time_s,force_N,displacement_m"]
+    for step in range(400):
+        angle = 2 * math.pi * 10 * step * 1e-3
+        rows.append(f"{step * 1e-3},{20 * math.sin(angle + 0.3)},{6.3e-5 * math.sin(angle)}")
+    (folder / "record.csv").write_text("\n".join(rows) + "\n")
+    (folder / "mine.csv").write_text("specimen,temperature_C,frequency_Hz,record\n1,20,10,record.csv\n")
+    workspace.configure(measurements={"table": "mine.csv"}, reduction={"cycles": 3})
+    target = "results/smoke/measured.csv"
+    done = workspace.run(target, "--cores", "1")
+    assert done.returncode == 0, done.stderr
+    assert workspace.planned(target) == {}
+    (folder / "record.csv").write_text("\n".join(rows[:-50]) + "\n")
+    assert workspace.planned(target) == {"reduce": 1}
+    workspace.configure(measurements={"table": "mine.csv"}, reduction={"cycles": 2})
+    (folder / "record.csv").write_text("\n".join(rows) + "\n")
+    assert workspace.planned(target) == {"reduce": 1}
 
 
 def test_killed_run_is_finished_by_the_same_command(workspace):

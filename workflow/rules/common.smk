@@ -1,4 +1,5 @@
 # The study, the environment of jobs, and the few helpers that rules use.
+import csv
 import json
 import os
 import re

@@ -3,6 +3,15 @@
 MEASUREMENTS = STUDY["measurements"].get("table", "<results>/measurements.csv")
 
 
+def records(table):
+    """Sampled records that a table of measurements names, as far as they are there."""
+    if not Path(table).is_file():
+        return []
+    with open(table, encoding="utf-8-sig", newline="") as file:
+        named = (row.get("record") for row in csv.DictReader(file))
+        return [str(path) for name in named if name and (path := Path(table).parent / name).is_file()]
+
+
 rule reconstruct:
     # The authors' measurements are not published; what comes out is labelled "reconstructed" from here on.
     input:
@@ -14,6 +23,7 @@ rule reconstruct:
     params:
         geometry=text(STUDY["geometry"]),
         frequencies=text(STUDY["frequencies_Hz"]),
+        amplitude=options(STUDY["test"], "amplitude_m"),
         scatter=options(STUDY["measurements"].get("reconstruct", {})),
     log:
         "<results>/logs/reconstruct.log",
@@ -22,18 +32,20 @@ rule reconstruct:
     message:
         "Reconstruct measurements from the published laws"
     shell:
-        "asphalt-nscd reconstruct {input.table} --geometry {params.geometry} --frequencies-hz {params.frequencies} {params.scatter} --law-output {output.law} --output {output.measurements} > {log} 2>&1"
+        "asphalt-nscd reconstruct {input.table} --geometry {params.geometry} --frequencies-hz {params.frequencies} {params.amplitude} {params.scatter} --law-output {output.law} --output {output.measurements} > {log} 2>&1"
 
 
 rule reduce:
     # Forces and displacements at the head become complex moduli.
     input:
         measurements=MEASUREMENTS,
+        records=records(MEASUREMENTS),
         code=code("reduce"),
     output:
         "<results>/measured.csv",
     params:
         geometry=text(STUDY["geometry"]),
+        window=options(STUDY.get("reduction", {})),
     log:
         "<results>/logs/reduce.log",
     benchmark:
@@ -41,4 +53,4 @@ rule reduce:
     message:
         "Reduce the measurements to complex moduli, Eqs. (1)-(5)"
     shell:
-        "asphalt-nscd reduce {input.measurements} --geometry {params.geometry} --output {output} > {log} 2>&1"
+        "asphalt-nscd reduce {input.measurements} --geometry {params.geometry} {params.window} --output {output} > {log} 2>&1"

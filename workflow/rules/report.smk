@@ -102,17 +102,18 @@ rule timings:
         COMPUTED,
         code=code("timings"),
     output:
-        "<results>/timings.csv",
+        table="<results>/timings.csv",
+        markdown="<results>/timings.md",
+    params:
+        benchmarks=f"results/{STUDY['study']}/benchmarks",
     log:
         "<results>/logs/timings.log",
     benchmark:
         "<results>/benchmarks/timings.tsv"
-    params:
-        benchmarks=f"results/{STUDY['study']}/benchmarks",
     message:
         "Sum the time by rule"
     shell:
-        "asphalt-nscd timings {params.benchmarks} --output {output} > {log} 2>&1"
+        "asphalt-nscd timings {params.benchmarks} --markdown {output.markdown} --output {output.table} > {log} 2>&1"
 
 
 rule provenance:

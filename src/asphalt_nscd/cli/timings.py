@@ -9,10 +9,14 @@ from asphalt_nscd.cli import _options
 
 @click.command()
 @click.argument("benchmarks", type=_options.File)
+@click.option("--markdown", required=True, type=_options.File, help="File for the same table in Markdown.")
 @_options.output
-def command(benchmarks: Path, output: Path) -> None:
+def command(benchmarks: Path, markdown: Path, output: Path) -> None:
     """Sum Snakemake's benchmark files by rule: where the time goes."""
-    from asphalt_nscd.store import write_table
-    from asphalt_nscd.timings import by_rule
+    from asphalt_nscd.store import atomic_path, write_table
+    from asphalt_nscd.timings import as_markdown, by_rule
 
-    write_table(output, by_rule(benchmarks))
+    table = by_rule(benchmarks)
+    write_table(output, table)
+    with atomic_path(markdown) as path:
+        path.write_text(as_markdown(table), encoding="utf-8")
