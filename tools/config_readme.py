@@ -12,9 +12,10 @@ ROOT = Path(__file__).resolve().parents[1]
 HEAD = """\
 # Studies
 
-A study is one YAML file. `paper.yaml` is the paper, `smoke.yaml` the same chain at reduced size. Run your own with
-`make study CONFIG=my.yaml` or `snakemake --cores all --configfile my.yaml`; keys left out take their default, which is
-the paper's value, and unknown keys are refused. Paths are relative to the folder in which you call.
+A study is one YAML file. `paper.yaml` is the paper, `smoke.yaml` the same chain at reduced size.
+Run your own with `make study CONFIG=my.yaml` or `snakemake --cores all --configfile my.yaml`.
+Keys left out take their default, which is the paper's value; unknown keys are refused. Paths are
+relative to the folder in which you call.
 
 This file is made from `workflow/schemas/study.schema.yaml` by `python tools/config_readme.py`.
 

@@ -13,7 +13,8 @@ _STYLE = """
 body { font: 14px/1.4 system-ui, sans-serif; margin: 1.5em; color: #111; background: #fff; }
 table { border-collapse: collapse; }
 caption { text-align: left; font-weight: bold; padding-bottom: .6em; }
-th, td { padding: .25em .7em; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top; max-width: 34em; }
+th, td { padding: .25em .7em; border-bottom: 1px solid #ddd; text-align: left; }
+td { vertical-align: top; max-width: 34em; }
 th { position: sticky; top: 0; background: #fff; border-bottom: 2px solid #111; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 tr:hover td { background: #f2f2f2; }

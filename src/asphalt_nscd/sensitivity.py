@@ -14,7 +14,7 @@ PARAMETERS = {"Em": "Em_Pa", "eta_m": "eta_m_Pa_s", "Ek": "Ek_Pa", "eta_k": "eta
 def scale_law(law: str | Path, parameter: str, factor: float, output: str | Path) -> dict[str, Any]:
     """Write the law with one parameter times factor; it says which, and drops what held for the fit."""
     if parameter not in PARAMETERS:
-        raise InputError(f"parameter {parameter!r} is no Burgers parameter; give one of {', '.join(PARAMETERS)}.")
+        raise InputError(f"{parameter!r} is no parameter of the law; give one of {', '.join(PARAMETERS)}.")
     if not 0.0 < factor < float("inf"):
         raise InputError(f"factor {factor:g} leaves no law; give a positive number.")
     content = read_json(law)
