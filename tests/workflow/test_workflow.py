@@ -43,6 +43,27 @@ def test_own_table_replaces_the_reconstruction(workspace):
     assert "reconstruct" not in workspace.planned()
 
 
+def test_least_study_is_the_tests_and_their_figures(workspace):
+    (workspace.folder / "mine.csv").touch()
+    left_out = ("sensitivity", "time_step_study", "packing_study", "audit", "published")
+    workspace.configure(
+        measurements={"table": "mine.csv"}, laws={"simulate": "fitted"}, **dict.fromkeys(left_out)
+    )
+    jobs = workspace.planned()
+    assert jobs["simulate"] == 4 and jobs["fit"] == 2 and jobs["fig09"] == 1
+    others = {"reconstruct", "published_law", "simulate_scaled", "simulate_pascal", "audit", "table2", "fig06"}
+    assert not others & set(jobs)
+
+
+def test_the_paper_is_120_tests_on_four_samples(workspace):
+    (workspace.folder / "study.yaml").write_text((workspace.folder / "config/paper.yaml").read_text())
+    jobs = workspace.planned("results/paper/simulations.csv")
+    assert jobs["simulate"] == 120 and jobs["deposit"] == 4
+    jobs = workspace.planned()
+    assert jobs["simulate_scaled"] == 160 and jobs["audit"] == 1
+    assert {f"fig{number:02d}" for number in (1, *range(5, 15))} | {"table2", "table3", "table4"} <= set(jobs)
+
+
 def test_edited_record_is_reduced_again(workspace):
     folder = workspace.folder
     rows = ["time_s,force_N,displacement_m"]
