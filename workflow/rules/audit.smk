@@ -53,6 +53,10 @@ use rule simulate as simulate_blocked with:
         model="<results>/models/blocked/{sample}.h5",
         law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
         code=code("simulate"),
+    params:
+        source=LAWS,
+        # steady oscillation: a head that cannot rotate overloads bonds, which would hide its own effect
+        test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s") + " --method harmonic",
     output:
         "<results>/blocked/{sample}/T{temperature}/f{frequency}.h5",
     log:

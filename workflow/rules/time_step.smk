@@ -1,12 +1,18 @@
 # Section 4.2, Fig. 6: what the time step does, and what stopping the solver early does.
 
-STEPPING = STUDY.get("time_step_study", {"seed": 0, "temperature_C": 0, "frequency_Hz": 0, "time_steps_s": [], "sweeps": 0})
-STEPPED = expand(
-    "<results>/time_step/{{method}}/s{seed}/T{temperature}/f{frequency}/dt{time_step}.h5",
-    seed=STEPPING["seed"],
-    temperature=label(STEPPING["temperature_C"]),
-    frequency=label(STEPPING["frequency_Hz"]),
-    time_step=[label(value) for value in STEPPING["time_steps_s"]],
+STEPPING = STUDY.get(
+    "time_step_study",
+    {"seed": 0, "temperature_C": 0, "frequency_Hz": 0, "sweeps_frequency_Hz": 0, "time_steps_s": [], "sweeps": 0},
+)
+SOLVED, STOPPED = (
+    expand(
+        f"<results>/time_step/{method}/s{{seed}}/T{{temperature}}/f{{frequency}}/dt{{time_step}}.h5",
+        seed=STEPPING["seed"],
+        temperature=label(STEPPING["temperature_C"]),
+        frequency=label(STEPPING[frequency]),
+        time_step=[label(value) for value in STEPPING["time_steps_s"]],
+    )
+    for method, frequency in (("reduced", "frequency_Hz"), ("sweeps", "sweeps_frequency_Hz"))
 )
 
 
@@ -26,7 +32,7 @@ use rule simulate as simulate_step with:
 
 
 use rule simulate as simulate_sweeps with:
-    # The same cycle with Gauss-Seidel stopped after a few sweeps of each step.
+    # One cycle with Gauss-Seidel stopped after some sweeps of each step.
     output:
         "<results>/time_step/sweeps/{sample}/T{temperature}/f{frequency}/dt{time_step}.h5",
     params:

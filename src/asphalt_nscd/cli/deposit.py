@@ -15,7 +15,7 @@ from asphalt_nscd.cli import _options, _progress
 @click.option("--stroke-mm", default=6.0, help="Stroke of the top wall from crest to crest, mm.")
 @click.option("--vibration-hz", default=30.0, help="Frequency of the top wall, Hz.")
 @click.option("--vibration-s", default=1.0, help="Duration of the vibration, s; 0 for none.")
-@click.option("--time-step-s", default=2e-4, help="Time step, s.")
+@click.option("--time-step-s", default=4e-4, help="Time step, s.")
 @_options.output
 def command(
     counts: Path, box_m: tuple[float, float, float], seed: int, friction: float, stroke_mm: float,

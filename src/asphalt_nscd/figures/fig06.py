@@ -23,7 +23,7 @@ def draw(converged: Sequence[Path] = (), stopped: Sequence[Path] = ()) -> Figure
     """(a) Every step solved to the end; (b) Gauss-Seidel on the bonds stopped before it converged."""
     panels = [
         (sorted((load(path, "test") for path in paths), key=_step, reverse=True), text)
-        for paths, text in ((converged, "each step solved"), (stopped, "Gauss-Seidel stopped early"))
+        for paths, text in ((converged, "each step solved"), (stopped, "Gauss-Seidel stopped"))
         if paths
     ]
     if not panels:
@@ -32,12 +32,13 @@ def draw(converged: Sequence[Path] = (), stopped: Sequence[Path] = ()) -> Figure
         style.WIDE if len(panels) == 2 else style.SINGLE, 70.0, columns=len(panels), squeeze=False
     )
     extents = [max(map(_extent, records)) for records, _ in panels]
-    comparable = max(extents) < COMPARABLE * min(extents)
+    frequencies = {record.attributes["frequency_Hz"] for records, _ in panels for record in records}
+    comparable = len(frequencies) == 1 and max(extents) < COMPARABLE * min(extents)
     for place, name, (records, text), extent in zip(axes[0], "ab", panels, extents, strict=False):
         if comparable:
             extent = max(extents)
         _panel(place, records, extent)
-        style.letter(place, name, text)
+        style.letter(place, name, f"{text}, {records[0].attributes['frequency_Hz']:g} Hz")
     if comparable and len(panels) == 2:
         time, _, force = last_cycle(panels[0][0][-1])
         axes[0, 1].plot(1e3 * time, force, color=style.GREY, lw=0.6, zorder=1, label="solved, finest $dt$")

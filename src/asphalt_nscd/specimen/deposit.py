@@ -17,7 +17,7 @@ Progress = Callable[[str, float, float], None]
 class PouringNumerics:
     """Numerical choices of the preparation; each is written into the deposit file."""
 
-    time_step: float = 2e-4  # s
+    time_step: float = 4e-4  # s
     tolerance: float = 1e-3  # relative change of the impulses in the last sweep
     most_sweeps: int = 60
     skin: float = 4e-4  # m, pairs are searched again when a sphere has moved half of it
