@@ -27,3 +27,4 @@ include: "workflow/rules/sensitivity.smk"  # Section 4.3: sensitivity of the law
 include: "workflow/rules/audit.smk"  # other readings, looser samples
 include: "workflow/rules/contents.smk"  # figures and tables, and their data
 include: "workflow/rules/report.smk"  # figures, tables, report
+include: "workflow/rules/publish.smk"  # what is committed

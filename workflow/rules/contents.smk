@@ -30,7 +30,9 @@ FIGURES = {
     "fig10": ("3 Bending tests", {"simulations": SIMULATIONS, "measured": MEASURED, "laws": USED_LAWS}),
     "fig_ratio": ("3 Bending tests", {"simulations": SIMULATIONS}),
 }
+DEPOSITS = expand("<results>/deposits/{sample}.h5", sample=SAMPLES)
 TABLES = {
+    "samples": {"simulations": SIMULATIONS, "deposits": DEPOSITS},
     "table3": {
         "fitted": FITTED_LAWS,
         "measured": MEASURED,
@@ -46,6 +48,7 @@ TABLES = {
 PAGES = {
     "measured": "1 Measurements and laws",
     "table3": "1 Measurements and laws",
+    "samples": "2 Preparation",
     "simulations": "3 Bending tests",
     "table4": "3 Bending tests",
     "timings": "7 About this run",
@@ -95,7 +98,7 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
         "readings": ["<results>/readings.csv"],
         "packing": ["<results>/packing.csv"],
         "table4": ["<results>/table4.csv"],
-        "deposits": expand("<results>/deposits/{sample}.h5", sample=SAMPLES),
+        "deposits": DEPOSITS,
         "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
         "converged": SOLVED,
         "stopped": STOPPED,

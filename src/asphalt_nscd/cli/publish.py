@@ -1,0 +1,23 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=_options.File)
+@click.option("--root", required=True, type=_options.File, help="Folder of the study that the files are below.")
+@click.option("--output", required=True, type=_options.File, help="Folder to copy them to.")
+@click.option("--document", required=True, type=_options.File, help="Text whose blocks are filled.")
+@click.option("--block", multiple=True, type=_options.Data(), help="name=table for a block; repeatable.")
+def command(
+    files: tuple[Path, ...], root: Path, output: Path, document: Path, block: tuple[tuple[str, Path], ...]
+) -> None:
+    """Copy results to be committed, with checksums, and fill their tables into a document."""
+    from asphalt_nscd.publish import fill_blocks, publish
+
+    fill_blocks(document, dict(block))
+    publish(files, root, output)

@@ -1,0 +1,44 @@
+import hashlib
+
+import pytest
+
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.publish import CHECKSUMS, fill_blocks, publish
+
+
+def test_files_are_copied_with_their_checksums(tmp_path):
+    root, output = tmp_path / "study", tmp_path / "published"
+    (root / "figures").mkdir(parents=True)
+    (root / "figures/a.png").write_bytes(b"picture")
+    (root / "b.csv").write_text("x\n1\n")
+    publish([root / "figures/a.png", root / "b.csv"], root, output)
+    assert (output / "figures/a.png").read_bytes() == b"picture"
+    lines = (output / CHECKSUMS).read_text().splitlines()
+    assert lines == [
+        f"{hashlib.sha256(b'x' + bytes([10]) + b'1' + bytes([10])).hexdigest()}  b.csv",
+        f"{hashlib.sha256(b'picture').hexdigest()}  figures/a.png",
+    ]
+
+
+def test_blocks_are_replaced_and_the_rest_is_left(tmp_path):
+    document, table, text = tmp_path / "README.md", tmp_path / "t.csv", tmp_path / "t.md"
+    document.write_text("before\n<!-- one -->\nold\n<!-- end one -->\nbetween\n<!-- two -->\n<!-- end two -->\nafter\n")
+    table.write_text("name,value\na,1.23456\n")
+    text.write_text("| as it is |\n")
+    fill_blocks(document, {"one": table, "two": text})
+    lines = document.read_text().splitlines()
+    assert lines[0] == "before" and lines[-1] == "after" and "between" in lines
+    assert "| a      |   1.235 |" in lines and "old" not in lines
+    assert lines[lines.index("<!-- two -->") + 1] == "| as it is |"
+    again = document.read_text()
+    fill_blocks(document, {"one": table, "two": text})
+    assert document.read_text() == again
+
+
+def test_missing_block_is_named(tmp_path):
+    document, table = tmp_path / "README.md", tmp_path / "t.csv"
+    document.write_text("<!-- one -->\n")
+    table.write_text("x\n1\n")
+    with pytest.raises(InputError, match="no block <!-- one -->"):
+        fill_blocks(document, {"one": table})
+    assert document.read_text() == "<!-- one -->\n"

@@ -1,0 +1,24 @@
+# What is committed of a study: figures, tables, and the tables of the README. Only on request:
+#   snakemake --cores 1 publish
+
+BLOCKS = ["<results>/samples.csv", "<results>/table4.csv", "<results>/timings.md"]
+
+
+rule publish:
+    # After a run; README.md shows what was published last.
+    input:
+        *BLOCKS,
+        files=[
+            *(f"<results>/figures/{name}.png" for name in FIGURES),
+            *(f"<results>/{name}.csv" for name in PAGES),
+            "<results>/provenance.json",
+        ],
+        code=code("publish"),
+    params:
+        root=f"results/{STUDY['study']}",
+        output=f"results/published/{STUDY['study']}",
+        blocks=lambda wildcards, input: [f"--block {Path(path).stem}={path}" for path in input[: len(BLOCKS)]],
+    message:
+        "Copy what is committed, and fill the tables of the README"
+    shell:
+        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document README.md {params.blocks}"
