@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli import _data, _options
 
 
 @click.command()
@@ -12,7 +12,7 @@ from asphalt_nscd.cli import _options
 @click.option("--root", required=True, type=_options.File, help="Folder of the study that the files are below.")
 @click.option("--output", required=True, type=_options.File, help="Folder to copy them to.")
 @click.option("--document", required=True, type=_options.File, help="Text whose blocks are filled.")
-@click.option("--block", multiple=True, type=_options.Data(), help="name=table for a block; repeatable.")
+@click.option("--block", multiple=True, type=_data.Data(), help="name=table for a block; repeatable.")
 def command(
     files: tuple[Path, ...], root: Path, output: Path, document: Path, block: tuple[tuple[str, Path], ...]
 ) -> None:
