@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, cg, splu
+from scipy.sparse.linalg import splu
 
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.friction import solve_contacts
@@ -49,42 +49,58 @@ class CondensedState:
 class ShiftedOperator:
     """M + scale K on the free degrees of freedom, solvable while bonds break.
 
-    Factorised once; after breakages the factors precondition a conjugate gradient solve, whose
-    iterations grow with the number of bonds broken since.
+    Factorised once. Each bond that breaks takes away three rank-one terms, which the Woodbury
+    identity accounts for at the cost of three more solves; after many, it is factorised again.
     """
 
     most_updates = 60  # breakages after which a new factorisation is cheaper
 
     def __init__(self, system: BondedSystem, scale: float) -> None:
         self._system, self._scale = system, scale
-        self._broken: list[int] | None = None
-        self.remove([])
+        self._broken: list[int] = []
+        self._factorise()
 
     def remove(self, broken: list[int]) -> None:
-        """Make `broken` the bonds that are absent."""
-        if broken == self._broken:
+        """Make `broken`, which may only grow, the bonds that are absent."""
+        new = broken[len(self._broken) :]
+        if not new:
             return
-        system = self._system
-        self.weight = system.weight.copy()
-        for bond in broken:
-            self.weight[3 * bond : 3 * bond + 3] = 0.0
-        self.stiffness = system.stiffness(self.weight)
-        matrix = (sparse.diags_array(system.mass) + self._scale * self.stiffness).tocsc()
-        self._matrix = matrix[system.free][:, system.free]
-        if self._broken is None or len(broken) - self._factored > self.most_updates:
-            self._factor, self._factored = factorise(self._matrix), len(broken)
         self._broken = list(broken)
+        if len(broken) - self._factored > self.most_updates:
+            self._factorise()
+            return
+        rows = (3 * np.asarray(new)[:, None] + np.arange(3)).ravel()
+        taken = self._system.operator[rows][:, self._system.free].toarray().T
+        self._taken = np.column_stack([self._taken, taken])
+        self._response = np.column_stack([self._response, self._factor.solve(taken)])
+        self._strength = np.append(self._strength, self._scale * self.weight[rows])
+        self.weight[rows] = 0.0
+        self._capacitance = np.linalg.inv(np.diag(1.0 / self._strength) - self._taken.T @ self._response)
 
     def solve(self, force: np.ndarray) -> np.ndarray:
         """Solution for one force (f,) or several (f, columns)."""
-        if len(self._broken) == self._factored:
-            return self._factor.solve(force)
-        near = LinearOperator(self._matrix.shape, matvec=self._factor.solve)
-        columns = [
-            cg(self._matrix, column, rtol=1e-13, atol=0.0, M=near, maxiter=1000)[0]
-            for column in force.reshape(force.shape[0], -1).T
-        ]
-        return np.stack(columns, axis=1).reshape(force.shape)
+        solution = self._solve_once(force)
+        if self._strength.size:  # the update cancels digits where bodies become nearly loose
+            taken = (self._taken * self._strength) @ (self._taken.T @ solution)
+            solution += self._solve_once(force - self._matrix @ solution + taken)
+        return solution
+
+    def _solve_once(self, force: np.ndarray) -> np.ndarray:
+        solution = self._factor.solve(force)
+        if self._strength.size:
+            solution += self._response @ (self._capacitance @ (self._taken.T @ solution))
+        return solution
+
+    def _factorise(self) -> None:
+        system = self._system
+        self.weight = system.weight.copy()
+        for bond in self._broken:
+            self.weight[3 * bond : 3 * bond + 3] = 0.0
+        matrix = (sparse.diags_array(system.mass) + self._scale * system.stiffness(self.weight)).tocsc()
+        self._matrix = matrix[system.free][:, system.free]
+        self._factor, self._factored = factorise(self._matrix), len(self._broken)
+        self._taken = self._response = np.empty((system.free.size, 0))
+        self._strength, self._capacitance = np.empty(0), np.empty((0, 0))
 
 
 class CondensedStepper:
@@ -123,7 +139,8 @@ class CondensedStepper:
         scale = dt / self.step_law.compliance
         impulse = system.mass * state.velocity + dt * system.load
         impulse += scale * (system.operator.T @ (self._operator.weight * explicit))
-        impulse -= scale * self._operator.stiffness[:, [system.driven]].toarray()[:, 0] * driven_velocity
+        opening = system.operator[:, [system.driven]].toarray()[:, 0] * driven_velocity
+        impulse -= scale * (system.operator.T @ (self._operator.weight * opening))
         velocity = np.empty_like(impulse)
         velocity[system.driven] = driven_velocity
         free = system.free

@@ -16,9 +16,11 @@ from scipy.sparse.linalg import LinearOperator, cg
 
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.condensed import factorise
+DEPENDENT = 1e-9
+
 
 def ritz_basis(system: BondedSystem, iterations: int, shift: float = 1e-2) -> np.ndarray:
-    """Phi (d, 1 + 2 iterations): the static response to the driven motion, then Krylov vectors.
+    """Phi (d, 2 + 2 iterations): the static response to the driven motion, then Krylov vectors.
 
     Column 0 has unit motion of the driven degree of freedom; the others leave it at rest. They
     come from the inertia of column 0 and from the constant load by repeated (K + shift M)^-1 M;
@@ -34,40 +36,41 @@ def ritz_basis(system: BondedSystem, iterations: int, shift: float = 1e-2) -> np
     def static(force: np.ndarray) -> np.ndarray:
         return cg(stiffness, force, rtol=1e-13, atol=0.0, M=near, maxiter=500)[0]
 
+    def embed(motion: np.ndarray) -> np.ndarray:
+        columns = np.zeros((system.mass.size, motion.shape[1]))
+        columns[free] = motion
+        return columns
+
     basis = np.zeros((system.mass.size, 1))
     basis[system.driven, 0] = 1.0
     basis[free, 0] = static(-coupling)
-    block = [mass * basis[free, 0], system.load[free]]
-    columns = [static(system.load[free])]
+    basis = append_columns(system, basis, embed(static(system.load[free])[:, None]))
+    block = np.column_stack([mass * basis[free, 0], system.load[free]])
     for _ in range(iterations):
-        block = [shifted.solve(force) for force in block]
-        columns += block
-        block = [mass * column for column in block]
-    extra = np.zeros((system.mass.size, len(columns)))
-    extra[free] = np.stack(columns, axis=1)
-    return append_columns(system, basis, extra)
+        known = basis.shape[1]
+        basis = append_columns(system, basis, embed(shifted.solve(block)))
+        block = mass[:, None] * basis[free, known:]  # of the orthonormal ones: they do not align
+    return basis
 
 
 def append_columns(system: BondedSystem, basis: np.ndarray, extra: np.ndarray) -> np.ndarray:
     """Columns added after orthonormalising them in the stiffness of the unbroken system.
 
-    A column that adds no direction of its own is left out.
+    Directions of which no more than the part DEPENDENT is new are left out: normalised, they would
+    be rounding errors, and the projection would lose its condition.
     """
     root = np.sqrt(system.weight)[:, None]
     known = root * (system.operator @ basis[:, 1:])
-    added = []
-    for column in extra.T:
-        stretched = (root * (system.operator @ column)[:, None])[:, 0]
-        length = np.linalg.norm(stretched)
-        for _ in range(2):  # once more against rounding
-            share = known.T @ stretched
-            column = column - np.column_stack([basis[:, 1:], *added]) @ share
-            stretched = stretched - known @ share
-        norm = np.linalg.norm(stretched)
-        if norm > 1e-12 * length:
-            added.append(column / norm)
-            known = np.column_stack([known, stretched / norm])
-    return np.column_stack([basis, *added])
+    for _ in range(4):  # each pass removes what rounding left of the one before
+        stretched = root * (system.operator @ extra)
+        length = np.linalg.norm(stretched, axis=0)
+        share = known.T @ stretched
+        extra = (extra - basis[:, 1:] @ share) / length
+        stretched = (stretched - known @ share) / length
+        _, size, directions = np.linalg.svd(np.linalg.qr(stretched, mode="r"))
+        kept = size > DEPENDENT
+        extra = extra @ (directions[kept].T / size[kept])
+    return np.column_stack([basis, extra])
 
 
 class ReducedModel:

@@ -16,7 +16,7 @@ from asphalt_nscd.nscd.condensed import CondensedState, ShiftedOperator
 from asphalt_nscd.nscd.law import BondLaw
 from asphalt_nscd.nscd.reduced import ReducedModel, append_columns
 
-FIRST_ENRICHMENT, LARGEST_ENRICHMENT = 4, 32
+FIRST_ENRICHMENT, LARGEST_ENRICHMENT = 4, 16
 """Vectors added at a violation: the correction of the refused step, and those its inertia will need.
 Doubled at every further violation, since each costs a projection of the whole system."""
 
