@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.specimen.network import Network, bond_network
@@ -26,7 +28,7 @@ class Specimen:
     radius: np.ndarray  # (n,) m, after the reduction of volume
     density: float  # kg/m3, matched to the mass of the geometry
     network: Network
-    loose_grains: int  # removed because they had fewer than three bonds
+    loose_grains: int  # removed because they had fewer than three bonds or hung on no chain to the foot
 
 
 def layer_height(position: np.ndarray, radius: np.ndarray) -> float:
@@ -51,17 +53,38 @@ def trim(
     axis, across = position[:, 0], position[:, 2] - height / 2.0
     width = geometry.B + (geometry.b - geometry.B) * axis / geometry.h
     inside = (2.0 * np.abs(across) <= width) & (axis >= 0.0) & (axis <= geometry.h)
+    inside &= (position[:, 1] >= 0.0) & (position[:, 1] <= geometry.e)
     upright = np.stack([across, position[:, 1] - geometry.e / 2.0, axis], axis=1)[inside]
     shrunk = radius[inside] * (1.0 - volume_reduction) ** (1.0 / 3.0)
     candidates = shrunk.size
     while True:
+        if not shrunk.size:
+            raise InputError(
+                "no sphere is left after trimming; pour more spheres or raise the bond distance."
+            )
         network = bond_network(upright, shrunk, geometry.h, reach)
-        bonds = np.bincount(np.concatenate([network.first, network.second]), minlength=shrunk.size)
-        held = bonds[: shrunk.size] >= FEWEST_BONDS
+        held, joined = _held(network, shrunk.size)
         if held.all():
             break
         upright, shrunk = upright[held], shrunk[held]
-    if not shrunk.size:
-        raise InputError("no sphere is left after trimming; pour more spheres or raise the bond distance.")
+    if not joined:
+        raise InputError(
+            "no chain of bonds joins the foot and the head of the specimen; make the box as long as the "
+            f"specimen is high ({1e3 * geometry.h:.1f} mm), pour more spheres or raise the bond distance."
+        )
+    if network.gap.min() <= 0.0:
+        raise InputError(
+            f"bodies of the specimen overlap by {-1e3 * network.gap.min():.3g} mm; raise the reduction of "
+            f"volume, and make the box as long as the specimen is high ({1e3 * geometry.h:.1f} mm)."
+        )
     density = geometry.mass / float((4.0 / 3.0 * np.pi * shrunk**3).sum())
     return Specimen(geometry, upright, shrunk, density, network, candidates - shrunk.size)
+
+
+def _held(network: Network, n: int) -> tuple[np.ndarray, bool]:
+    """(n,) which spheres are held fast by bonds, and whether the head hangs together with the foot."""
+    ends = network.first, network.second
+    count = np.bincount(np.concatenate(ends), minlength=n + 2)[:n]
+    graph = sparse.coo_array((np.ones(network.first.size), ends), shape=(n + 2, n + 2))
+    cluster = connected_components(graph, directed=False)[1]
+    return (count >= FEWEST_BONDS) & (cluster[:n] == cluster[n + 1]), cluster[n] == cluster[n + 1]

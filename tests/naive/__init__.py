@@ -1,0 +1,1 @@
+"""Slow reference implementations in plain Python, written from the equations, not from the kernels."""

@@ -1,0 +1,96 @@
+"""One NSCD step of spheres and planes with explicit contact Jacobians and contact frames."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def all_pairs(position, radius, plane_point, plane_normal, reach):
+    """[(i, j)] of every pair with a gap below reach, by looking at all of them.
+
+    The larger sphere (the lower index when equal) comes first; body n + k is plane k.
+    """
+    n = len(radius)
+    pairs = []
+    for i in range(n):
+        for j in range(n):
+            larger = radius[i] > radius[j] or (radius[i] == radius[j] and i < j)
+            if larger and np.linalg.norm(position[j] - position[i]) < radius[i] + radius[j] + reach:
+                pairs.append((i, j))
+        for k in range(len(plane_point)):
+            if plane_normal[k] @ (position[i] - plane_point[k]) - radius[i] < reach:
+                pairs.append((i, n + k))
+    return pairs
+
+
+def naive_step(
+    position, radius, velocity, mass, plane_point, plane_normal, gravity, impulses, *, dt, friction,
+    restitution, recovery_speed, margin, tolerance, most_sweeps,
+):  # fmt: skip
+    """Returns (position, velocity, impulses) after dt. impulses: {(i, j): (3,)} acts on body j.
+
+    velocity (n + p, 6): linear and angular velocity times radius; planes last, prescribed.
+    """
+    n = len(radius)
+    free = velocity.copy()
+    free[:n, :3] += dt * gravity
+    # generalised masses: (1/2) (2/5 m) s^2 is the rotational energy in terms of s = radius * spin
+    inverse = np.array([[0.0] * 6 if k >= n else [1 / mass[k]] * 3 + [2.5 / mass[k]] * 3 for k in range(len(free))])
+
+    contacts = []
+    for i, j in all_pairs(position, radius, plane_point, plane_normal, np.inf):
+        if j < n:
+            apart = position[j] - position[i]
+            normal = apart / np.linalg.norm(apart)
+            gap = np.linalg.norm(apart) - radius[i] - radius[j]
+        else:
+            normal = -plane_normal[j - n]
+            gap = plane_normal[j - n] @ (position[i] - plane_point[j - n]) - radius[i]
+        if gap + dt * min(normal @ (free[j, :3] - free[i, :3]), 0.0) >= margin:
+            continue
+        tangent = np.linalg.svd(normal[None])[2][1]
+        frame = np.stack([normal, tangent, np.cross(normal, tangent)])
+        # velocity of a body's point of contact: v + s x (arm / radius), the arms being +- normal
+        cross = np.array([[0, normal[2], -normal[1]], [-normal[2], 0, normal[0]], [normal[1], -normal[0], 0]])
+        on_first = -np.hstack([frame, frame @ cross])
+        on_second = np.hstack([frame, -(frame @ cross)])
+        delassus = on_first * inverse[i] @ on_first.T + on_second * inverse[j] @ on_second.T
+        before = normal @ (velocity[j, :3] - velocity[i, :3])
+        target = -gap / dt if gap > 0 else min(-gap / dt, recovery_speed)
+        if restitution > 0 and before < 0 and gap + dt * before <= 0:
+            target = -restitution * before
+        contacts.append((i, j, frame, on_first, on_second, delassus, target))
+
+    new = free
+    local = [frame @ impulses.get((i, j), np.zeros(3)) for i, j, frame, *_ in contacts]
+    for (i, j, _, on_first, on_second, *_), r in zip(contacts, local):
+        new[i] += inverse[i] * (on_first.T @ r)
+        new[j] += inverse[j] * (on_second.T @ r)
+    for sweep in range(most_sweeps):
+        order = range(len(contacts)) if sweep % 2 == 0 else reversed(range(len(contacts)))
+        changed = size = 0.0
+        for c in order:
+            i, j, _, on_first, on_second, delassus, target = contacts[c]
+            opening = on_first @ new[i] + on_second @ new[j] - [target, 0, 0]
+            r = coulomb(delassus, opening - delassus @ local[c], friction)
+            delta, local[c] = r - local[c], r
+            new[i] += inverse[i] * (on_first.T @ delta)
+            new[j] += inverse[j] * (on_second.T @ delta)
+            changed, size = changed + delta @ delta, size + r @ r
+        if size == 0 or np.sqrt(changed / size) < tolerance:
+            break
+    carried = {(i, j): frame.T @ r for (i, j, frame, *_), r in zip(contacts, local)}
+    return position + dt * new[:n, :3], new, carried
+
+
+def coulomb(delassus, free, friction):
+    """Impulse (normal, two tangents) of one contact: opening W r + free, W without coupling."""
+    np.testing.assert_allclose(delassus, np.diag(np.diag(delassus)), atol=1e-12 * delassus[0, 0])
+    normal = -free[0] / delassus[0, 0]
+    if normal <= 0:
+        return np.zeros(3)
+    sticking = -free[1:] / delassus[1, 1]
+    strength = np.linalg.norm(sticking)
+    if strength > friction * normal:
+        sticking *= friction * normal / strength
+    return np.array([normal, *sticking])

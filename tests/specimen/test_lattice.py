@@ -1,0 +1,64 @@
+"""The random lattice: nobody overlaps, nobody sticks out, everybody is there."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from naive.granular import all_pairs
+
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.specimen.lattice import random_lattice
+
+MIXES = {
+    "alone": ([4e-3, 6e-3], [30, 25], (0.03, 0.02, 0.08)),  # none fits an octant of a 6 mm cell
+    "sharing": ([2e-3, 3e-3, 6e-3], [150, 60, 30], (0.03, 0.021, 0.06)),
+    "one size": ([2e-3], [100], (0.01, 0.01, 0.01)),
+    "crowded": ([2e-3, 4e-3], [8 * 20, 4], (0.008, 0.012, 0.016)),  # the last octant is taken
+}
+
+
+def strewn(mix, seed=1):
+    return random_lattice(np.array(MIXES[mix][0]), np.array(MIXES[mix][1]), MIXES[mix][2], np.random.default_rng(seed))
+
+
+@pytest.mark.parametrize("mix", MIXES)
+def test_spheres_are_apart_inside_and_complete(mix):
+    diameters, counts, box = MIXES[mix]
+    position, radius = strewn(mix)
+    none = np.empty((0, 3))
+    assert all_pairs(position, radius, none, none, -1e-12) == []
+    assert (position - radius[:, None] >= -1e-12).all()
+    assert (position + radius[:, None] <= np.array(box) + 1e-12).all()
+    for diameter, count in zip(diameters, counts):
+        assert (radius == diameter / 2).sum() == count
+    assert radius.size == sum(counts)
+    assert (np.diff(position[:, 2]) >= 0).all()  # ordered by height
+
+
+def test_a_seed_stands_for_one_lattice():
+    first, again, other = strewn("sharing", 7), strewn("sharing", 7), strewn("sharing", 8)
+    for one, two in zip(first, again):
+        np.testing.assert_array_equal(one, two)
+    assert np.abs(first[0] - other[0]).max() > 1e-3
+
+
+def test_sizes_and_places_are_mixed():
+    """No size sits by preference at one end of the box: mean heights within three standard errors."""
+    position, radius = strewn("sharing", 3)
+    height = position[:, 2] / 0.06
+    for size in np.unique(radius):
+        own = height[radius == size]
+        assert abs(own.mean() - 0.5) < 3 * np.sqrt(1 / 12 / own.size)
+
+
+def test_too_many_spheres_are_refused():
+    """One more than fits: 24 cells, 4 large spheres, 160 small ones in the octants of the 20 others."""
+    with pytest.raises(InputError, match="its 24 lattice cells cannot hold 165 spheres; raise the box"):
+        random_lattice(np.array([2e-3, 4e-3]), np.array([161, 4]), MIXES["crowded"][2], np.random.default_rng(1))
+    with pytest.raises(InputError, match="cannot hold 25 spheres"):
+        random_lattice(np.array([4e-3]), np.array([25]), MIXES["crowded"][2], np.random.default_rng(1))
+
+
+def test_a_box_too_small_is_refused():
+    with pytest.raises(InputError, match="smaller than the largest sphere of 0.004 m; enlarge the box"):
+        random_lattice(np.array([4e-3]), np.array([1]), (0.1, 0.0039, 0.1), np.random.default_rng(1))

@@ -1,0 +1,117 @@
+"""From the layer to the specimen."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.specimen.trimming import layer_height, trim
+from asphalt_nscd.twopoint import Geometry
+
+GEOMETRY = Geometry(b=10e-3, B=20e-3, e=10e-3, h=60e-3, mass=0.02, mobile_mass=0.008)
+BOX = np.array([60e-3, 10e-3, 26.4e-3])
+REDUCTION, REACH = 0.1, 2e-3
+
+
+@pytest.fixture()
+def layer():
+    """A jittered lattice as long and wide as the specimen and 26 mm high; (position, radius)."""
+    rng = np.random.default_rng(2)
+    cells = np.stack(np.meshgrid(np.arange(18), np.arange(3), np.arange(8), indexing="ij"), -1).reshape(-1, 3)
+    radius = rng.uniform(1.2e-3, 1.6e-3, len(cells))
+    pitch = BOX / [18, 3, 8]
+    return pitch * (cells + 0.5) + rng.uniform(-5e-5, 5e-5, cells.shape), radius
+
+
+def test_height_of_a_layer_is_twice_that_of_its_centre_of_mass():
+    position, radius = np.array([[0, 0, 1.0], [0, 0, 2.0]]), np.array([1.0, 2.0])
+    assert layer_height(position, radius) == pytest.approx(2 * (1 + 8 * 2) / 9, rel=1e-14)
+
+
+def test_specimen_is_the_upright_trapezoid(layer):
+    """Length of the layer becomes height, its height becomes the bending direction; nobody is outside,
+    and whoever is inside and held by three bonds is there."""
+    position, radius = layer
+    specimen = trim(position, radius, GEOMETRY, REDUCTION, REACH)
+    x, y, z = specimen.position.T
+    width = GEOMETRY.B + (GEOMETRY.b - GEOMETRY.B) * z / GEOMETRY.h
+    assert (np.abs(x) <= width / 2).all() and (np.abs(y) <= GEOMETRY.e / 2).all()
+    assert (z >= 0).all() and (z <= GEOMETRY.h).all()
+    assert np.abs(x[z < 5e-3]).max() > 1.5 * np.abs(x[z > 55e-3]).max()  # wide foot, narrow head
+
+    middle = layer_height(position, radius) / 2
+    half = 0.5 * (GEOMETRY.B + (GEOMETRY.b - GEOMETRY.B) * position[:, 0] / GEOMETRY.h)
+    inside = np.abs(position[:, 2] - middle) <= half
+    assert inside.sum() == specimen.radius.size + specimen.loose_grains
+    original = np.stack([position[:, 2] - middle, position[:, 1] - GEOMETRY.e / 2, position[:, 0]], axis=1)
+    distance = np.abs(specimen.position[:, None] - original[inside]).max(axis=2).min(axis=1)
+    assert distance.max() < 1e-16
+    bonds = np.bincount(np.concatenate([specimen.network.first, specimen.network.second]))[: x.size]
+    assert bonds.min() >= 3
+
+
+def test_volume_and_mass(layer):
+    position, radius = layer
+    specimen = trim(position, radius, GEOMETRY, REDUCTION, REACH)
+    middle = layer_height(position, radius) / 2
+    of = {tuple(np.round(p, 12)): r for p, r in zip(position, radius)}
+    for p, r in zip(specimen.position, specimen.radius):
+        before = of[tuple(np.round([p[2], p[1] + GEOMETRY.e / 2, p[0] + middle], 12))]
+        assert r**3 == pytest.approx(0.9 * before**3, rel=1e-13)
+    volume = (4 / 3 * np.pi * specimen.radius**3).sum()
+    assert specimen.density * volume == pytest.approx(GEOMETRY.mass, rel=1e-14)
+
+
+def test_loose_grains_are_removed(layer):
+    """Four small grains in a hole, bonded to each other by three bonds each but to nobody else."""
+    position, radius = layer
+    centre = np.array([30e-3, 5e-3, layer_height(position, radius) / 2])
+    far = np.linalg.norm(position - centre, axis=1) > 5e-3
+    position, radius = position[far], radius[far]
+    hollow = trim(position, radius, GEOMETRY, REDUCTION, REACH)
+    corners = 5e-4 * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
+    with_cluster = np.concatenate([position, centre + corners]), np.append(radius, np.full(4, 3e-4))
+    # heights are weighted by volume; the cluster sits at the middle and shifts it by nothing
+    filled = trim(*with_cluster, GEOMETRY, REDUCTION, REACH)
+    assert filled.radius.size == hollow.radius.size
+    assert filled.loose_grains == hollow.loose_grains + 4
+
+
+def test_a_wider_box_is_cut_to_the_thickness(layer):
+    position, radius = layer
+    outside = position[:60] + [0, 10e-3, 0]
+    specimen = trim(np.concatenate([position, outside]), np.append(radius, radius[:60]), GEOMETRY, REDUCTION, REACH)
+    assert np.abs(specimen.position[:, 1]).max() <= GEOMETRY.e / 2
+
+
+def test_a_layer_too_low_is_refused(layer):
+    position, radius = layer
+    low = position[:, 2] < 15e-3
+    with pytest.raises(InputError, match=r"layer is 1\d\.\d mm high, less than the foot of the specimen \(20.0 mm\)"):
+        trim(position[low], radius[low], GEOMETRY, REDUCTION, REACH)
+
+
+def test_a_layer_too_short_is_refused(layer):
+    """Nothing reaches the head: its bonds would be missing."""
+    position, radius = layer
+    short = position[:, 0] < 40e-3
+    with pytest.raises(InputError, match=r"no chain of bonds joins the foot and the head .*60.0 mm\)"):
+        trim(position[short], radius[short], GEOMETRY, REDUCTION, REACH)
+
+
+def test_a_specimen_without_spheres_is_refused(layer):
+    position, radius = layer
+    with pytest.raises(InputError, match="no sphere is left after trimming"):
+        trim(position + [1.0, 0, 0], radius, GEOMETRY, REDUCTION, REACH)
+    with pytest.raises(InputError, match="no sphere is left after trimming"):
+        trim(position, radius, GEOMETRY, REDUCTION, 1e-6)  # no bonds, all grains loose
+
+
+def test_overlapping_bodies_are_refused(layer):
+    """Radii not reduced far enough, or a box longer than the specimen: gaps must be positive."""
+    position, radius = layer
+    with pytest.raises(InputError, match=r"overlap by 0\.\d+ mm; raise the reduction of volume"):
+        trim(position, radius * 1.1, GEOMETRY, 0.0, REACH)
+    with pytest.raises(InputError, match=r"make the box as long as the specimen is high \(60.0 mm\)"):
+        trim(position * [1.02, 1, 1], radius, GEOMETRY, REDUCTION, REACH)
