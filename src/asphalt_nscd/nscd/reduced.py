@@ -34,7 +34,10 @@ def ritz_basis(system: BondedSystem, iterations: int, shift: float = 1e-2) -> np
     near = LinearOperator(stiffness.shape, matvec=shifted.solve)
 
     def static(force: np.ndarray) -> np.ndarray:
-        return cg(stiffness, force, rtol=1e-13, atol=0.0, M=near, maxiter=500)[0]
+        motion = cg(stiffness, force, rtol=1e-13, atol=0.0, M=near, maxiter=500)[0]
+        if np.linalg.norm(stiffness @ motion - force) > 1e-8 * np.linalg.norm(force):
+            raise ArithmeticError("static equations not solved: some body is not held by its bonds")
+        return motion
 
     def embed(motion: np.ndarray) -> np.ndarray:
         columns = np.zeros((system.mass.size, motion.shape[1]))
@@ -61,7 +64,10 @@ def append_columns(system: BondedSystem, basis: np.ndarray, extra: np.ndarray) -
     """
     root = np.sqrt(system.weight)[:, None]
     known = root * (system.operator @ basis[:, 1:])
+    extra = extra[:, extra.any(axis=0)]
     for _ in range(4):  # each pass removes what rounding left of the one before
+        if not extra.size:
+            break
         stretched = root * (system.operator @ extra)
         length = np.linalg.norm(stretched, axis=0)
         share = known.T @ stretched

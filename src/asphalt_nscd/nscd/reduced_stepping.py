@@ -66,6 +66,7 @@ class ReducedStepper:
         self.enrichments, self.most_enrichments = 0, most_enrichments
         # running maxima: |s_0|, residual, utilisation of watched bonds
         self._maxima = np.zeros(3)
+        self._may_yield = np.empty(0, np.int64)
         self._reached_sigma, self._reached_motion = np.zeros(k), np.zeros(k)
         self._operator: ShiftedOperator | None = None
         self._watch(np.zeros(k), np.zeros(k))
@@ -136,7 +137,11 @@ class ReducedStepper:
         """Widen the envelope of s and q, and list the bonds that could yield or close within it."""
         self._sigma_envelope = np.maximum(sigma, 2.0 * self._reached_sigma)
         self._motion_envelope = np.maximum(motion, 2.0 * self._reached_motion)
+        watched = self._may_yield
         self._may_yield, self._may_close = self.model.candidates(self._sigma_envelope, self._motion_envelope)
+        # of what the others have borne so far, only the bound is known
+        borne = np.delete(self.model.utilisation_bound(self._reached_sigma), watched)
+        self._maxima[2] = max(self._maxima[2], borne.max(initial=0.0))
 
     def _enrich(self, driven: float) -> None:
         """Add the correction that makes the coming step exact to the basis."""
@@ -220,6 +225,18 @@ def _advance_reduced(
         combined[2 * k] = 1.0
         if outside:
             return n, _OUTSIDE_ENVELOPE, -1
+        # an inaccurate trial must not decide on gaps and yield, nor one without its contacts on yield
+        stress = max(maxima[0], abs(new_s[0]))
+        size = head_norm * stress + load_norm
+        missing = _norm_of_product(residual_factor, combined)
+        if not missing <= tolerance * size:
+            return n, _RESIDUAL, -1
+        for c in range(closing.shape[0]):
+            share = 0.0
+            for a in range(k):
+                share += closing[c, a] * new_q[a]
+            if share > 1.0:
+                return n, _CLOSED_GAP, c
         worst, most = -1, 1.0
         for c in range(reaction.shape[0]):
             share = _utilisation(reaction[c], new_s)
@@ -227,18 +244,9 @@ def _advance_reduced(
                 worst, most = c, share
         if worst >= 0:
             return n, _YIELD, worst
-        for c in range(closing.shape[0]):
-            share = 0.0
-            for a in range(k):
-                share += closing[c, a] * new_q[a]
-            if share > 1.0:
-                return n, _CLOSED_GAP, c
-        stress = max(maxima[0], abs(new_s[0]))
-        residual = _norm_of_product(residual_factor, combined) / (head_norm * stress + load_norm)
-        if residual > tolerance:
-            return n, _RESIDUAL, -1
         maxima[0] = stress
-        maxima[1] = max(maxima[1], residual)
+        if size > 0.0:
+            maxima[1] = max(maxima[1], missing / size)
         for c in range(reaction.shape[0]):
             maxima[2] = max(maxima[2], _utilisation(reaction[c], new_s))
         force[n] = -load[0]
