@@ -161,3 +161,28 @@ def _lives(process: int) -> bool:
             return file.read().rsplit(")", 1)[1].split()[0] != "Z"
     except FileNotFoundError:
         return False
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["simulate", "m.h5", "--law", "l.json", "--temperature-c", "15", "--frequency-hz", value, "--output", "x"]
+        for value in ("0", "-10", "nan", "inf", "three")
+    ]
+    + [
+        ["deposit", "--counts", "c.csv", "--box-m", "1,1,1", "--seed", "1", "--output", "x", option, value]
+        for option, value in (
+            ("--friction", "nan"), ("--friction", "-1"), ("--time-step-s", "0"), ("--time-step-s", "-1e-4"),
+            ("--stroke-mm", "-5"), ("--vibration-hz", "0"), ("--vibration-s", "nan"), ("--seed", "-1"),
+        )
+    ]
+    + [["trim", "d.h5", "--geometry", "g.csv", "--output", "x", "--volume-reduction", "1"]]
+    + [["condense", "s.h5", "--output", "x", "--poisson", "2"]],
+)  # fmt: skip
+def test_number_out_of_its_range_is_refused_before_anything_is_read(arguments, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as stop:
+        cli.main(arguments)
+    assert stop.value.code == 2
+    assert "must be a number" in (said := capsys.readouterr().err) or "range" in said
+    assert not list(tmp_path.iterdir())

@@ -205,10 +205,15 @@ def simulate(
     law = read_law(law_file)
     model = read_model(model_file)
     began = time.process_time()
-    record = run_test(
-        model, bond_law(law), frequency, amplitude, cycles, time_step, rest_steps, method, tolerance,
-        most_sweeps, progress,
-    )  # fmt: skip
+    try:
+        record = run_test(
+            model, bond_law(law), frequency, amplitude, cycles, time_step, rest_steps, method, tolerance,
+            most_sweeps, progress,
+        )  # fmt: skip
+    except ArithmeticError as error:
+        raise InputError(
+            f"{model_file} at {frequency:g} Hz: {error}; lower the amplitude or choose another method."
+        ) from None
     cpu = time.process_time() - began
     history = record.time, record.force, record.displacement, frequency
     steady = harmonic_response(*history, cycles=min(REDUCED_CYCLES, int(cycles)))

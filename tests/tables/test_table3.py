@@ -54,5 +54,11 @@ def test_without_published_laws(data):
 
 def test_law_that_was_not_fitted_is_refused(data, tmp_path):
     write_law(tmp_path / "p.json", Burgers(1e9, 1e9, 1e9, 1e9), source="published", temperature=20.0)
-    with pytest.raises(InputError, match="without standard errors"):
+    with pytest.raises(InputError, match="not fitted"):
         make([tmp_path / "p.json"], data["measured"])
+
+
+def test_fit_with_as_many_unknowns_as_data_has_an_empty_standard_error(data, tmp_path):
+    write_law(path := tmp_path / "exact.json", Burgers(1e9, 1e9, 1e9, 1e9), source="fitted", temperature=20.0)
+    table = make([path], data["measured"])
+    assert table["standard_error"].isna().all() and table["fitted"].notna().all()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,38 @@ class Geometry(click.ParamType):
 
 
 geometry = click.option("--geometry", required=True, type=Geometry(), help="Trapezoidal specimen.")
+
+
+class Number(click.ParamType):
+    """A finite number within limits; `above` and `below` are excluded themselves."""
+
+    name = "number"
+
+    def __init__(
+        self, above: float | None = None, low: float | None = None, below: float | None = None,
+        high: float | None = None,
+    ) -> None:  # fmt: skip
+        self.limits = [
+            (above, "greater than", lambda x, limit: x > limit),
+            (low, "at least", lambda x, limit: x >= limit),
+            (below, "less than", lambda x, limit: x < limit),
+            (high, "at most", lambda x, limit: x <= limit),
+        ]
+
+    def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> float:
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            number = math.nan
+        limits = [(words, limit, holds) for limit, words, holds in self.limits if limit is not None]
+        if not math.isfinite(number) or not all(holds(number, limit) for _, limit, holds in limits):
+            wanted = " and ".join(f"{words} {limit:g}" for words, limit, _ in limits) or "finite"
+            self.fail(f"{value!r} must be a number {wanted}.", param, context)
+        return number
+
+
+POSITIVE = Number(above=0.0)
+NOT_NEGATIVE = Number(low=0.0)
 
 
 class Lengths(click.ParamType):

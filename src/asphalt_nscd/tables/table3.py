@@ -33,8 +33,8 @@ def make(fitted: list[Path], measured: list[Path], published: Sequence[Path] = (
     for path in fitted:
         content, law = read_json(path), read_law(path)
         temperature = content["temperature_C"]
-        if content.get("std_error") is None:
-            raise InputError(f"{path}: a law without standard errors, so not a fitted one; give fitted laws.")
+        if content.get("source") != "fitted":
+            raise InputError(f"{path}: a law that was not fitted; give fitted laws.")
         known = next((law for t, law in printed.items() if abs(t - temperature) < SAME_TEMPERATURE), None)
         for name, (field, key, unit) in PARAMETERS.items():
             rows.append(
@@ -42,7 +42,8 @@ def make(fitted: list[Path], measured: list[Path], published: Sequence[Path] = (
                     "temperature_C": temperature, "parameter": name, "unit": unit,
                     "published": getattr(known, field) * MEGA if known else np.nan,
                     "fitted": getattr(law, field) * MEGA,
-                    "standard_error": content["std_error"][key] * MEGA,
+                    # as many unknowns as data leave no standard error
+                    "standard_error": content["std_error"][key] * MEGA if content["std_error"] else np.nan,
                     "fitted_to": origin_of(at_temperature(data, temperature)),
                 }
             )  # fmt: skip
