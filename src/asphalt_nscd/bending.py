@@ -200,7 +200,7 @@ def simulate(
     if 20.0 * time_step * frequency > 1.0:
         raise InputError(
             f"time step {time_step:g} s: fewer than 20 steps per cycle at {frequency:g} Hz; "
-            f"give at most {0.05 / frequency:.2g} s."
+            f"give at most {int(5e4 / frequency) * 1e-6:g} s."
         )
     law = read_law(law_file)
     model = read_model(model_file)

@@ -1,0 +1,198 @@
+"""The bending test from files to a file, on a small beam that was not poured."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+
+from asphalt_nscd import bending
+from asphalt_nscd.bending import Model, bond_law, condense, read_model, run_test, simulate
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.harmonic import driving_force
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.laws_io import write_law
+from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.store import load, save
+from asphalt_nscd.twopoint import complex_modulus
+
+# 15 degC with viscosities lowered until transients die within two cycles at 40 Hz
+LAW = Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9)
+FREQUENCY, DT = 40.0, 1e-4
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, beam):
+    """A specimen file, its models with free and blocked head, and a law file."""
+    folder = tmp_path_factory.mktemp("bending")
+    arrays = {"position": beam.position, "radius": beam.radius}
+    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
+    attributes = {name: float(value) for name, value in asdict(beam.geometry).items()}
+    save(folder / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
+    for head in ("free", "blocked"):
+        condense(folder / "beam.h5", head, 0.35, 2.7e6, 0.7, folder / f"{head}.h5")
+    write_law(folder / "law.json", LAW, source="fitted", temperature=15.0)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def model(folder) -> Model:
+    return read_model(folder / "free.h5")
+
+
+def run(model, method="reduced", amplitude=1e-6, cycles=2.0, rest=20, **changes):
+    return run_test(model, bond_law(LAW), FREQUENCY, amplitude, cycles, DT, rest, method, **changes)
+
+
+def test_a_model_file_holds_the_system_of_its_specimen(folder, beam, model):
+    system = bending_system(beam, 0.35, 2.7e6, 0.7)
+    for name in ("weight", "mass", "load", "gap", "strength"):
+        np.testing.assert_array_equal(getattr(model.system, name), getattr(system, name))
+    assert (model.system.operator != system.operator).nnz == 0
+    assert (model.system.driven, model.system.friction) == (system.driven, 0.7)
+    assert model.geometry == beam.geometry and (model.name, model.head) == ("beam", "free")
+    np.testing.assert_array_equal(model.sphere_height, beam.position[:, 2])
+    blocked = read_model(folder / "blocked.h5")
+    assert blocked.head == "blocked" and blocked.system.mass.size == system.mass.size - 3
+    with pytest.raises(InputError, match="holds 'specimen', not 'model'"):
+        read_model(folder / "beam.h5")
+
+
+def test_the_law_of_a_bond_is_that_of_the_mix():
+    law = bond_law(LAW)
+    for omega in (1.0, 250.0):
+        assert law.discrete_modulus(omega, 0.0) == pytest.approx(complex(LAW.complex_modulus(omega)), rel=1e-14)
+
+
+def test_record_of_a_test(model):
+    """Times start after the rest; the head follows A sin(2 pi f t) exactly."""
+    record = run(model, cycles=1.5, rest=7)
+    assert record.time.size == round(1.5 / FREQUENCY / DT) == record.force.size == record.displacement.size
+    np.testing.assert_allclose(record.time, DT * np.arange(1, record.time.size + 1), rtol=1e-14)
+    np.testing.assert_allclose(record.displacement, 1e-6 * np.sin(2 * np.pi * FREQUENCY * record.time), rtol=1e-12)
+    assert record.velocity.shape == (record.time.size, model.basis.shape[1])
+    driven = np.diff(record.displacement, prepend=0.0) / DT
+    np.testing.assert_allclose(record.velocity @ model.basis[model.system.driven], driven, rtol=1e-9)
+
+
+def test_methods_agree(model):
+    """Reduced and condensed to 1e-10 at every step; the steady oscillation to the step length, 1e-2;
+    Gauss-Seidel stopped after 50 sweeps is far off."""
+    reduced, condensed = run(model), run(model, "condensed")
+    size = np.abs(condensed.force).max()
+    np.testing.assert_allclose(reduced.force, condensed.force, rtol=0, atol=1e-10 * size)
+    assert reduced.residual < 1e-6 and reduced.details["full_steps"] == 0 and reduced.broken == []
+    steady = run(model, "harmonic")
+    force = 1e-6 * driving_force(model.system, complex(LAW.complex_modulus(80 * np.pi)), 80 * np.pi)
+    np.testing.assert_allclose(steady.force, (force * np.exp(80j * np.pi * steady.time)).imag, atol=1e-9 * abs(force))
+    last = slice(-250, None)
+    assert np.abs(reduced.force[last] - steady.force[last]).max() < 2e-2 * size
+    told = []
+    stopped = run(model, "sweeps", progress=lambda *args: told.append(args))
+    assert np.abs(stopped.force).max() < 0.7 * size
+    assert stopped.details.keys() == {"sweeps", "tolerance", "most_sweeps"}
+    assert 25 * 520 < stopped.details["sweeps"] <= 50 * 520
+    assert told[-1] == (520, 520)
+
+
+def test_bonds_break_alike(model):
+    """Beyond yield by either method: the same bonds, the same forces."""
+    reduced, condensed = (run(model, method, amplitude=8e-5, cycles=1.0) for method in ("reduced", "condensed"))
+    assert reduced.broken == condensed.broken != []
+    assert reduced.details["enrichments"] > 0 and reduced.details["largest_utilisation"] <= 1.0
+    np.testing.assert_allclose(reduced.force, condensed.force, rtol=0, atol=1e-6 * np.abs(condensed.force).max())
+
+
+@pytest.mark.parametrize("rest", [0, 20])
+def test_a_closing_gap_hands_over_to_the_full_system(model, rest):
+    """Tiny gaps: the run goes on as the condensed one, says for how long, and has no velocities there."""
+    system = replace(model.system, gap=1e-3 * model.system.gap, strength=np.full_like(model.system.strength, np.inf))
+    narrow = replace(model, system=system)
+    reduced, condensed = (run(narrow, method, 3e-5, cycles=0.2, rest=rest) for method in ("reduced", "condensed"))
+    full_steps = reduced.details["full_steps"]
+    assert 5 < full_steps < 45
+    np.testing.assert_allclose(reduced.force, condensed.force, rtol=0, atol=1e-6 * np.abs(condensed.force).max())
+    assert np.isnan(reduced.velocity[-full_steps:]).all() and np.isfinite(reduced.velocity[:-full_steps]).all()
+
+
+def test_result_file(folder, model):
+    """The columns of simulations.csv, computed anew from the histories beside them."""
+    simulate(
+        folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 1e-6, 3.0, DT, 50, folder / "test.h5",
+        law_source="fitted",
+    )  # fmt: skip
+    record = load(folder / "test.h5", "test")
+    columns, arrays = record.attributes, record.arrays
+    expected = {
+        "specimen": "beam", "temperature_C": 15.0, "frequency_Hz": 40.0, "spheres": model.sphere_height.size,
+        "bonds": model.system.gap.size, "broken_bonds": 0, "steps": 750, "method": "reduced", "head": "free",
+        "law_source": "fitted", "time_step_s": DT, "amplitude_m": 1e-6, "enrichments": 0, "full_steps": 0,
+    }  # fmt: skip
+    assert {name: columns[name] for name in expected} == expected
+    assert 0.0 < columns["residual"] < 1e-6 and columns["cpu_s"] > 0.0
+    assert 0.0 < columns["largest_utilisation"] < 1.0
+    law = complex(LAW.complex_modulus(80 * np.pi))
+    assert columns["E_law_MPa"] == pytest.approx(abs(law) / 1e6, rel=1e-12)
+    assert columns["phase_law_deg"] == pytest.approx(np.degrees(np.angle(law)), rel=1e-12)
+
+    # projection of the last two cycles, which are whole, instead of a least-squares fit
+    last = slice(-500, None)
+    carrier = np.exp(-80j * np.pi * arrays["time_s"][last])
+    ratio = (arrays["force_N"][last] * carrier).sum() / (arrays["displacement_m"][last] * carrier).sum()
+    modulus = complex_modulus(model.geometry, FREQUENCY, abs(ratio), 1.0, np.angle(ratio))
+    assert columns["E_MPa"] == pytest.approx(abs(modulus) / 1e6, rel=1e-3)
+    assert columns["phase_deg"] == pytest.approx(np.degrees(np.angle(modulus)), abs=0.05)
+    assert columns["E_peak_MPa"] == pytest.approx(columns["E_MPa"], rel=0.02)
+    assert columns["phase_peak_deg"] == pytest.approx(columns["phase_deg"], abs=2 * 360 * FREQUENCY * DT)
+    # the beam is short, but its phase is the law's, up to the step length
+    assert columns["phase_deg"] == pytest.approx(columns["phase_law_deg"], abs=1.0)
+    assert arrays["broken"].size == 0
+
+
+def test_velocity_profile(folder, model, beam):
+    """Mean velocities of layers against those of the spheres in the full system."""
+    simulate(folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 1e-6, 1.0, DT, 0, folder / "profile.h5")
+    arrays = load(folder / "profile.h5", "test").arrays
+    height, speed = arrays["profile/height_m"], arrays["profile/velocity_m_s"]
+    assert height.size == bending.PROFILE_LAYERS and speed.shape == (arrays["profile/time_s"].size, height.size)
+    assert arrays["profile/spheres"].sum() == beam.radius.size
+    edges = np.linspace(0, beam.geometry.h, height.size + 1)
+    np.testing.assert_allclose(height, (edges[1:] + edges[:-1]) / 2)
+
+    driven = np.diff(arrays["displacement_m"], prepend=0.0) / DT
+    stepper = CondensedStepper(model.system, bond_law(LAW), DT, CondensedState.at_rest(model.system, bond_law(LAW)))
+    for n, velocity in enumerate(driven):
+        stepper.advance(velocity)
+        sample = np.flatnonzero(np.abs(arrays["profile/time_s"] - (n + 1) * DT) < 1e-9)
+        if not sample.size or n % 40:
+            continue
+        along = stepper.state.velocity[: 6 * beam.radius.size : 6]
+        for layer in range(height.size):
+            members = (beam.position[:, 2] >= edges[layer]) & (beam.position[:, 2] < edges[layer + 1])
+            assert arrays["profile/spheres"][layer] == members.sum()
+            mean = along[members].mean() if members.any() else 0.0
+            assert speed[sample[0], layer] == pytest.approx(mean, abs=1e-9 * np.abs(driven).max())
+
+
+def test_the_same_test_twice(folder):
+    """Histories to the last bit."""
+    for name in ("one.h5", "two.h5"):
+        simulate(folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 1e-6, 1.0, DT, 10, folder / name)
+    one, two = (load(folder / name, "test") for name in ("one.h5", "two.h5"))
+    assert all(one.arrays[name].tobytes() == two.arrays[name].tobytes() for name in one.arrays)
+    assert one.attributes | {"cpu_s": 0} == two.attributes | {"cpu_s": 0}
+
+
+@pytest.mark.parametrize(
+    ("cycles", "time_step", "message"),
+    [
+        (0.5, 1e-4, "needs a whole cycle"),
+        (3.0, 1.3e-3, "fewer than 20 steps per cycle at 40 Hz; give at most 0.00125 s"),
+    ],
+)
+def test_tests_that_cannot_be_reduced(folder, cycles, time_step, message):
+    with pytest.raises(InputError, match=message):
+        simulate(folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 1e-6, cycles, time_step, 0, folder / "no.h5")
+    assert not (folder / "no.h5").exists()
