@@ -104,4 +104,4 @@ rule packing:
     message:
         "Set the packing of samples beside their modulus"
     shell:
-        "asphalt-nscd table packing {params.data} --output {output} > {log} 2>&1"
+        "asphalt-nscd table packing {params.data:q} --output {output} > {log} 2>&1"

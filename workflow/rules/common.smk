@@ -40,8 +40,8 @@ SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
 wildcard_constraints:
     seed=r"\d+",
     sample=r"s\d+(-friction[\d.]+)?",
-    temperature=r"-?[\d.]+",
-    frequency=r"[\d.]+",
+    temperature=r"-?[\d.]+(e[+-]?\d+)?",
+    frequency=r"[\d.]+(e[+-]?\d+)?",
     head="free|blocked",
     parameter="Em|eta_m|Ek|eta_k",
     factor=r"[\d.]+",
@@ -55,9 +55,9 @@ def code(step, *modules):
 
 
 def text(value):
-    """A value of the study as one word on the command line."""
+    """A value of the study as one word on the command line, the same in whatever order keys are written."""
     if isinstance(value, dict):
-        return ",".join(f"{key}={item}" for key, item in value.items())
+        return ",".join(f"{key}={item}" for key, item in sorted(value.items()))
     if isinstance(value, list):
         return ",".join(map(str, value))
     return value

@@ -7,7 +7,8 @@ def records(table):
     """Sampled records that a table of measurements names, as far as they are there."""
     if not Path(table).is_file():
         return []
-    with open(table, encoding="utf-8-sig", newline="") as file:
+    # what cannot be decoded is refused, with a sentence, by the rule that reads the table
+    with open(table, encoding="utf-8-sig", errors="replace", newline="") as file:
         named = (row.get("record") for row in csv.DictReader(file))
         return [str(path) for name in named if name and (path := Path(table).parent / name).is_file()]
 
@@ -32,7 +33,7 @@ rule reconstruct:
     message:
         "Reconstruct measurements from the published laws"
     shell:
-        "asphalt-nscd reconstruct {input.table} --geometry {params.geometry} --frequencies-hz {params.frequencies} {params.amplitude} {params.scatter} --law-output {output.law} --output {output.measurements} > {log} 2>&1"
+        "asphalt-nscd reconstruct {input.table:q} --geometry {params.geometry:q} --frequencies-hz {params.frequencies} {params.amplitude} {params.scatter} --law-output {output.law} --output {output.measurements} > {log} 2>&1"
 
 
 rule reduce:
@@ -53,4 +54,4 @@ rule reduce:
     message:
         "Reduce the measurements to complex moduli, Eqs. (1)-(5)"
     shell:
-        "asphalt-nscd reduce {input.measurements} --geometry {params.geometry} {params.window} --output {output} > {log} 2>&1"
+        "asphalt-nscd reduce {input.measurements:q} --geometry {params.geometry:q} {params.window} --output {output} > {log} 2>&1"

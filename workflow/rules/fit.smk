@@ -34,4 +34,4 @@ rule published_law:
     message:
         "Take the published Burgers law at {wildcards.temperature} degC, Table 3"
     shell:
-        "asphalt-nscd published-law {input.table} --temperature-c {wildcards.temperature} --unit {params.unit} --output {output} > {log} 2>&1"
+        "asphalt-nscd published-law {input.table:q} --temperature-c {wildcards.temperature} --unit {params.unit} --output {output} > {log} 2>&1"

@@ -28,7 +28,7 @@ for name, (category, data) in FIGURES.items():
         message:
             f"Draw {name}"
         shell:
-            "asphalt-nscd figure {rule} {params.data} --output-stem {params.stem} > {log} 2>&1"
+            "asphalt-nscd figure {rule} {params.data:q} --output-stem {params.stem} > {log} 2>&1"
 
 
 for name, data in TABLES.items():
@@ -50,7 +50,7 @@ for name, data in TABLES.items():
         message:
             f"Make {name}"
         shell:
-            "asphalt-nscd table {rule} {params.data} --output {output} > {log} 2>&1"
+            "asphalt-nscd table {rule} {params.data:q} --output {output} > {log} 2>&1"
 
 
 for name, category in PAGES.items():

@@ -36,7 +36,7 @@ rule deposit:
     message:
         "Pour and vibrate sample s{wildcards.seed}; to watch: tail -f {log}"
     shell:
-        "asphalt-nscd deposit --counts {input.counts} --box-m {params.box} --seed {wildcards.seed} {params.pouring} --output {output} > {log} 2>&1"
+        "asphalt-nscd deposit --counts {input.counts:q} --box-m {params.box} --seed {wildcards.seed} {params.pouring} --output {output} > {log} 2>&1"
 
 
 rule trim:
@@ -56,7 +56,7 @@ rule trim:
     message:
         "Trim sample {wildcards.sample} and bond its spheres"
     shell:
-        "asphalt-nscd trim {input.deposit} --geometry {params.geometry} {params.bonds} --output {output} > {log} 2>&1"
+        "asphalt-nscd trim {input.deposit} --geometry {params.geometry:q} {params.bonds} --output {output} > {log} 2>&1"
 
 
 rule condense:
