@@ -186,3 +186,19 @@ def test_number_out_of_its_range_is_refused_before_anything_is_read(arguments, c
     assert stop.value.code == 2
     assert "must be a number" in (said := capsys.readouterr().err) or "range" in said
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["table", "table4", "--output", "x.csv"], "data simulations, measured: missing"),
+        (["figure", "fig09", "laws=l", "--output-stem", "x"], "data simulations, measured: missing"),
+        (["table", "table4", "simulation=s", "--output", "x.csv"], "data simulation: not known"),
+    ],
+)
+def test_data_that_a_table_or_figure_does_not_take_is_named(arguments, sentence, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as stop:
+        cli.main(arguments)
+    assert stop.value.code == 2 and sentence in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())

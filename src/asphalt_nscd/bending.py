@@ -101,7 +101,7 @@ class Record:
     displacement: np.ndarray  # (s,) m
     force: np.ndarray  # (s,) N
     broken: list[int]
-    residual: float
+    residual: float  # of the reduced form; relative change of the last sweep; NaN where nothing is checked
     details: dict[str, float | int]
     velocity: np.ndarray | None = None  # (s, k) coordinates in the basis, of the reduced method
 
@@ -126,7 +126,7 @@ def run_test(
             model.system, law.discrete_modulus(omega, 0.0), omega
         )
         force = (amplitude_of_force * np.exp(1j * omega * times)).imag
-        return Record(times, displacement, force, [], 0.0, {})
+        return Record(times, displacement, force, [], np.nan, {})
     if method == "reduced":
         force, velocity, broken, residual, details = _run_reduced(model, law, time_step, driven, progress)
     else:
@@ -137,7 +137,7 @@ def run_test(
             stepper = SweepingStepper(model.system, law, time_step, state, tolerance, most_sweeps)
         force, velocity = _march(stepper, driven, 0.0, time_step, progress), None
         broken = state.broken
-        residual = stepper.largest_change if method == "sweeps" else 0.0
+        residual = stepper.largest_change if method == "sweeps" else np.nan
         details = {}
         if method == "sweeps":
             details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most_sweeps}

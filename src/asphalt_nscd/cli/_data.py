@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from importlib import import_module
+from inspect import signature
 from pathlib import Path
 from pkgutil import iter_modules
 from types import ModuleType
@@ -26,12 +27,18 @@ class Data(click.ParamType):
         return kind, Path(path)
 
 
-def grouped(data: Iterable[tuple[str, Path]]) -> dict[str, list[Path]]:
-    """All paths of each kind."""
+def made_from(data: Iterable[tuple[str, Path]], make: Callable[..., Any]) -> Any:
+    """What `make` gives of all paths of each kind, once the kinds are known to be those it takes."""
     kinds: dict[str, list[Path]] = {}
     for kind, path in data:
         kinds.setdefault(kind, []).append(path)
-    return kinds
+    wanted = signature(make).parameters
+    unknown = [kind for kind in kinds if kind not in wanted]
+    missing = [kind for kind, rule in wanted.items() if rule.default is rule.empty and kind not in kinds]
+    for problem, names in (("not known", unknown), ("missing", missing)):
+        if names:
+            raise InputError(f"data {', '.join(names)}: {problem}; give {', '.join(wanted)} as kind=path.")
+    return make(**kinds)
 
 
 def part(package: str, name: str) -> ModuleType:

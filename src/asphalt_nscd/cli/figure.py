@@ -16,4 +16,4 @@ def command(name: str, data: tuple[tuple[str, Path], ...], output_stem: Path) ->
     from asphalt_nscd.figures.save import save_figure
 
     draw = _data.part("figures", name).draw
-    save_figure(draw(**_data.grouped(data)), output_stem)
+    save_figure(_data.made_from(data, draw), output_stem)

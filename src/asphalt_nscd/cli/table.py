@@ -16,4 +16,4 @@ def command(name: str, data: tuple[tuple[str, Path], ...], output: Path) -> None
     from asphalt_nscd.store import write_table
 
     make = _data.part("tables", name).make
-    write_table(output, make(**_data.grouped(data)))
+    write_table(output, _data.made_from(data, make))
