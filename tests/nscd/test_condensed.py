@@ -174,6 +174,20 @@ def test_a_block_lands_and_stays():
     assert np.abs(step.state.velocity).max() < 1e-9
 
 
+def test_the_drive_feels_the_contact_it_pushes_on():
+    """Head - closed gap - body - spring - wall, the bond between head and body broken: the force on the
+    head is what both masses and the spring take."""
+    rows = np.zeros((6, 2))
+    rows[0], rows[3] = [-1, 1], [0, -1]  # body minus head, wall minus body
+    of = system(rows, 1e-3, [0.2, 0.3], gap=[1e-9, 1.0])
+    step = stepper(of, BondLaw(1e10, 1e20, np.array([]), np.array([])), dt=1e-4, broken=[0])
+    force = step.advance(1e-3)
+    moved = 1e-7 - 1e-9
+    assert step.state.displacement[1] == pytest.approx(moved, rel=1e-12)
+    expected = 0.2 * 1e-3 / 1e-4 + 0.3 * moved / 1e-4**2 + 1e7 * moved
+    assert force == pytest.approx(expected, rel=1e-9)
+
+
 def bundle(strengths, load=None) -> BondedSystem:
     """A driven head, one strong bond to a light body, and from there parallel bonds to the wall."""
     rows = np.zeros((3 * (1 + len(strengths)), 2))
@@ -199,6 +213,13 @@ def test_yield_cascades_within_one_step():
     force = step.advance(velocity) - inertia
     assert step.state.broken == [3, 1, 4, 2]  # numbered after the strong bond 0
     assert abs(force) < 1e-2  # what the light body's inertia still asks for
+
+
+def test_of_several_overstressed_bonds_the_worst_goes_first():
+    """Two exceed yield in the first place, two more once these are gone."""
+    step = stepper(bundle([0.30, 0.31, 0.44, 0.46]), BondLaw(1e10, 1e20, np.array([]), np.array([])), dt=1e-4)
+    step.advance(1.6e-7 / 1e-4)
+    assert step.state.broken == [1, 2, 3, 4]
 
 
 def test_only_the_overstressed_bond_breaks():

@@ -63,19 +63,40 @@ def test_volume_and_mass(layer):
     assert specimen.density * volume == pytest.approx(GEOMETRY.mass, rel=1e-14)
 
 
-def test_loose_grains_are_removed(layer):
-    """Four small grains in a hole, bonded to each other by three bonds each but to nobody else."""
+@pytest.fixture()
+def hollow(layer):
+    """The layer with a hole of 5 mm radius in its middle: (position, radius, centre of the hole)."""
     position, radius = layer
     centre = np.array([30e-3, 5e-3, layer_height(position, radius) / 2])
     far = np.linalg.norm(position - centre, axis=1) > 5e-3
-    position, radius = position[far], radius[far]
-    hollow = trim(position, radius, GEOMETRY, REDUCTION, REACH)
+    return position[far], radius[far], centre
+
+
+def test_a_cluster_that_touches_nobody_is_removed(hollow):
+    """Four small grains in the hole, bonded to each other by three bonds each but to nobody else."""
+    position, radius, centre = hollow
     corners = 5e-4 * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
-    with_cluster = np.concatenate([position, centre + corners]), np.append(radius, np.full(4, 3e-4))
-    # heights are weighted by volume; the cluster sits at the middle and shifts it by nothing
-    filled = trim(*with_cluster, GEOMETRY, REDUCTION, REACH)
-    assert filled.radius.size == hollow.radius.size
-    assert filled.loose_grains == hollow.loose_grains + 4
+    filled = np.concatenate([position, centre + corners]), np.append(radius, np.full(4, 3e-4))
+    without, specimen = (trim(*of, GEOMETRY, REDUCTION, REACH) for of in ((position, radius), filled))
+    assert specimen.radius.size == without.radius.size
+    assert specimen.loose_grains == without.loose_grains + 4
+
+
+@pytest.mark.parametrize(("bonds", "kept"), [(1, False), (2, False), (3, True)])
+def test_a_grain_needs_three_bonds(hollow, bonds, kept):
+    """A small grain in the hole where it reaches just so many of those around."""
+    position, radius, centre = hollow
+    small = 2e-4
+    for place in centre + np.random.default_rng(bonds).uniform(-4e-3, 4e-3, (5000, 3)):
+        gap = np.linalg.norm(position - place, axis=1) - 0.9 ** (1 / 3) * (radius + small)
+        if (gap < REACH - 1e-5).sum() == bonds == (gap < REACH + 1e-5).sum() and gap.min() > 1e-4:
+            break
+    else:
+        pytest.fail("no such place")
+    filled = np.concatenate([position, [place]]), np.append(radius, small)
+    without, specimen = (trim(*of, GEOMETRY, REDUCTION, REACH) for of in ((position, radius), filled))
+    assert specimen.radius.size == without.radius.size + kept
+    assert specimen.loose_grains == without.loose_grains + (not kept)
 
 
 def test_a_wider_box_is_cut_to_the_thickness(layer):

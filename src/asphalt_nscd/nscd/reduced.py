@@ -73,7 +73,7 @@ def append_columns(system: BondedSystem, basis: np.ndarray, extra: np.ndarray) -
         share = known.T @ stretched
         extra = (extra - basis[:, 1:] @ share) / length
         stretched = (stretched - known @ share) / length
-        _, size, directions = np.linalg.svd(np.linalg.qr(stretched, mode="r"))
+        _, size, directions = np.linalg.svd(np.linalg.qr(stretched, mode="r"), full_matrices=False)
         kept = size > DEPENDENT
         extra = extra @ (directions[kept].T / size[kept])
     return np.column_stack([basis, extra])
