@@ -16,7 +16,7 @@ from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.law import BondLaw
 from asphalt_nscd.nscd.reduced import ReducedModel, ritz_basis
-from asphalt_nscd.nscd.reduced_stepping import ClosedGap, ReducedStepper
+from asphalt_nscd.nscd.reduced_stepping import FullSystemNeeded, ReducedStepper
 from asphalt_nscd.nscd.sweeping import SweepingStepper
 from asphalt_nscd.preparation import read_specimen
 from asphalt_nscd.rheology.burgers import Burgers
@@ -156,9 +156,9 @@ def _run_reduced(
     broken = stepper.state.broken
     try:
         force[:], velocity[:] = stepper.run(driven)
-    except ClosedGap as closed:
-        done = closed.force.size
-        force[:done], velocity[:done] = closed.force, closed.velocity
+    except FullSystemNeeded as accepted:
+        done = accepted.force.size
+        force[:done], velocity[:done] = accepted.force, accepted.velocity
         state = stepper.full_state()
         full = CondensedStepper(model.system, law, time_step, state)
         force[done:] = _march(full, driven[done:], driven[done - 1] if done else 0.0, time_step, progress)

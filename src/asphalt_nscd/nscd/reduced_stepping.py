@@ -20,6 +20,9 @@ FIRST_ENRICHMENT, LARGEST_ENRICHMENT = 4, 16
 """Vectors added at a violation: the correction of the refused step, and those its inertia will need.
 Doubled at every further violation, since each costs a projection of the whole system."""
 
+MOST_ENRICHMENTS = 30
+"""After these the basis has some 500 vectors, and full steps are cheaper in time and memory."""
+
 _DONE, _OUTSIDE_ENVELOPE, _YIELD, _CLOSED_GAP, _RESIDUAL = range(5)
 
 
@@ -44,11 +47,13 @@ class Certificate:
     enrichments: int
 
 
-class ClosedGap(Exception):
-    """A gap closes in the step after those returned; only the full system can go on."""
+class FullSystemNeeded(Exception):
+    """The step after those returned is one for the full system: a gap closes, or the model has outgrown
+    its use after many bonds have broken.
+    """
 
-    def __init__(self, force: np.ndarray, velocity: np.ndarray) -> None:
-        super().__init__("a gap closes")
+    def __init__(self, reason: str, force: np.ndarray, velocity: np.ndarray) -> None:
+        super().__init__(reason)
         self.force, self.velocity = force, velocity
 
 
@@ -56,8 +61,9 @@ class ReducedStepper:
     """Steps a reduced model at constant dt and law; `state` starts at rest."""
 
     def __init__(
-        self, model: ReducedModel, law: BondLaw, dt: float, tolerance: float, most_enrichments: int = 100
-    ) -> None:
+        self, model: ReducedModel, law: BondLaw, dt: float, tolerance: float,
+        most_enrichments: int = MOST_ENRICHMENTS,
+    ) -> None:  # fmt: skip
         k = model.basis.shape[1]
         elements = np.size(law.kelvin_springs)
         self.model, self.dt, self.tolerance = model, dt, tolerance
@@ -75,7 +81,7 @@ class ReducedStepper:
         """Follow the driven displacements (n,) [m], one per step.
 
         Returns the driving force (n,) [N] and the velocity coordinates (n, k) of the basis as it
-        was at the call. Raises ClosedGap, with what was accepted, when a gap closes.
+        was at the call. Raises FullSystemNeeded, with what was accepted, where it cannot go on.
         """
         force, velocity = np.empty(driven.size), np.zeros((driven.size, self.model.basis.shape[1]))
         done = 0
@@ -84,11 +90,13 @@ class ReducedStepper:
             done += taken
             if code == _DONE:
                 return force, velocity
-            if code == _CLOSED_GAP:
-                raise ClosedGap(force[:done], velocity[:done])
             if code == _OUTSIDE_ENVELOPE:
                 self._watch(2.0 * np.abs(self._trial[1]), 2.0 * np.abs(self._trial[2]))
                 continue
+            if code == _CLOSED_GAP:
+                raise FullSystemNeeded("a gap closes", force[:done], velocity[:done])
+            if self.enrichments >= self.most_enrichments:
+                raise FullSystemNeeded("too many enrichments", force[:done], velocity[:done])
             if code == _YIELD:
                 self.state.broken.append(bond)
                 self.model = self.model.with_basis(self.model.basis, self.state.broken)
@@ -145,8 +153,6 @@ class ReducedStepper:
 
     def _enrich(self, driven: float) -> None:
         """Add the correction that makes the coming step exact to the basis."""
-        if self.enrichments >= self.most_enrichments:
-            raise ArithmeticError(f"residual above {self.tolerance:.1e} after {self.enrichments} enrichments")
         self.enrichments += 1
         model, state, dt = self.model, self.state, self.dt
         explicit = self.law.explicit_part(state.sigma, state.kelvin)
