@@ -21,6 +21,11 @@ else ifneq ($(shell .venv/bin/asphalt-nscd --version >/dev/null 2>&1 && echo wor
 .PHONY: $(READY)
 endif
 
+# Said at once: Snakemake answers a missing configuration with a traceback.
+ifeq ($(filter study,$(MAKECMDGOALS))$(shell test -f "$(CONFIG)" && echo found),study)
+$(error $(CONFIG): no such file; give a study with CONFIG=my.yaml)
+endif
+
 .PHONY: paper smoke study test
 
 paper: $(READY)

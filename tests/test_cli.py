@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -109,7 +110,13 @@ def write_large(path, kind):
     """A step that writes a megabyte, in a shell where files may have ten kilobytes."""
     script = (
         "import sys, numpy, pandas; from asphalt_nscd import cli, store\n"
+        "from asphalt_nscd.figures.save import save_figure\n"
+        "def drawing():\n"
+        "    from matplotlib.figure import Figure\n"
+        "    (figure := Figure()).subplots().scatter(*numpy.random.default_rng(1).random((2, 5000)))\n"
+        "    return figure\n"
         "steps = {'h5': lambda p: store.save(p, 'test', {'x': numpy.arange(100000)}, {}),\n"
+        "         'pdf': lambda p: save_figure(drawing(), p.removesuffix('.pdf')),\n"
         "         'csv': lambda p: store.write_table(p, pandas.DataFrame({'x': range(100000)}))}\n"
         f"sys.exit(cli._status(lambda: steps[{kind!r}]({str(path)!r})))"
     )
@@ -117,11 +124,11 @@ def write_large(path, kind):
     return subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, preexec_fn=limit)
 
 
-@pytest.mark.parametrize("kind", ["h5", "csv"])
+@pytest.mark.parametrize("kind", ["h5", "csv", "pdf"])
 def test_file_that_cannot_be_written_in_full_is_not_left(tmp_path, kind):
     done = write_large(tmp_path / f"out.{kind}", kind)
     assert done.returncode == 2, done.stderr
-    assert done.stderr.startswith("error: ") and done.stderr.count("\n") == 1
+    assert done.stderr.startswith(f"error: {tmp_path}/out.{kind}: ") and done.stderr.count("\n") == 1
     assert "file too large" in done.stderr
     assert not list(tmp_path.iterdir())
 
@@ -176,6 +183,16 @@ def _lives(process: int) -> bool:
             ("--stroke-mm", "-5"), ("--vibration-hz", "0"), ("--vibration-s", "nan"), ("--seed", "-1"),
         )
     ]
+    + [
+        ["reconstruct", "t.csv", "--geometry", "g.csv", "--seed", "1", "--output", "x", "--frequencies-hz", *more]
+        for more in (
+            ["3,x"], ["nan"], ["3,3"], ["0"], [""], ["3", "--phase-scatter-deg", "nan"],
+            ["3", "--modulus-scatter", "-1"], ["3", "--amplitude-m", "0"], ["3", "--specimens", "0"],
+        )
+    ]
+    + [["reduce", "m.csv", "--geometry", "g.csv", "--output", "x", "--cycles", "-3"]]
+    + [["scale-law", "l.json", "--parameter", "Em", "--output", "x", "--factor", "nan"]]
+    + [["fit", "m.csv", "--output", "x", "--temperature-c", "nan"]]
     + [["trim", "d.h5", "--geometry", "g.csv", "--output", "x", "--volume-reduction", "1"]]
     + [["condense", "s.h5", "--output", "x", "--poisson", "2"]],
 )  # fmt: skip
@@ -184,7 +201,7 @@ def test_number_out_of_its_range_is_refused_before_anything_is_read(arguments, c
     with pytest.raises(SystemExit) as stop:
         cli.main(arguments)
     assert stop.value.code == 2
-    assert "must be a number" in (said := capsys.readouterr().err) or "range" in said
+    assert re.search("must be a number|range|positive numbers joined by commas", capsys.readouterr().err)
     assert not list(tmp_path.iterdir())
 
 
@@ -201,4 +218,14 @@ def test_data_that_a_table_or_figure_does_not_take_is_named(arguments, sentence,
     with pytest.raises(SystemExit) as stop:
         cli.main(arguments)
     assert stop.value.code == 2 and sentence in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_study_that_is_no_json(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as stop:
+        cli.main(["study", "{bad", "--output", "x.json"])
+    assert stop.value.code == 2
+    said = capsys.readouterr().err
+    assert said.startswith("error: STUDY is not valid JSON") and said.count("\n") == 1
     assert not list(tmp_path.iterdir())

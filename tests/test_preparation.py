@@ -96,6 +96,13 @@ def test_a_layer_too_low_for_the_geometry(folder, poured):
     assert not (folder / "none.h5").exists()
 
 
+@pytest.mark.parametrize("change", [{"h_mm": 61}, {"e_mm": 10.1}])
+def test_a_specimen_larger_than_the_box(folder, poured, change):
+    with pytest.raises(InputError, match=r"the specimen is .* mm (high|thick), but the box only (60|10) mm"):
+        trim_deposit(folder / "deposit.h5", GEOMETRY | change, 0.1, 2e-3, folder / "none.h5")
+    assert not (folder / "none.h5").exists()
+
+
 def test_another_file_is_not_a_deposit(folder, poured):
     with pytest.raises(InputError, match="holds 'deposit', not 'specimen'"):
         read_specimen(folder / "deposit.h5")

@@ -118,8 +118,11 @@ def test_smooth_law_can_be_kept_and_the_grid_chosen(smooth, tmp_path):
         ({"specimens": 5}, "specimen '5' has no geometry"),
         ({"frequencies": (3.0, -1.0)}, "must be positive"),
         ({"frequencies": ()}, "must be positive"),
+        ({"frequencies": (3.0, float("nan"))}, "must be positive"),
+        ({"frequencies": (3.0, 3.0)}, "give each once"),
         ({"amplitude": 0.0}, "amplitude must be positive"),
         ({"modulus_scatter": -0.1}, "scatter not negative"),
+        ({"phase_scatter_deg": float("nan")}, "scatter not negative"),
         ({"seed": -1}, "seed = -1"),
     ],
 )

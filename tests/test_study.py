@@ -7,7 +7,7 @@ import pytest
 import yaml
 
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.study import complete_study, label
+from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
 
 ROOT = Path(__file__).parents[1]
 SCHEMA = ROOT / "workflow/schemas/study.schema.yaml"
@@ -130,6 +130,14 @@ def test_bad_study_is_refused_in_one_sentence(config, change, sentence):
 def test_missing_key(config):
     del config["laws"]
     assert "key 'laws' is missing from the study; add it." in refusal(config)
+
+
+def test_key_that_stands_twice(tmp_path):
+    (path := tmp_path / "my.yaml").write_text("study: a\ntest:\n  cycles: 5\n  amplitude_m: 1\n  cycles: 3\n")
+    with pytest.raises(InputError, match=r"my\.yaml, line 5: key 'cycles' stands twice; keep one of the two\."):
+        refuse_repeated_keys(path)
+    for study in ("paper", "smoke"):
+        refuse_repeated_keys(ROOT / f"config/{study}.yaml")
 
 
 def test_empty_study():

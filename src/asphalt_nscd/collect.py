@@ -32,7 +32,7 @@ def collect(tests: Iterable[str | Path]) -> pd.DataFrame:
     if not rows:
         raise InputError("no test files to collect; give at least one.")
     frame = pd.DataFrame(rows)
-    scaled = frame["law_source"].str.extract(r"^(\w+):([\d.]+)$").set_axis(SCALED, axis=1)
+    scaled = frame["law_source"].str.extract(r"^(\w+):([\d.]+(?:e[+-]?\d+)?)$").set_axis(SCALED, axis=1)
     if scaled.notna().any(axis=None):
         frame = frame.assign(parameter=scaled["parameter"], factor=scaled["factor"].astype(float))
     return frame[[*COLUMNS, *(name for name in frame if name not in COLUMNS)]]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +41,17 @@ def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[st
                 "add a line for it."
             )
     return {specimen: known[specimen] for specimen in specimens}
+
+
+def require_within(geometry: Geometry, box: Sequence[float]) -> None:
+    """Refuse a specimen that a layer in the box (length, width, height) [m] cannot hold in full."""
+    room = {"h": ("high", "long", box[0]), "e": ("thick", "wide", box[1])}
+    for name, (extent, direction, size) in room.items():
+        if getattr(geometry, name) > size * (1.0 + 1e-9):
+            raise InputError(
+                f"the specimen is {1e3 * getattr(geometry, name):g} mm {extent}, but the box only "
+                f"{1e3 * size:g} mm {direction}; lower {name}_mm or pour into a larger box."
+            )
 
 
 def _from_table(path: str | Path) -> dict[str, Geometry]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from asphalt_nscd.csvinput import Limits, read_csv
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.geometry_input import read_geometry
+from asphalt_nscd.geometry_input import read_geometry, require_within
 from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics, Progress, settle, vibrate
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.specimen.network import Network
@@ -101,10 +101,11 @@ def trim_deposit(
 ) -> None:  # fmt: skip
     """Cut a specimen from a deposit, bond pairs with a gap below gap_max [m], and save."""
     record = load(deposit_file, "deposit")
+    shape = read_geometry(geometry, ["specimen"])["specimen"]
+    require_within(shape, record.arrays["box"])
     specimen = trim(
-        record.arrays["position"], record.arrays["radius"],
-        read_geometry(geometry, ["specimen"])["specimen"], volume_reduction, gap_max,
-    )  # fmt: skip
+        record.arrays["position"], record.arrays["radius"], shape, volume_reduction, gap_max
+    )
     network = specimen.network
     attributes = {
         **{name: record.attributes[name] for name in ("seed", "layer_height_m", "solid_fraction")},

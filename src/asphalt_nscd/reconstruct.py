@@ -51,9 +51,12 @@ def reconstruct_table(
     """
     if specimens < 1:
         raise InputError(f"specimens = {specimens}; reconstruct at least one.")
-    if not frequencies or min(frequencies) <= 0:
+    if not frequencies or not all(0 < value < np.inf for value in frequencies):
         raise InputError(f"frequencies {list(frequencies)} must be positive; give them in Hz.")
-    if not amplitude > 0 or not min(specimen_scatter, modulus_scatter, phase_scatter_deg) >= 0:
+    if len(set(frequencies)) < len(frequencies):
+        raise InputError(f"frequencies {list(frequencies)} repeat one; give each once.")
+    scatters = specimen_scatter, modulus_scatter, phase_scatter_deg
+    if not 0 < amplitude < np.inf or not all(0 <= value < np.inf for value in scatters):
         raise InputError("amplitude must be positive and scatter not negative; mend the options.")
     if seed < 0:
         raise InputError(f"seed = {seed}; give a whole number from zero.")

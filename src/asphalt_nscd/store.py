@@ -40,6 +40,12 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
         with temporary.open("rb") as written:
             os.fsync(written.fileno())
         temporary.replace(path)
+    except (OSError, RuntimeError) as error:
+        # h5py and most libraries do not name the file that they could not write, nor would a
+        # temporary name help.
+        if getattr(error, "filename", None) in (None, name):
+            error.filename = str(path)
+        raise
     finally:
         temporary.unlink(missing_ok=True)
 

@@ -44,6 +44,23 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
     return study
 
 
+def refuse_repeated_keys(path: str | Path) -> None:
+    """Refuse a study in which a key stands twice, of which YAML silently takes the last."""
+
+    class Strict(yaml.SafeLoader):
+        def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+            seen = set()
+            for name, _ in node.value:
+                if name.value in seen:
+                    line = name.start_mark.line + 1
+                    raise InputError(f"{path}, line {line}: key {name.value!r} stands twice; keep one of the two.")
+                seen.add(name.value)
+            return super().construct_mapping(node, deep)
+
+    with Path(path).open(encoding="utf-8") as file:
+        yaml.load(file, Strict)
+
+
 def label(value: float) -> str:
     """Temperature or frequency as it stands in file names: 15, -10, 12.5."""
     return f"{value:g}"

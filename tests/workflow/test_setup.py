@@ -111,6 +111,14 @@ def test_failed_installation_leaves_no_stamp(machine):
     assert not (machine / "clone/.venv/.ready").exists()
 
 
+def test_missing_study_is_one_sentence(tmp_path):
+    command = ["make", "-f", str(ROOT / "Makefile"), "study", "CONFIG=gone.yaml"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1
+    assert "gone.yaml: no such file; give a study with CONFIG=my.yaml." in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
 def test_lock_holds_hashes_and_no_addresses():
     lock = (ROOT / "requirements.txt").read_text()
     pins = [line for line in lock.splitlines() if line and line[0] not in "# "]

@@ -35,6 +35,14 @@ def test_misspelt_key_is_one_sentence(workspace):
     assert "Traceback" not in done.stderr
 
 
+def test_key_that_stands_twice_is_one_sentence(workspace):
+    study = workspace.configure()
+    study.write_text(study.read_text() + "study: other\n")
+    done = workspace.run("--dry-run")
+    assert done.returncode != 0
+    assert "key 'study' stands twice; keep one of the two." in done.stderr.strip().splitlines()[-1]
+
+
 def test_own_table_replaces_the_reconstruction(workspace):
     workspace.configure()
     assert "reconstruct" in workspace.planned()

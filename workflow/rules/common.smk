@@ -9,7 +9,7 @@ from pathlib import Path
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.lock import release_stale_locks
 from asphalt_nscd.sources import source_files
-from asphalt_nscd.study import complete_study, label
+from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
 
 if workflow.is_main_process:
     release_stale_locks(".snakemake")
@@ -21,6 +21,8 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 shell.prefix("exec ")
 
 try:
+    for _path in workflow.configfiles:
+        refuse_repeated_keys(_path)
     STUDY = complete_study(
         config,
         source=" + ".join(map(os.path.relpath, workflow.configfiles)) or "configuration",
@@ -44,7 +46,7 @@ wildcard_constraints:
     frequency=r"[\d.]+(e[+-]?\d+)?",
     head="free|blocked",
     parameter="Em|eta_m|Ek|eta_k",
-    factor=r"[\d.]+",
+    factor=r"[\d.]+(e[+-]?\d+)?",
     friction=r"[\d.]+",
     time_step=r"[\d.e-]+",
 

@@ -67,12 +67,12 @@ POSITIVE = Number(above=0.0)
 NOT_NEGATIVE = Number(low=0.0)
 
 
-class Lengths(click.ParamType):
-    """`0.25,0.025,1.6` as so many positive numbers."""
+class Numbers(click.ParamType):
+    """`0.25,0.025,1.6` as positive numbers, all different or so many as `size` says."""
 
     name = "number,..."
 
-    def __init__(self, size: int) -> None:
+    def __init__(self, size: int | None = None) -> None:
         self.size = size
 
     def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
@@ -80,6 +80,8 @@ class Lengths(click.ParamType):
             numbers = tuple(float(part) for part in value.split(","))
         except ValueError:
             numbers = ()
-        if len(numbers) != self.size or not all(0 < number < float("inf") for number in numbers):
-            self.fail(f"{value!r} is not {self.size} positive numbers joined by commas.", param, context)
+        fits = len(set(numbers)) == len(numbers) if self.size is None else len(numbers) == self.size
+        if not numbers or not fits or not all(0 < number < float("inf") for number in numbers):
+            wanted = "different" if self.size is None else str(self.size)
+            self.fail(f"{value!r} is not {wanted} positive numbers joined by commas.", param, context)
         return numbers

@@ -9,7 +9,7 @@ from asphalt_nscd.cli import _options, _progress
 
 @click.command()
 @click.option("--counts", required=True, type=_options.File, help="Table diameter_mm,count.")
-@click.option("--box-m", required=True, type=_options.Lengths(3), help="Length,width,height of the box, m.")
+@click.option("--box-m", required=True, type=_options.Numbers(3), help="Length,width,height of the box, m.")
 @click.option("--seed", required=True, type=click.IntRange(0), help="Seed of the random lattice.")
 @click.option("--friction", default=0.2, type=_options.NOT_NEGATIVE, help="Coefficient of friction, spheres and walls.")
 @click.option("--stroke-mm", default=6.0, type=_options.NOT_NEGATIVE, help="Stroke of the top wall from crest to crest, mm.")

@@ -10,17 +10,17 @@ from asphalt_nscd.cli import _options
 @click.command()
 @click.argument("laws_table", type=_options.File)
 @_options.geometry
-@click.option("--seed", required=True, type=int, help="Seed of the scatter.")
-@click.option("--specimens", default=4, help="Number of specimens to draw.")
-@click.option("--specimen-scatter", default=0.03, help="Relative scatter of the modulus between specimens.")
-@click.option("--modulus-scatter", default=0.01, help="Relative scatter of the modulus between tests.")
-@click.option("--phase-scatter-deg", default=0.3, help="Scatter of the phase between tests, degrees.")
-@click.option("--amplitude-m", default=63e-6, help="Amplitude of the head's displacement, m.")
-@click.option("--frequencies-hz", required=True, help="Test frequencies, comma-separated, Hz.")
+@click.option("--seed", required=True, type=click.IntRange(0), help="Seed of the scatter.")
+@click.option("--specimens", default=4, type=click.IntRange(1), help="Number of specimens to draw.")
+@click.option("--specimen-scatter", default=0.03, type=_options.NOT_NEGATIVE, help="Relative scatter of the modulus between specimens.")
+@click.option("--modulus-scatter", default=0.01, type=_options.NOT_NEGATIVE, help="Relative scatter of the modulus between tests.")
+@click.option("--phase-scatter-deg", default=0.3, type=_options.NOT_NEGATIVE, help="Scatter of the phase between tests, degrees.")
+@click.option("--amplitude-m", default=63e-6, type=_options.POSITIVE, help="Amplitude of the head's displacement, m.")
+@click.option("--frequencies-hz", required=True, type=_options.Numbers(), help="Test frequencies, comma-separated, Hz.")
 @click.option("--law-output", type=_options.File, help="File for the law behind the table.")
 @_options.output
 def command(
-    laws_table: Path, output: Path, frequencies_hz: str, amplitude_m: float, **options: object
+    laws_table: Path, output: Path, frequencies_hz: tuple[float, ...], amplitude_m: float, **options: object
 ) -> None:
     """Draw measurements about the smooth law behind a published table of Burgers laws."""
     from asphalt_nscd.reconstruct import reconstruct_table
@@ -29,7 +29,7 @@ def command(
         laws_table,
         options.pop("geometry"),
         output,
-        frequencies=[float(value) for value in frequencies_hz.split(",")],
+        frequencies=frequencies_hz,
         amplitude=amplitude_m,
         **options,
     )

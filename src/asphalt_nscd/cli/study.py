@@ -13,6 +13,11 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(study: str, output: Path) -> None:
     """Write down STUDY, the complete configuration as JSON."""
+    from asphalt_nscd.errors import InputError
     from asphalt_nscd.store import write_json
 
-    write_json(output, json.loads(study))
+    try:
+        content = json.loads(study)
+    except json.JSONDecodeError as error:
+        raise InputError(f"STUDY is not valid JSON ({error}); give the configuration as JSON.") from None
+    write_json(output, content)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,5 +25,7 @@ def save_figure(figure: Figure, stem: str | Path) -> None:
         matplotlib.rcdefaults()  # a user's matplotlibrc must not show
         matplotlib.rcParams.update(RC | {"svg.hashsalt": "asphalt-nscd"})
         for kind, metadata in _METADATA.items():
+            content = BytesIO()  # matplotlib's own files complain again, at length, when they are closed
+            figure.savefig(content, format=kind, dpi=PNG_DPI, metadata=metadata)
             with atomic_path(f"{stem}.{kind}") as path:
-                figure.savefig(path, format=kind, dpi=PNG_DPI, metadata=metadata)
+                path.write_bytes(content.getvalue())
