@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.csvinput import read_csv
-from asphalt_nscd.laws import read_published
+from asphalt_nscd.published_laws import read_published
 
 PAPER = Path(__file__).parents[1] / "data" / "paper"
 

@@ -8,8 +8,8 @@ import pytest
 
 from asphalt_nscd.agreement import mean_relative_error
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.laws import read_published
 from asphalt_nscd.measurements import reduce_table
+from asphalt_nscd.published_laws import read_published
 from asphalt_nscd.reconstruct import fit_published, reconstruct_table
 from asphalt_nscd.rheology.laws_io import read_spectrum
 

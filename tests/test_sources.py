@@ -46,6 +46,15 @@ def test_unknown_module_is_refused(package):
         sources.source_files("setp")
 
 
+def test_fits_are_no_concern_of_tests_with_published_laws():
+    """Editing the fit, or how measurements are read, must not make a hundred tests run again."""
+    steps = ("published-law", "scale-law", "deposit", "trim", "condense", "simulate")
+    for step in steps:
+        behind = {path.name for path in sources.source_files(f"cli.{step.replace('-', '_')}")}
+        assert not {"fitting.py", "fitted_laws.py", "measurements.py", "reconstruct.py"} & behind, step
+    assert "fitting.py" in {path.name for path in sources.source_files("cli.fit")}
+
+
 def test_plots_are_no_concern_of_the_tests_and_the_core_is():
     def behind(*modules):
         return {str(path.relative_to(sources.PACKAGE)) for path in sources.source_files(*modules)}

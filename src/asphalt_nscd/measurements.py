@@ -11,9 +11,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from asphalt_nscd import signals, twopoint
-from asphalt_nscd.csvinput import Limits, Table, read_csv
+from asphalt_nscd.csvinput import Table, read_csv
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.geometry_input import read_geometry
+from asphalt_nscd.plausible import LIMITS
 from asphalt_nscd.store import write_table
 
 ORIGINS = ("measured", "reconstructed", "synthetic")
@@ -25,17 +26,6 @@ REDUCED_COLUMNS = (
     "E_MPa", "phase_deg", "E_peak_MPa", "phase_peak_deg",
 )  # fmt: skip
 
-# Ranges that no asphalt test leaves, so that a value outside is a slip of unit or sign. A phase may
-# come out a little negative (a delayed channel does that), so its sign is judged over the whole table.
-LIMITS = {
-    "temperature_C": Limits(-80, 120, "give degrees Celsius"),
-    "frequency_Hz": Limits(1e-5, 1000, "give a positive frequency in Hz"),
-    "F0_N": Limits(1e-6, 1e5, "give a positive force amplitude in N"),
-    "z0_m": Limits(1e-8, 5e-3, "give a positive displacement amplitude in m (63 micrometres are 63e-6)"),
-    "psi_deg": Limits(-180, 180, "give the angle by which the force leads, in degrees"),
-    "E_MPa": Limits(0.1, 2e5, "give a positive norm of E* in MPa"),
-    "phase_deg": Limits(-90, 90, "give the phase of E* in degrees"),
-}
 STIFFEST_AT_LEAST = 100.0  # MPa: below it for every test, the column is in GPa or the peaks in other units
 # No mix below 15 GPa has all its phases under 90/57.3 deg, and none is glassy enough for less than 0.3 deg.
 LARGEST_PHASE_AT_LEAST = {"soft": np.pi / 2, "glassy": 0.3}  # deg

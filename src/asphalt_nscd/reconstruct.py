@@ -19,7 +19,7 @@ import pandas as pd
 from asphalt_nscd import twopoint
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.geometry_input import read_geometry
-from asphalt_nscd.laws import read_published
+from asphalt_nscd.published_laws import read_published
 from asphalt_nscd.rheology.fitting import Fit, fit_spectrum
 from asphalt_nscd.rheology.laws_io import write_spectrum
 from asphalt_nscd.rheology.spectrum import TwoS2P1D

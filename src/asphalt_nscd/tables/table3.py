@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.laws import read_published
+from asphalt_nscd.published_laws import read_published
 from asphalt_nscd.results import SAME_TEMPERATURE, at_temperature, origin_of, read_measured
 from asphalt_nscd.rheology.laws_io import read_law
 from asphalt_nscd.store import read_json

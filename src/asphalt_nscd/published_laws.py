@@ -1,4 +1,4 @@
-"""The Burgers law of one temperature: refitted to measurements, or as published in Table 3."""
+"""The Burgers law of one temperature as published in Table 3."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ import numpy as np
 
 from asphalt_nscd.csvinput import Limits, Table, read_csv
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.measurements import LIMITS, read_reduced
+from asphalt_nscd.plausible import LIMITS
 from asphalt_nscd.rheology.burgers import Burgers
-from asphalt_nscd.rheology.fitting import fit_burgers
 from asphalt_nscd.rheology.laws_io import write_law
 
 PUBLISHED_COLUMNS = ("Em_kPa", "eta_m_kPa_s", "Ek_kPa", "eta_k_kPa_s")
@@ -19,35 +18,13 @@ UNITS = {"kPa": 1e3, "Pa": 1.0}  # readings of Table 3; the table prints Pa, kPa
 SAME_TEMPERATURE = 1e-6  # K
 
 
-def fit_temperature(measured: str | Path, temperature: float, output: str | Path) -> dict[str, Any]:
-    """Fit the Burgers law to all specimens of a reduced table at one temperature [degC]; write it."""
-    frame = read_reduced(measured)
-    points = frame[np.abs(frame["temperature_C"] - temperature) < SAME_TEMPERATURE]
-    if points.empty:
-        raise InputError(
-            f"{measured}: no test at {temperature:g} degC; {_available(frame['temperature_C'])}."
-        )
-    modulus = points["E_MPa"] * 1e6 * np.exp(1j * np.radians(points["phase_deg"]))
-    try:
-        fit = fit_burgers(2.0 * np.pi * points["frequency_Hz"].to_numpy(), modulus.to_numpy())
-    except InputError as error:
-        raise InputError(f"{measured}, {temperature:g} degC: {error}") from None
-    return write_law(
-        output,
-        fit.law,
-        source="fitted",
-        temperature=temperature,
-        std_error=fit.std_error,
-        rms_log_residual=fit.rms_log_residual,
-    )
-
-
 def published_law(table: str | Path, temperature: float, unit: str, output: str | Path) -> dict[str, Any]:
     """Write one row of Table 3 as a law, its numbers read in kPa (the default) or in Pa (as printed)."""
     temperatures, laws = read_published(table, unit)
     match = np.flatnonzero(np.abs(temperatures - temperature) < SAME_TEMPERATURE)
     if not match.size:
-        raise InputError(f"{table}: no law at {temperature:g} degC; {_available(temperatures)}.")
+        available = ", ".join(f"{t:g}" for t in temperatures)
+        raise InputError(f"{table}: no law at {temperature:g} degC; give one of {available}.")
     return write_law(output, laws[match[0]], source="published", temperature=temperature)
 
 
@@ -64,7 +41,3 @@ def read_published(path: str | Path, unit: str = "kPa") -> tuple[np.ndarray, lis
     positive = Limits(1e-3, 1e15, "give a positive value in kPa or kPa s")
     columns = [table.numbers(name, positive) * UNITS[unit] for name in PUBLISHED_COLUMNS]
     return temperatures, [Burgers(*(float(value) for value in row)) for row in zip(*columns, strict=True)]
-
-
-def _available(temperatures: Any) -> str:
-    return "give one of " + ", ".join(f"{t:g}" for t in np.unique(temperatures))
