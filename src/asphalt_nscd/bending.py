@@ -5,12 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 from scipy import sparse
 
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.layers import Layers
 from asphalt_nscd.nscd import harmonic
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
@@ -30,8 +32,7 @@ METHODS = ("reduced", "condensed", "sweeps", "harmonic")
 KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
 RESIDUAL_TOLERANCE = 1e-6  # of the full equations, relative to the load of the head
 REDUCED_CYCLES = 2  # the last ones, for the harmonic fit; the paper's peaks are those of the last cycle
-PROFILE_LAYERS = 50  # of the mean velocity against height, Fig. 8
-PROFILE_SAMPLES = 200  # over the last cycle
+PROFILE_SAMPLES = 200  # of the mean velocity against height over the last cycle, Fig. 8
 
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
@@ -47,6 +48,11 @@ class Model:
     sphere_height: np.ndarray  # (n,) m
     name: str
     head: str
+
+    @cached_property
+    def layers(self) -> Layers:
+        """Over which velocities are averaged."""
+        return Layers.of(self.sphere_height, self.geometry.h, self.system.mass.size)
 
 
 def condense(
@@ -101,9 +107,9 @@ class Record:
     displacement: np.ndarray  # (s,) m
     force: np.ndarray  # (s,) N
     broken: list[int]
-    residual: float  # of the reduced form; relative change of the last sweep; NaN where nothing is checked
+    residual: float  # of the full equations; relative change of the last sweep; NaN where nothing is checked
     details: dict[str, float | int]
-    velocity: np.ndarray | None = None  # (s, k) coordinates in the basis, of the reduced method
+    velocity: np.ndarray | None = None  # (s, l) m/s, means over the model's layers
 
 
 def run_test(
@@ -135,15 +141,14 @@ def run_test(
             stepper = CondensedStepper(model.system, law, time_step, state)
         else:
             stepper = SweepingStepper(model.system, law, time_step, state, tolerance, most_sweeps)
-        force, velocity = _march(stepper, driven, 0.0, time_step, progress), None
+        force, velocity = _march(stepper, driven, 0.0, time_step, model.layers, progress)
         broken = state.broken
         residual = stepper.largest_change if method == "sweeps" else np.nan
         details = {}
         if method == "sweeps":
             details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most_sweeps}
     return Record(
-        times, displacement, force[rest_steps:], broken, residual, details,
-        None if velocity is None else velocity[rest_steps:],
+        times, displacement, force[rest_steps:], broken, residual, details, velocity[rest_steps:]
     )  # fmt: skip
 
 
@@ -151,19 +156,21 @@ def _run_reduced(
     model: Model, law: BondLaw, time_step: float, driven: np.ndarray, progress: Progress
 ) -> tuple[np.ndarray, np.ndarray, list[int], float, dict[str, float | int]]:
     stepper = ReducedStepper(ReducedModel(model.system, model.basis), law, time_step, RESIDUAL_TOLERANCE)
-    force, velocity = np.empty(driven.size), np.zeros((driven.size, model.basis.shape[1]))
+    along = (model.layers.mean @ model.basis).T
     full_steps = 0
     broken = stepper.state.broken
     try:
-        force[:], velocity[:] = stepper.run(driven)
+        force, coordinates = stepper.run(driven)
+        velocity = coordinates @ along
     except FullSystemNeeded as accepted:
         done = accepted.force.size
-        force[:done], velocity[:done] = accepted.force, accepted.velocity
         state = stepper.full_state()
         full = CondensedStepper(model.system, law, time_step, state)
-        force[done:] = _march(full, driven[done:], driven[done - 1] if done else 0.0, time_step, progress)
-        velocity[done:] = np.nan
-        full_steps, broken = driven.size - done, state.broken
+        rest, start = driven[done:], driven[done - 1] if done else 0.0
+        further = _march(full, rest, start, time_step, model.layers, progress, lambda: stepper.certify(full))
+        force = np.concatenate([accepted.force, further[0]])
+        velocity = np.concatenate([accepted.velocity @ along, further[1]])
+        full_steps, broken = rest.size, state.broken
     certificate = stepper.certificate()
     details = {
         "largest_utilisation": certificate.largest_utilisation,
@@ -177,15 +184,18 @@ def _run_reduced(
 
 def _march(
     stepper: CondensedStepper | SweepingStepper, driven: np.ndarray, start: float, time_step: float,
-    progress: Progress,
-) -> np.ndarray:  # fmt: skip
-    force = np.empty(driven.size)
+    layers: Layers, progress: Progress, check: Callable[[], None] = lambda: None,
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+    """Driving force (s,) and mean velocities of the layers (s, l); `check` is called after each step."""
+    force, mean = np.empty(driven.size), np.empty((driven.size, layers.height.size))
     velocity = np.diff(driven, prepend=start) / time_step
     for n in range(driven.size):
         force[n] = stepper.advance(velocity[n])
+        mean[n] = layers.mean @ stepper.state.velocity
+        check()
         if n % 20 == 19:
             progress(n + 1, driven.size)
-    return force
+    return force, mean
 
 
 def simulate(
@@ -237,7 +247,7 @@ def simulate(
     }  # fmt: skip
     arrays = {
         "time_s": record.time, "displacement_m": record.displacement, "force_N": record.force,
-        "broken": np.asarray(record.broken, np.int64), **_velocity_profile(model, record, frequency),
+        "broken": np.asarray(record.broken, np.int64), **_velocity_profile(model.layers, record, frequency),
     }  # fmt: skip
     save(output, "test", arrays, columns)
 
@@ -248,22 +258,15 @@ def _modulus(geometry: Geometry, frequency: float, response) -> complex:
     )
 
 
-def _velocity_profile(model: Model, record: Record, frequency: float) -> dict[str, np.ndarray]:
+def _velocity_profile(layers: Layers, record: Record, frequency: float) -> dict[str, np.ndarray]:
     """Mean velocity of the spheres along the drive in layers of equal height, over the last cycle."""
     if record.velocity is None:
         return {}
-    edges = np.linspace(0.0, model.geometry.h, PROFILE_LAYERS + 1)
-    layer = np.clip(np.digitize(model.sphere_height, edges) - 1, 0, PROFILE_LAYERS - 1)
-    members = np.bincount(layer, minlength=PROFILE_LAYERS)
-    along = model.basis[: 6 * layer.size : 6]
-    mean = np.zeros((PROFILE_LAYERS, along.shape[1]))
-    np.add.at(mean, layer, along)
-    mean /= np.maximum(members, 1)[:, None]
     last = np.flatnonzero(record.time > record.time[-1] - 1.0 / frequency)
     taken = last[np.linspace(0, last.size - 1, min(PROFILE_SAMPLES, last.size)).astype(int)]
     return {
-        "profile/height_m": 0.5 * (edges[1:] + edges[:-1]),
-        "profile/spheres": members,
+        "profile/height_m": layers.height,
+        "profile/spheres": layers.spheres,
         "profile/time_s": record.time[taken],
-        "profile/velocity_m_s": record.velocity[taken] @ mean.T,
+        "profile/velocity_m_s": record.velocity[taken],
     }

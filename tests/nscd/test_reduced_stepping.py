@@ -289,7 +289,13 @@ def test_a_closing_gap_ends_the_reduced_run(beam_system, quick_law):
     assert done == first
     assert deviation(closed.value.force, np.array(forces[:done])) < 1e-10
     after = CondensedStepper(system, quick_law, DT, stepper.full_state())
-    continued = [after.advance(v) for v in np.diff(driven[done - 1 :]) / DT]
+    continued, before = [], stepper.certificate()
+    for velocity in np.diff(driven[done - 1 :]) / DT:
+        continued.append(after.advance(velocity))
+        stepper.certify(after)
+    certificate = stepper.certificate()
+    assert before.smallest_gap > 0.0 >= smallest >= certificate.smallest_gap
+    assert before.largest_residual <= certificate.largest_residual < 1e-10
     assert deviation(np.array(continued), np.array(forces[done:])) < 1e-7
 
 

@@ -26,7 +26,7 @@ def draw(test: list[Path], specimen: list[Path]) -> Figure:
     path = the_only(test, "test")
     record = load(path, "test")
     if "profile/velocity_m_s" not in record.arrays:
-        raise InputError(f"{path}: holds no velocities; simulate it with the reduced method.")
+        raise InputError(f"{path}: holds no velocities; simulate it by a method other than harmonic.")
     shape = load(the_only(specimen, "specimen"), "specimen").attributes
     geometry = Geometry(**{field.name: shape[field.name] for field in fields(Geometry)})
     height, time, velocity = (

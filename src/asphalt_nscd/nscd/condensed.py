@@ -21,6 +21,9 @@ from asphalt_nscd.nscd.friction import solve_contacts
 from asphalt_nscd.nscd.law import BondLaw
 
 
+CLOSED = 1e-12  # m, by which a gap in contact may differ from zero
+
+
 def factorise(matrix: sparse.csc_matrix):
     """Factors of a symmetric positive definite matrix; `.solve` takes one or many columns."""
     return splu(
@@ -104,7 +107,11 @@ class ShiftedOperator:
 
 
 class CondensedStepper:
-    """Steps the full system at constant dt and law; breaks bonds and meets contacts on the way."""
+    """Steps the full system at constant dt and law; breaks bonds and meets contacts on the way.
+
+    Of the last step: `missing` (d,) [N, N m], what the equations of motion lack, which is the driving
+    force where the motion is driven and rounding elsewhere; `utilisation`, the largest of a bond.
+    """
 
     def __init__(self, system: BondedSystem, law: BondLaw, dt: float, state: CondensedState) -> None:
         self.system, self.step_law, self.dt, self.state = system, law.step(dt), dt, state
@@ -129,10 +136,12 @@ class CondensedStepper:
             state.broken.append(worst)
             self._operator.remove(state.broken)
         inertia = system.mass * (velocity - state.velocity) / dt
-        drive = inertia - system.load - system.operator.T @ (self._operator.weight * sigma) - contact_force
+        reaction = system.operator.T @ (self._operator.weight * sigma)
+        self.missing = inertia - system.load - reaction - contact_force
+        self.utilisation = float(utilisation[worst])
         state.displacement = state.displacement + dt * velocity
         state.velocity, state.sigma, state.kelvin = velocity, sigma, kelvin
-        return float(drive[system.driven])
+        return float(self.missing[system.driven])
 
     def _solve(self, explicit: np.ndarray, driven_velocity: float) -> tuple[np.ndarray, np.ndarray]:
         system, state, dt = self.system, self.state, self.dt
@@ -168,5 +177,5 @@ class CondensedStepper:
             corrected = velocity.copy()
             corrected[system.free] += response @ impulse
             force = normal.T @ impulse / dt
-            closing = np.flatnonzero(gap + dt * (opening_rows @ corrected) < -1e-12)
+            closing = np.flatnonzero(gap + dt * (opening_rows @ corrected) < -CLOSED)
         return corrected, force

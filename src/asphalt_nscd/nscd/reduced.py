@@ -96,7 +96,7 @@ class ReducedModel:
         # residual of the full equations = [M Phi, -K Phi, -f] (a, s, 1); its norm, each row over the
         # root of its stiffness, is that of a small triangular factor times (a, s, 1)
         free = system.free
-        root = np.sqrt((system.operator.power(2).T @ system.weight)[free])
+        self._root = root = np.sqrt((system.operator.power(2).T @ system.weight)[free])
         columns = [system.mass[:, None] * basis, -(system.operator.T @ weighted), -system.load[:, None]]
         self.residual_factor = np.linalg.qr(np.hstack(columns)[free] / root[:, None], mode="r")
         head = system.operator.T @ (system.weight * system.operator[:, [system.driven]].toarray()[:, 0])
@@ -105,6 +105,10 @@ class ReducedModel:
         # per unit s: reactions over strength; per unit q: share of the gap that closes
         self.reaction = weighted.reshape(-1, 3, basis.shape[1]) / system.strength[:, None, None]
         self.closing = -self.opening[::3] / system.gap[:, None]
+
+    def residual_norm(self, force: np.ndarray) -> float:
+        """The norm that `residual_factor` gives, of any residual (d,)."""
+        return float(np.linalg.norm(force[self.system.free] / self._root))
 
     def with_basis(self, basis: np.ndarray, broken: Sequence[int]) -> ReducedModel:
         """The same system on another basis with the bonds `broken` removed."""

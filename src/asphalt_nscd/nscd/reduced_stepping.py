@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled
-from asphalt_nscd.nscd.condensed import CondensedState, ShiftedOperator
+from asphalt_nscd.nscd.condensed import CLOSED, CondensedState, CondensedStepper, ShiftedOperator
 from asphalt_nscd.nscd.law import BondLaw
 from asphalt_nscd.nscd.reduced import ReducedModel, append_columns
 
@@ -39,11 +39,11 @@ class ReducedState:
 
 @dataclass(frozen=True)
 class Certificate:
-    """What was verified at every accepted step."""
+    """What was verified at every accepted step, those of the full system included."""
 
     largest_residual: float  # of the full equations, relative to the load of the head
     largest_utilisation: float  # of any bond left unbroken
-    smallest_gap: float  # m
+    smallest_gap: float  # m, a lower bound
     enrichments: int
 
 
@@ -72,6 +72,7 @@ class ReducedStepper:
         self.enrichments, self.most_enrichments = 0, most_enrichments
         # running maxima: |s_0|, residual, utilisation of watched bonds
         self._maxima = np.zeros(3)
+        self._smallest_gap = np.inf  # where the full system took over
         self._may_yield = np.empty(0, np.int64)
         self._reached_sigma, self._reached_motion = np.zeros(k), np.zeros(k)
         self._operator: ShiftedOperator | None = None
@@ -110,6 +111,19 @@ class ReducedStepper:
             sigma=opening @ state.sigma, kelvin=state.kelvin @ opening.T, broken=list(state.broken),
         )  # fmt: skip
 
+    def certify(self, full: CondensedStepper) -> None:
+        """Count the last step of the full system, which went on from `full_state`, in the certificate."""
+        model, system = self.model, self.model.system
+        stress = abs(full.missing[system.driven]) / model.stiffness[0, 0]
+        self._maxima[0] = max(self._maxima[0], stress)
+        size = model.head_norm * self._maxima[0] + model.load_norm
+        residual = model.residual_norm(full.missing) / size if size > 0.0 else 0.0
+        if not residual <= self.tolerance:
+            raise ArithmeticError(f"a step of the full system misses its equations by {residual:.1e}")
+        self._maxima[1:] = np.maximum(self._maxima[1:], [residual, full.utilisation])
+        gap = system.gap + system.operator[::3] @ full.state.displacement
+        self._smallest_gap = min(self._smallest_gap, float(gap.min()) - CLOSED)
+
     def certificate(self) -> Certificate:
         """Bounds over all accepted steps."""
         model = self.model
@@ -119,7 +133,7 @@ class ReducedStepper:
         return Certificate(
             largest_residual=float(self._maxima[1]),
             largest_utilisation=max(float(share.max(initial=0.0)), float(self._maxima[2])),
-            smallest_gap=float((model.system.gap * (1.0 - closing)).min()),
+            smallest_gap=min(float((model.system.gap * (1.0 - closing)).min()), self._smallest_gap),
             enrichments=self.enrichments,
         )
 

@@ -1,0 +1,30 @@
+"""Layers of a specimen between its foot and its head, over which velocities are averaged: Fig. 8."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+
+LAYERS = 50
+
+
+@dataclass(frozen=True)
+class Layers:
+    """Layers of equal height."""
+
+    height: np.ndarray  # (l,) m, of their middles above the foot
+    spheres: np.ndarray  # (l,) number of spheres in each
+    mean: sparse.csr_matrix  # (l, d): velocities of all bodies to mean velocities along the drive
+
+    @classmethod
+    def of(cls, sphere_height: np.ndarray, height: float, degrees: int) -> Layers:
+        """sphere_height (n,) [m]; height [m] of the specimen; degrees d of freedom, six for each sphere first."""
+        edges = np.linspace(0.0, height, LAYERS + 1)
+        layer = np.clip(np.digitize(sphere_height, edges) - 1, 0, LAYERS - 1)
+        spheres = np.bincount(layer, minlength=LAYERS)
+        entries = (1.0 / spheres[layer], (layer, 6 * np.arange(layer.size)))
+        return cls(
+            0.5 * (edges[1:] + edges[:-1]), spheres, sparse.csr_matrix(entries, shape=(LAYERS, degrees))
+        )
