@@ -11,7 +11,7 @@ from asphalt_nscd.errors import InputError
 from asphalt_nscd.measurements import reduce_table
 from asphalt_nscd.published_laws import read_published
 from asphalt_nscd.reconstruct import fit_published, reconstruct_table
-from asphalt_nscd.rheology.laws_io import read_spectrum
+from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
 PAPER = Path(__file__).parents[1] / "data" / "paper"
 TABLE3, GEOMETRY = PAPER / "table3_burgers.csv", PAPER / "geometry.csv"
@@ -55,7 +55,7 @@ def test_smooth_law_behind_table_3(smooth):
     assert smooth.delta == pytest.approx(1.64, abs=0.01)
     assert np.log(smooth.tau) == pytest.approx(-1.97, abs=0.01)
     assert np.log(smooth.beta) == pytest.approx(3.35, abs=0.01)
-    assert (smooth.wlf_c1, smooth.wlf_c2) == pytest.approx((11.7, 79.9), abs=0.1)
+    assert (smooth.shift.c1, smooth.shift.c2) == pytest.approx((11.7, 79.9), abs=0.1)
 
 
 def test_prediction_of_table_4(smooth):

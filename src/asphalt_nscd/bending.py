@@ -22,7 +22,8 @@ from asphalt_nscd.nscd.reduced_stepping import FullSystemNeeded, ReducedStepper
 from asphalt_nscd.nscd.sweeping import SweepingStepper
 from asphalt_nscd.preparation import read_specimen
 from asphalt_nscd.rheology.burgers import Burgers
-from asphalt_nscd.rheology.laws_io import read_law
+from asphalt_nscd.rheology.chain import KelvinChain
+from asphalt_nscd.rheology.laws_io import read_bond_law
 from asphalt_nscd.signals import harmonic_response, peak_response
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.store import load, save
@@ -92,10 +93,11 @@ def read_model(path: str | Path) -> Model:
     )
 
 
-def bond_law(law: Burgers) -> BondLaw:
+def bond_law(law: Burgers | KelvinChain) -> BondLaw:
     """The macroscopic law as the law of every bond (Eqs. 30-33, geometry divided out)."""
+    chain = law.as_chain() if isinstance(law, Burgers) else law
     return BondLaw(
-        law.modulus_m, law.viscosity_m, np.array([law.modulus_k]), np.array([law.viscosity_k])
+        chain.spring, chain.dashpot, np.array(chain.kelvin_springs), np.array(chain.kelvin_dashpots)
     )
 
 
@@ -212,7 +214,7 @@ def simulate(
             f"time step {time_step:g} s: fewer than 20 steps per cycle at {frequency:g} Hz; "
             f"give at most {int(5e4 / frequency) * 1e-6:g} s."
         )
-    law = read_law(law_file)
+    law = read_bond_law(law_file)
     model = read_model(model_file)
     began = time.process_time()
     try:

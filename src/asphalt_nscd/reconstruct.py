@@ -20,9 +20,10 @@ from asphalt_nscd import twopoint
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.geometry_input import read_geometry
 from asphalt_nscd.published_laws import read_published
-from asphalt_nscd.rheology.fitting import Fit, fit_spectrum
-from asphalt_nscd.rheology.laws_io import write_spectrum
+from asphalt_nscd.rheology.fitting import Fit
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
+from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
+from asphalt_nscd.rheology.spectrum_io import write_spectrum
 from asphalt_nscd.store import write_table
 
 FREQUENCIES = (3.0, 6.0, 10.0, 25.0, 40.0)  # Hz, section 2.1 of the paper
@@ -64,7 +65,10 @@ def reconstruct_table(
     geometries = read_geometry(geometry, names)
     temperatures, fit = fit_published(table3)
     if law_output is not None:
-        write_spectrum(law_output, fit.law, source="reconstructed", rms_log_residual=fit.rms_log_residual)
+        write_spectrum(
+            law_output, fit.law, source="reconstructed", rms_log_residual=fit.rms_log_residual,
+            std_error=fit.std_error, unseen=fit.unseen,
+        )  # fmt: skip
 
     temperature, frequency = (grid.ravel() for grid in np.meshgrid(temperatures, frequencies, indexing="ij"))
     modulus = fit.law.complex_modulus(2.0 * np.pi * frequency, temperature)

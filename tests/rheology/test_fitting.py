@@ -7,12 +7,10 @@ import pytest
 
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.rheology.burgers import Burgers
-from asphalt_nscd.rheology.fitting import _best_of_starts, fit_burgers, fit_spectrum
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
+from asphalt_nscd.rheology.fitting import best_of_starts, fit_burgers
 
 OMEGA = 2 * np.pi * np.array([3.0, 6, 10, 25, 40])
 LAWS = {-10: Burgers(39.8e9, 62.8e9, 956e9, 14.9e9), 30: Burgers(13.0e9, 0.345e9, 9.31e9, 0.131e9)}
-SPECTRUM = TwoS2P1D(80e6, 42e9, 0.2, 0.6, 1.64, 0.14, 28.0, 11.7, 79.9, 15.0)
 NAMES = ("modulus_m", "viscosity_m", "modulus_k", "viscosity_k")
 
 
@@ -48,7 +46,7 @@ def test_standard_errors_are_those_of_linear_regression():
 @pytest.mark.parametrize("lowest", [-2.0, 2.0])
 def test_the_lowest_of_several_minima_is_found(lowest):
     """(x^2 - 4)^2 + (x - lowest)^2 / 10 has a minimum near -2 and one near 2; one start sees one."""
-    solution = _best_of_starts(
+    solution = best_of_starts(
         lambda x: np.array([x[0] ** 2 - 4, (x[0] - lowest) / np.sqrt(10)]),
         bounds=(np.array([-5.0]), np.array([5.0])),
         starts=(np.array([-4.0]), np.array([4.0])),
@@ -66,25 +64,8 @@ def test_standard_errors_are_withheld_where_the_points_cannot_give_them():
 
 
 def test_a_fit_repeats_to_the_last_bit():
-    modulus = SPECTRUM.complex_modulus(OMEGA, 15.0)
+    modulus = LAWS[30].complex_modulus(OMEGA) * np.exp(0.02j * np.arange(5))
     assert fit_burgers(OMEGA, modulus) == fit_burgers(OMEGA, modulus)
-
-
-def test_spectrum_is_found_from_a_grid_of_tests():
-    temperature = np.repeat([-10.0, 5, 20, 40, 60], OMEGA.size)
-    omega = np.tile(OMEGA, 5)
-    modulus = SPECTRUM.complex_modulus(omega, temperature)
-    fit = fit_spectrum(omega, temperature, modulus, 15.0)
-    np.testing.assert_allclose(astuple(fit.law), astuple(SPECTRUM), rtol=1e-4)
-
-
-def test_reference_temperature_is_only_a_choice():
-    temperature, omega = np.repeat([0.0, 10, 20, 30, 45], OMEGA.size), np.tile(OMEGA, 5)
-    scatter = 0.02 * np.random.default_rng(5).standard_normal(omega.size)
-    modulus = SPECTRUM.complex_modulus(omega, temperature) * np.exp(scatter)
-    rms = [fit_spectrum(omega, temperature, modulus, reference).rms_log_residual for reference in (0.0, 25.0)]
-    assert 0.01 < rms[0] < 0.03
-    assert rms[0] == pytest.approx(rms[1], rel=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -101,8 +82,3 @@ def test_reference_temperature_is_only_a_choice():
 def test_points_that_cannot_be_fitted_are_refused(omega, modulus, words):
     with pytest.raises(InputError, match=words):
         fit_burgers(omega, modulus)
-
-
-def test_too_few_temperatures_for_a_shift_are_refused():
-    with pytest.raises(InputError, match="at least three temperatures"):
-        fit_spectrum(OMEGA, np.full(5, 15.0), SPECTRUM.complex_modulus(OMEGA, 15.0), 15.0)

@@ -1,16 +1,17 @@
 """Law files come back as they went, and a damaged one is named."""
 
 import json
+import math
 
 import pytest
 
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.rheology.burgers import Burgers
-from asphalt_nscd.rheology.laws_io import read_law, read_spectrum, write_law, write_spectrum
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
+from asphalt_nscd.rheology.chain import KelvinChain
+from asphalt_nscd.rheology.laws_io import read_bond_law, read_law, write_chain, write_law
 
 LAW = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)
-SPECTRUM = TwoS2P1D(80e6, 42e9, 0.2, 0.6, 1.64, 0.14, 28.0, 11.7, 79.9, 15.0)
+CHAIN = KelvinChain(30e9, math.inf, (50e9, 70e9), (2e9, 0.3e9))
 
 
 def test_burgers_round_trip(tmp_path):
@@ -26,10 +27,40 @@ def test_burgers_round_trip(tmp_path):
     }  # fmt: skip
 
 
-def test_spectrum_round_trip(tmp_path):
-    path = tmp_path / "spectrum.json"
-    write_spectrum(path, SPECTRUM, source="reconstructed", rms_log_residual=0.04)
-    assert read_spectrum(path) == SPECTRUM
+def test_chain_round_trip(tmp_path):
+    path = tmp_path / "chain.json"
+    write_chain(path, CHAIN, source="spectrum.json", temperature=15, error=4e-4, lowest_hz=3, highest_hz=40)
+    assert read_bond_law(path) == CHAIN
+    assert json.loads(path.read_text()) == {
+        "law": "kelvin_chain", "source": "spectrum.json", "temperature_C": 15.0, "E_Pa": 30e9, "eta_Pa_s": None,
+        "Ek_Pa": [50e9, 70e9], "eta_k_Pa_s": [2e9, 0.3e9],
+        "largest_log_error": 4e-4, "lowest_Hz": 3.0, "highest_Hz": 40.0,
+    }  # fmt: skip
+
+
+def test_bonds_follow_a_burgers_law_too(tmp_path):
+    write_law(tmp_path / "T15.json", LAW, source="fitted", temperature=15)
+    assert read_bond_law(tmp_path / "T15.json") == LAW
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"law": "2s2p1d"}, "holds law '2s2p1d', not 'burgers' or 'kelvin_chain'; .* asphalt-nscd chain-law"),
+        ({"Ek_Pa": [1e9]}, "1 springs and 2 dashpots"),
+        ({"Ek_Pa": 1e9}, "key 'Ek_Pa' is missing or no list of numbers"),
+        ({"Ek_Pa": [1e9, "x"]}, "key 'Ek_Pa' is missing or no list of numbers"),
+        ({"E_Pa": "stiff"}, "key 'E_Pa' is missing or not a number"),
+        ({"E_Pa": -1.0}, "not positive"),
+    ],
+)
+def test_bad_chains_are_refused_by_name(tmp_path, changes, words):
+    path = tmp_path / "chain.json"
+    content = write_chain(path, CHAIN, source="", temperature=15, error=0, lowest_hz=3, highest_hz=40)
+    path.write_text(json.dumps(content | changes))
+    with pytest.raises(InputError, match=words) as caught:
+        read_bond_law(path)
+    assert str(path) in str(caught.value)
 
 
 @pytest.mark.parametrize(

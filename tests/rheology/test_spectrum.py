@@ -1,29 +1,56 @@
-"""2S2P1D with WLF: its limits, and time-temperature superposition."""
+"""Continuous laws: their limits, and time-temperature superposition."""
 
+import numpy as np
 import pytest
 
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.rheology.shift import WLF, Arrhenius
+from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D, parameters
 
-LAW = TwoS2P1D(100e6, 42e9, 0.2, 0.6, 1.64, 0.14, 28.0, 11.7, 79.9, 15.0)
+SHIFT = WLF(11.7, 79.9, 15.0)
+LAW = TwoS2P1D(100e6, 42e9, 0.2, 0.6, 1.64, 0.14, 28.0, SHIFT)
+HUET = HuetSayegh(100e6, 42e9, 0.2, 0.6, 1.64, 0.14, SHIFT)
 
 
-def test_limits():
-    assert LAW.complex_modulus(1e60, 15.0) == pytest.approx(42e9, rel=1e-5)
-    assert LAW.complex_modulus(1e-30, 15.0) == pytest.approx(100e6, rel=1e-6)
+@pytest.mark.parametrize("law", [LAW, HUET])
+def test_limits(law):
+    assert law.complex_modulus(1e60, 15.0) == pytest.approx(42e9, rel=1e-5)
+    assert law.complex_modulus(1e-30, 15.0) == pytest.approx(100e6, rel=1e-6)
 
 
-def test_law_written_out():
+def test_laws_written_out():
     omega = 10.0
     x = 1j * omega * 0.14
+    expected = 100e6 + (42e9 - 100e6) / (1 + 1.64 * x**-0.2 + x**-0.6)
+    assert HUET.complex_modulus(omega, 15.0) == pytest.approx(expected, rel=1e-13)
     expected = 100e6 + (42e9 - 100e6) / (1 + 1.64 * x**-0.2 + x**-0.6 + 1 / (x * 28.0))
     assert LAW.complex_modulus(omega, 15.0) == pytest.approx(expected, rel=1e-13)
 
 
-def test_temperature_acts_as_a_change_of_frequency():
-    decades = -11.7 * (30 - 15) / (79.9 + 30 - 15)
-    assert LAW.shift_factor(15.0) == 1.0
-    assert LAW.shift_factor(30.0) == pytest.approx(10**decades, rel=1e-12)
-    assert LAW.complex_modulus(100.0, 30.0) == pytest.approx(
-        LAW.complex_modulus(100.0 * 10**decades, 15.0), rel=1e-12
-    )
-    assert abs(LAW.complex_modulus(100.0, 30.0)) < abs(LAW.complex_modulus(100.0, 15.0))
+@pytest.mark.parametrize("shift", [SHIFT, Arrhenius(2e5, 15.0)])
+def test_temperature_acts_as_a_change_of_frequency(shift):
+    law = HuetSayegh(100e6, 42e9, 0.2, 0.6, 1.64, 0.14, shift)
+    factor = shift.factor(30.0)
+    assert shift.factor(15.0) == 1.0 and 0 < factor < 0.1
+    assert law.complex_modulus(100.0, 30.0) == pytest.approx(law.complex_modulus(100.0 * factor, 15.0), rel=1e-12)
+    assert abs(law.complex_modulus(100.0, 30.0)) < abs(law.complex_modulus(100.0, 15.0))
+
+
+def test_shifts_written_out():
+    assert SHIFT.factor(30.0) == pytest.approx(10 ** (-11.7 * 15 / (79.9 + 15)), rel=1e-12)
+    # 200 kJ/mol between 15 and 30 degC, in absolute temperatures
+    exponent = 2e5 / 8.314462618 * (1 / 303.15 - 1 / 288.15)
+    assert Arrhenius(2e5, 15.0).factor(30.0) == pytest.approx(np.exp(exponent), rel=1e-12)
+
+
+def test_wlf_ends_at_its_pole():
+    SHIFT.factor([-62.0, 15.0])
+    with pytest.raises(InputError, match="79.9 K below 15 degC"):
+        SHIFT.factor([-65.0, 15.0])
+
+
+def test_parameters_by_name():
+    assert parameters(LAW) == {
+        "static_modulus": 100e6, "glassy_modulus": 42e9, "k": 0.2, "h": 0.6, "delta": 1.64, "tau": 0.14,
+        "beta": 28.0, "c1": 11.7, "c2": 79.9,
+    }  # fmt: skip

@@ -22,7 +22,10 @@ import numpy as np
 
 @dataclass(frozen=True)
 class BondLaw:
-    """Moduli [Pa] and viscosities [Pa s] of the chain; kelvin arrays have one entry per element."""
+    """Moduli [Pa] and viscosities [Pa s] of the chain; kelvin arrays have one entry per element.
+
+    An infinite spring or dashpot is one that the chain does not have.
+    """
 
     spring: float
     dashpot: float
@@ -49,7 +52,7 @@ class BondLaw:
         """
         rate = (1.0 - np.exp(-1j * omega * dt)) / dt if dt > 0.0 else 1j * omega
         kelvin = (1.0 / (self.kelvin_springs + rate * self.kelvin_dashpots)).sum()
-        return complex(1.0 / (1.0 / self.spring + 1.0 / (rate * self.dashpot) + kelvin))
+        return complex(1.0 / (1.0 / self.spring + 1.0 / self.dashpot / rate + kelvin))
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.rheology.chain import KelvinChain
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,10 @@ class Burgers:
             value = getattr(self, field.name)
             if not np.isfinite(value) or value <= 0:
                 raise InputError(f"Burgers law: {field.name} = {value:g} must be positive; give Pa or Pa s.")
+
+    def as_chain(self) -> KelvinChain:
+        """The same law as a Kelvin chain of one element."""
+        return KelvinChain(self.modulus_m, self.viscosity_m, (self.modulus_k,), (self.viscosity_k,))
 
     def complex_compliance(self, omega: ArrayLike) -> NDArray[np.complex128]:
         """D* = D' - i D'' [1/Pa] at angular frequencies omega [rad/s], Eqs. (28)-(29)."""

@@ -1,14 +1,15 @@
-"""Law files: one law with its origin and its standard errors, as JSON."""
+"""Law files of one temperature: a law that bonds can follow, with its origin, as JSON."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.rheology.burgers import Burgers
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
+from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.store import read_json, write_json
 
 _BURGERS_KEYS = {
@@ -17,18 +18,8 @@ _BURGERS_KEYS = {
     "modulus_k": "Ek_Pa",
     "viscosity_k": "eta_k_Pa_s",
 }
-_SPECTRUM_KEYS = {
-    "static_modulus": "E_static_Pa",
-    "glassy_modulus": "E_glassy_Pa",
-    "k": "k",
-    "h": "h",
-    "delta": "delta",
-    "tau": "tau_s",
-    "beta": "beta",
-    "wlf_c1": "wlf_C1",
-    "wlf_c2": "wlf_C2_K",
-    "reference_temperature": "reference_temperature_C",
-}
+_CHAIN_KEYS = {"spring": "E_Pa", "dashpot": "eta_Pa_s"}
+_ELEMENT_KEYS = {"kelvin_springs": "Ek_Pa", "kelvin_dashpots": "eta_k_Pa_s"}
 
 
 def write_law(
@@ -45,8 +36,8 @@ def write_law(
         "law": "burgers",
         "source": source,
         "temperature_C": float(temperature),
-        **_renamed(asdict(law), _BURGERS_KEYS),
-        "std_error": None if std_error is None else _renamed(std_error, _BURGERS_KEYS),
+        **renamed(asdict(law), _BURGERS_KEYS),
+        "std_error": None if std_error is None else renamed(std_error, _BURGERS_KEYS),
         "rms_log_residual": rms_log_residual,
     }
     write_json(path, content)
@@ -55,47 +46,91 @@ def write_law(
 
 def read_law(path: str | Path) -> Burgers:
     """Read a Burgers law."""
-    values = _fields(path, "burgers", _BURGERS_KEYS)
-    try:
-        return Burgers(**values)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+    content = content_of(path, ["burgers"])
+    return _built(path, Burgers, numbers_of(path, content, _BURGERS_KEYS))
 
 
-def write_spectrum(
-    path: str | Path, law: TwoS2P1D, *, source: str, rms_log_residual: float
+def write_chain(
+    path: str | Path,
+    chain: KelvinChain,
+    *,
+    source: str,
+    temperature: float,
+    error: float,
+    lowest_hz: float,
+    highest_hz: float,
 ) -> dict[str, Any]:
-    """Write a 2S2P1D law, which holds for all temperatures."""
+    """Write a Kelvin chain that stands for a law at one temperature [degC].
+
+    error: its largest |ln(E_chain / E)| between lowest_hz and highest_hz [Hz].
+    """
     content = {
-        "law": "2s2p1d",
+        "law": "kelvin_chain",
         "source": source,
-        **_renamed(asdict(law), _SPECTRUM_KEYS),
-        "rms_log_residual": rms_log_residual,
+        "temperature_C": float(temperature),
+        **{key: _or_none(getattr(chain, name)) for name, key in _CHAIN_KEYS.items()},
+        **{key: list(getattr(chain, name)) for name, key in _ELEMENT_KEYS.items()},
+        "largest_log_error": float(error),
+        "lowest_Hz": float(lowest_hz),
+        "highest_Hz": float(highest_hz),
     }
     write_json(path, content)
     return content
 
 
-def read_spectrum(path: str | Path) -> TwoS2P1D:
-    """Read a 2S2P1D law."""
-    return TwoS2P1D(**_fields(path, "2s2p1d", _SPECTRUM_KEYS))
+def read_bond_law(path: str | Path) -> Burgers | KelvinChain:
+    """Read a law that bonds can follow: Burgers or Kelvin chain."""
+    content = content_of(path, ["burgers", "kelvin_chain"])
+    if content["law"] == "burgers":
+        return read_law(path)
+    absent = {key: math.inf for key in _CHAIN_KEYS.values() if key in content and content[key] is None}
+    values: dict[str, Any] = numbers_of(path, content | absent, _CHAIN_KEYS)
+    for name, key in _ELEMENT_KEYS.items():
+        elements = content.get(key)
+        if not isinstance(elements, list) or not all(_is_number(value) for value in elements):
+            raise InputError(
+                f"{path}: key {key!r} is missing or no list of numbers; delete the file and make it again."
+            )
+        values[name] = tuple(float(value) for value in elements)
+    return _built(path, KelvinChain, values)
 
 
-def _renamed(values: dict[str, float], keys: dict[str, str]) -> dict[str, float]:
+def renamed(values: dict[str, float], keys: dict[str, str]) -> dict[str, float]:
+    """Values under the keys of the file."""
     return {keys[name]: float(value) for name, value in values.items()}
 
 
-def _fields(path: str | Path, law: str, keys: dict[str, str]) -> dict[str, float]:
+def _or_none(value: float) -> float | None:
+    return None if math.isinf(value) else value
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def content_of(path: str | Path, laws: list[str]) -> dict[str, Any]:
+    """Content of a file that holds one of `laws`."""
     content = read_json(path)
     found = content.get("law") if isinstance(content, dict) else None
-    if found != law:
-        raise InputError(f"{path}: holds law {found!r}, not {law!r}; give the right law file.")
-    values = {}
-    for name, key in keys.items():
-        value = content.get(key)
-        if not isinstance(value, int | float) or isinstance(value, bool):
+    if found not in laws:
+        wanted = " or ".join(repr(law) for law in laws)
+        mend = " or make the chain of this one by asphalt-nscd chain-law" if "kelvin_chain" in laws else ""
+        raise InputError(f"{path}: holds law {found!r}, not {wanted}; give the right law file{mend}.")
+    return content
+
+
+def numbers_of(path: str | Path, content: dict[str, Any], keys: dict[str, str]) -> dict[str, float]:
+    """Numbers of the file by field name."""
+    for key in keys.values():
+        if not _is_number(content.get(key)):
             raise InputError(
                 f"{path}: key {key!r} is missing or not a number; delete the file and make it again."
             )
-        values[name] = float(value)
-    return values
+    return {name: float(content[key]) for name, key in keys.items()}
+
+
+def _built(path: str | Path, kind: type, values: dict[str, Any]) -> Any:
+    try:
+        return kind(**values)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None

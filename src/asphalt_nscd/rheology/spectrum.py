@@ -1,25 +1,60 @@
-"""A continuous spectrum: the 2S2P1D law (Olard & Di Benedetto 2003) with a WLF shift.
+"""Continuous spectra: laws smooth over all frequencies, carried to all temperatures by a shift.
 
-Two parabolic creep elements and a dashpot give one smooth law for all frequencies; the shift of
-Williams, Landel & Ferry (1955) carries it to all temperatures (a thermo-rheologically simple mix).
+Two parabolic creep elements in series with a spring give the law of Huet (1963) and Sayegh (1967);
+a dashpot in series makes it the 2S2P1D law (Olard & Di Benedetto 2003).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from asphalt_nscd.rheology.shift import WLF, Arrhenius
+
+
+class Spectrum(Protocol):
+    """A law of all temperatures and frequencies."""
+
+    @property
+    def shift(self) -> WLF | Arrhenius:
+        """How frequency and temperature stand for each other."""
+
+    def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
+        """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
+
+
+@dataclass(frozen=True)
+class HuetSayegh:
+    """Huet-Sayegh law of one mix.
+
+    static_modulus, glassy_modulus: limits of E* at zero and infinite frequency [Pa]; k < h: exponents
+    of the parabolic elements; delta: weight of the k element; tau: characteristic time [s] at the
+    reference temperature of the shift.
+    """
+
+    static_modulus: float
+    glassy_modulus: float
+    k: float
+    h: float
+    delta: float
+    tau: float
+    shift: WLF | Arrhenius
+
+    def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
+        """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
+        reduced = 1j * np.asarray(omega, dtype=float) * self.tau * self.shift.factor(temperature)
+        retarded = 1.0 + self.delta * reduced**-self.k + reduced**-self.h
+        return self.static_modulus + (self.glassy_modulus - self.static_modulus) / retarded
 
 
 @dataclass(frozen=True)
 class TwoS2P1D:
     """2S2P1D law of one mix.
 
-    static_modulus, glassy_modulus: limits of E* at zero and infinite frequency [Pa]; k < h: exponents
-    of the parabolic elements; delta: weight of the k element; tau: characteristic time [s] at
-    reference_temperature [degC]; beta: dashpot, viscosity = (glassy - static) beta tau;
-    wlf_c1 (decades), wlf_c2 [K].
+    As HuetSayegh, and beta: dashpot, viscosity = (glassy - static) beta tau.
     """
 
     static_modulus: float
@@ -29,17 +64,24 @@ class TwoS2P1D:
     delta: float
     tau: float
     beta: float
-    wlf_c1: float
-    wlf_c2: float
-    reference_temperature: float
-
-    def shift_factor(self, temperature: ArrayLike) -> NDArray[np.float64]:
-        """a_T: reduced frequency over frequency at temperature [degC]; 1 at the reference."""
-        above = np.asarray(temperature, dtype=float) - self.reference_temperature
-        return 10.0 ** (-self.wlf_c1 * above / (self.wlf_c2 + above))
+    shift: WLF | Arrhenius
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
         """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
-        reduced = 1j * np.asarray(omega, dtype=float) * self.tau * self.shift_factor(temperature)
+        reduced = 1j * np.asarray(omega, dtype=float) * self.tau * self.shift.factor(temperature)
         retarded = 1.0 + self.delta * reduced**-self.k + reduced**-self.h + 1.0 / (reduced * self.beta)
         return self.static_modulus + (self.glassy_modulus - self.static_modulus) / retarded
+
+
+LAWS = {"2s2p1d": TwoS2P1D, "huet-sayegh": HuetSayegh}
+
+
+def parameter_names(kind: type) -> list[str]:
+    """Names of a law's or a shift's own parameters; the reference temperature is a choice, none of them."""
+    return [field.name for field in fields(kind) if field.name not in ("shift", "reference_temperature")]
+
+
+def parameters(law: Any) -> dict[str, float]:
+    """Parameters of a law by name, those of its shift, if it has one, at the end."""
+    parts = [law, law.shift] if hasattr(law, "shift") else [law]
+    return {name: getattr(part, name) for part in parts for name in parameter_names(type(part))}

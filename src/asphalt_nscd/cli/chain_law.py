@@ -1,0 +1,25 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+@click.command()
+@click.argument("spectrum", type=_options.File)
+@click.option("--temperature-c", required=True, type=_options.Number(above=-273.15), help="Temperature of the test, degrees Celsius.")
+@click.option("--lowest-hz", required=True, type=_options.POSITIVE, help="Lowest frequency to follow, Hz.")
+@click.option("--highest-hz", required=True, type=_options.POSITIVE, help="Highest frequency to follow, Hz.")
+@click.option("--tolerance", default=1e-3, type=_options.POSITIVE, help="Largest |ln(E_chain/E)| allowed between them.")
+@click.option("--factor", default=1.0, type=_options.POSITIVE, help="Factor on all moduli, to make up for the packing's.")
+@_options.output
+def command(
+    spectrum: Path, temperature_c: float, lowest_hz: float, highest_hz: float, tolerance: float,
+    factor: float, output: Path,
+) -> None:  # fmt: skip
+    """Turn a law of all temperatures into the Kelvin chain that bonds follow at one."""
+    from asphalt_nscd.chain_law import chain_law
+
+    chain_law(spectrum, temperature_c, lowest_hz, highest_hz, tolerance, factor, output)

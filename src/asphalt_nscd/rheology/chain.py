@@ -1,0 +1,57 @@
+"""Kelvin chain (generalised Burgers law): a spring, a dashpot and Kelvin-Voigt elements in series."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asphalt_nscd.errors import InputError
+
+
+@dataclass(frozen=True)
+class KelvinChain:
+    """Law of one temperature.
+
+    spring [Pa] and dashpot [Pa s], infinite where the chain has none; kelvin_springs [Pa] and
+    kelvin_dashpots [Pa s]: one of each for every Kelvin-Voigt element.
+    """
+
+    spring: float
+    dashpot: float
+    kelvin_springs: tuple[float, ...]
+    kelvin_dashpots: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.kelvin_springs) != len(self.kelvin_dashpots):
+            raise InputError(
+                f"Kelvin chain: {len(self.kelvin_springs)} springs and {len(self.kelvin_dashpots)} dashpots; "
+                "give one of each for every element."
+            )
+        elements = (*self.kelvin_springs, *self.kelvin_dashpots)
+        if not (self.spring > 0 and self.dashpot > 0 and all(0 < value < np.inf for value in elements)):
+            raise InputError(
+                "Kelvin chain: a value is not positive; give moduli in Pa and viscosities in Pa s."
+            )
+        if np.isinf(self.spring) and np.isinf(self.dashpot) and not elements:
+            raise InputError("Kelvin chain: nothing in it yields; give a spring, a dashpot or an element.")
+
+    def complex_compliance(self, omega: ArrayLike) -> NDArray[np.complex128]:
+        """D* = D' - i D'' [1/Pa] at angular frequencies omega [rad/s]:
+
+        D* = 1/E + 1/(i omega eta) + sum of 1/(E_k + i omega eta_k).
+        """
+        i_omega = 1j * np.asarray(omega, dtype=float)
+        elements = np.asarray(self.kelvin_springs) + i_omega[..., None] * np.asarray(self.kelvin_dashpots)
+        return 1.0 / self.spring + 1.0 / self.dashpot / i_omega + (1.0 / elements).sum(axis=-1)
+
+    def complex_modulus(self, omega: ArrayLike) -> NDArray[np.complex128]:
+        """E* = 1/D* [Pa] at angular frequencies omega [rad/s]."""
+        return 1.0 / self.complex_compliance(omega)
+
+    def scaled(self, factor: float) -> KelvinChain:
+        """The chain with E* times factor at every frequency."""
+        springs = tuple(factor * value for value in self.kelvin_springs)
+        dashpots = tuple(factor * value for value in self.kelvin_dashpots)
+        return KelvinChain(factor * self.spring, factor * self.dashpot, springs, dashpots)

@@ -1,0 +1,49 @@
+"""Shift of frequency with temperature, for thermo-rheologically simple mixes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asphalt_nscd.errors import InputError
+
+GAS_CONSTANT = 8.314462618  # J/(mol K)
+ZERO_CELSIUS = 273.15  # K
+
+
+@dataclass(frozen=True)
+class WLF:
+    """Williams, Landel & Ferry (1955): c1 [decades], c2 [K], reference_temperature [degC]."""
+
+    c1: float
+    c2: float
+    reference_temperature: float
+
+    def factor(self, temperature: ArrayLike) -> NDArray[np.float64]:
+        """a_T: reduced frequency over frequency at temperature [degC]; 1 at the reference."""
+        above = np.asarray(temperature, dtype=float) - self.reference_temperature
+        if np.any(self.c2 + above <= 0.0):
+            raise InputError(
+                f"WLF shift: nothing is defined {np.min(self.c2):g} K below {self.reference_temperature:g} degC "
+                "or colder; take a higher temperature or an Arrhenius shift."
+            )
+        return 10.0 ** (-self.c1 * above / (self.c2 + above))
+
+
+@dataclass(frozen=True)
+class Arrhenius:
+    """One activation_energy [J/mol]; reference_temperature [degC]."""
+
+    activation_energy: float
+    reference_temperature: float
+
+    def factor(self, temperature: ArrayLike) -> NDArray[np.float64]:
+        """a_T: reduced frequency over frequency at temperature [degC]; 1 at the reference."""
+        kelvin = np.asarray(temperature, dtype=float) + ZERO_CELSIUS
+        inverse = 1.0 / kelvin - 1.0 / (self.reference_temperature + ZERO_CELSIUS)
+        return np.exp(self.activation_energy / GAS_CONSTANT * inverse)
+
+
+SHIFTS = {"wlf": WLF, "arrhenius": Arrhenius}

@@ -1,0 +1,75 @@
+"""Law files of all temperatures: a continuous law with its origin and its standard errors, as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.rheology.laws_io import content_of, numbers_of, renamed
+from asphalt_nscd.rheology.shift import SHIFTS
+from asphalt_nscd.rheology.spectrum import LAWS, HuetSayegh, TwoS2P1D, parameter_names, parameters
+from asphalt_nscd.store import write_json
+
+_KEYS = {
+    "static_modulus": "E_static_Pa",
+    "glassy_modulus": "E_glassy_Pa",
+    "k": "k",
+    "h": "h",
+    "delta": "delta",
+    "tau": "tau_s",
+    "beta": "beta",
+    "c1": "wlf_C1",
+    "c2": "wlf_C2_K",
+    "activation_energy": "activation_energy_J_mol",
+}
+_REFERENCE = {"reference_temperature": "reference_temperature_C"}
+
+
+def write_spectrum(
+    path: str | Path,
+    law: HuetSayegh | TwoS2P1D,
+    *,
+    source: str,
+    rms_log_residual: float,
+    std_error: dict[str, float] | None = None,
+    unseen: Iterable[str] = (),
+) -> dict[str, Any]:
+    """Write a continuous law, which holds for all temperatures; unseen: parameters without std_error."""
+    content = {
+        "law": next(name for name, kind in LAWS.items() if type(law) is kind),
+        "shift": next(name for name, kind in SHIFTS.items() if type(law.shift) is kind),
+        "source": source,
+        **renamed(parameters(law), _KEYS),
+        **renamed({"reference_temperature": law.shift.reference_temperature}, _REFERENCE),
+        "std_error": None if std_error is None else renamed(std_error, _KEYS),
+        "unseen": [_KEYS[name] for name in unseen],
+        "rms_log_residual": rms_log_residual,
+    }
+    write_json(path, content)
+    return content
+
+
+def read_spectrum(path: str | Path) -> HuetSayegh | TwoS2P1D:
+    """Read a continuous law."""
+    content = content_of(path, list(LAWS))
+    if content.get("shift") not in SHIFTS:
+        raise InputError(
+            f"{path}: key 'shift' is {content.get('shift')!r}; give one of {', '.join(SHIFTS)} "
+            "or delete the file and make it again."
+        )
+    kind, shift = LAWS[content["law"]], SHIFTS[content["shift"]]
+    values = numbers_of(path, content, _keys_of(kind))
+    if (
+        not 0.0 < values["k"] <= values["h"] < 1.0
+        or not 0.0 <= values["static_modulus"] < values["glassy_modulus"]
+    ):
+        raise InputError(
+            f"{path}: needs 0 < k <= h < 1 and 0 <= E_static_Pa < E_glassy_Pa; correct it or make it again."
+        )
+    return kind(**values, shift=shift(**numbers_of(path, content, _keys_of(shift) | _REFERENCE)))
+
+
+def _keys_of(kind: type) -> dict[str, str]:
+    return {name: _KEYS[name] for name in parameter_names(kind)}

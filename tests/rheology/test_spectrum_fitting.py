@@ -1,0 +1,99 @@
+"""One law for all temperatures, and how well the points know it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.rheology.shift import WLF, Arrhenius
+from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D, parameters
+from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
+
+FREQUENCIES = 2 * np.pi * np.array([3.0, 6, 10, 25, 40])
+TEMPERATURES = [-10.0, 5, 20, 40, 60]
+OMEGA, TEMPERATURE = np.tile(FREQUENCIES, 5), np.repeat(TEMPERATURES, 5)
+SPECTRUM = TwoS2P1D(80e6, 42e9, 0.2, 0.6, 1.64, 0.14, 28.0, WLF(11.7, 79.9, 15.0))
+HUET = HuetSayegh(80e6, 42e9, 0.2, 0.6, 1.64, 0.14, WLF(11.7, 79.9, 15.0))
+KINDS = {
+    "2s2p1d-wlf": SPECTRUM,
+    "huet-sayegh-wlf": HUET,
+    "2s2p1d-arrhenius": replace(SPECTRUM, shift=Arrhenius(2e5, 15.0)),
+    "huet-sayegh-arrhenius": replace(HUET, shift=Arrhenius(2e5, 15.0)),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_law_is_found_from_a_grid_of_tests(kind):
+    truth, (law, shift) = KINDS[kind], kind.rsplit("-", 1)
+    fit = fit_spectrum(OMEGA, TEMPERATURE, truth.complex_modulus(OMEGA, TEMPERATURE), 15.0, law, shift)
+    assert type(fit.law) is type(truth) and type(fit.law.shift) is type(truth.shift)
+    assert parameters(fit.law) == pytest.approx(parameters(truth), rel=1e-4)
+    assert fit.unseen == () and fit.freedom == 50 - len(parameters(truth))
+
+
+def test_reference_temperature_is_only_a_choice():
+    scatter = 0.02 * np.random.default_rng(5).standard_normal(OMEGA.size)
+    modulus = SPECTRUM.complex_modulus(OMEGA, TEMPERATURE) * np.exp(scatter)
+    rms = [fit_spectrum(OMEGA, TEMPERATURE, modulus, reference).rms_log_residual for reference in (0.0, 25.0)]
+    assert 0.01 < rms[0] < 0.03
+    assert rms[0] == pytest.approx(rms[1], rel=1e-6)
+
+
+def test_standard_errors_are_those_of_linear_regression():
+    """noise sqrt(diag((J^T J)^-1)) with J by differences in the parameters themselves."""
+    noise, repeats = 0.01, 60
+    omega, temperature = np.tile(OMEGA, repeats), np.tile(TEMPERATURE, repeats)
+    random = np.random.default_rng(4)
+    scatter = noise * (random.standard_normal(omega.size) + 1j * random.standard_normal(omega.size))
+    fit = fit_spectrum(omega, temperature, HUET.complex_modulus(omega, temperature) * np.exp(scatter), 15.0, "huet-sayegh")
+
+    def changed(name, factor):
+        if name in ("c1", "c2"):
+            return replace(HUET, shift=replace(HUET.shift, **{name: factor * getattr(HUET.shift, name)}))
+        return replace(HUET, **{name: factor * getattr(HUET, name)})
+
+    columns = []
+    for name in parameters(HUET):
+        high, low = (np.log(changed(name, 1 + d).complex_modulus(omega, temperature)) for d in (1e-5, -1e-5))
+        slope = (high - low) / 2e-5
+        columns.append(np.concatenate([slope.real, slope.imag]))
+    jacobian = np.column_stack(columns)
+    expected = noise * np.sqrt(np.diag(np.linalg.inv(jacobian.T @ jacobian)))
+    for (name, value), relative in zip(parameters(HUET).items(), expected, strict=True):
+        assert fit.std_error[name] == pytest.approx(relative * value, rel=0.1)
+        low, high = fit.interval(name, 0.999)
+        assert low < value < high
+        low, high = fit.interval(name, 0.5)  # t of 3000 degrees of freedom is normal: 0.674 each way
+        assert np.log(high / low) == pytest.approx(2 * 0.674 * relative, rel=0.1)
+
+
+def test_a_parameter_at_its_bound_is_unseen():
+    """Without a static modulus in the data it has no error, and the others have that of a law without it."""
+    truth = replace(HUET, static_modulus=0.0)
+    scatter = 0.01 * np.random.default_rng(6).standard_normal((2, OMEGA.size))
+    modulus = truth.complex_modulus(OMEGA, TEMPERATURE) * np.exp(scatter[0] + 1j * scatter[1])
+    modulus[-5:] *= np.exp(0.05j)  # the hottest tests flow more freely than the law: static modulus to zero
+    fit = fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0, "huet-sayegh")
+    assert fit.unseen == ("static_modulus",)
+    assert set(fit.std_error) == set(parameters(truth)) - {"static_modulus"}
+    assert all(0 < fit.std_error[name] < 0.5 * parameters(fit.law)[name] for name in fit.std_error)
+    assert fit.freedom == 50 - 7
+
+
+def test_too_few_points_give_no_standard_errors():
+    few = [0, 7, 13, 24]
+    fit = fit_spectrum(OMEGA[few], TEMPERATURE[few], HUET.complex_modulus(OMEGA[few], TEMPERATURE[few]), 15.0, "huet-sayegh")
+    assert fit.std_error is None
+
+
+@pytest.mark.parametrize(("shift", "least"), [("wlf", 3), ("arrhenius", 2)])
+def test_too_few_temperatures_for_a_shift_are_refused(shift, least):
+    temperature = np.arange(FREQUENCIES.size) % (least - 1) * 10.0
+    with pytest.raises(InputError, match=f"kind '{shift}' needs at least {least} temperatures"):
+        fit_spectrum(FREQUENCIES, temperature, SPECTRUM.complex_modulus(FREQUENCIES, temperature), 15.0, shift=shift)
+
+
+def test_too_few_points_are_refused():
+    with pytest.raises(InputError, match="3 points cannot determine 9 parameters; measure at least 5"):
+        fit_spectrum(FREQUENCIES[:3], [0.0, 10.0, 20.0], np.full(3, 1e9 + 1e8j), 15.0)
