@@ -124,13 +124,14 @@ class Table:
 
 
 def read_csv(path: str | Path) -> Table:
-    """Read a CSV file with one header line; blank lines are passed over."""
+    """Read a CSV file with one header line; blank lines and lines that begin with # are passed over."""
     path = Path(path)
     if not path.is_file():
         raise InputError(f"{path}: no such file; check the path.")
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file, strict=True)
+            # A comment line becomes a blank one, so that line numbers stay those of the file.
+            reader = csv.reader(("\n" if line.startswith("#") else line for line in file), strict=True)
             rows = [(reader.line_num, [field.strip() for field in row]) for row in reader]
     except (UnicodeDecodeError, csv.Error, OSError) as error:
         raise InputError(f"{path}: cannot be read as CSV text ({error}); save it as UTF-8 CSV.") from None

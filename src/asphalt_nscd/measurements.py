@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -45,8 +45,21 @@ def reduce_table(
     FORMS; paths of records are relative to the table. geometry: see `read_geometry`; not looked at
     for ready moduli. cycles: window for records, None for the last ten seconds.
     """
-    table = read_csv(measurements)
-    frame = _read_keys(table)
+    frame = reduced_frame(read_csv(measurements), geometry, cycles=cycles)
+    frame = frame.reindex(columns=REDUCED_COLUMNS)
+    write_table(output, frame)
+    return frame
+
+
+def reduced_frame(
+    table: Table, geometry: str | Path | Mapping[str, Any], *, cycles: int | None = None,
+    tests: Sequence[str] = KEYS,
+) -> pd.DataFrame:  # fmt: skip
+    """The rows of a measurement table with E_MPa and phase_deg, as `reduce_table` describes them.
+
+    tests: columns which, with the specimen, tell one test from another.
+    """
+    frame = _read_keys(table, tests)
     form = _form_of(table)
     table.require(FORMS[form])
     if form == "moduli":
@@ -64,8 +77,6 @@ def reduce_table(
         gamma = frame["specimen"].map({name: twopoint.form_factor(g) for name, g in specimens.items()})
         stiffest = (gamma * frame["F0_N"] / frame["z0_m"]).max() * 1e-6
     _check_whole_table(table, frame, form, stiffest)
-    frame = frame.reindex(columns=REDUCED_COLUMNS)
-    write_table(output, frame)
     return frame
 
 
@@ -82,14 +93,14 @@ def read_reduced(path: str | Path) -> pd.DataFrame:
     return frame.reindex(columns=REDUCED_COLUMNS)
 
 
-def _read_keys(table: Table) -> pd.DataFrame:
+def _read_keys(table: Table, tests: Sequence[str] = KEYS) -> pd.DataFrame:
     """Specimen, temperature, frequency and origin of each row, each test once."""
     table.require(["specimen", *KEYS])
     frame = pd.DataFrame({"specimen": table.text("specimen")})
-    for name in KEYS:
-        frame[name] = table.numbers(name, LIMITS[name])
+    for name in tests:
+        frame[name] = table.numbers(name, LIMITS.get(name))
     origin = table.text("origin") if "origin" in table.columns else ["measured"] * len(frame)
-    seen: dict[tuple[str, float, float], int] = {}
+    seen: dict[tuple, int] = {}
     for row, test in enumerate(frame.itertuples(index=False, name=None)):
         if origin[row] not in ORIGINS:
             raise table.error(row, f"origin {origin[row]!r} is not known; write one of {', '.join(ORIGINS)}.")

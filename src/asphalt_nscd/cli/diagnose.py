@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options
+
+PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
+
+
+@click.command()
+@click.argument("measurements", type=_options.File)
+@click.option(
+    "--output", required=True, type=_options.File, help="Folder for diagnosis.json and residuals.csv."
+)
+@click.option(
+    "--geometry",
+    default=PAPER,
+    type=_options.Geometry(),
+    help="Specimens; of ready moduli only the form factor is used.",
+)
+@click.option(
+    "--specimen",
+    type=_options.File,
+    help="Numerical specimen, a file of `reduced-specimen`; else the one shipped.",
+)
+@click.option(
+    "--static-modulus-mpa", type=_options.NOT_NEGATIVE, help="Modulus of the mix at long times, if known."
+)
+@click.option(
+    "--modulus-scatter-percent",
+    type=_options.POSITIVE,
+    help="Scatter of |E*| of one test; else from replicates.",
+)
+@click.option(
+    "--phase-scatter-deg",
+    type=_options.POSITIVE,
+    help="Scatter of the phase of one test; else from replicates.",
+)
+@click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
+@click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
+def command(
+    measurements: Path, output: Path, geometry: object, specimen: Path | None, static_modulus_mpa: float | None,
+    modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
+) -> None:  # fmt: skip
+    """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict."""
+    import math
+
+    from asphalt_nscd.diagnosis.run import run
+
+    stated = None
+    if (modulus_scatter_percent is None) != (phase_scatter_deg is None):
+        raise click.UsageError("give --modulus-scatter-percent and --phase-scatter-deg together.")
+    if modulus_scatter_percent is not None:
+        stated = modulus_scatter_percent / 100.0, math.radians(phase_scatter_deg)
+    static = None if static_modulus_mpa is None else 1e6 * static_modulus_mpa
+    click.echo(run(measurements, output, geometry, specimen, static, stated, draws, seed))

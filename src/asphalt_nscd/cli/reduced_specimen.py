@@ -1,0 +1,17 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+@click.command()
+@click.argument("model", type=_options.File)
+@_options.output
+def command(model: Path, output: Path) -> None:
+    """Keep of a condensed model what `diagnose --specimen` needs: two small matrices."""
+    from asphalt_nscd.diagnosis.simulated import reduce_model
+
+    reduce_model(model, output)

@@ -1,0 +1,1 @@
+"""What a simulation gets wrong about measurements: residuals, named causes, a ladder, and a verdict."""

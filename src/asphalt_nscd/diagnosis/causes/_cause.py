@@ -1,0 +1,73 @@
+"""What a cause is: a forward model on the apparent modulus, and how the simulation takes it up."""
+
+from __future__ import annotations
+
+from abc import ABC
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.observations import Observations
+
+Vector = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Place = str | float | None
+"""The specimen (name) or the isotherm [degC] a cause is confined to; None for the whole table."""
+
+MATERIAL, SPECIMEN, HEAD, CHANNEL = range(4)  # in the order in which a signal passes them
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter of a cause: unit, bounds, and the size at which its effect is of order a per cent."""
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    typical: float
+
+
+class Cause(ABC):
+    """One physical cause. The first parameter is its amplitude: at zero the cause is absent.
+
+    confirmed_by: the measurement that would confirm it. needs: what the table must have for it to show.
+    """
+
+    name: ClassVar[str]
+    stage: ClassVar[int]
+    parameters: ClassVar[tuple[Parameter, ...]]
+    sentence: ClassVar[str]  # what is wrong, for a reader of the report
+    confirmed_by: ClassVar[str]
+    needs: ClassVar[str] = ""
+
+    def places(self, observed: Observations) -> Sequence[Place]:
+        """Where the cause may sit; empty if the table cannot show it."""
+        return (None,)
+
+    def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
+        """Values of the parameters after the first at which its search starts."""
+        return ((),)
+
+    def rows(self, observed: Observations, place: Place) -> NDArray[np.bool_]:
+        """Rows (n,) that the cause reaches."""
+        if place is None:
+            return np.ones(observed.size, bool)
+        if isinstance(place, str):
+            return observed.specimen == observed.names.index(place)
+        return observed.temperature == place
+
+    def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
+        """Temperature of the mix above the one stated [K], (n,)."""
+        return 0.0
+
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
+        """Modulus E* (n,) [Pa] after this cause, of the modulus before it; analytic in the modulus."""
+        return modulus
+
+    def rig(self, values: Vector, form_factor: float) -> dict[str, float]:
+        """What it changes at the head and in the channel of the simulation, in SI units."""
+        return {}

@@ -1,0 +1,22 @@
+import numpy as np
+
+from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Parameter
+
+
+class ChannelDelay(Cause):
+    """The displacement is recorded later than the force by a fixed time: E* exp(i omega tau)."""
+
+    name = "channel_delay"
+    stage = CHANNEL
+    parameters = (Parameter("delay", "s", -5e-3, 5e-3, 1e-4),)
+    sentence = "the displacement channel lags the force channel by a fixed time"
+    confirmed_by = "a test on a metal reference beam: its phase must be zero at every frequency"
+
+    def places(self, observed):
+        return (None,) if observed.frequencies.size > 1 else ()
+
+    def apparent(self, modulus, values, observed):
+        return modulus * np.exp(1j * observed.omega * values[0])
+
+    def rig(self, values, form_factor):
+        return {"channel_delay_s": values[0]}

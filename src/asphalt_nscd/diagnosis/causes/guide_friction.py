@@ -1,0 +1,28 @@
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Parameter
+
+
+class GuideFriction(Cause):
+    """A slider in parallel with the specimen: loss that does not depend on the rate, added to E2.
+
+    Its first harmonic is 4 F / (pi z0), so the loss modulus is gamma 4 F / (pi z0); where the table
+    gives amplitudes z0, the loss is that of the median amplitude.
+    """
+
+    name = "guide_friction"
+    stage = HEAD
+    parameters = (Parameter("loss_modulus", "Pa", 0.0, 5e9, 2e7),)
+    sentence = "dry friction in a guide adds a loss that does not depend on the frequency"
+    confirmed_by = "a test of the rig without a specimen, or tests at two amplitudes"
+
+    def apparent(self, modulus, values, observed):
+        loss = values[0]
+        if observed.amplitude is not None:
+            loss = loss * self._median(observed.amplitude) / observed.amplitude
+        return modulus + 1j * loss
+
+    @staticmethod
+    def _median(amplitude):
+        return float(sorted(amplitude)[amplitude.size // 2])
+
+    def rig(self, values, form_factor):
+        return {"guide_loss_N_per_m": values[0] / form_factor}

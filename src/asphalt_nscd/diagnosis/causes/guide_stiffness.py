@@ -1,0 +1,21 @@
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Parameter
+
+
+class GuideStiffness(Cause):
+    """A spring in parallel with the specimen: a constant added to E1."""
+
+    name = "guide_stiffness"
+    stage = HEAD
+    parameters = (Parameter("modulus", "Pa", 0.0, 5e9, 2e7),)
+    sentence = "a guide or cable acts as a spring in parallel with the specimen"
+    confirmed_by = "a test of the rig without a specimen, or the modulus of the mix at long times"
+    needs = "the static modulus of the mix (--static-modulus-mpa), of which it is indistinguishable otherwise"
+
+    def places(self, observed):
+        return () if observed.static_modulus is None else (None,)
+
+    def apparent(self, modulus, values, observed):
+        return modulus + values[0]
+
+    def rig(self, values, form_factor):
+        return {"guide_stiffness_N_per_m": values[0] / form_factor}

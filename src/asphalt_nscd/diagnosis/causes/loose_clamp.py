@@ -1,0 +1,21 @@
+from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Parameter
+
+
+class LooseClamp(Cause):
+    """A compliance in series with one specimen: 1/E + C."""
+
+    name = "loose_clamp"
+    stage = SPECIMEN
+    parameters = (Parameter("compliance", "1/Pa", 0.0, 1e-9, 5e-13),)
+    sentence = "this specimen is held by a compliant clamp or glue joint"
+    confirmed_by = "clamping the specimen again and repeating its coldest test"
+    needs = "a second specimen to compare with"
+
+    def places(self, observed):
+        return observed.names if len(observed.names) > 1 else ()
+
+    def apparent(self, modulus, values, observed):
+        return modulus / (1.0 + values[0] * modulus)
+
+    def rig(self, values, form_factor):
+        return {"clamp_compliance_m_per_N": values[0] * form_factor}

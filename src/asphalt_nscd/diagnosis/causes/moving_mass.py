@@ -1,0 +1,20 @@
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Parameter
+
+
+class MovingMass(Cause):
+    """Mass that moves with the head and is missing from Eq. (1): E* - gamma dm omega^2."""
+
+    name = "moving_mass"
+    stage = HEAD
+    parameters = (Parameter("mass", "kg", -2.0, 2.0, 0.02),)
+    sentence = "the mass moving with the head differs from the one used in the reduction"
+    confirmed_by = "weighing what moves with the head, or a test of the rig without a specimen"
+
+    def places(self, observed):
+        return (None,) if observed.frequencies.size > 1 else ()
+
+    def apparent(self, modulus, values, observed):
+        return modulus - observed.form_factor * values[0] * observed.omega**2
+
+    def rig(self, values, form_factor):
+        return {"head_mass_kg": values[0]}

@@ -1,0 +1,19 @@
+import numpy as np
+
+from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Parameter
+
+
+class PhaseOffset(Cause):
+    """A constant error of the phase: E* exp(i phi)."""
+
+    name = "phase_offset"
+    stage = CHANNEL
+    parameters = (Parameter("offset", "deg", -30.0, 30.0, 0.5),)
+    sentence = "the measured phase is off by the same angle in every test"
+    confirmed_by = "a test on a metal reference beam: its phase must be zero at every frequency"
+
+    def apparent(self, modulus, values, observed):
+        return modulus * np.exp(1j * np.radians(values[0]))
+
+    def rig(self, values, form_factor):
+        return {"phase_offset_rad": float(np.radians(values[0]))}

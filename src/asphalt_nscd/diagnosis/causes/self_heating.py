@@ -1,0 +1,23 @@
+import numpy as np
+
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter
+
+
+class SelfHeating(Cause):
+    """The mix warms by its own dissipation: a rise proportional to omega E2 (amplitude squared)."""
+
+    name = "self_heating"
+    stage = MATERIAL
+    parameters = (Parameter("largest_temperature_rise", "K", 0.0, 15.0, 0.5),)
+    sentence = "the specimens warm themselves while they are tested"
+    confirmed_by = "a thermometer in the specimen, or the drift of the modulus during a longer test"
+
+    def places(self, observed):
+        return (None,) if observed.frequencies.size > 1 and observed.isotherms.size > 1 else ()
+
+    def temperature_rise(self, values, observed):
+        # The measured loss: a true feedback would only change the rise by its own small share.
+        power = observed.omega * np.maximum(observed.modulus.imag, 0.0)
+        if observed.amplitude is not None:
+            power = power * observed.amplitude**2
+        return values[0] * power / power.max()

@@ -1,0 +1,18 @@
+from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Parameter
+
+
+class SpecimenGeometry(Cause):
+    """One specimen's modulus is off by a factor, its phase is not: its dimensions are wrong."""
+
+    name = "specimen_geometry"
+    stage = SPECIMEN
+    parameters = (Parameter("relative_modulus", "1", -0.8, 3.0, 0.03),)
+    sentence = "the dimensions used for this specimen are wrong beyond the usual scatter of specimens"
+    confirmed_by = "measuring its dimensions again"
+    needs = "two more specimens to compare with"
+
+    def places(self, observed):
+        return observed.names if len(observed.names) > 2 else ()
+
+    def apparent(self, modulus, values, observed):
+        return modulus * (1.0 + values[0])

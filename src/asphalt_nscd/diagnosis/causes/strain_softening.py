@@ -1,0 +1,21 @@
+import numpy as np
+
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter
+
+
+class StrainSoftening(Cause):
+    """The modulus falls with the amplitude: E* (1 - s A / A_max)."""
+
+    name = "strain_softening"
+    stage = MATERIAL
+    parameters = (Parameter("loss_at_largest_amplitude", "1", 0.0, 0.8, 0.02),)
+    sentence = "the modulus depends on the strain amplitude: the mix is outside its linear range"
+    confirmed_by = "an amplitude sweep down to 20 microstrain"
+    needs = "more than one amplitude (column amplitude_m)"
+
+    def places(self, observed):
+        amplitude = observed.amplitude
+        return (None,) if amplitude is not None and np.ptp(amplitude) > 0.2 * amplitude.max() else ()
+
+    def apparent(self, modulus, values, observed):
+        return modulus * (1.0 - values[0] * observed.amplitude / observed.amplitude.max())

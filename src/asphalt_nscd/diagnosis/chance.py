@@ -1,0 +1,123 @@
+"""What chance alone would give: score tests of directions against a fit, and the maximum over many.
+
+With the law, the scales and the causes found so far fitted, a further effect of amplitude a moves the
+whitened data along a direction d. Its gain in the objective is z^2, z = d.r / sqrt(d.A d), where
+A = 1 - J P^-1 J^T takes out whatever the fitted model can follow (priors included). Under the fit all
+z are jointly normal with known correlations, so the maximum over the catalogue is drawn at once:
+a parametric bootstrap of the linearised model, studentised as the scatter itself is estimated.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.observations import Observations
+
+Vector = NDArray[np.float64]
+ABSORBED = 3e-3  # share of a direction's square that the law must leave for it to be seen at all
+POWER = 1.645  # normal quantile of 95 %: an effect at its detection limit is found so often
+
+
+@dataclass(frozen=True)
+class Structure:
+    """A nameless pattern: what an effect outside the catalogue might look like."""
+
+    name: str
+    direction: NDArray[np.complex128]  # (n,) of ln E*
+
+
+@dataclass(frozen=True)
+class Scores:
+    """z (k,) of k directions; information (k,): d.A d; roots (2n, k): A^1/2 d over its norm."""
+
+    z: Vector
+    information: Vector
+    seen: NDArray[np.bool_]
+    roots: NDArray
+
+
+def scores(
+    joint: Joint, fitted: Fitted, directions: NDArray[np.complex128], confined: NDArray[np.bool_]
+) -> Scores:
+    """Score tests of the columns of directions (n, k); confined (k,): to a specimen, so no law takes them."""
+    d = joint.noise.whiten(directions)
+    j, residual = fitted.jacobian, fitted.residual
+    operator = np.eye(residual.size) - j @ np.linalg.solve(fitted.precision, j.T)
+    value, vector = np.linalg.eigh(0.5 * (operator + operator.T))
+    root = (vector * np.sqrt(np.maximum(value, 0.0))) @ (vector.T @ d)
+    information = (root**2).sum(axis=0)
+    least = np.where(confined, 1e-9, ABSORBED)
+    seen = information > least * np.maximum((d**2).sum(axis=0), 1e-300)
+    norm = np.sqrt(np.where(seen, information, 1.0))
+    return Scores(np.where(seen, d.T @ residual / norm, 0.0), information, seen, root / norm * seen)
+
+
+def largest_by_chance(
+    found: Scores, one_sided: NDArray[np.bool_], freedom: int, draws: int, random: np.random.Generator
+) -> Vector:
+    """(draws,) largest of the z, in absolute value or upwards only, that chance alone gives."""
+    normal = random.standard_normal((draws, found.roots.shape[0])) @ found.roots
+    normal = np.where(one_sided, normal, np.abs(normal))
+    student = np.sqrt(freedom / random.chisquare(freedom, draws))
+    return np.maximum(normal.max(axis=1, initial=0.0), 0.0) * student
+
+
+def effective(found: Scores, one_sided: NDArray[np.bool_]) -> Vector:
+    """z (k,) with the wrong sign of a one-sided effect counted as nothing."""
+    return np.where(one_sided, np.maximum(found.z, 0.0), np.abs(found.z))
+
+
+def catalogue_candidates(observed: Observations, catalogue) -> list[Candidate]:
+    """Every cause at every place with every starting shape, absent (amplitude zero)."""
+    return [
+        Candidate(cause, place, (0.0, *shape))
+        for cause in catalogue
+        for place in cause.places(observed)
+        for shape in cause.shapes(observed)
+    ]
+
+
+def candidate_directions(joint: Joint, fitted: Fitted, candidates: list[Candidate]) -> NDArray:
+    """(n, k) derivatives of ln E* with respect to the amplitudes, in typical units."""
+    active = fitted.active
+    return (
+        np.column_stack([joint.direction(fitted.law, (*active, c), len(active), 0) for c in candidates])
+        if candidates
+        else np.zeros((joint.observed.size, 0), complex)
+    )
+
+
+def structures(observed: Observations) -> list[Structure]:
+    """Nameless patterns by frequency, isotherm, specimen, condition and single test."""
+    out: list[Structure] = []
+
+    def add(name: str, pattern: NDArray) -> None:
+        if 0 < np.count_nonzero(pattern):
+            out.append(Structure(f"{name}, modulus", pattern.astype(complex)))
+            out.append(Structure(f"{name}, phase", 1j * pattern))
+
+    log_f = np.log(observed.frequency)
+    log_f = log_f - log_f.mean()
+    above = observed.temperature - observed.temperature.mean()
+    add("slope over frequency", log_f)
+    for f in observed.frequencies:
+        add(f"{f:g} Hz", observed.frequency == f)
+        add(f"above {f:g} Hz", observed.frequency > f)
+    for t in observed.isotherms:
+        add(f"{t:g} degC", observed.temperature == t)
+        add(f"{t:g} degC, slope over frequency", (observed.temperature == t) * log_f)
+    if len(observed.names) > 1:
+        for k, name in enumerate(observed.names):
+            at = observed.specimen == k
+            add(f"specimen {name}", at)
+            add(f"specimen {name}, slope over frequency", at * log_f)
+            add(f"specimen {name}, slope over temperature", at * above)
+    for cell in range(observed.cell.max() + 1):
+        at = observed.cell == cell
+        row = int(np.flatnonzero(at)[0])
+        add(f"{observed.temperature[row]:g} degC, {observed.frequency[row]:g} Hz", at)
+    return out

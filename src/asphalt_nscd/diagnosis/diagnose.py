@@ -1,0 +1,148 @@
+"""The chain of a diagnosis: scatter, baseline, law, ladder, verdict, what was gained."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import f as fisher
+
+from asphalt_nscd.diagnosis import chance, scatter, start
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import Cause
+from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
+from asphalt_nscd.diagnosis.ladder import CHANCE, Ladder, climb
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.errors import InputError
+
+DRAWS = 4000
+FIRST_SCATTER = (0.02, np.radians(0.5))  # of |E*| and phase, where nothing was repeated
+
+
+@dataclass
+class Diagnosis:
+    """All that the report tells. verdict: explained, unexplained_structure or nothing_to_explain."""
+
+    observed: Observations
+    set_aside: Observations  # outliers among replicates, not used
+    noise: Noise
+    replicated: bool
+    baseline: Fitted
+    baseline_joint: Joint
+    baseline_p: float  # of a misfit as large as the baseline's, by the replicate scatter
+    law_p: float  # the same for the law taken, with all causes
+    relaxation_spectrum: bool
+    ladder: Ladder
+    verdict: str = ""
+    notes: list[str] = field(default_factory=list)
+
+
+def diagnose(
+    observed: Observations, scatter_stated: tuple[float, float] | None = None,
+    catalogue: tuple[Cause, ...] = CATALOGUE, draws: int = DRAWS, seed: int = 0,
+) -> Diagnosis:  # fmt: skip
+    """Diagnose a table. scatter_stated: of |E*| (relative) and phase [rad], where replicates do not tell."""
+    if observed.size < 4 or observed.frequencies.size < 2:
+        raise InputError("a diagnosis needs at least four tests at two frequencies; measure more.")
+    notes: list[str] = []
+    aside = scatter.outliers(observed)
+    whole, observed = observed, observed.subset(np.setdiff1d(np.arange(observed.size), aside))
+    noise, replicated = _noise(observed, scatter_stated, catalogue, notes)
+    joint, fitted = start.fit_spectrum(observed, noise)
+    baseline_joint, baseline = start.fit_burgers_at_each(observed, noise)
+    baseline_p = misfit_p_value(baseline, noise)
+    spectrum_p = misfit_p_value(fitted, noise)
+    spectrum_better = _information(fitted) < _information(baseline)
+    if baseline_p > CHANCE and not spectrum_better and spectrum_p < CHANCE:
+        joint, fitted = baseline_joint, baseline
+        notes.append(
+            "The Burgers laws fit and no law common to all temperatures does; causes are judged against the Burgers laws."
+        )
+    ladder = climb(joint, fitted, catalogue, draws, seed)
+    law_p = misfit_p_value(ladder.fitted, noise)
+    diagnosis = Diagnosis(
+        observed, whole.subset(aside), noise, replicated, baseline, baseline_joint, baseline_p, law_p,
+        joint is not baseline_joint and baseline_p <= CHANCE and spectrum_better, ladder, notes=notes,
+    )  # fmt: skip
+    diagnosis.verdict = _verdict(diagnosis)
+    return diagnosis
+
+
+def misfit_p_value(fitted: Fitted, noise: Noise) -> float:
+    """Lack of fit against pure error: F test of what the fit leaves beyond the replicate scatter."""
+    left = float(fitted.residual @ fitted.residual) - noise.freedom
+    used = float(np.trace(np.linalg.solve(fitted.precision, fitted.jacobian.T @ fitted.jacobian)))
+    freedom = fitted.residual.size - used - noise.freedom
+    if freedom < 1.0:
+        return 1.0
+    return float(fisher.sf(max(left, 0.0) / freedom, freedom, noise.freedom))
+
+
+def _information(fitted: Fitted) -> float:
+    """Misfit plus ln(n) for each parameter that the data determine (Schwarz)."""
+    used = np.trace(np.linalg.solve(fitted.precision, fitted.jacobian.T @ fitted.jacobian))
+    return float(fitted.residual @ fitted.residual + used * np.log(fitted.residual.size))
+
+
+def _noise(observed, scatter_stated, catalogue, notes) -> tuple[Noise, bool]:
+    if scatter_stated is not None:
+        notes.append("The scatter is the one stated, not estimated from replicates.")
+        return scatter.stated(observed, *scatter_stated, scatter.SPECIMEN_SCALE), True
+    logarithm = observed.logarithm.real - scatter.median_by(observed.logarithm.real, observed.cell)
+    scales = np.array([np.median(logarithm[observed.specimen == k]) for k in range(len(observed.names))])
+    membership = np.eye(len(observed.names), dtype=complex)[observed.specimen]
+    noise = scatter.estimate(observed, membership, scales)
+    if noise is not None:
+        # What a cause confined to one specimen may do is no scatter: take its direction out.
+        joint, fitted = start.fit_spectrum(observed, noise)
+        candidates = [c for c in chance.catalogue_candidates(observed, catalogue) if isinstance(c.place, str)]
+        directions = chance.candidate_directions(joint, fitted, candidates)
+        refined = scatter.estimate(observed, np.column_stack([membership, directions]), scales)
+        return refined or noise, True
+    notes.append(
+        "No condition was repeated on another specimen, so the scatter is that of a smooth law: what no smooth law "
+        "shows cannot be told from scatter, and a lack of fit cannot be tested. Measure a second specimen or state the scatter."
+    )
+    sizes = FIRST_SCATTER
+    for _ in range(3):
+        noise = scatter.stated(observed, *sizes, scatter.SPECIMEN_SCALE)
+        _, fitted = start.fit_spectrum(observed, noise)
+        sizes, freedom = _residual_scatter(fitted, sizes)
+    noise = scatter.stated(observed, *sizes, scatter.SPECIMEN_SCALE, freedom)
+    return noise, False
+
+
+def _residual_scatter(fitted: Fitted, sizes) -> tuple[tuple[float, float], int]:
+    hat = np.einsum("ij,ji->i", fitted.jacobian, np.linalg.solve(fitted.precision, fitted.jacobian.T))
+    n = fitted.residual.size // 2
+    new, freedom = [], 0.0
+    for size, part in zip(sizes, (slice(0, n), slice(n, None)), strict=True):
+        left = n - float(hat[part].sum())
+        freedom += left
+        rms = np.sqrt(float(fitted.residual[part] @ fitted.residual[part]) / max(left, 1.0))
+        new.append(max(size * rms, 1e-4))
+    return (new[0], new[1]), max(int(freedom), 1)
+
+
+def _verdict(diagnosis: Diagnosis) -> str:
+    remaining = diagnosis.ladder.remaining
+    unexplained = remaining is not None and remaining.p_value <= CHANCE
+    if diagnosis.replicated:
+        unexplained = unexplained or diagnosis.law_p <= CHANCE
+    if unexplained:
+        return "unexplained_structure"
+    if diagnosis.ladder.rungs or diagnosis.relaxation_spectrum:
+        return "explained"
+    return "nothing_to_explain"
+
+
+def cell_residuals(diagnosis: Diagnosis) -> tuple[NDArray, NDArray]:
+    """Mean residual ln E* of each condition after all causes, and its size in standard deviations."""
+    observed, fitted = diagnosis.observed, diagnosis.ladder.fitted
+    left = observed.logarithm - fitted.modelled
+    count = np.bincount(observed.cell)
+    mean = np.bincount(observed.cell, left.real) / count + 1j * np.bincount(observed.cell, left.imag) / count
+    sigma = diagnosis.noise.sigma
+    z = np.maximum(np.abs(mean.real) / sigma[0], np.abs(mean.imag) / sigma[1]) * np.sqrt(count)
+    return mean, z

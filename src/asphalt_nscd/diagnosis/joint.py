@@ -1,0 +1,200 @@
+"""Law of the mix, specimen scales and causes fitted together: Gauss-Newton on ln E* with priors.
+
+An effect fitted to the residuals of a fitted law is biased, for the law has already swallowed part of
+it; so every candidate is refitted jointly. All residuals are whitened by the replicate scatter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+
+from asphalt_nscd.diagnosis.bases import Base
+from asphalt_nscd.diagnosis.causes._cause import Cause, Place
+from asphalt_nscd.diagnosis.observations import Observations
+
+Vector = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+ITERATIONS = 60
+CONVERGED = 1e-6  # change of the objective, in units of the replicate scatter squared
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A cause at a place, with values of its parameters in units of their typical size."""
+
+    cause: Cause
+    place: Place
+    values: tuple[float, ...]  # physical units
+
+    @property
+    def key(self) -> tuple[str, Place]:
+        return self.cause.name, self.place
+
+    @property
+    def typical(self) -> Vector:
+        return np.array([parameter.typical for parameter in self.cause.parameters])
+
+    def with_values(self, values: Vector) -> Candidate:
+        return replace(self, values=tuple(float(v) for v in values))
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Replicate scatter: whitening factors (n, n) of ln|E*| and of the phase, and the specimens' scale.
+
+    sigma: scatter of one test of ln|E*| and of the phase [rad], mean over the table; scale: standard
+    deviation of ln|E*| between specimens; freedom: degrees of freedom of the estimate.
+    """
+
+    whiten_modulus: NDArray
+    whiten_phase: NDArray
+    sigma: tuple[float, float]
+    scale: float
+    freedom: int
+
+    def subset(self, rows: NDArray) -> Noise:
+        """The noise of some of the rows."""
+        parts = []
+        for whitening in (self.whiten_modulus, self.whiten_phase):
+            variance = np.linalg.inv(whitening.T @ whitening)[np.ix_(rows, rows)]
+            parts.append(np.linalg.inv(np.linalg.cholesky(variance)))
+        return replace(self, whiten_modulus=parts[0], whiten_phase=parts[1])
+
+    def whiten(self, values: Complex) -> NDArray[np.float64]:
+        """(n, ...) complex to (2 n, ...) real of unit scatter."""
+        return np.concatenate([self.whiten_modulus @ values.real, self.whiten_phase @ values.imag])
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A joint fit. residual (2n,), jacobian (2n, p): whitened; precision (p, p): of the parameters."""
+
+    law: Vector  # parameters of the base
+    scales: Vector  # (S,) ln of the specimens' scales
+    active: tuple[Candidate, ...]
+    objective: float  # squares of whitened residuals and priors
+    modelled: Complex  # (n,) ln E*
+    residual: Vector
+    jacobian: NDArray
+    precision: NDArray
+
+    @property
+    def covariance(self) -> NDArray:
+        return np.linalg.inv(self.precision)
+
+
+class Joint:
+    """The joint model of one table."""
+
+    def __init__(self, observed: Observations, base: Base, noise: Noise) -> None:
+        self.observed, self.base, self.noise = observed, base, noise
+        self.membership = np.eye(len(observed.names))[observed.specimen]
+
+    def apparent(self, law: Vector, active: tuple[Candidate, ...]) -> tuple[Complex, Complex]:
+        """Apparent E* (n,) and its derivative (n, p) with respect to the parameters of the law."""
+        observed = self.observed
+        temperature = observed.temperature
+        for candidate in active:
+            rows = candidate.cause.rows(observed, candidate.place)
+            rise = candidate.cause.temperature_rise(np.array(candidate.values), observed)
+            temperature = temperature + np.where(rows, rise, 0.0)
+        modulus, slope = self.base.modulus(law, observed.omega, temperature)
+        for candidate in sorted(active, key=lambda c: c.cause.stage):
+            rows = candidate.cause.rows(observed, candidate.place)
+            values = np.array(candidate.values)
+            after = candidate.cause.apparent(modulus, values, observed)
+            step = 1e-6 * modulus
+            gain = (candidate.cause.apparent(modulus + step, values, observed) - after) / step
+            modulus = np.where(rows, after, modulus)
+            slope = np.where(rows, gain, 1.0)[:, None] * slope
+        return modulus, slope
+
+    def direction(self, law: Vector, active: tuple[Candidate, ...], index: int, parameter: int) -> Complex:
+        """Derivative (n,) of ln E* with respect to one parameter of active[index], in typical units."""
+        typical = active[index].typical
+        low_high = []
+        for sign in (-1.0, 1.0):
+            values = np.array(active[index].values)
+            values[parameter] += sign * 1e-3 * typical[parameter]
+            moved = active[:index] + (active[index].with_values(values),) + active[index + 1 :]
+            low_high.append(self.apparent(law, moved)[0])
+        return np.log(low_high[1] / low_high[0]) / 2e-3
+
+    def linearise(self, law: Vector, scales: Vector, active: tuple[Candidate, ...]) -> Fitted:
+        """Objective and derivatives where the parameters stand."""
+        modulus, slope = self.apparent(law, active)
+        modelled = np.log(np.abs(modulus)) + 1j * np.angle(modulus) + scales[self.observed.specimen]
+        causes = [
+            self.direction(law, active, k, j)
+            for k, candidate in enumerate(active)
+            for j in range(len(candidate.values))
+        ]
+        columns = [slope / modulus[:, None], self.membership.astype(complex)]
+        jacobian = self.noise.whiten(np.column_stack([*columns, *causes]))
+        residual = self.noise.whiten(self.observed.logarithm - modelled)
+        prior, prior_slope = self.base.prior(law)
+        p, s, total = law.size, scales.size, jacobian.shape[1]
+        precision = jacobian.T @ jacobian
+        precision[:p, :p] += prior_slope.T @ prior_slope
+        precision[range(p, p + s), range(p, p + s)] += self.noise.scale**-2
+        first = p + s
+        for candidate in active:  # the shapes of a cause are held weakly where they start
+            for j in range(1, len(candidate.values)):
+                precision[first + j, first + j] += 1.0
+            first += len(candidate.values)
+        assert first == total
+        objective = residual @ residual + prior @ prior + (scales @ scales) / self.noise.scale**2
+        return Fitted(law, scales, active, float(objective), modelled, residual, jacobian, precision)
+
+    def predict(self, fitted: Fitted) -> Complex:
+        """ln E* (n,) of these observations from a fit to others of the same specimens."""
+        modulus = self.apparent(fitted.law, fitted.active)[0]
+        return np.log(np.abs(modulus)) + 1j * np.angle(modulus) + fitted.scales[self.observed.specimen]
+
+    def without(self, rows: NDArray[np.int64], fitted: Fitted) -> Fitted:
+        """The fit repeated without some rows; a cause that reaches no other row is absent from it."""
+        kept = np.setdiff1d(np.arange(self.observed.size), rows)
+        part = Joint(self.observed.subset(kept), self.base, self.noise.subset(kept))
+        active = tuple(c for c in fitted.active if c.cause.rows(part.observed, c.place).any())
+        return part.fit(fitted.law, fitted.scales, active)
+
+    def fit(self, law: Vector, scales: Vector, active: tuple[Candidate, ...] = ()) -> Fitted:
+        """Levenberg-Marquardt from where the parameters stand; bounds of causes are respected."""
+        now = self.linearise(law, scales, active)
+        damping = 1e-3
+        for _ in range(ITERATIONS):
+            prior, prior_slope = self.base.prior(now.law)
+            gradient = now.jacobian.T @ now.residual
+            gradient[: law.size] -= prior_slope.T @ prior
+            gradient[law.size : law.size + scales.size] -= now.scales / self.noise.scale**2
+            while True:
+                damped = now.precision + damping * np.diag(np.diag(now.precision) + 1e-9)
+                step = cho_solve(cho_factor(damped), gradient)
+                trial = self._moved(now, np.clip(step, -3.0, 3.0) if active == () else step)
+                gained = now.objective - trial.objective
+                if gained >= 0.0 or damping > 1e8:
+                    break
+                damping *= 8.0
+            if gained < 0.0:
+                break
+            now, damping = trial, max(damping / 5.0, 1e-9)
+            if gained < CONVERGED and damping < 1e-2:
+                break
+        return now
+
+    def _moved(self, fitted: Fitted, step: Vector) -> Fitted:
+        p, s = fitted.law.size, fitted.scales.size
+        law = fitted.law + np.clip(step[:p], -2.0, 2.0)
+        first, active = p + s, []
+        for candidate in fitted.active:
+            size = len(candidate.values)
+            values = np.array(candidate.values) + step[first : first + size] * candidate.typical
+            low = [parameter.low for parameter in candidate.cause.parameters]
+            high = [parameter.high for parameter in candidate.cause.parameters]
+            active.append(candidate.with_values(np.clip(values, low, high)))
+            first += size
+        return self.linearise(law, fitted.scales + step[p : p + s], tuple(active))

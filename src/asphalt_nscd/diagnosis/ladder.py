@@ -1,0 +1,211 @@
+"""The ladder: at each rung the cause that predicts best what it has not seen, if it beats chance."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from asphalt_nscd.diagnosis import chance
+from asphalt_nscd.diagnosis.causes._cause import Cause
+from asphalt_nscd.diagnosis.heldout import log_density
+from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+
+CHANCE = 0.005  # of naming anything at one rung of an empty table, over the whole catalogue
+RUNGS = 4
+SHORTLIST = 0.4  # candidates whose score gain is above this share of the best are refitted
+MOST_REFITS = 8
+BY_SCORE = False
+AS_GOOD = 6.0  # gains of the objective closer than this are a likelihood ratio of 20: not told apart
+EXCESS = 4.0  # standard deviations of the misfit above which it is structure
+MOSTLY = 0.75  # share of the structure that named causes must explain, else no name is given
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One step: the cause taken, its chance level, the fits before and after, and who did as well."""
+
+    candidate: Candidate
+    p_value: float
+    before: Fitted
+    after: Fitted
+    rivals: tuple[Candidate, ...]
+
+
+@dataclass(frozen=True)
+class Remaining:
+    """Structure that no cause explains: p-value over all nameless patterns, and the largest of them."""
+
+    p_value: float
+    pattern: str
+    gain: float
+
+
+@dataclass
+class Ladder:
+    """What was climbed. withdrawn: rungs whose causes explain too little of the structure to be named."""
+
+    joint: Joint
+    start: Fitted
+    rungs: list[Rung] = field(default_factory=list)
+    withdrawn: list[Rung] = field(default_factory=list)
+    remaining: Remaining | None = None
+    limits: dict[tuple, float] = field(default_factory=dict)
+    unseen: list[Candidate] = field(default_factory=list)
+    alike: list[tuple[Candidate, Candidate]] = field(default_factory=list)
+
+    @property
+    def fitted(self) -> Fitted:
+        """The fit with all causes taken."""
+        return (self.rungs + self.withdrawn)[-1].after if self.rungs or self.withdrawn else self.start
+
+
+def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, seed: int) -> Ladder:
+    """Take causes until none beats chance, then judge what remains."""
+    random = np.random.default_rng(seed)
+    ladder = Ladder(joint, start)
+    fitted = start
+    for _ in range(RUNGS + 1):
+        taken = {candidate.key for candidate in fitted.active}
+        candidates = [c for c in chance.catalogue_candidates(joint.observed, catalogue) if c.key not in taken]
+        found, one_sided, gains = _scores(joint, fitted, candidates)
+        by_chance = chance.largest_by_chance(found, one_sided, joint.noise.freedom, draws, random)
+        ladder.remaining = _remaining(joint, fitted, draws, random)
+        if not ladder.rungs:
+            ladder.limits, ladder.unseen = _limits(candidates, found, by_chance)
+            ladder.alike = _alike(candidates, found)
+        if not gains.size or len(ladder.rungs) == RUNGS:
+            break
+        p_value = _tail(by_chance, float(np.sqrt(gains.max())))
+        if p_value > CHANCE:
+            break
+        rung = _best(joint, fitted, candidates, gains, p_value, np.quantile(by_chance, 1.0 - CHANCE) ** 2)
+        if rung.before.objective - rung.after.objective < ladder.remaining.gain - AS_GOOD:
+            break  # a nameless pattern does better: a name would be forced
+        ladder.rungs.append(rung)
+        fitted = rung.after
+    _drop_needless(ladder, draws, random)
+    _withdraw(ladder)
+    return ladder
+
+
+def _scores(joint: Joint, fitted: Fitted, candidates: list[Candidate]):
+    directions = chance.candidate_directions(joint, fitted, candidates)
+    confined = np.array([isinstance(c.place, str) for c in candidates], bool)
+    one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
+    found = chance.scores(joint, fitted, directions, confined)
+    return found, one_sided, chance.effective(found, one_sided) ** 2
+
+
+def _tail(by_chance: np.ndarray, z: float) -> float:
+    """Chance of z or more: the share of draws, and beyond them the normal tail scaled to meet them."""
+    from scipy.stats import norm
+
+    share = float(np.mean(by_chance >= z))
+    if share * by_chance.size >= 10:
+        return share
+    edge = float(np.quantile(by_chance, 0.99))
+    return float(min(0.01, 0.01 * norm.sf(z) / norm.sf(edge)))
+
+
+def _best(joint, fitted, candidates, gains, p_value, least) -> Rung:
+    """The candidate of best held-out score among those that come near the best gain."""
+    order = np.argsort(-gains)
+    shortlist: dict[tuple, Candidate] = {}
+    for k in order:
+        if gains[k] >= max(SHORTLIST * gains.max(), least) and len(shortlist) < MOST_REFITS:
+            shortlist.setdefault(candidates[k].key, candidates[k])
+    refits = [joint.fit(fitted.law, fitted.scales, (*fitted.active, c)) for c in shortlist.values()]
+    gained = np.array([fitted.objective - refit.objective for refit in refits])
+    gained -= [2.0 * (len(c.values) - 1) for c in shortlist.values()]
+    score = np.array([log_density(joint, refit) for refit in refits])
+    best = int(np.argmax(score if BY_SCORE else gained))
+    rivals = tuple(
+        refits[k].active[-1] for k in range(len(refits)) if k != best and gained[best] - gained[k] < AS_GOOD
+    )
+    return Rung(refits[best].active[-1], p_value, fitted, refits[best], rivals)
+
+
+def _remaining(joint: Joint, fitted: Fitted, draws: int, random: np.random.Generator) -> Remaining:
+    patterns = chance.structures(joint.observed)
+    directions = np.column_stack([pattern.direction for pattern in patterns])
+    confined = np.zeros(len(patterns), bool)
+    found = chance.scores(joint, fitted, directions, confined)
+    by_chance = chance.largest_by_chance(found, confined, joint.noise.freedom, draws, random)
+    k = int(np.argmax(np.abs(found.z)))
+    largest = float(abs(found.z[k]))
+    return Remaining(_tail(by_chance, largest), patterns[k].name, largest**2)
+
+
+def _limits(candidates, found, by_chance) -> tuple[dict, list[Candidate]]:
+    """Amplitude found with 95 % probability, for each cause and place; and those never seen."""
+    threshold = float(np.quantile(by_chance, 1.0 - CHANCE)) + chance.POWER
+    limits: dict[tuple, float] = {}
+    unseen = {}
+    for candidate, information, seen in zip(candidates, found.information, found.seen, strict=True):
+        if not seen:
+            unseen.setdefault(candidate.key, candidate)
+            continue
+        size = threshold / np.sqrt(information) * candidate.typical[0]
+        limits[candidate.key] = min(size, limits.get(candidate.key, np.inf))
+    return limits, [candidate for key, candidate in unseen.items() if key not in limits]
+
+
+def _alike(candidates, found) -> list[tuple[Candidate, Candidate]]:
+    """Pairs that even three times the detection limit does not tell apart in this design."""
+    strongest = 3.0 * (3.7 + chance.POWER)
+    correlation = found.roots.T @ found.roots
+    out = {}
+    for i, one in enumerate(candidates):
+        for k in range(i):
+            other = candidates[k]
+            if one.cause.name == other.cause.name or not (found.seen[i] and found.seen[k]):
+                continue
+            if strongest**2 * (1.0 - correlation[i, k] ** 2) < AS_GOOD:
+                out.setdefault((other.key, one.key), (other, one))
+    return list(out.values())
+
+
+def _drop_needless(ladder: Ladder, draws: int, random: np.random.Generator) -> None:
+    """Take back a cause that those taken after it made superfluous."""
+    while len(ladder.rungs) > 1:
+        fitted = ladder.rungs[-1].after
+        joint = ladder.joint
+        losses = []
+        for rung in ladder.rungs:
+            rest = tuple(c for c in fitted.active if c.key != rung.candidate.key)
+            losses.append(joint.fit(fitted.law, fitted.scales, rest).objective - fitted.objective)
+        least = int(np.argmin(losses))
+        if losses[least] > 12.0:
+            return
+        kept = [rung.candidate.key for k, rung in enumerate(ladder.rungs) if k != least]
+        p_values = {rung.candidate.key: rung.p_value for rung in ladder.rungs}
+        rivals = {rung.candidate.key: rung.rivals for rung in ladder.rungs}
+        ladder.rungs.clear()
+        before = ladder.start
+        for key in kept:
+            candidate = next(c for c in fitted.active if c.key == key)
+            after = joint.fit(before.law, before.scales, (*before.active, candidate))
+            ladder.rungs.append(Rung(after.active[-1], p_values[key], before, after, rivals[key]))
+            before = after
+        ladder.remaining = _remaining(joint, before, draws, random)
+
+
+def _withdraw(ladder: Ladder) -> None:
+    """No name where more structure stays than the named causes should leave."""
+    remaining = ladder.remaining
+    fitted = ladder.fitted
+    used = np.trace(np.linalg.solve(fitted.precision, fitted.jacobian.T @ fitted.jacobian))
+    left = float(fitted.residual @ fitted.residual) - (fitted.residual.size - used)
+    if remaining is None or (
+        remaining.p_value > CHANCE and left < EXCESS * np.sqrt(2.0 * fitted.residual.size)
+    ):
+        return
+    left = max(left, remaining.gain)
+    while ladder.rungs:
+        rung = ladder.rungs[-1]
+        gain = rung.before.objective - rung.after.objective
+        if gain > MOSTLY / (1.0 - MOSTLY) * left:
+            return
+        ladder.withdrawn.insert(0, ladder.rungs.pop())

@@ -1,0 +1,76 @@
+"""Measured complex moduli as arrays, with what a cause may need to know about each test."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Observations:
+    """n tests on S specimens, one row each.
+
+    specimen (n,): index into names; temperature (n,) [degC]; frequency (n,) [Hz]; modulus (n,): apparent
+    E* [Pa]; form_factor (n,): gamma [1/m] between force over displacement at the head and modulus;
+    amplitude (n,) [m], order (n,), cycles (n,): None where the table has no such column.
+    static_modulus: modulus at long times [Pa], known from another test, or None.
+    """
+
+    specimen: NDArray[np.int64]
+    names: tuple[str, ...]
+    temperature: Vector
+    frequency: Vector
+    modulus: NDArray[np.complex128]
+    form_factor: Vector
+    amplitude: Vector | None = None
+    order: Vector | None = None
+    cycles: Vector | None = None
+    static_modulus: float | None = None
+
+    @property
+    def size(self) -> int:
+        return self.temperature.size
+
+    @property
+    def logarithm(self) -> NDArray[np.complex128]:
+        """ln E* (n,): its imaginary part is the phase [rad]."""
+        return np.log(np.abs(self.modulus)) + 1j * np.angle(self.modulus)
+
+    @property
+    def omega(self) -> Vector:
+        """Angular frequency [rad/s]."""
+        return 2.0 * np.pi * self.frequency
+
+    @property
+    def isotherms(self) -> Vector:
+        """Temperatures tested [degC], ascending."""
+        return np.unique(self.temperature)
+
+    @property
+    def frequencies(self) -> Vector:
+        """Frequencies tested [Hz], ascending."""
+        return np.unique(self.frequency)
+
+    @property
+    def cell(self) -> NDArray[np.int64]:
+        """(n,) number of the condition (temperature, frequency, amplitude) each row repeats."""
+        conditions = [self.temperature, self.frequency]
+        if self.amplitude is not None:
+            conditions.append(self.amplitude)
+        return np.unique(np.column_stack(conditions), axis=0, return_inverse=True)[1].ravel()
+
+    def subset(self, rows: NDArray) -> Observations:
+        """The rows of a mask or index; names stay, so that numbers keep their meaning."""
+        optional = {
+            name: None if (value := getattr(self, name)) is None else value[rows]
+            for name in ("amplitude", "order", "cycles")
+        }
+        return replace(
+            self, specimen=self.specimen[rows], temperature=self.temperature[rows],
+            frequency=self.frequency[rows], modulus=self.modulus[rows],
+            form_factor=self.form_factor[rows], **optional,
+        )  # fmt: skip

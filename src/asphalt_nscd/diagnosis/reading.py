@@ -1,0 +1,99 @@
+"""Measurements for a diagnosis: the table forms of `reduce`, usual synonyms, and optional columns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asphalt_nscd.csvinput import Limits, Table, read_csv
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.geometry_input import read_geometry
+from asphalt_nscd.measurements import FORMS, KEYS, REDUCED_COLUMNS, reduced_frame
+from asphalt_nscd.twopoint import form_factor
+
+SYNONYMS = {"T_C": "temperature_C", "f_Hz": "frequency_Hz", "phi_deg": "phase_deg"}
+OPTIONAL = {
+    "amplitude_m": Limits(1e-9, 1e-2, "give the displacement amplitude in m"),
+    "order": Limits(0, 1e9, "number the tests of the campaign from 1"),
+    "cycles": Limits(0, 1e12, "give the load cycles borne before the test"),
+}
+MOST_ROWS = 3000  # the chance level takes matrices of twice the rows
+PAPER_GEOMETRY = {
+    "b_mm": 25.0,
+    "B_mm": 56.0,
+    "e_mm": 25.0,
+    "h_mm": 250.0,
+    "mass_kg": 0.6,
+    "mobile_mass_kg": 0.235,
+}
+
+
+def read_observations(
+    path: str | Path, geometry: str | Path | Mapping[str, Any], static_modulus: float | None = None
+) -> tuple[Observations, str]:
+    """Observations of a measurement table, and the origin its rows state.
+
+    Columns specimen (or replicate), temperature_C (T_C), frequency_Hz (f_Hz), and one of the forms of
+    `reduce`; optional amplitude_m, order, cycles, and replicate beside specimen. static_modulus [Pa].
+    """
+    table = _renamed(read_csv(path))
+    if len(table.lines) > MOST_ROWS:
+        raise InputError(
+            f"{path}: {len(table.lines)} rows; give at most {MOST_ROWS}, for example one mix at a time."
+        )
+    optional = {
+        name: table.numbers(name, limits) for name, limits in OPTIONAL.items() if name in table.columns
+    }
+    if "z0_m" in table.columns and "amplitude_m" not in optional:
+        optional["amplitude_m"] = table.numbers("z0_m", OPTIONAL["amplitude_m"])
+    distinguishing = [
+        name for name in ("replicate", "amplitude_m", "order", "cycles") if name in table.columns
+    ]
+    if set(REDUCED_COLUMNS) <= set(table.columns):  # reduced before: peaks stand beside the moduli
+        peaks = FORMS["peaks"] + REDUCED_COLUMNS[-2:]
+        table = replace(table, columns={k: v for k, v in table.columns.items() if k not in peaks})
+    frame = reduced_frame(table, geometry, tests=(*KEYS, *distinguishing))
+    names, specimen = np.unique(frame["specimen"], return_inverse=True)
+    geometries = read_geometry(geometry, names)
+    gamma = np.array([form_factor(geometries[name]) for name in names])
+    origins = sorted(set(frame["origin"]))
+    observed = Observations(
+        specimen=specimen, names=tuple(str(name) for name in names),
+        temperature=frame["temperature_C"].to_numpy(float),
+        frequency=frame["frequency_Hz"].to_numpy(float),
+        modulus=frame["E_MPa"].to_numpy(float) * 1e6 * np.exp(1j * np.radians(frame["phase_deg"].to_numpy(float))),
+        form_factor=gamma[specimen],
+        amplitude=_rounded(optional.get("amplitude_m")), order=optional.get("order"), cycles=optional.get("cycles"),
+        static_modulus=static_modulus,
+    )  # fmt: skip
+    return observed, origins[0] if len(origins) == 1 else "mixed: " + ", ".join(origins)
+
+
+def _rounded(amplitude: np.ndarray | None) -> np.ndarray | None:
+    """Amplitudes as set: measured ones scatter by less than 5 % about the value set."""
+    if amplitude is None:
+        return None
+    order = np.argsort(amplitude)
+    jumps = np.diff(np.log(amplitude[order])) > 0.05
+    group = np.concatenate([[0], np.cumsum(jumps)])
+    means = np.array([amplitude[order][group == g].mean() for g in range(group[-1] + 1)])
+    set_to = np.empty_like(amplitude)
+    set_to[order] = means[group]
+    return set_to
+
+
+def _renamed(table: Table) -> Table:
+    columns = {}
+    for name, values in table.columns.items():
+        wanted = SYNONYMS.get(name, name)
+        if name == "replicate" and "specimen" not in table.columns:
+            wanted = "specimen"
+        if wanted in columns or (wanted != name and wanted in table.columns):
+            raise InputError(f"{table.path}: columns {name!r} and {wanted!r} say the same; keep one of them.")
+        columns[wanted] = values
+    return replace(table, columns=columns)

@@ -1,0 +1,296 @@
+"""A diagnosis as `diagnosis.json` and `residuals.csv`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from asphalt_nscd.agreement import mean_relative_error
+from asphalt_nscd.diagnosis import heldout
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.diagnose import Diagnosis, cell_residuals
+from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.ladder import Rung
+from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
+
+SCHEMA_VERSION = 1
+NOTABLE = 3.0  # standard deviations from which a condition is listed as unexplained
+
+
+def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
+    """Content of `diagnosis.json` (schema: workflow/schemas/diagnosis.schema.yaml)."""
+    ladder = []
+    if diagnosis.relaxation_spectrum:
+        ladder.append(_law_rung(diagnosis, specimen))
+    ladder += [_rung(diagnosis, rung, specimen) for rung in diagnosis.ladder.rungs]
+    remaining = diagnosis.ladder.remaining
+    modulus_scatter, phase_scatter = diagnosis.noise.sigma
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "verdict": diagnosis.verdict,
+        "tests": diagnosis.observed.size,
+        "scatter": {
+            "modulus_percent": 100.0 * modulus_scatter, "phase_deg": float(np.degrees(phase_scatter)),
+            "specimens_percent": 100.0 * diagnosis.noise.scale, "from_replicates": diagnosis.replicated,
+        },
+        "numerics": _numerics(diagnosis, specimen),
+        "baseline": {
+            "law": "burgers",
+            "parameters": _burgers_parameters(diagnosis),
+            "p_value": diagnosis.baseline_p,
+            **_errors(diagnosis, _simulated(diagnosis.baseline_joint, diagnosis.baseline, specimen)),
+        },
+        "ladder": ladder,
+        "withdrawn": [_name(rung.candidate) for rung in diagnosis.ladder.withdrawn],
+        "indistinguishable": _indistinguishable(diagnosis),
+        "not_testable": _not_testable(diagnosis),
+        "detection_limits": _limits(diagnosis),
+        "lack_of_fit_p_value": diagnosis.law_p,
+        "largest_pattern_left": None if remaining is None else {
+            "pattern": remaining.pattern, "p_value": remaining.p_value, "z": float(np.sqrt(remaining.gain)),
+        },
+        "unexplained": _unexplained(diagnosis),
+        "notes": diagnosis.notes,
+    }  # fmt: skip
+
+
+def residual_table(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> pd.DataFrame:
+    """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated)."""
+    observed, ladder = diagnosis.observed, diagnosis.ladder
+    frame = _frame(diagnosis, observed.logarithm)
+    for name, joint, fitted in (
+        ("before", diagnosis.baseline_joint, diagnosis.baseline), ("after", ladder.joint, ladder.fitted)
+    ):  # fmt: skip
+        simulated = _simulated(joint, fitted, specimen)
+        left = observed.logarithm - simulated
+        frame[f"E_{name}_MPa"] = np.exp(simulated.real) * 1e-6
+        frame[f"phase_{name}_deg"] = np.degrees(simulated.imag)
+        frame[f"residual_E_{name}_percent"] = 100.0 * left.real
+        frame[f"residual_phase_{name}_deg"] = np.degrees(left.imag)
+    return frame
+
+
+def _simulated(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> NDArray[np.complex128]:
+    """ln E* (n,) as the numerical specimen shows the law, its packing's factor divided out."""
+    observed = joint.observed
+    law = joint.apparent(fitted.law, ())[0]
+    effect = np.log(specimen.apparent_modulus(observed.omega, law) / specimen.ratio() / law)
+    return fitted.modelled + effect
+
+
+def _numerics(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
+    """What the simulation adds to its law, beside the packing's factor."""
+    joint, fitted = diagnosis.baseline_joint, diagnosis.baseline
+    effect = _simulated(joint, fitted, specimen) - fitted.modelled
+    return {
+        "specimen": specimen.name, "packing_ratio": specimen.ratio(),
+        "largest_modulus_percent": 100.0 * float(np.abs(effect.real).max()),
+        "largest_phase_deg": float(np.degrees(np.abs(effect.imag).max())),
+    }  # fmt: skip
+
+
+def _frame(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> pd.DataFrame:
+    observed = diagnosis.observed
+    return pd.DataFrame({
+        "specimen": np.array(observed.names)[observed.specimen], "temperature_C": observed.temperature,
+        "frequency_Hz": observed.frequency, "E_MPa": np.exp(logarithm.real) * 1e-6,
+        "phase_deg": np.degrees(logarithm.imag),
+    })  # fmt: skip
+
+
+def _errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, dict[str, float]]:
+    """Mean relative errors by temperature, as in Table 4."""
+    errors = mean_relative_error(
+        _frame(diagnosis, diagnosis.observed.logarithm), _frame(diagnosis, logarithm)
+    )
+    by = [f"{t:g}" for t in errors["temperature_C"]]
+    return {
+        name: dict(zip(by, errors[name].tolist(), strict=True))
+        for name in ("mre_E_percent", "mre_phase_percent")
+    }
+
+
+def _misses(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, float]:
+    """Mean relative errors over all temperatures, and the error over the scatter (root mean square)."""
+    errors = _errors(diagnosis, logarithm)
+    left = diagnosis.observed.logarithm - logarithm
+    sigma = diagnosis.noise.sigma
+    squares = np.concatenate([(left.real / sigma[0]) ** 2, (left.imag / sigma[1]) ** 2])
+    return {
+        **{name: float(np.mean(list(values.values()))) for name, values in errors.items()},
+        "rms_over_scatter": float(np.sqrt(squares.mean())),
+    }
+
+
+def _pair(diagnosis, before, after) -> dict[str, dict[str, float]]:
+    before, after = _misses(diagnosis, before), _misses(diagnosis, after)
+    return {name: {"before": before[name], "after": after[name]} for name in before}
+
+
+def _rung(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen) -> dict[str, Any]:
+    joint, observed = diagnosis.ladder.joint, diagnosis.observed
+    in_sample = [_simulated(joint, fitted, specimen) for fitted in (rung.before, rung.after)]
+    gain: dict[str, Any] = {"in_sample": _pair(diagnosis, *in_sample)}
+    held_out = {}
+    for name, label in (
+        ("leave_one_isotherm_out", observed.temperature),
+        ("leave_one_frequency_out", observed.frequency),
+    ):
+        if np.unique(label).size > 2:
+            predicted = [heldout.predictions(joint, fitted, label) for fitted in (rung.before, rung.after)]
+            held_out[name] = _pair(diagnosis, *predicted)
+    gain["held_out"] = held_out
+    final = _final(diagnosis, rung.candidate)
+    return {
+        "cause": rung.candidate.cause.name, "where": rung.candidate.place,
+        "parameters": _parameters(diagnosis, final), "p_value": rung.p_value, "gain": gain,
+        "as_good": [_name(rival) for rival in rung.rivals],
+        "sentence": rung.candidate.cause.sentence, "confirmed_by": rung.candidate.cause.confirmed_by,
+    }  # fmt: skip
+
+
+def _final(diagnosis: Diagnosis, candidate: Candidate) -> Candidate:
+    """The candidate as the last fit has it, with all causes fitted together."""
+    active = diagnosis.ladder.rungs[-1].after.active
+    return next(c for c in active if c.key == candidate.key)
+
+
+def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[str, Any]]:
+    fitted = diagnosis.ladder.rungs[-1].after
+    first = fitted.jacobian.shape[1] - sum(len(c.values) for c in fitted.active)
+    for active in fitted.active:
+        if active.key == candidate.key:
+            break
+        first += len(active.values)
+    errors = np.sqrt(np.diag(fitted.covariance))
+    return {
+        parameter.name: {
+            "value": value, "std_error": float(errors[first + k] * parameter.typical), "unit": parameter.unit,
+        }
+        for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True))
+    }  # fmt: skip
+
+
+def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
+    """The first rung: one continuous spectrum for all temperatures instead of a Burgers law for each."""
+    ladder, observed = diagnosis.ladder, diagnosis.observed
+    before = _simulated(diagnosis.baseline_joint, diagnosis.baseline, specimen)
+    after = _simulated(ladder.joint, ladder.start, specimen)
+    held_out = {}
+    if observed.isotherms.size > 2:
+        # A Burgers law says nothing of another temperature: before is its fit, which has seen the data.
+        predicted = heldout.predictions(ladder.joint, ladder.start, observed.temperature)
+        held_out["leave_one_isotherm_out"] = _pair(diagnosis, before, predicted)
+    if observed.frequencies.size > 2:
+        label = observed.frequency
+        held_out["leave_one_frequency_out"] = _pair(
+            diagnosis, heldout.predictions(diagnosis.baseline_joint, diagnosis.baseline, label),
+            heldout.predictions(ladder.joint, ladder.start, label),
+        )  # fmt: skip
+    spectrum, law = ladder.joint.base, ladder.start.law
+    m = spectrum.times.size
+    return {
+        "cause": "relaxation_spectrum", "where": None,
+        "parameters": {
+            "wlf_C1": _value(np.exp(law[-3]), "1"),
+            "wlf_C2": _value(spectrum.least_c2 + np.exp(law[-2]), "K"),
+            "reference_temperature": _value(spectrum.reference_temperature, "degC"),
+            "glassy_modulus": _value(np.exp(law[:m]).sum() + np.exp(law[m]), "Pa"),
+        },
+        "p_value": diagnosis.baseline_p, "gain": {"in_sample": _pair(diagnosis, before, after), "held_out": held_out},
+        "as_good": [],
+        "sentence": "the mix relaxes over many decades of time; one Burgers law for each temperature has two times",
+        "confirmed_by": "tests over more decades of frequency, or creep at the warmest temperature",
+    }  # fmt: skip
+
+
+def _value(value: float, unit: str) -> dict[str, Any]:
+    return {"value": float(value), "std_error": None, "unit": unit}
+
+
+def _burgers_parameters(diagnosis: Diagnosis) -> dict[str, dict[str, float]]:
+    names = ("Em_Pa", "eta_m_Pa_s", "Ek_Pa", "eta_k_Pa_s")
+    rows = np.exp(diagnosis.baseline.law).reshape(-1, 4)
+    return {
+        f"{t:g}": dict(zip(names, row.tolist(), strict=True))
+        for t, row in zip(diagnosis.baseline_joint.base.isotherms, rows, strict=True)
+    }
+
+
+def _name(candidate: Candidate) -> str:
+    place = candidate.place
+    return candidate.cause.name if place is None else f"{candidate.cause.name} @ {place}"
+
+
+def _indistinguishable(diagnosis: Diagnosis) -> list[list[str]]:
+    """Groups that this design, or these data, cannot tell apart."""
+    out = [
+        [_name(rung.candidate), *map(_name, rung.rivals)] for rung in diagnosis.ladder.rungs if rung.rivals
+    ]
+    out += [[_name(one), _name(other)] for one, other in diagnosis.ladder.alike]
+    out.append(["loose_clamp of all specimens", "relaxation_spectrum"])
+    if diagnosis.observed.static_modulus is None:
+        out.append(["guide_stiffness", "static modulus of relaxation_spectrum"])
+    out.append(["specimen_geometry of all specimens", "glassy modulus of relaxation_spectrum"])
+    out.append(["temperature_bias of all isotherms", "shift constants of relaxation_spectrum"])
+    return out
+
+
+def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
+    observed = diagnosis.observed
+    out = [
+        {"cause": cause.name, "needs": cause.needs or "more frequencies and temperatures"}
+        for cause in CATALOGUE if not cause.places(observed)
+    ]  # fmt: skip
+    out += [
+        {"cause": _name(candidate), "needs": "a design in which a smooth law cannot follow it"}
+        for candidate in diagnosis.ladder.unseen
+    ]
+    if not diagnosis.relaxation_spectrum and observed.frequencies.size < 3:
+        out.append({"cause": "relaxation_spectrum", "needs": "three frequencies: a Burgers law fits any two"})
+    return out
+
+
+def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
+    """Amplitude found with 95 % probability: of each cause, and of each place of a confined one."""
+    units = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
+    limits: dict[str, dict[str, Any]] = {}
+    for (name, place), value in diagnosis.ladder.limits.items():
+        entry = limits.setdefault(name, {"value": np.inf, "unit": units[name]})
+        entry["value"] = min(entry["value"], float(value))
+        if place is not None:
+            entry.setdefault("places", {})[str(place)] = float(value)
+    return limits
+
+
+def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:
+    observed = diagnosis.observed
+    out = []
+    if diagnosis.verdict == "unexplained_structure":
+        mean, z = cell_residuals(diagnosis)
+        for cell in np.argsort(-z):
+            if z[cell] < NOTABLE and out:
+                break
+            row = int(np.flatnonzero(observed.cell == cell)[0])
+            out.append(_miss(observed, row, mean[cell], z[cell]))
+    aside = diagnosis.set_aside
+    for row in range(aside.size):
+        law = diagnosis.ladder.joint.base.modulus(
+            diagnosis.ladder.fitted.law, aside.omega[[row]], aside.temperature[[row]]
+        )[0]
+        left = complex(aside.logarithm[row] - np.log(law[0]))
+        sigma = diagnosis.noise.sigma
+        z = max(abs(left.real) / sigma[0], abs(left.imag) / sigma[1])
+        out.append({**_miss(aside, row, left, z), "specimen": aside.names[aside.specimen[row]]})
+    return out
+
+
+def _miss(observed, row: int, residual: complex, z: float) -> dict[str, float | str]:
+    return {
+        "temperature_C": float(observed.temperature[row]), "frequency_Hz": float(observed.frequency[row]),
+        "residual_E_percent": 100.0 * residual.real, "residual_phase_deg": float(np.degrees(residual.imag)),
+        "z": float(z),
+    }  # fmt: skip

@@ -1,0 +1,85 @@
+"""A diagnosis from files to files, and its summary for the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from tabulate import tabulate
+
+from asphalt_nscd.diagnosis import report
+from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.reading import read_observations
+from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.store import provenance, write_json, write_table
+
+VERDICTS = {
+    "explained": "explained: what is left is replicate scatter.",
+    "unexplained_structure": "unexplained structure: something is left that no cause of the catalogue explains.",
+    "nothing_to_explain": "nothing to explain: the Burgers laws miss the measurements by no more than scatter.",
+}
+
+
+def run(
+    measurements: str | Path, folder: str | Path, geometry: str | Path | Mapping[str, Any],
+    specimen: str | Path | None = None, static_modulus: float | None = None,
+    scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
+) -> str:  # fmt: skip
+    """Diagnose a table, write diagnosis.json and residuals.csv into the folder, return the summary."""
+    numerical = read_specimen(specimen)
+    observed, origin = read_observations(measurements, geometry, static_modulus)
+    try:
+        diagnosis = diagnose(observed, scatter, draws=draws, seed=seed)
+    except InputError as error:
+        raise InputError(f"{measurements}: {error}") from None
+    content = report.as_json(diagnosis, numerical)
+    content["origin"] = origin
+    content["provenance"] = {
+        **provenance(),
+        "measurements": Path(measurements).name,
+        "draws": draws,
+        "seed": seed,
+    }
+    folder = Path(folder)
+    write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical))
+    write_json(folder / "diagnosis.json", content)
+    return summary(content)
+
+
+def summary(content: dict[str, Any]) -> str:
+    """The ladder as a table, with verdict, limits and notes."""
+    rows = []
+    for rung in content["ladder"]:
+        amplitude_name, amplitude = next(iter(rung["parameters"].items()))
+        error = amplitude["std_error"]
+        size = f"{amplitude['value']:.3g}" + ("" if error is None else f" +- {error:.1g}")
+        inside = rung["gain"]["in_sample"]
+        held = rung["gain"]["held_out"].get("leave_one_isotherm_out") or rung["gain"]["held_out"].get(
+            "leave_one_frequency_out"
+        )
+        rows.append([
+            rung["cause"], "" if rung["where"] is None else rung["where"],
+            f"{amplitude_name} {size} {amplitude['unit']}", f"{rung['p_value']:.1g}",
+            *(f"{inside[k]['before']:.2f} -> {inside[k]['after']:.2f}" for k in ("mre_E_percent", "mre_phase_percent")),
+            "" if held is None else f"{held['rms_over_scatter']['before']:.2f} -> {held['rms_over_scatter']['after']:.2f}",
+        ])  # fmt: skip
+    headers = ["cause", "where", "parameter", "p", "error |E*| %", "error phase %", "held out, over scatter"]
+    scatter = content["scatter"]
+    lines = [
+        f"{content['tests']} tests, scatter {scatter['modulus_percent']:.2g} % in |E*|, {scatter['phase_deg']:.2g} deg in phase.",
+        "",
+        tabulate(rows, headers) if rows else "No cause beats chance.",
+        "",
+        VERDICTS[content["verdict"]],
+    ]
+    left = content["largest_pattern_left"]
+    if content["verdict"] == "unexplained_structure" and left is not None:
+        lines.append(f"Largest pattern left: {left['pattern']}, {left['z']:.1f} standard deviations.")
+    if content["withdrawn"]:
+        lines.append(
+            "Considered but not named, for too much is left: " + ", ".join(content["withdrawn"]) + "."
+        )
+    lines += content["notes"]
+    return "\n".join(lines)

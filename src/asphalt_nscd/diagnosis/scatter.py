@@ -1,0 +1,132 @@
+"""Replicate scatter (pure error): what repetitions of one condition on other specimens differ by."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import chi2
+from scipy.stats import f as fisher
+
+from asphalt_nscd.diagnosis.joint import Noise
+from asphalt_nscd.diagnosis.observations import Observations
+
+Vector = NDArray[np.float64]
+SPECIMEN_SCALE = 0.03  # standard deviation of ln|E*| between specimens of one mix, worth SCALE_FREEDOM
+OUTLIER = 9.0  # robust standard deviations from the replicates
+UNEVEN = 1e-3  # chance below which isotherms are given a scatter each
+SCALE_FREEDOM = 8  # degrees of freedom against those of the table
+
+
+def pure_error(observed: Observations, nuisance: NDArray) -> tuple[Vector, Vector, int]:
+    """Residuals of ln|E*| and phase [rad] (n,) within conditions, and their degrees of freedom.
+
+    nuisance (n, k) complex: what specimens may differ by other than scatter (scales, clamps, ...); it
+    is projected out, so that a cause confined to a specimen does not pass for scatter.
+    """
+    cells = np.eye(observed.cell.max() + 1)[observed.cell]
+    logarithm = observed.logarithm
+    zero = np.zeros_like(cells)
+    design = np.vstack([np.hstack([cells, zero, nuisance.real]), np.hstack([zero, cells, nuisance.imag])])
+    values = np.concatenate([logarithm.real, logarithm.imag])
+    left, size, _ = np.linalg.svd(design, full_matrices=False)
+    left = left[:, size > 1e-9 * size[0]]
+    residual = values - left @ (left.T @ values)
+    n = observed.size
+    return residual[:n], residual[n:], 2 * n - left.shape[1]
+
+
+def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise | None:
+    """Noise of a table, None where no condition was repeated.
+
+    A scatter that a whole isotherm of a specimen shares (its temperature, its mounting) is a component
+    of its own; scales (S,): ln of the specimens' scales, first guess.
+    """
+    modulus, phase, freedom = pure_error(observed, nuisance)
+    if freedom < 6:
+        return None
+    share = 2.0 * observed.size / freedom
+    block = _blocks(observed)
+    factors, sigmas = [], []
+    for residual in (modulus, phase):
+        size = _by_isotherm(residual, observed.temperature, share)
+        within, shared = _components(residual / size, block, share)
+        variance = within * np.eye(observed.size) + shared * (block[:, None] == block)
+        variance *= size[:, None] * size
+        factors.append(np.linalg.inv(np.linalg.cholesky(variance)))
+        sigmas.append(float(np.sqrt(within + shared)))
+    return Noise(factors[0], factors[1], (sigmas[0], sigmas[1]), _scale(scales), freedom)
+
+
+def stated(observed: Observations, modulus: float, phase: float, scale: float, freedom: int = 10**6) -> Noise:
+    """Noise of stated size: relative scatter of |E*|, scatter of the phase [rad], of whole specimens."""
+    one = np.eye(observed.size)
+    return Noise(one / modulus, one / phase, (modulus, phase), scale, freedom)
+
+
+def _blocks(observed: Observations) -> NDArray[np.int64]:
+    pairs = np.column_stack([observed.specimen, observed.temperature])
+    return np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
+
+
+def _by_isotherm(residual: Vector, temperature: Vector, share: float) -> Vector:
+    """Scatter (n,) of each isotherm over the mean one; ones where they differ by no more than chance."""
+    isotherms, label, count = np.unique(temperature, return_inverse=True, return_counts=True)
+    variance = np.bincount(label, residual**2) / count
+    freedom = count / share
+    mean = float(freedom @ variance / freedom.sum())
+    if isotherms.size < 2 or freedom.min() < 4.0 or mean <= 0.0 or variance.min() <= 0.0:
+        return np.ones(residual.size)
+    # Bartlett's test
+    statistic = freedom.sum() * np.log(mean) - freedom @ np.log(variance)
+    statistic /= 1.0 + ((1.0 / freedom).sum() - 1.0 / freedom.sum()) / (3.0 * (isotherms.size - 1))
+    if chi2.sf(statistic, isotherms.size - 1) > UNEVEN:
+        return np.ones(residual.size)
+    return np.sqrt(variance / mean)[label]
+
+
+def _components(residual: Vector, block: NDArray, share: float) -> tuple[float, float]:
+    """Variances of single tests and of whole blocks (analysis of variance), given the lost freedom."""
+    count = np.bincount(block)
+    mean = np.bincount(block, residual) / count
+    inner = residual - mean[block]
+    rows, blocks = residual.size, count.size
+    total = max(float(residual @ residual) / rows * share, 1e-12)
+    if rows <= blocks + 2:
+        return total, 0.0
+    within = float(inner @ inner) / (rows - blocks) * share
+    size = rows / blocks
+    between = float((count * mean) @ mean) / blocks * share
+    shared = max((between - within) / size, 0.0)
+    # An excess that chance makes is no component: F of blocks against tests.
+    if shared == 0.0 or fisher.sf(between / within, blocks / share, (rows - blocks) / share) > 0.01:
+        return total, 0.0
+    return within, shared
+
+
+def _scale(scales: Vector) -> float:
+    known = SCALE_FREEDOM * SPECIMEN_SCALE**2
+    spread = np.abs(scales - np.median(scales))
+    robust = 1.4826 * float(np.median(spread)) if scales.size > 2 else 0.0
+    freedom = max(scales.size - 1, 0)
+    return float(np.sqrt((known + freedom * robust**2) / (SCALE_FREEDOM + freedom)))
+
+
+def outliers(observed: Observations) -> NDArray[np.int64]:
+    """Single tests far from their replicates in a table that is otherwise regular, at most 2 % of it."""
+    members = np.bincount(observed.cell)[observed.cell]
+    if np.count_nonzero(members >= 3) < 0.5 * observed.size:
+        return np.zeros(0, np.int64)
+    far = np.zeros(observed.size)
+    for part in (observed.logarithm.real, observed.logarithm.imag):
+        deviation = part - median_by(part, observed.cell)
+        deviation = deviation - median_by(deviation, _blocks(observed))
+        spread = 1.4826 * float(np.median(np.abs(deviation)))
+        far = np.maximum(far, np.abs(deviation) / max(spread, 1e-9))
+    rows = np.flatnonzero((far > OUTLIER) & (members >= 3))
+    return rows if rows.size <= max(2, int(0.02 * observed.size)) else np.zeros(0, np.int64)
+
+
+def median_by(values: Vector, label: NDArray[np.int64]) -> Vector:
+    """Median of the group of each row."""
+    medians = np.array([np.median(values[label == k]) for k in range(label.max() + 1)])
+    return medians[label]

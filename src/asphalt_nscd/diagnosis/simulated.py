@@ -1,0 +1,67 @@
+"""The numerical specimen in a diagnosis: its bending test in reduced form, a few dozen unknowns.
+
+All bonds share one law, so the specimen is two small matrices: K, which the modulus E* multiplies,
+and M. The steady response to the driven head solves (E* K - omega^2 M) u = F.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib.resources import as_file, files
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asphalt_nscd.store import load, save
+from asphalt_nscd.twopoint import Geometry, form_factor, mass_factor
+
+KIND = "reduced specimen"
+SHIPPED = "specimen.h5"
+
+
+@dataclass(frozen=True)
+class NumericalSpecimen:
+    """stiffness (k, k) [m], mass (k, k) [kg], coordinate 0 the driven head; geometry of its test."""
+
+    stiffness: NDArray[np.float64]
+    mass: NDArray[np.float64]
+    geometry: Geometry
+    name: str
+
+    def apparent_modulus(self, omega: ArrayLike, modulus: ArrayLike) -> NDArray[np.complex128]:
+        """E* [Pa] by Eqs. (1)-(2) of the simulated test, of bonds with E* = modulus (n,) [Pa] at omega (n,)."""
+        omega, modulus = np.asarray(omega, float), np.asarray(modulus, complex)
+        dynamic = modulus[:, None, None] * self.stiffness - (omega**2)[:, None, None] * self.mass
+        motion = np.linalg.solve(dynamic[:, 1:, 1:], -dynamic[:, 1:, :1])
+        force = dynamic[:, 0, 0] + (dynamic[:, :1, 1:] @ motion)[:, 0, 0]
+        return form_factor(self.geometry) * (force + mass_factor(self.geometry) * omega**2)
+
+    def ratio(self) -> float:
+        """c: static modulus of the specimen over that of its bonds, the packing's own factor."""
+        return float(self.apparent_modulus([1e-3], [1e9 + 0j])[0].real / 1e9)
+
+
+def reduce_model(model_file: str | Path, output: str | Path) -> None:
+    """Keep of a condensed model what a diagnosis needs; write it."""
+    from asphalt_nscd.bending import read_model
+    from asphalt_nscd.nscd.reduced import ReducedModel
+
+    model = read_model(model_file)
+    reduced = ReducedModel(model.system, model.basis)
+    geometry = {name: getattr(model.geometry, name) for name in Geometry.__dataclass_fields__}
+    save(
+        output, KIND, {"stiffness": reduced.stiffness, "mass": reduced.mass}, {"name": model.name, **geometry}
+    )
+
+
+def read_specimen(path: str | Path | None = None) -> NumericalSpecimen:
+    """A file of `reduce_model`; without a path, the specimen shipped with the package."""
+    if path is None:
+        with as_file(files("asphalt_nscd.diagnosis") / SHIPPED) as shipped:
+            return read_specimen(shipped)
+    record = load(path, KIND)
+    geometry = Geometry(**{name: record.attributes[name] for name in Geometry.__dataclass_fields__})
+    return NumericalSpecimen(
+        record.arrays["stiffness"], record.arrays["mass"], geometry, record.attributes["name"]
+    )

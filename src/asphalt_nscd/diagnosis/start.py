@@ -1,0 +1,82 @@
+"""First fits: the flexible spectrum and the Burgers laws of a table, from several starts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.bases import BurgersAtEach, FlexibleSpectrum
+from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.fitting import fit_burgers
+
+Vector = NDArray[np.float64]
+SPACING = 1.2  # of ln(relaxation time): Maxwell elements this close ripple by less than 0.1 %
+MARGIN = 3.5  # of ln(time) beyond the tested band on either side
+ROUGHNESS = (0.05, 0.1, 0.2, 0.4, 0.8)
+WLF_STARTS = ((12.0, 60.0), (12.0, 100.0), (20.0, 200.0), (30.0, 280.0))  # C1, C2 [K] at mid temperature
+
+
+def fit_spectrum(observed: Observations, noise: Noise) -> tuple[Joint, Fitted]:
+    """The flexible spectrum with the roughness of largest marginal likelihood (Laplace)."""
+    best: tuple[float, Joint, Fitted] | None = None
+    for c1, c2 in WLF_STARTS:
+        base = _spectrum(observed, c1, c2)
+        joint = Joint(observed, base, noise)
+        law = _first_law(observed, base, c1, c2)
+        fitted = joint.fit(law, np.zeros(len(observed.names)))
+        if best is None or fitted.objective < best[0] - 1e-3:
+            best = fitted.objective, joint, fitted
+    assert best is not None
+    _, joint, fitted = best
+    scored = []
+    for roughness in ROUGHNESS:
+        smooth = Joint(observed, replace(joint.base, roughness=roughness), noise)
+        fitted = smooth.fit(fitted.law, fitted.scales)
+        scored.append((marginal_likelihood(smooth, fitted), smooth, fitted))
+    return max(scored, key=lambda item: item[0])[1:]
+
+
+def marginal_likelihood(joint: Joint, fitted: Fitted) -> float:
+    """ln of the Laplace approximation, up to what does not depend on the roughness."""
+    spectrum = joint.base
+    sign, curvature = np.linalg.slogdet(fitted.precision)
+    normaliser = -2.0 * (spectrum.times.size - 2) * np.log(spectrum.roughness)
+    return -0.5 * (fitted.objective + curvature - normaliser)
+
+
+def fit_burgers_at_each(observed: Observations, noise: Noise) -> tuple[Joint, Fitted]:
+    """A Burgers law for each temperature, the paper's baseline."""
+    base = BurgersAtEach(observed.isotherms)
+    law = []
+    for temperature in observed.isotherms:
+        at = observed.temperature == temperature
+        burgers = fit_burgers(observed.omega[at], observed.modulus[at]).law
+        law += [burgers.modulus_m, burgers.viscosity_m, burgers.modulus_k, burgers.viscosity_k]
+    joint = Joint(observed, base, noise)
+    return joint, joint.fit(np.log(law), np.zeros(len(observed.names)))
+
+
+def _spectrum(observed: Observations, c1: float, c2: float) -> FlexibleSpectrum:
+    isotherms = observed.isotherms
+    reference = float(isotherms[isotherms.size // 2])
+    above = observed.temperature - reference
+    coldest = float(reference - isotherms[0])
+    reduced = np.log(observed.omega) - np.log(10.0) * c1 * above / (c2 + above)
+    low, high = -reduced.max() - MARGIN, -reduced.min() + MARGIN
+    times = np.exp(np.linspace(low, high, max(int(np.ceil((high - low) / SPACING)) + 1, 4)))
+    span = max(float(np.abs(above).max()), 1.0)
+    return FlexibleSpectrum(times, reference, coldest + 5.0, span, 0.2, observed.static_modulus)
+
+
+def _first_law(observed: Observations, base: FlexibleSpectrum, c1: float, c2: float) -> Vector:
+    """Equal strengths with the sum of the largest modulus; the fit does the rest."""
+    largest = float(np.abs(observed.modulus).max())
+    m = base.times.size
+    slope = np.linspace(0.0, -4.0, m)  # weaker where slower
+    strength = np.log(1.2 * largest) + slope - np.log(np.exp(slope).sum())
+    return np.concatenate(
+        [strength, [np.log(1e-3 * largest), np.log(c1), np.log(max(c2 - base.least_c2, 5.0)), 0.0]]
+    )

@@ -1,0 +1,64 @@
+"""Effects hidden in drawn measurements are found, named and sized; empty tables stay unnamed."""
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.spectrum import TwoS2P1D
+from asphalt_nscd.twopoint import Geometry, form_factor
+
+LAW = TwoS2P1D(1e6, 42.58e9, 0.199, 0.604, 1.644, 0.14, 28.5, 11.69, 79.86, 15.0)
+GAMMA = form_factor(Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235))
+SCATTER = 0.01, np.radians(0.3), 0.03
+
+
+def table(seed, effect=lambda modulus, specimen, temperature, omega: modulus):
+    random = np.random.default_rng(seed)
+    grids = np.meshgrid(np.arange(4), [-10.0, 0, 10, 15, 20, 30], [3.0, 6, 10, 25, 40], indexing="ij")
+    specimen, temperature, frequency = (grid.ravel() for grid in grids)
+    omega = 2 * np.pi * frequency
+    modulus = effect(LAW.complex_modulus(omega, temperature), specimen, temperature, omega)
+    noise = SCATTER[0] * random.standard_normal(120) + 1j * SCATTER[1] * random.standard_normal(120)
+    noise += SCATTER[2] * random.standard_normal(4)[specimen]
+    return Observations(
+        specimen, tuple("abcd"), temperature, frequency, modulus * np.exp(noise), np.full(120, GAMMA)
+    )
+
+
+EFFECTS = {
+    ("channel_delay", None): (-7e-5, lambda e, s, t, w: e * np.exp(-7e-5j * w)),
+    ("phase_offset", None): (1.2, lambda e, s, t, w: e * np.exp(1j * np.radians(1.2))),
+    ("moving_mass", None): (0.35, lambda e, s, t, w: e - GAMMA * 0.35 * w**2),
+    ("guide_friction", None): (2.5e8, lambda e, s, t, w: e + 2.5e8j),
+    ("loose_clamp", "b"): (2.2e-12, lambda e, s, t, w: np.where(s == 1, e / (1 + 2.2e-12 * e), e)),
+    ("specimen_geometry", "c"): (-0.4, lambda e, s, t, w: np.where(s == 2, 0.6 * e, e)),
+    ("temperature_bias", 15.0): (
+        0.7,
+        lambda e, s, t, w: LAW.complex_modulus(w, t + np.where(t == 15, 0.7, 0)),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", EFFECTS, ids=lambda name: name[0])
+def test_a_hidden_effect_is_named_alone_with_its_size(name):
+    size, effect = EFFECTS[name]
+    diagnosis = diagnose(table(3, effect))
+    assert [rung.candidate.key for rung in diagnosis.ladder.rungs] == [name]
+    assert diagnosis.verdict == "explained" and diagnosis.relaxation_spectrum
+    rung = diagnosis.ladder.rungs[0]
+    found = rung.candidate.values[0]
+    error = np.sqrt(rung.after.covariance[-1, -1]) * rung.candidate.typical[0]
+    assert abs(found - size) < 3.5 * error and error < 0.15 * abs(size)
+
+
+def test_an_empty_table_names_the_spectrum_only():
+    diagnosis = diagnose(table(4))
+    assert diagnosis.ladder.rungs == [] and diagnosis.relaxation_spectrum
+    assert diagnosis.verdict == "explained"
+
+
+def test_an_effect_outside_the_catalogue_gets_no_name():
+    diagnosis = diagnose(table(5, lambda e, s, t, w: np.where(np.abs(w - 50 * np.pi) < 1, 1.03 * e, e)))
+    assert diagnosis.ladder.rungs == [] and diagnosis.verdict == "unexplained_structure"
+    assert diagnosis.ladder.remaining.pattern == "25 Hz, modulus"
