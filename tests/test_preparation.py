@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.preparation import deposit, layer_statistics, read_counts, read_specimen, trim_deposit
+from asphalt_nscd.preparation import deposit, layer_statistics, read_specimen, trim_deposit
 from asphalt_nscd.specimen.trimming import layer_height
 from asphalt_nscd.store import load
 
@@ -119,27 +119,3 @@ def test_statistics_of_a_made_up_layer():
     assert found["solid_fraction"] == pytest.approx(4 / 3 * np.pi * 12 / (16 * height))
     assert found["coordination"] == pytest.approx(2 * 3 / 5)
     assert found["segregation"] == pytest.approx(2 / height)
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("diameter_mm,count\n2,1.5\n", "count = 1.5 is not a whole number"),
-        ("diameter_mm,count\n2,0\n3,0\n", "counts no sphere"),
-        ("diameter_mm,count\n2,-4\n", "count"),
-        ("diameter_mm,count\n0,4\n", "diameter_mm"),
-        ("diameter_mm,count\n2,nan\n", "count"),
-        ("diameter_mm\n2\n", "count"),
-    ],
-)
-def test_counts_that_cannot_be_poured(tmp_path, text, message):
-    (path := tmp_path / "counts.csv").write_text(text)
-    with pytest.raises(InputError, match=message) as error:
-        read_counts(path)
-    assert str(path) in str(error.value)
-
-
-def test_counts_are_read_in_metres(folder):
-    diameters, counts = read_counts(folder / "counts.csv")
-    np.testing.assert_allclose(diameters, [2e-3, 3e-3, 4e-3], rtol=1e-15)
-    assert counts.tolist() == [300, 160, 70] and counts.dtype.kind == "i"

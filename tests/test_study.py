@@ -3,10 +3,13 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import pandas as pd
 import pytest
 import yaml
 
+from asphalt_nscd.csvinput import read_csv
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.store import write_table
 from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
 
 ROOT = Path(__file__).parents[1]
@@ -105,7 +108,7 @@ def test_every_mapping_of_the_schema_refuses_unknown_keys():
         ({"frequencies_Hz": []}, "frequencies_Hz is [], but must be a list of at least 1"),
         ({"frequencies_Hz": [math.nan]}, "frequencies_Hz[0] is nan, but must be a finite number."),
         ({"temperatures_C": [15, 15]}, "temperatures_C is [15, 15], but must be a list without repetitions"),
-        ({"temperatures_C": [15, 15.0000001]}, "temperatures_C holds values equal to six digits"),
+        ({"temperatures_C": [15, 15.00000000001]}, "temperatures_C is [15, 15.0], but must be a list without"),
         ({"temperatures_C": ["warm"]}, "temperatures_C[0] is 'warm', but must be a number."),
         ({"measurements": {}}, "measurements needs exactly one of table, reconstruct."),
         ({"measurements": {"table": "a.csv", "reconstruct": {"seed": 1}}}, "measurements needs exactly one"),
@@ -146,3 +149,11 @@ def test_empty_study():
 
 def test_labels_are_those_of_file_names():
     assert [label(value) for value in (15.0, -10, 12.5, 0.1)] == ["15", "-10", "12.5", "0.1"]
+
+
+def test_file_names_and_tables_hold_the_very_numbers_of_the_study(config, tmp_path):
+    values = complete({**config, "frequencies_Hz": [10 / 3, 1e-4 / 3, 1e3 / 3, 3.3333333]})["frequencies_Hz"]
+    assert values[0] == pytest.approx(10 / 3, rel=1e-9) and values[3] == 3.3333333
+    assert [float(label(value)) for value in values] == values
+    write_table(tmp_path / "t.csv", pd.DataFrame({"frequency_Hz": [10 / 3, 1e-4 / 3, 1e3 / 3, 3.3333333]}))
+    assert read_csv(tmp_path / "t.csv").numbers("frequency_Hz").tolist() == values

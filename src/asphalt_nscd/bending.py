@@ -24,7 +24,7 @@ from asphalt_nscd.preparation import read_specimen
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.laws_io import read_bond_law
-from asphalt_nscd.signals import harmonic_response, peak_response
+from asphalt_nscd.signals import harmonic_response, peak_response, require_steps
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.store import load, save
 from asphalt_nscd.twopoint import Geometry, complex_modulus, norm_and_phase
@@ -209,11 +209,7 @@ def simulate(
     """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking."""
     if cycles < 1.0:
         raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
-    if 20.0 * time_step * frequency > 1.0:
-        raise InputError(
-            f"time step {time_step:g} s: fewer than 20 steps per cycle at {frequency:g} Hz; "
-            f"give at most {int(5e4 / frequency) * 1e-6:g} s."
-        )
+    require_steps(time_step, frequency)
     law = read_bond_law(law_file)
     model = read_model(model_file)
     began = time.process_time()

@@ -59,9 +59,7 @@ def reduced_frame(
 
     tests: columns which, with the specimen, tell one test from another.
     """
-    frame = _read_keys(table, tests)
-    form = _form_of(table)
-    table.require(FORMS[form])
+    frame, form = _tests(table, tests)
     if form == "moduli":
         for name in FORMS[form]:
             frame[name] = table.numbers(name, LIMITS[name])
@@ -78,6 +76,17 @@ def reduced_frame(
         stiffest = (gamma * frame["F0_N"] / frame["z0_m"]).max() * 1e-6
     _check_whole_table(table, frame, form, stiffest)
     return frame
+
+
+def tests_measured(measurements: str | Path) -> tuple[pd.DataFrame, str]:
+    """Specimen, temperature, frequency and origin of each row of a table of any form, and which form."""
+    return _tests(read_csv(measurements), KEYS)
+
+
+def _tests(table: Table, tests: Sequence[str]) -> tuple[pd.DataFrame, str]:
+    frame, form = _read_keys(table, tests), _form_of(table)
+    table.require(FORMS[form])
+    return frame, form
 
 
 def read_reduced(path: str | Path) -> pd.DataFrame:

@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from asphalt_nscd.csvinput import Limits, read_csv
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.counts import read_counts
 from asphalt_nscd.geometry_input import read_geometry, require_within
 from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics, Progress, settle, vibrate
 from asphalt_nscd.specimen.lattice import random_lattice
@@ -79,20 +78,6 @@ def layer_statistics(
         "coordination": 2.0 * len(between) / n,
         "segregation": float((position[largest, 2].mean() - position[smallest, 2].mean()) / height),
     }
-
-
-def read_counts(path: str | Path) -> tuple[np.ndarray, np.ndarray]:
-    """Diameters [m] and numbers of spheres from a table `diameter_mm,count`."""
-    table = read_csv(path)
-    table.require(["diameter_mm", "count"])
-    diameters = table.numbers("diameter_mm", Limits(0.01, 100.0, "give the diameter in mm"))
-    counts = table.numbers("count", Limits(0, 10_000_000, "give the number of spheres"))
-    for row, count in enumerate(counts):
-        if count != round(count):
-            raise table.error(row, f"count = {count:g} is not a whole number; give the number of spheres.")
-    if not counts.any():
-        raise InputError(f"{path}: counts no sphere; give at least one.")
-    return diameters * 1e-3, counts.astype(int)
 
 
 def trim_deposit(

@@ -11,10 +11,20 @@ from asphalt_nscd.errors import InputError
 
 WINDOW = 10.0  # s: the paper reduces "the last ten seconds of each test"
 SAMPLES_PER_CYCLE = 8  # fewer cannot show a peak, nor a harmonic apart from its first overtone
+STEPS_PER_CYCLE = 20  # of a simulated test
 STEP_TOLERANCE = 0.5  # share of the sampling step: admits times rounded in print, not a missing sample
 SINUSOID_SHARE = 0.9  # of the displacement's variance that the harmonic must explain
 
 Vector = NDArray[np.float64]
+
+
+def require_steps(time_step: float, frequency: float) -> None:
+    """Refuse a time step [s] too coarse to simulate a test at this frequency [Hz]."""
+    if STEPS_PER_CYCLE * time_step * frequency > 1.0:
+        raise InputError(
+            f"time step {time_step:g} s: fewer than {STEPS_PER_CYCLE} steps per cycle at {frequency:g} Hz; "
+            f"give at most {int(1e6 / (STEPS_PER_CYCLE * frequency)) * 1e-6:g} s."
+        )
 
 
 @dataclass(frozen=True)

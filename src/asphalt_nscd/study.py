@@ -62,18 +62,19 @@ def refuse_repeated_keys(path: str | Path) -> None:
 
 
 def label(value: float) -> str:
-    """Temperature or frequency as it stands in file names: 15, -10, 12.5."""
-    return f"{value:g}"
+    """Temperature or frequency as it stands in file names: 15, -10, 12.5. Ten digits, as in tables."""
+    return f"{value:.10g}"
 
 
 def _numbers(value: Any) -> Any:
+    """Numbers as numbers, with the digits that file names and tables keep, so that all of them match."""
     if isinstance(value, Mapping):
         return {key: _numbers(item) for key, item in value.items()}
     if isinstance(value, list):
         return [_numbers(item) for item in value]
     if isinstance(value, str) and _SCIENTIFIC.fullmatch(value):
-        return float(value)
-    return value
+        value = float(value)
+    return float(label(value)) if isinstance(value, float) else value
 
 
 def _of_mapping(error: ValidationError) -> list[ValidationError]:
@@ -141,9 +142,6 @@ def _check(study: dict[str, Any], source: str) -> None:
     for path, value in _leaves(study):
         if isinstance(value, float) and not math.isfinite(value):
             raise InputError(f"{source}: {_path(path)} is {value}, but must be a finite number.")
-    for key in ("temperatures_C", "frequencies_Hz"):
-        if len({label(value) for value in study[key]}) < len(study[key]):
-            raise InputError(f"{source}: {key} holds values equal to six digits; keep one of them.")
     _check_geometry(study, source)
     published = study["laws"].get("published")
     users = {

@@ -114,6 +114,15 @@ def test_profiles_at_instants_and_histories_at_heights(results):
     assert right.texts[-1].get_text() == "90 mm"
 
 
+def test_last_cycle_that_begins_a_step_early(results):
+    (path,) = results.test()
+    record = load(path, "test")
+    arrays = record.arrays | {"profile/time_s": record.arrays["profile/time_s"] - 1.5 * record.arrays["time_s"][0]}
+    save(path, "test", arrays, record.attributes)
+    _, right = fig08.draw(test=[path], specimen=results.specimen()).axes
+    assert right.lines[0].get_xdata()[0] == pytest.approx(-0.0005, abs=1e-9)
+
+
 def test_test_without_velocities_is_refused(results):
     (path,) = results.test()
     record = load(path, "test")

@@ -27,6 +27,13 @@ class Workspace:
         path.write_text(yaml.safe_dump({key: value for key, value in study.items() if value is not None}))
         return path
 
+    def measure(self) -> dict[str, str]:
+        """Measurements of one's own for the smoke study, in `mine.csv`."""
+        rows = [f"1,{temperature},{frequency},9000,20" for temperature in (0, 20) for frequency in (3, 10)]
+        header = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg"
+        (self.folder / "mine.csv").write_text("\n".join([header, *rows]) + "\n")
+        return {"table": "mine.csv"}
+
     def command(self, *arguments: str) -> list[str]:
         snakemake = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
         return [*snakemake, *arguments, "--configfile", "study.yaml"]

@@ -8,8 +8,7 @@ import signal
 import time
 from pathlib import Path
 
-import pytest
-
+OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit", "published")
 FITS = ["results/smoke/laws/fitted/T0.json", "results/smoke/laws/fitted/T20.json"]
 
 
@@ -43,19 +42,25 @@ def test_key_that_stands_twice_is_one_sentence(workspace):
     assert "key 'study' stands twice; keep one of the two." in done.stderr.strip().splitlines()[-1]
 
 
+def test_study_that_cannot_work_is_one_sentence(workspace):
+    left_out = dict.fromkeys(OPTIONAL)
+    workspace.configure(measurements=workspace.measure(), temperatures_C=[0, 5, 20], laws={"simulate": "fitted"}, **left_out)
+    done = workspace.run("--dry-run")
+    assert done.returncode != 0 and "Traceback" not in done.stderr
+    sentence = "error: study.yaml: temperatures_C: 5 is not in mine.csv, which has 0, 20; use these."
+    assert done.stderr.strip().splitlines()[-1] == sentence
+
+
 def test_own_table_replaces_the_reconstruction(workspace):
     workspace.configure()
     assert "reconstruct" in workspace.planned()
-    (workspace.folder / "mine.csv").touch()
-    workspace.configure(measurements={"table": "mine.csv"})
+    workspace.configure(measurements=workspace.measure())
     assert "reconstruct" not in workspace.planned()
 
 
 def test_least_study_is_the_tests_and_their_figures(workspace):
-    (workspace.folder / "mine.csv").touch()
-    left_out = ("sensitivity", "time_step_study", "packing_study", "audit", "published")
     workspace.configure(
-        measurements={"table": "mine.csv"}, laws={"simulate": "fitted"}, **dict.fromkeys(left_out)
+        measurements=workspace.measure(), laws={"simulate": "fitted"}, **dict.fromkeys(OPTIONAL)
     )
     jobs = workspace.planned()
     assert jobs["simulate"] == 4 and jobs["fit"] == 2 and jobs["fig09"] == 1
@@ -80,14 +85,16 @@ def test_edited_record_is_reduced_again(workspace):
         rows.append(f"{step * 1e-3},{20 * math.sin(angle + 0.3)},{6.3e-5 * math.sin(angle)}")
     (folder / "record.csv").write_text("\n".join(rows) + "\n")
     (folder / "mine.csv").write_text("specimen,temperature_C,frequency_Hz,record\n1,20,10,record.csv\n")
-    workspace.configure(measurements={"table": "mine.csv"}, reduction={"cycles": 3})
+    one = {"temperatures_C": [20], "frequencies_Hz": [10], "measurements": {"table": "mine.csv"}}
+    one |= dict.fromkeys(OPTIONAL)
+    workspace.configure(**one, reduction={"cycles": 3})
     target = "results/smoke/measured.csv"
     done = workspace.run(target, "--cores", "1")
     assert done.returncode == 0, done.stderr
     assert workspace.planned(target) == {}
     (folder / "record.csv").write_text("\n".join(rows[:-50]) + "\n")
     assert workspace.planned(target) == {"reduce": 1}
-    workspace.configure(measurements={"table": "mine.csv"}, reduction={"cycles": 2})
+    workspace.configure(**one, reduction={"cycles": 2})
     (folder / "record.csv").write_text("\n".join(rows) + "\n")
     assert workspace.planned(target) == {"reduce": 1}
 

@@ -2,7 +2,7 @@
 
 AUDIT = STUDY.get("audit", {"seed": 0, "temperature_C": 0})
 PACKING = STUDY.get("packing_study", {"frictions": [], "seed": 0, "temperature_C": 0, "frequency_Hz": 0})
-PACKED = [f"s{PACKING['seed']}", *(f"s{PACKING['seed']}-friction{value:g}" for value in PACKING["frictions"])]
+PACKED = [f"s{PACKING['seed']}", *(f"s{PACKING['seed']}-friction{label(value)}" for value in PACKING["frictions"])]
 AUDITED = expand(
     "<results>/{{reading}}/s{seed}/T{temperature}/f{frequency}.h5",
     seed=AUDIT["seed"],

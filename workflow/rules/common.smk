@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.feasible import require_feasible
 from asphalt_nscd.lock import release_stale_locks
 from asphalt_nscd.sources import source_files
 from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
@@ -23,11 +24,14 @@ shell.prefix("exec ")
 try:
     for _path in workflow.configfiles:
         refuse_repeated_keys(_path)
+    _source = " + ".join(map(os.path.relpath, workflow.configfiles)) or "configuration"
     STUDY = complete_study(
         config,
-        source=" + ".join(map(os.path.relpath, workflow.configfiles)) or "configuration",
+        source=_source,
         schema=Path(workflow.basedir, "workflow/schemas/study.schema.yaml"),
     )
+    if workflow.is_main_process:
+        require_feasible(STUDY, _source)
 except InputError as error:
     sys.exit(f"error: {error}")
 
@@ -41,14 +45,14 @@ SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
 
 wildcard_constraints:
     seed=r"\d+",
-    sample=r"s\d+(-friction[\d.]+)?",
+    sample=r"s\d+(-friction[\d.]+(e[+-]?\d+)?)?",
     temperature=r"-?[\d.]+(e[+-]?\d+)?",
     frequency=r"[\d.]+(e[+-]?\d+)?",
     head="free|blocked",
     parameter="Em|eta_m|Ek|eta_k",
     factor=r"[\d.]+(e[+-]?\d+)?",
-    friction=r"[\d.]+",
-    time_step=r"[\d.e-]+",
+    friction=r"[\d.]+(e[+-]?\d+)?",
+    time_step=r"[\d.]+(e[+-]?\d+)?",
 
 
 def code(step, *modules):

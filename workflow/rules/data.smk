@@ -26,6 +26,7 @@ rule reconstruct:
         frequencies=text(STUDY["frequencies_Hz"]),
         amplitude=options(STUDY["test"], "amplitude_m"),
         scatter=options(STUDY["measurements"].get("reconstruct", {})),
+    priority: 20  # before anything is poured: the measurements may yet be refused
     log:
         "<results>/logs/reconstruct.log",
     benchmark:
@@ -47,6 +48,7 @@ rule reduce:
     params:
         geometry=text(STUDY["geometry"]),
         window=options(STUDY.get("reduction", {})),
+    priority: 20  # before anything is poured: the measurements may yet be refused
     log:
         "<results>/logs/reduce.log",
     benchmark:

@@ -8,6 +8,7 @@ rule fit:
         code=code("fit"),
     output:
         "<results>/laws/fitted/T{temperature}.json",
+    priority: 20  # before anything is poured: the measurements may yet be refused
     log:
         "<results>/logs/fit/T{temperature}.log",
     benchmark:
@@ -27,6 +28,7 @@ rule published_law:
         "<results>/laws/published/T{temperature}.json",
     params:
         unit=STUDY["laws"].get("published", {}).get("unit"),
+    priority: 20  # before anything is poured: the measurements may yet be refused
     log:
         "<results>/logs/published_law/T{temperature}.log",
     benchmark:

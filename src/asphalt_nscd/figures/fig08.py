@@ -35,7 +35,8 @@ def draw(test: list[Path], specimen: list[Path]) -> Figure:
     filled = record.arrays["profile/spheres"] > 0
     height, velocity = 1e3 * height[filled], 1e3 * velocity[:, filled]  # mm, mm/s
     frequency = record.attributes["frequency_Hz"]
-    cycles = frequency * time - np.floor(frequency * time[0] + 1e-6)  # from the start of the last one
+    # from the start of the last one, which comes up to a step early where steps do not divide a cycle
+    cycles = frequency * time - np.floor(frequency * (time[0] + record.attributes["time_step_s"]))
     head = 2e3 * np.pi * frequency * record.attributes["amplitude_m"] * np.cos(2.0 * np.pi * cycles)
 
     figure, (left, right) = style.new_figure(style.WIDE, 76.0, columns=2)

@@ -20,7 +20,6 @@ from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.friction import solve_contacts
 from asphalt_nscd.nscd.law import BondLaw
 
-
 CLOSED = 1e-12  # m, by which a gap in contact may differ from zero
 
 

@@ -16,6 +16,7 @@ from scipy.sparse.linalg import LinearOperator, cg
 
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.condensed import factorise
+
 DEPENDENT = 1e-9
 
 

@@ -12,7 +12,7 @@ import pandas as pd
 from asphalt_nscd.agreement import mean_relative_error
 from asphalt_nscd.audit import equations, outcomes, preparation
 from asphalt_nscd.collect import collect
-from asphalt_nscd.preparation import read_counts
+from asphalt_nscd.counts import read_counts
 from asphalt_nscd.published_laws import read_published
 from asphalt_nscd.results import at_temperature, read_measured, the_only
 from asphalt_nscd.rheology.laws_io import read_law

@@ -34,15 +34,20 @@ def make(simulations: list[Path], measured: list[Path], published: Sequence[Path
     simulated = _named(mean_relative_error(data, tests), "simulated")
     table = simulated.merge(_named(mean_relative_error(data, law), "law"), on="temperature_C")
     if published:
-        printed = read_csv(the_only(published, "published"))
-        printed.require(["temperature_C", *ERRORS])
-        columns = {"temperature_C": printed.numbers("temperature_C")}
-        columns |= {name: printed.numbers(name, PERCENT) for name in ERRORS}
-        table = table.merge(_named(pd.DataFrame(columns), "published"), on="temperature_C", how="left")
+        printed = read_errors(the_only(published, "published"))
+        table = table.merge(_named(printed, "published"), on="temperature_C", how="left")
     kinds = ["published", "simulated", "law"] if published else ["simulated", "law"]
     table["compared_with"] = [origin_of(at_temperature(data, t)) for t in table["temperature_C"]]
     errors = [_name(error, kind) for error in ERRORS for kind in kinds]
     return table[["temperature_C", "compared_with", *errors]]
+
+
+def read_errors(path: str | Path) -> pd.DataFrame:
+    """Published errors: temperature_C and ERRORS."""
+    table = read_csv(path)
+    table.require(["temperature_C", *ERRORS])
+    columns = {"temperature_C": table.numbers("temperature_C")}
+    return pd.DataFrame(columns | {name: table.numbers(name, PERCENT) for name in ERRORS})
 
 
 def _name(error: str, kind: str) -> str:
