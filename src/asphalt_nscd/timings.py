@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import pandas as pd
@@ -9,15 +10,17 @@ import pandas as pd
 from asphalt_nscd.errors import InputError
 
 
-def by_rule(folder: str | Path) -> pd.DataFrame:
+def by_rule(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataFrame:
     """One row for each rule, most time first.
 
-    `folder` holds rule.tsv for a single job, rule/.../*.tsv for many. Columns: rule, jobs, wall_s (sum
-    over jobs), cpu_s, longest_s (a single job), memory_MB (largest resident set), share_percent (of wall_s).
+    benchmarks: files in `folder`, rule.tsv for a single job, rule/.../*.tsv for many; those of jobs that
+    were never timed may be absent. Columns: rule, jobs, wall_s (sum over jobs), cpu_s, longest_s (a single
+    job), memory_MB (largest resident set), share_percent (of wall_s).
     """
-    folder = Path(folder)
     rows = []
-    for path in sorted(folder.rglob("*.tsv")):
+    for path in map(Path, benchmarks):
+        if not path.exists():
+            continue
         job = pd.read_csv(path, sep="\t", na_values="-").iloc[0]
         rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
         rows.append((rule, job["s"], job["cpu_time"], job["max_rss"]))

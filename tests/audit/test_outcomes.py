@@ -72,6 +72,17 @@ def test_time_step_matters_only_where_gauss_seidel_stops():
     assert [row.verdict for row in rows[:2]] == [REPRODUCED] * 2
 
 
+def test_the_audit_holds_no_time_that_differs_from_run_to_run():
+    tests = pd.DataFrame(
+        {"frequency_Hz": [3.0, 40.0], "steps": [33333, 2500], "cpu_s": 1.0, "spheres": 9000, "residual": 1e-8}
+    )
+    solved = pd.DataFrame({"E_MPa": [100.0], "E_law_MPa": 100.0, "residual": 1e-8, "most_sweeps": 50, "frequency_Hz": 40.0})
+    one, two = (list(outcomes.numerics(tests.assign(cpu_s=cpu), solved, solved)) for cpu in (1.0, 1.7))
+    assert one == two
+    slow = list(outcomes.numerics(tests.assign(cpu_s=3000.0), solved, solved))
+    assert (one[-1].verdict, slow[-1].verdict) == (DIFFERS, REPRODUCED)
+
+
 def test_counts_that_contradict_each_other():
     rows = {row.statement: row for row in preparation.counts(*COUNTS)}
     assert rows["Trimming leaves about 12 000 particles."].ours == 9558

@@ -77,6 +77,19 @@ def test_the_paper_is_120_tests_on_four_samples(workspace):
     assert {f"fig{number:02d}" for number in (1, *range(5, 15))} | {"table2", "table3", "table4"} <= set(jobs)
 
 
+def test_timings_are_those_of_the_study_s_own_jobs(workspace):
+    """Not of a temperature that was left out since."""
+    workspace.configure(temperatures_C=[20])
+    left = workspace.folder / "results/smoke/benchmarks/simulate/s1/T0/f3.tsv"
+    left.parent.mkdir(parents=True)
+    left.touch()
+    said = workspace.run("results/smoke/timings.csv", "--dry-run").stdout
+    (command,) = (line.split() for line in said.splitlines() if "asphalt-nscd timings" in line)
+    timed = [word.removeprefix("results/smoke/benchmarks/") for word in command if word.endswith(".tsv")]
+    assert {"simulate/s1/T20/f3.tsv", "deposit/s1.tsv", "reconstruct.tsv", "fig09.tsv"} <= set(timed)
+    assert "simulate/s1/T0/f3.tsv" not in timed and "timings.tsv" not in timed
+
+
 def test_edited_record_is_reduced_again(workspace):
     folder = workspace.folder
     rows = ["time_s,force_N,displacement_m"]

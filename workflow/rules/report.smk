@@ -96,6 +96,13 @@ rule study:
         "asphalt-nscd study {params.study:q} --output {output} > {log} 2>&1"
 
 
+def benchmarks(wildcards, input):
+    """Files of all jobs behind the inputs; the folder may hold others, of jobs that are not asked for any more."""
+    dag = workflow.dag
+    last = [job for job in dag.jobs if not set(input).isdisjoint(job.output)]
+    return sorted(job.benchmark for job in dag.bfs(dag.dependencies, *last) if job.benchmark)
+
+
 rule timings:
     # Where the time goes, from the benchmark files of all that was computed.
     input:
@@ -105,7 +112,8 @@ rule timings:
         table="<results>/timings.csv",
         markdown="<results>/timings.md",
     params:
-        benchmarks=f"results/{STUDY['study']}/benchmarks",
+        folder=f"results/{STUDY['study']}/benchmarks",
+        benchmarks=benchmarks,
     log:
         "<results>/logs/timings.log",
     benchmark:
@@ -113,7 +121,7 @@ rule timings:
     message:
         "Sum the time by rule"
     shell:
-        "asphalt-nscd timings {params.benchmarks} --markdown {output.markdown} --output {output.table} > {log} 2>&1"
+        "asphalt-nscd timings {params.benchmarks} --folder {params.folder} --markdown {output.markdown} --output {output.table} > {log} 2>&1"
 
 
 rule provenance:

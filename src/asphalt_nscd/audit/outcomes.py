@@ -159,11 +159,14 @@ def numerics(tests: pd.DataFrame, converged: pd.DataFrame, stopped: pd.DataFrame
         f"sweeps spreads by {100.0 * _spread(stopped):.0f} % and gives {_share(stopped, converged):.3f} of |E*| "
         f"at its best ({stopped['frequency_Hz'].iloc[0]:g} Hz).",
     )  # fmt: skip
-    cost = tests["cpu_s"] / (tests["steps"] * tests["spheres"])
+    cost = float((tests["cpu_s"] / (tests["steps"] * tests["spheres"])).median())
     yield Statement(
-        "3.2.2", "CPU time per particle and time step.", PAPER_COST, float(cost.median()), "s", DIFFERS,
-        f"Reduced form, on this machine: {PAPER_COST / cost.median():.0f} times less. Every step is checked "
-        f"against the full equations (largest residual {tests['residual'].max():.0e}).",
+        # the number itself differs from run to run, which this table must not
+        "3.2.2", "CPU time per particle and time step.", PAPER_COST,
+        "less than a tenth" if cost < 0.1 * PAPER_COST else "a tenth or more", "s",
+        judged(0.1 < cost / PAPER_COST < 10.0),
+        "Reduced form; cpu_s, steps and spheres of each test are in simulations.csv, sums in timings.csv. Every "
+        f"step is checked against the full equations (largest residual {tests['residual'].max():.0e}).",
     )  # fmt: skip
 
 

@@ -8,15 +8,16 @@ from asphalt_nscd.cli import _options
 
 
 @click.command()
-@click.argument("benchmarks", type=_options.File)
+@click.argument("benchmarks", nargs=-1, required=True, type=_options.File)
+@click.option("--folder", required=True, type=_options.File, help="Folder whose names are those of rules.")
 @click.option("--markdown", required=True, type=_options.File, help="File for the same table in Markdown.")
 @_options.output
-def command(benchmarks: Path, markdown: Path, output: Path) -> None:
-    """Sum Snakemake's benchmark files by rule: where the time goes."""
+def command(benchmarks: tuple[Path, ...], folder: Path, markdown: Path, output: Path) -> None:
+    """Sum BENCHMARKS, files of Snakemake, by rule: where the time goes."""
     from asphalt_nscd.store import atomic_path, write_table
     from asphalt_nscd.timings import as_markdown, by_rule
 
-    table = by_rule(benchmarks)
+    table = by_rule(benchmarks, folder)
     write_table(output, table)
     with atomic_path(markdown) as path:
         path.write_text(as_markdown(table), encoding="utf-8")
