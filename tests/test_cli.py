@@ -14,6 +14,7 @@ import pytest
 
 from asphalt_nscd import cli
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.store import save
 
 
 def run(*arguments, **options):
@@ -229,3 +230,27 @@ def test_study_that_is_no_json(capsys, tmp_path, monkeypatch):
     said = capsys.readouterr().err
     assert said.startswith("error: STUDY is not valid JSON") and said.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("damage", [lambda whole: whole[:-200], lambda whole: whole[:700] + b"x" + whole[701:], lambda _: b""])
+def test_damaged_result_is_removed_within_the_workflow_only(tmp_path, damage):
+    save(path := tmp_path / "f3.h5", "test", {"force_N": [1.0, 2.0]}, {"specimen": "s1"})
+    path.write_bytes(damage(path.read_bytes()))
+    done = run("collect", path, "--output", tmp_path / "x.csv")
+    assert done.returncode == 2 and path.exists()
+    assert done.stderr.startswith(f"error: {path}: ") and done.stderr.count("\n") == 1
+    assert done.stderr.endswith("; delete it and run the workflow again.\n")
+    done = run("collect", path, "--output", tmp_path / "x.csv", env={**os.environ, cli.DIE_WITH_PARENT: "1"})
+    assert done.returncode == 2 and not path.exists()
+    assert done.stderr.endswith("; it was removed, run the workflow again to make it anew.\n")
+    assert done.stderr.count("\n") == 1 and not list(tmp_path.iterdir())
+
+
+def test_input_that_is_no_result_of_ours_is_never_removed(tmp_path):
+    inside = {**os.environ, cli.DIE_WITH_PARENT: "1"}
+    (geometry := tmp_path / "g.json").write_text("{")
+    assert run("trim", "d.h5", "--geometry", geometry, "--output", "x", env=inside).returncode == 2
+    assert run("reduce", geometry, "--geometry", geometry, "--output", "x", env=inside).returncode == 2
+    save(model := tmp_path / "m.h5", "model", {}, {})
+    assert run("collect", model, "--output", tmp_path / "x.csv", env=inside).returncode == 2
+    assert geometry.exists() and model.exists()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.errors import DamagedFile, InputError
 from asphalt_nscd.store import load
 
 COLUMNS = [
@@ -27,7 +27,7 @@ def collect(tests: Iterable[str | Path]) -> pd.DataFrame:
         attributes = load(path, "test").attributes
         missing = [name for name in COLUMNS if name not in attributes]
         if missing:
-            raise InputError(f"{path}: has no {', '.join(missing)}; delete it and run the workflow again.")
+            raise DamagedFile(path, f"has no {', '.join(missing)}")
         rows.append(attributes)
     if not rows:
         raise InputError("no test files to collect; give at least one.")

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.errors import DamagedFile, InputError
 
 FORMAT_VERSION = 1
 _PACKAGES = ("asphalt-nscd", "numpy", "scipy", "numba", "pandas", "h5py", "matplotlib", "snakemake")
@@ -111,7 +111,6 @@ def load(path: str | Path, kind: str) -> Record:
     """Read one HDF5 result file, refusing another kind, another format or damaged content."""
     import h5py
 
-    mend = "delete it and run the workflow again"
     if not Path(path).is_file():
         raise InputError(f"{path}: no such file; make it with its rule or check the path.")
     arrays: dict[str, np.ndarray] = {}
@@ -124,16 +123,16 @@ def load(path: str | Path, kind: str) -> Record:
                 else None
             )
     except Exception as error:  # h5py raises nearly any exception on a damaged file
-        raise InputError(f"{path}: damaged or not HDF5 ({_first_line(error)}); {mend}.") from None
+        raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None
     found, format_version = attributes.pop("kind", None), attributes.pop("format_version", None)
     digest = attributes.pop("digest", None)
     attributes.pop("provenance", None)
     if found != kind:
         raise InputError(f"{path}: holds {found or 'nothing of ours'!r}, not {kind!r}; give the right file.")
     if format_version != FORMAT_VERSION:
-        raise InputError(f"{path}: format {format_version}, this version reads {FORMAT_VERSION}; {mend}.")
+        raise DamagedFile(path, f"format {format_version}, this version reads {FORMAT_VERSION}")
     if digest != _digest(kind, arrays, attributes):
-        raise InputError(f"{path}: content does not match its digest, so the file is damaged; {mend}.")
+        raise DamagedFile(path, "content does not match its digest, so the file is damaged")
     return Record(arrays, attributes)
 
 

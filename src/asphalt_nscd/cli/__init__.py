@@ -19,9 +19,10 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
 import click  # noqa: E402
 
 from asphalt_nscd import __version__  # noqa: E402
-from asphalt_nscd.errors import InputError  # noqa: E402
+from asphalt_nscd.errors import DamagedFile, InputError  # noqa: E402
 
-# Set by the workflow: a step must not outlive a killed Snakemake, which would run it a second time.
+# Set by the workflow: a step must not outlive a killed Snakemake, which would run it a second time, and
+# a damaged result is removed.
 DIE_WITH_PARENT = "ASPHALT_NSCD_DIE_WITH_PARENT"
 
 _MENDS = {
@@ -70,6 +71,8 @@ def _status(step: Callable[[], object]) -> int:
     except click.ClickException as error:
         error.show()
         return error.exit_code
+    except DamagedFile as error:
+        return _say(_heal(error), 2)
     except InputError as error:
         return _say(str(error), 2)
     except (KeyboardInterrupt, click.Abort):
@@ -80,6 +83,14 @@ def _status(step: Callable[[], object]) -> int:
             raise
         return _say(sentence, 2)
     return 0
+
+
+def _heal(error: DamagedFile) -> str:
+    """Within the workflow, which can make the file again but takes it for good, remove it."""
+    if not os.environ.get(DIE_WITH_PARENT):
+        return str(error)
+    error.path.unlink(missing_ok=True)
+    return f"{error.path}: {error.problem}; it was removed, run the workflow again to make it anew."
 
 
 def _file_trouble(error: OSError | RuntimeError) -> str | None:
