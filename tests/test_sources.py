@@ -65,3 +65,8 @@ def test_plots_are_no_concern_of_the_tests_and_the_core_is():
     assert "nscd/granular.py" in behind("cli.deposit")
     assert "figures/fig09.py" in figure and "figures/fig07.py" not in figure
     assert not [name for name in figure if name.startswith("nscd/")]
+
+
+def test_modules_that_a_package_finds_by_itself(package):
+    assert sources.modules_of("core") == ["core.kernel", "core.solver"]
+    assert names(package, *sources.modules_of("core")) == ["core/kernel.py", "core/solver.py", "errors.py"]

@@ -26,6 +26,12 @@ def source_files(*modules: str) -> list[Path]:
     return sorted(found)
 
 
+def modules_of(package: str) -> list[str]:
+    """Modules of a package (dotted, relative to this one) that finds them by itself, without an import statement."""
+    folder = PACKAGE.joinpath(*package.split("."))
+    return [f"{package}.{path.stem}" for path in sorted(folder.glob("*.py")) if path.name != "__init__.py"]
+
+
 @cache
 def _imported(path: Path) -> frozenset[Path]:
     package = ("asphalt_nscd", *path.relative_to(PACKAGE).parent.parts)

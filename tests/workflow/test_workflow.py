@@ -64,6 +64,7 @@ def test_least_study_is_the_tests_and_their_figures(workspace):
     )
     jobs = workspace.planned()
     assert jobs["simulate"] == 4 and jobs["fit"] == 2 and jobs["fig09"] == 1
+    assert jobs["reduced_specimen"] == jobs["diagnose"] == 1
     others = {"reconstruct", "published_law", "simulate_scaled", "simulate_pascal", "audit", "table2", "fig06"}
     assert not others & set(jobs)
 
@@ -88,6 +89,21 @@ def test_timings_are_those_of_the_study_s_own_jobs(workspace):
     timed = [word.removeprefix("results/smoke/benchmarks/") for word in command if word.endswith(".tsv")]
     assert {"simulate/s1/T20/f3.tsv", "deposit/s1.tsv", "reconstruct.tsv", "fig09.tsv"} <= set(timed)
     assert "simulate/s1/T0/f3.tsv" not in timed and "timings.tsv" not in timed
+
+
+def test_what_the_study_says_of_the_diagnosis_reaches_it(workspace):
+    scatter = {"modulus_scatter_percent": 2, "phase_scatter_deg": 0.5}
+    workspace.configure(diagnosis={"seed": 7, "static_modulus_MPa": 30, "scatter": scatter})
+    done = workspace.run("results/smoke/diagnosis/diagnosis.json", "--dry-run", "--printshellcmds")
+    command = next(line for line in done.stdout.splitlines() if "asphalt-nscd diagnose" in line)
+    for words in (
+        "--seed 7", "--draws 4000", "--static-modulus-mpa 30", "--modulus-scatter-percent 2",
+        "--phase-scatter-deg 0.5", "--geometry B_mm=20,b_mm=10", "--specimen results/smoke/diagnosis/specimen.h5",
+    ):  # fmt: skip
+        assert words in command
+    workspace.configure(diagnosis={"scatter": {"phase_scatter_deg": 0.5}})
+    done = workspace.run("--dry-run")
+    assert "key 'modulus_scatter_percent' is missing from diagnosis.scatter; add it." in done.stderr
 
 
 def test_edited_record_is_reduced_again(workspace):

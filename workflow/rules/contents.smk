@@ -106,6 +106,7 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
     }
 
 COMPUTED = [
+    DIAGNOSED,
     [f"<results>/{name}.csv" for name in PAGES if name != "timings"],
     [f"<results>/figures/{name}.{kind}" for name in FIGURES for kind in ("pdf", "png", "svg")],
 ]

@@ -11,6 +11,7 @@ rule publish:
         files=[
             *(f"<results>/figures/{name}.png" for name in FIGURES),
             *(f"<results>/{name}.csv" for name in PAGES),
+            *DIAGNOSED,
             "<results>/provenance.json",
         ],
         code=code("publish"),
@@ -22,3 +23,16 @@ rule publish:
         "Copy what is committed, and fill the tables of the README"
     shell:
         "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document README.md {params.blocks}"
+
+
+if STUDY["study"] == "paper":
+
+    rule ship_specimen:
+        # The specimen that `asphalt-nscd diagnose` takes where none is given. Only on request, like the above:
+        #   snakemake --cores 1 ship_specimen
+        input:
+            "<results>/diagnosis/specimen.h5",
+        message:
+            "Put the reduced specimen into the package"
+        shell:
+            "cp {input} src/asphalt_nscd/diagnosis/specimen.h5"

@@ -1,0 +1,44 @@
+# Beyond the paper: what the simulation gets wrong about the measurements, and which cause that has.
+
+SETTINGS = dict(STUDY["diagnosis"])
+SETTINGS |= SETTINGS.pop("scatter", {})
+DIAGNOSED = ["<results>/diagnosis/diagnosis.json", "<results>/diagnosis/residuals.csv"]
+
+
+rule reduced_specimen:
+    # The numerical specimen as two small matrices, from which its test follows for any law.
+    input:
+        model=f"<results>/models/{HEAD}/{SAMPLES[0]}.h5",
+        code=code("reduced-specimen"),
+    output:
+        "<results>/diagnosis/specimen.h5",
+    log:
+        "<results>/logs/reduced_specimen.log",
+    benchmark:
+        "<results>/benchmarks/reduced_specimen.tsv"
+    message:
+        f"Reduce sample {SAMPLES[0]} to what a diagnosis needs of it"
+    shell:
+        "asphalt-nscd reduced-specimen {input.model} --output {output} > {log} 2>&1"
+
+
+rule diagnose:
+    # Residuals, ladder of causes, verdict; the log holds the ladder as a table.
+    input:
+        measured="<results>/measured.csv",
+        specimen="<results>/diagnosis/specimen.h5",
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+    output:
+        DIAGNOSED,
+    params:
+        geometry=text(STUDY["geometry"]),
+        settings=options(SETTINGS),
+        folder=lambda wildcards, output: os.path.dirname(output[0]),
+    log:
+        "<results>/logs/diagnose.log",
+    benchmark:
+        "<results>/benchmarks/diagnose.tsv"
+    message:
+        "Diagnose where simulation and measurements differ, and why"
+    shell:
+        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} --geometry {params.geometry:q} {params.settings} --output {params.folder} > {log} 2>&1"
