@@ -2,6 +2,7 @@
 
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -10,8 +11,10 @@ import pytest
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.geometry_input import read_geometry
 from asphalt_nscd.measurements import REDUCED_COLUMNS, read_reduced, reduce_table
+from asphalt_nscd.published_laws import read_published
 from asphalt_nscd.twopoint import Geometry, complex_modulus, head_response, norm_and_phase
 
+ROOT = Path(__file__).parents[1]
 MAPPING = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.235}
 PAPER = Geometry(0.025, 0.056, 0.025, 0.25, 0.6, 0.235)
 HEADS = {
@@ -142,7 +145,7 @@ def test_record_in_kilonewtons_is_found_out(write, tmp_path):
     """At 40 Hz the mass term alone is 500 MPa, a modulus one could believe."""
     write_record(tmp_path / "a.csv", 40.0, 20e9, force_unit=1e-3)
     message = refusal(write(HEADS["records"], "A,15,40,a.csv"))
-    assert "no |E*| exceeds 19.5 MPa; check F0 in N" in message
+    assert "line 2: 19.5 MPa is softer than any asphalt at 15 degC and 40 Hz" in message and "F0 in N" in message
 
 
 P, M = HEADS["peaks"], HEADS["moduli"]
@@ -164,7 +167,10 @@ BAD_TABLES = {
         [M.replace("frequency_Hz", "Frequency_Hz"), MODULUS],
         "'Frequency_Hz' must be 'frequency_Hz'",
     ),
-    "GPa under MPa": ([M, "A,15,10,20,14", "A,15,25,22,12"], "no |E*| exceeds 22 MPa; E_MPa looks like GPa"),
+    "GPa under MPa": ([M, "A,15,10,20,14", "A,15,25,22,12"], "line 2: 20 MPa is softer than any asphalt"),
+    "one row in GPa": ([M, MODULUS, "A,15,25,22,12"], "line 3: 22 MPa is softer than any asphalt"),
+    "warm, in GPa": ([M, "A,50,10,.9,30"], "E_MPa looks like GPa, multiply by 1000"),
+    "one row in kN": ([P, PEAK, "A,15,25,.05,63e-6,14"], "line 3: "),
     "Pa under MPa": ([M, "A,15,10,2e10,14"], "line 2: E_MPa = 2e+10 is outside"),
     "radians": (
         [M, "A,15,10,12000,.3", "A,30,10,3000,.7"],
@@ -270,3 +276,36 @@ def test_one_mapping_holds_for_all_specimens_also_as_json(write):
     expected = {"A": PAPER, "B": PAPER}
     assert read_geometry(MAPPING, ["A", "B", "A"]) == expected
     assert read_geometry(write(json.dumps(MAPPING), name="geometry.json"), ["A", "B"]) == expected
+
+
+@pytest.mark.parametrize("form", ["moduli", "peaks"])
+def test_every_row_of_a_usual_mix_tells_mega_from_giga(write, form):
+    """At the paper's temperatures and frequencies, from a soft mix to a stiff one; and so N from kN."""
+    temperatures, laws = read_published(ROOT / "data/paper/table3_burgers.csv")
+    for temperature, law in zip(temperatures, laws, strict=True):
+        for frequency in (1.0, 3.0, 40.0):
+            e = complex(law.complex_modulus(2 * np.pi * frequency))
+            for share, lower in ((0.4, False), (1.0, False), (1.0, True), (1.3, True)):
+                force, psi = head_response(PAPER, frequency, share * e, 63e-6)
+                unit = 1e-3 if lower else 1.0
+                values = {
+                    "moduli": f"{unit * share * abs(e) / 1e6},{np.degrees(np.angle(e))}",
+                    "peaks": f"{unit * force},63e-6,{np.degrees(psi)}",
+                }[form]
+                table = write(HEADS[form], f"A,{temperature},{frequency},{values}")
+                if lower:
+                    assert "softer than any asphalt" in refusal(table), (temperature, frequency, values)
+                else:
+                    reduce(table)
+                    (table.parent / "measured.csv").unlink()
+
+
+def test_soft_mix_that_was_only_measured_warm(write):
+    """Porous asphalt at 50 degC: the modulus of its skeleton, and phases that fall again."""
+    rows = ["A,50,10,78,33", "A,50,1,31,27", "A,50,0.1,18,19"]
+    assert reduce(write(HEADS["moduli"], *rows))["E_MPa"].tolist() == [78, 31, 18]
+    rows = []
+    for frequency, norm, phase in ((10, 78, 33), (1, 31, 27)):
+        force, psi = head_response(PAPER, frequency, 1e6 * norm * np.exp(1j * np.radians(phase)), 63e-6)
+        rows.append(f"A,50,{frequency},{force},63e-6,{np.degrees(psi)}")
+    assert reduce(write(HEADS["peaks"], *rows))["E_MPa"].tolist() == pytest.approx([78, 31], rel=1e-6)

@@ -14,7 +14,7 @@ from asphalt_nscd import signals, twopoint
 from asphalt_nscd.csvinput import Table, read_csv
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.geometry_input import read_geometry
-from asphalt_nscd.plausible import LIMITS
+from asphalt_nscd.plausible import LIMITS, least_modulus
 from asphalt_nscd.store import write_table
 
 ORIGINS = ("measured", "reconstructed", "synthetic")
@@ -26,7 +26,7 @@ REDUCED_COLUMNS = (
     "E_MPa", "phase_deg", "E_peak_MPa", "phase_peak_deg",
 )  # fmt: skip
 
-STIFFEST_AT_LEAST = 100.0  # MPa: below it for every test, the column is in GPa or the peaks in other units
+SHARE_LEFT_BY_MASS = 0.3  # of |E*|: in quadrature to the mass term stands its sine, of soft mixes above this
 # No mix below 15 GPa has all its phases under 90/57.3 deg, and none is glassy enough for less than 0.3 deg.
 LARGEST_PHASE_AT_LEAST = {"soft": np.pi / 2, "glassy": 0.3}  # deg
 GLASSY = 15e3  # MPa
@@ -63,7 +63,7 @@ def reduced_frame(
     if form == "moduli":
         for name in FORMS[form]:
             frame[name] = table.numbers(name, LIMITS[name])
-        stiffest = frame["E_MPa"].max()
+        stiffness, softest = frame["E_MPa"], 1.0
     else:
         specimens = read_geometry(geometry, frame["specimen"])
         if form == "peaks":
@@ -71,10 +71,12 @@ def reduced_frame(
         else:
             _reduce_records(table, frame, specimens, cycles)
         _check_reduced(table, frame, form)
-        # Without the mass term, which would hide a force a thousand times too small.
+        # Without the mass term, which would hide a force a thousand times too small, and which takes
+        # away no more than this from that of a true one.
         gamma = frame["specimen"].map({name: twopoint.form_factor(g) for name, g in specimens.items()})
-        stiffest = (gamma * frame["F0_N"] / frame["z0_m"]).max() * 1e-6
-    _check_whole_table(table, frame, form, stiffest)
+        stiffness, softest = 1e-6 * gamma * frame["F0_N"] / frame["z0_m"], SHARE_LEFT_BY_MASS
+    _check_stiffness(table, frame, form, stiffness, softest)
+    _check_whole_table(table, frame, form)
     return frame
 
 
@@ -199,11 +201,24 @@ def _check_reduced(table: Table, frame: pd.DataFrame, form: str) -> None:
             )
 
 
-def _check_whole_table(table: Table, frame: pd.DataFrame, form: str, stiffest: float) -> None:
-    """Refuse a table whose values make sense only in another unit; stiffest: largest norm seen [MPa]."""
-    if stiffest < STIFFEST_AT_LEAST:
+def _check_stiffness(
+    table: Table, frame: pd.DataFrame, form: str, stiffness: pd.Series, softest: float
+) -> None:
+    """Refuse a row softer [MPa] than any asphalt at its temperature and frequency."""
+    least = softest * least_modulus(frame["temperature_C"], frame["frequency_Hz"])
+    below = np.flatnonzero(stiffness < least)
+    if below.size:
+        row = int(below[0])
         mend = "E_MPa looks like GPa, multiply by 1000" if form == "moduli" else "check F0 in N and z0 in m"
-        raise InputError(f"{table.path}: no |E*| exceeds {stiffest:.4g} MPa; {mend}.")
+        raise table.error(
+            row,
+            f"{stiffness[row]:.4g} MPa is softer than any asphalt at {frame.at[row, 'temperature_C']:g} degC and "
+            f"{frame.at[row, 'frequency_Hz']:g} Hz ({least[row]:.2g} MPa); {mend}.",
+        )
+
+
+def _check_whole_table(table: Table, frame: pd.DataFrame, form: str) -> None:
+    """Refuse a table whose values make sense only in another unit."""
     if frame["phase_deg"].median() < -0.5:  # an elastic reference beam may scatter about zero
         raise InputError(
             f"{table.path}: phases are mostly negative; give the angle by which the force leads."

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from asphalt_nscd.csvinput import Limits
 
 # A phase may come out a little negative (a delayed channel does that), so its sign is judged over
@@ -15,3 +18,14 @@ LIMITS = {
     "E_MPa": Limits(0.1, 2e5, "give a positive norm of E* in MPa"),
     "phase_deg": Limits(-90, 90, "give the phase of E* in degrees"),
 }
+
+# Norm of E* [MPa] that no mix falls below at 1 Hz, by temperature [degC]: a third or less of that of soft
+# and porous ones, and yet above the numbers that stiff ones give in GPa.
+_SOFTEST = {-20.0: 1000.0, 0.0: 300.0, 10.0: 120.0, 30.0: 25.0, 50.0: 6.0, 70.0: 2.0, 90.0: 1.0}
+_KELVIN_PER_DECADE = 9.0  # of frequency, a usual shift about room temperature
+
+
+def least_modulus(temperature: ArrayLike, frequency: ArrayLike) -> NDArray[np.float64]:
+    """Norm of E* [MPa] below which no asphalt falls at temperature [degC] and frequency [Hz]."""
+    at_one_hertz = np.asarray(temperature) - _KELVIN_PER_DECADE * np.log10(frequency)
+    return np.exp(np.interp(at_one_hertz, list(_SOFTEST), np.log(list(_SOFTEST.values()))))
