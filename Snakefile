@@ -11,6 +11,12 @@ include: "workflow/rules/common.smk"
 report: "workflow/report/study.rst"
 
 
+onerror:
+    # Last, and without the noise above.
+    for sentence in failures(log):
+        print(sentence, file=sys.stderr)
+
+
 rule all:
     # Everything the study asks for.
     default_target: True

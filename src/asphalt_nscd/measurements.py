@@ -213,7 +213,7 @@ def _check_stiffness(
         raise table.error(
             row,
             f"{stiffness[row]:.4g} MPa is softer than any asphalt at {frame.at[row, 'temperature_C']:g} degC and "
-            f"{frame.at[row, 'frequency_Hz']:g} Hz ({least[row]:.2g} MPa); {mend}.",
+            f"{frame.at[row, 'frequency_Hz']:g} Hz ({float(f'{least[row]:.2g}'):g} MPa); {mend}.",
         )
 
 

@@ -106,6 +106,19 @@ def test_what_the_study_says_of_the_diagnosis_reaches_it(workspace):
     assert "key 'modulus_scatter_percent' is missing from diagnosis.scatter; add it." in done.stderr
 
 
+def test_failed_job_ends_with_its_sentence_and_its_log(workspace):
+    """Traceable without reading what Snakemake says about itself."""
+    table = workspace.measure()
+    path = workspace.folder / "mine.csv"
+    path.write_text(path.read_text().replace("9000", "9"))
+    workspace.configure(measurements=table)
+    done = workspace.run("results/smoke/measured.csv", "--cores", "1")
+    assert done.returncode != 0
+    lines = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
+    assert lines[-1].startswith("error: mine.csv, line 2: 9 MPa is softer than any asphalt at 0 degC and 3 Hz")
+    assert lines[-1].endswith("multiply by 1000. (results/smoke/logs/reduce.log)")
+
+
 def test_edited_record_is_reduced_again(workspace):
     folder = workspace.folder
     rows = ["time_s,force_N,displacement_m"]

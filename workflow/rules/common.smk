@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.failures import failures
 from asphalt_nscd.feasible import require_feasible
 from asphalt_nscd.lock import release_stale_locks
 from asphalt_nscd.sources import modules_of, source_files

@@ -1,0 +1,34 @@
+"""What went wrong in a run of the workflow, a sentence for each failed job."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+_FAILED = re.compile(r"^ +log: (.+) \(check log file", re.MULTILINE)  # as Snakemake puts it
+KILLED = "error: the job was killed, or the memory was used up; run the same command again."
+
+
+def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
+    """The last word of each failed job and the log that holds it.
+
+    A job that could not say anything was ended from outside; its log is made to say so.
+    """
+    run = "\n".join(map(_text, snakemake_logs))
+    said = []
+    for path in map(Path, dict.fromkeys(_FAILED.findall(run))):
+        text = _text(path).rstrip()
+        last = text.rpartition("\n")[2]
+        if not last.startswith("error: ") and "Traceback" not in text:
+            last = KILLED
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("a", encoding="utf-8") as file:
+                file.write(f"\n{KILLED}\n")
+        said.append(f"{last} ({path})")
+    return said
+
+
+def _text(path: str | Path) -> str:
+    path = Path(path)
+    return path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
