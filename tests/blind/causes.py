@@ -86,8 +86,8 @@ def _strain_softening(rig: Rig, amplitude: float, where: Place, details: Details
 
 
 def _damage(rig: Rig, amplitude: float, where: Place, details: Details) -> None:
-    age = rig.design["cycles"] / rig.design.groupby("specimen")["cycles"].transform("max")
-    rig.factor = rig.factor * (1.0 - amplitude * age.to_numpy(float))
+    age = rig.design["cycles"].to_numpy(float) / rig.design["cycles"].max()
+    rig.factor = rig.factor * (1.0 - amplitude * age)
 
 
 def _secondary_process(rig: Rig, amplitude: float, where: Place, details: Details) -> None:
@@ -103,13 +103,13 @@ def _secondary_process(rig: Rig, amplitude: float, where: Place, details: Detail
 
 
 def _secondary_details(design: pd.DataFrame, rng: np.random.Generator) -> dict[str, float]:
-    """The bump's peak crosses the tested band at a tested temperature."""
+    """The bump's peak crosses the tested band at a tested temperature; broad, as secondary processes are."""
     t, f = design["temperature_C"], design["frequency_Hz"]
     return {
         "centre_C": float(rng.uniform(*np.quantile(t, [0.2, 0.8]))),
         "centre_Hz": float(np.exp(rng.uniform(*np.log([f.min(), f.max()])))),
         "energy_J_mol": float(rng.uniform(40e3, 90e3)),
-        "exponent": float(rng.uniform(0.7, 1.0)),
+        "exponent": float(rng.uniform(0.4, 0.8)),
     }
 
 

@@ -90,28 +90,47 @@ def _row(effect: Mapping[str, Any] | None, wrong: list, diagnosis: Diagnosis) ->
         row |= {"ratio": _ratio(effect, diagnosis)}
     row |= {"error_sigma": np.nan, "covered": None, "gained": None}
     if itself:
-        row |= _recovered(effect, itself[0]) | {"gained": held_out_gain(itself[0]) > 0.0}
+        gain = held_out_gain(itself[0])
+        row |= _recovered(effect, itself[0]) | {"gained": None if gain is None else gain > 0.0}
     return row
 
 
 def _same(entry: Mapping[str, Any], effect: Mapping[str, Any]) -> bool:
-    if entry["cause"] != effect["cause"]:
+    return _is(effect, entry["cause"], entry.get("where"))
+
+
+def _is(effect: Mapping[str, Any], cause: str, where: str | float | None) -> bool:
+    """Whether a cause and its place are those of the effect; a temperature may come as text."""
+    hidden = effect["where"]
+    if cause != effect["cause"] or (hidden is None) != (where is None):
         return False
-    hidden, reported = effect["where"], entry.get("where")
-    if hidden is None or reported is None:
-        return hidden is reported
-    if isinstance(hidden, str):
-        return str(reported) == hidden
-    return float(reported) == float(hidden)
+    return hidden is None or str(where) == str(hidden) or _number(where) == _number(hidden)
+
+
+def _number(where: str | float) -> float:
+    """NaN, which equals nothing, for the name of a specimen."""
+    try:
+        return float(where)
+    except ValueError:
+        return np.nan
 
 
 def _tells(entry: Mapping[str, Any], effect: Mapping[str, Any], diagnosis: Diagnosis) -> bool:
     """Whether an entry names the effect, itself or through a group reported as indistinguishable."""
     if _same(entry, effect):
         return True
-    other = entry["cause"] != effect["cause"]
-    groups = diagnosis.get("indistinguishable", [])
-    return other and any({entry["cause"], effect["cause"]} <= set(group) for group in groups)
+    for group in diagnosis.get("indistinguishable", []):
+        members = [_member(text) for text in group]
+        holds_entry = any(_is({"where": None} | entry, *member) for member in members)
+        if holds_entry and any(_is(effect, *member) for member in members):
+            return True
+    return False
+
+
+def _member(text: str) -> tuple[str, str | None]:
+    """Cause and place of a group's member, written `cause` or `cause @ place`."""
+    cause, at, where = text.partition(" @ ")
+    return cause, where if at else None
 
 
 def _ratio(effect: Mapping[str, Any], diagnosis: Diagnosis) -> float:
@@ -120,7 +139,8 @@ def _ratio(effect: Mapping[str, Any], diagnosis: Diagnosis) -> float:
     limit = diagnosis.get("detection_limits", {}).get(effect["cause"])
     if limit is None or not limit["value"]:
         return np.nan
-    return abs(effect["equivalents"][limit["unit"]] / limit["value"])
+    value = limit.get("places", {}).get(str(effect["where"]), limit["value"])
+    return abs(effect["equivalents"][limit["unit"]] / value)
 
 
 def _recovered(effect: Mapping[str, Any], entry: Mapping[str, Any]) -> dict[str, Any]:
@@ -141,9 +161,15 @@ def _recovered(effect: Mapping[str, Any], entry: Mapping[str, Any]) -> dict[str,
     )
 
 
-def held_out_gain(entry: Mapping[str, Any]) -> float:
-    """ln of the held-out mean relative error before over after, mean of modulus and phase; > 0 is a gain."""
-    parts = [entry["gain"]["held_out"][name] for name in ("mre_E_percent", "mre_phase_percent")]
+def held_out_gain(entry: Mapping[str, Any]) -> float | None:
+    """ln of the mean relative error before over after, mean of modulus and phase and of all ways to hold out.
+
+    Above zero is a gain; None where nothing could be held out.
+    """
+    held_out = entry["gain"]["held_out"]
+    if not held_out:
+        return None
+    parts = [way[name] for way in held_out.values() for name in ("mre_E_percent", "mre_phase_percent")]
     return float(np.mean([np.log(part["before"] / part["after"]) for part in parts]))
 
 

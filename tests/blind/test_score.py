@@ -23,7 +23,12 @@ DELAY, CLAMP = "channel_delay", "loose_clamp"
 def entry(cause, value=1.0, unit="ms", where=None, std_error=0.1, gain=2.0):
     errors = {name: {"before": gain, "after": 1.0} for name in ("mre_E_percent", "mre_phase_percent")}
     parameters = {"amplitude": {"value": value, "std_error": std_error, "unit": unit}}
-    return {"cause": cause, "where": where, "parameters": parameters, "gain": {"held_out": errors}}
+    return {
+        "cause": cause,
+        "where": where,
+        "parameters": parameters,
+        "gain": {"held_out": {"leave_one_isotherm_out": errors, "leave_one_frequency_out": errors}},
+    }
 
 
 def diagnosis(*entries, verdict="explained", groups=()):
@@ -85,6 +90,28 @@ def test_a_group_that_holds_truth_and_name_counts():
     assert not only(LATE, diagnosis(entry("moving_mass", unit="kg"), groups=[["moving_mass", CLAMP]]))[
         "named"
     ]
+
+
+def test_a_group_names_places():
+    right, wrong = (diagnosis(entry(DELAY), groups=[[DELAY, f"{CLAMP} @ {w}"]]) for w in "BC")
+    assert only(LOOSE, right)["named"] and not only(LOOSE, wrong)["named"]
+    bias = seal(Hidden("temperature_bias", amplitude=1.0, where=10.0))
+    assert only(bias, diagnosis(entry(DELAY), groups=[["temperature_bias @ 10.0", DELAY]]))["named"]
+    # The named clamp sits on another specimen than the one in the group.
+    other = diagnosis(entry(CLAMP, unit="m/N", where="A"), groups=[[f"{CLAMP} @ C", DELAY]])
+    assert not only(LATE, other)["named"]
+
+
+def test_limits_of_a_place_come_before_the_least_one():
+    limited = diagnosis()
+    limited["detection_limits"][CLAMP] = {"value": 1e-8, "unit": "m/N", "places": {"A": 1e-8, "B": 2e-8}}
+    assert only(LOOSE, limited)["ratio"] == pytest.approx(2.5)
+
+
+def test_nothing_held_out_is_no_gain_and_no_loss():
+    short = entry(DELAY, 0.3)
+    short["gain"]["held_out"] = {}
+    assert only(LATE, diagnosis(short))["gained"] is None
 
 
 def test_what_is_not_named():

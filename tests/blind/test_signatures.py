@@ -104,7 +104,7 @@ def test_geometry_softening_and_damage_scale_the_modulus():
     design, plain, hit = pair("strain_softening", 1000.0, design=STRAINS)
     assert hit / plain == pytest.approx(1.0 - 1000.0 * design["amplitude_m"].to_numpy(), rel=1e-9)
     design, plain, hit = pair("damage", 0.05, design=AGED)
-    last = design["order"].to_numpy() == 30
+    last = int(design["cycles"].argmax())
     assert (hit / plain)[last] == pytest.approx(0.95, rel=1e-9)
     first = design["order"].to_numpy() == 1
     assert (hit / plain)[first] == pytest.approx(1.0, rel=1e-9)
@@ -163,6 +163,32 @@ def test_resonance_turns_its_phase_across_its_frequency():
     details = case.seal["effects"][0]["details"]
     below, above = f < 0.8 * details["frequency_Hz"], f > 1.25 * details["frequency_Hz"]
     assert np.all(effect.real[below] > 0) and np.all(effect.real[above] < 0) and np.all(effect.imag < 0)
+
+
+def test_amplitudes_in_other_units():
+    cases = {
+        "channel_delay": (1e-4, {"s": 1e-4, "ms": 0.1, "us": 100.0}),
+        "phase_offset": (1.0, {"deg": 1.0, "rad": np.pi / 180}),
+        "moving_mass": (0.03, {"kg": 0.03, "g": 30.0}),
+        "temperature_bias": (0.5, {"K": 0.5, "degC": 0.5}),
+        "self_heating": (0.5, {"K": 0.5, "degC": 0.5}),
+        "guide_stiffness": (4e3, {"N/m": 4e3, "Pa": 1.003832e8, "MPa": 100.3832, "GPa": 0.1003832}),
+        "guide_friction": (0.1, {"N": 0.1, "Pa": 5.071895e7, "MPa": 50.71895, "GPa": 0.05071895}),
+        "loose_clamp": (
+            5e-8,
+            {"m/N": 5e-8, "1/Pa": 1.992365e-12, "1/MPa": 1.992365e-6, "1/GPa": 1.992365e-3},
+        ),
+        "specimen_geometry": (0.1, {"1": 0.1, "%": 10.0}),
+        "strain_softening": (1000.0, {"1/m": 1000.0, "1": 0.063, "%": 6.3, "1/um": 1e-3}),
+        "damage": (0.05, {"1": 0.05, "%": 5.0}),
+        "secondary_process": (5e8, {"Pa": 5e8, "MPa": 500.0, "GPa": 0.5}),
+    }
+    assert cases.keys() == CATALOGUE.keys()
+    for cause, (amplitude, expected) in cases.items():
+        hidden = Hidden(cause, amplitude=amplitude, sign=1)
+        case = draw(1, [hidden], design=DESIGNS.get(cause))
+        found = case.seal["effects"][0]["equivalents"]
+        assert found == pytest.approx(expected, rel=1e-5), cause
 
 
 @pytest.mark.parametrize("cause", [*CATALOGUE, *OUTSIDE])
