@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.agreement import mean_relative_error
 from asphalt_nscd.diagnosis import heldout
+from asphalt_nscd.diagnosis.bases import LN10
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, cell_residuals
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
@@ -192,6 +193,7 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
         )  # fmt: skip
     spectrum, law = ladder.joint.base, ladder.start.law
     m = spectrum.times.size
+    shift = spectrum.log_shift(law, observed.isotherms)[0] / LN10
     return {
         "cause": "relaxation_spectrum", "where": None,
         "parameters": {
@@ -200,6 +202,7 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
             "reference_temperature": _value(spectrum.reference_temperature, "degC"),
             "glassy_modulus": _value(np.exp(law[:m]).sum() + np.exp(law[m]), "Pa"),
         },
+        "log10_shift": {f"{t:g}": float(s) for t, s in zip(observed.isotherms, shift, strict=True)},
         "p_value": diagnosis.baseline_p, "gain": {"in_sample": _pair(diagnosis, before, after), "held_out": held_out},
         "as_good": [],
         "sentence": "the mix relaxes over many decades of time; one Burgers law for each temperature has two times",

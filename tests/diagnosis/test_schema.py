@@ -1,0 +1,122 @@
+"""diagnosis.json is what its schema says, whatever the verdict, and residuals.csv is what it was made from."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from jsonschema import Draft202012Validator
+
+from asphalt_nscd.diagnosis import report, run
+
+ROOT = Path(__file__).parents[2]
+SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/diagnosis.schema.yaml").read_text(encoding="utf-8"))
+GEOMETRY = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.235}
+COLUMNS = ["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
+
+
+def plain(frame):
+    return frame
+
+
+def loose_clamp(frame):
+    complex_modulus = frame["E_MPa"] * 1e6 * np.exp(1j * np.radians(frame["phase_deg"]))
+    seen = (complex_modulus / (1 + 3e-12 * complex_modulus)).where(frame["specimen"] == "2", complex_modulus)
+    return frame.assign(E_MPa=np.abs(seen) / 1e6, phase_deg=np.degrees(np.angle(seen)))
+
+
+def one_isotherm_warmer(frame):
+    """A fifth of the way from 15 to 20 degC."""
+    at, above = (frame["temperature_C"] == temperature for temperature in (15, 20))
+    changed = frame.copy()
+    warmer = frame.loc[above, "E_MPa"].to_numpy() / frame.loc[at, "E_MPa"].to_numpy()
+    changed.loc[at, "E_MPa"] *= warmer**0.2
+    changed.loc[at, "phase_deg"] += 0.2 * (
+        frame.loc[above, "phase_deg"].to_numpy() - frame.loc[at, "phase_deg"].to_numpy()
+    )
+    return changed
+
+
+def one_frequency_off(frame):
+    return frame.assign(E_MPa=frame["E_MPa"] * np.where(frame["frequency_Hz"] == 25, 1.05, 1.0))
+
+
+def outlier(frame):
+    return frame.assign(E_MPa=frame["E_MPa"] * np.where(frame.index == 50, 1.4, 1.0))
+
+
+def few(frame):
+    return frame[(frame["temperature_C"] == 15) & frame["frequency_Hz"].isin([3, 40])]
+
+
+def single(frame):
+    return frame[frame["specimen"] == "1"]
+
+
+REACHED = {
+    plain: lambda content: "log10_shift" in content["ladder"][0],
+    loose_clamp: lambda content: content["ladder"][-1]["where"] == "2",
+    one_isotherm_warmer: lambda content: content["ladder"][-1]["where"] == 15.0,
+    one_frequency_off: lambda content: (
+        content["verdict"] == "unexplained_structure" and content["unexplained"]
+    ),
+    outlier: lambda content: [row["specimen"] for row in content["unexplained"]] == ["2"],
+    few: lambda content: content["verdict"] == "nothing_to_explain" and not content["ladder"],
+    single: lambda content: not content["scatter"]["from_replicates"] and content["notes"],
+}
+
+
+@pytest.fixture(scope="module", params=REACHED, ids=lambda change: change.__name__)
+def diagnosed(request, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("diagnosed")
+    frame = pd.read_csv(ROOT / "results/published/paper/measured.csv", dtype={"specimen": str})[COLUMNS]
+    request.param(frame).assign(origin="synthetic").to_csv(folder / "measured.csv", index=False)
+    run.run(folder / "measured.csv", folder, GEOMETRY, draws=500)
+    return request.param, folder
+
+
+def content_of(folder):
+    def refuse(constant):
+        pytest.fail(f"diagnosis.json holds {constant}")
+
+    return json.loads((folder / "diagnosis.json").read_text(), parse_constant=refuse)
+
+
+def test_content_is_what_the_schema_says(diagnosed):
+    content = content_of(diagnosed[1])
+    errors = Draft202012Validator(SCHEMA).iter_errors(content)
+    assert not [f"{list(error.absolute_path)}: {error.message}" for error in errors]
+    assert content["schema_version"] == report.SCHEMA_VERSION and content["origin"] == "synthetic"
+
+
+def test_each_table_reaches_its_part_of_the_schema(diagnosed):
+    change, folder = diagnosed
+    assert REACHED[change](content_of(folder))
+
+
+def test_residuals_are_logarithms_of_measured_over_simulated(diagnosed):
+    table = pd.read_csv(diagnosed[1] / "residuals.csv")
+    for when in ("before", "after"):
+        ratio = np.log(table["E_MPa"] / table[f"E_{when}_MPa"])
+        assert 100 * ratio.to_numpy() == pytest.approx(
+            table[f"residual_E_{when}_percent"].to_numpy(), abs=1e-6
+        )
+        apart = table["phase_deg"] - table[f"phase_{when}_deg"]
+        assert apart.to_numpy() == pytest.approx(table[f"residual_phase_{when}_deg"].to_numpy(), abs=1e-6)
+
+
+def test_every_key_is_described():
+    def bare(rule, path):
+        for key, value in rule.get("properties", {}).items():
+            here = f"{path}.{key}"
+            if "description" not in value and path != "$defs.before_after":
+                yield here
+            yield from bare(value, here)
+            yield from bare(value.get("items", {}), here)
+            if isinstance(value.get("additionalProperties"), dict):
+                yield from bare(value["additionalProperties"], here)
+
+    assert not list(bare(SCHEMA, "diagnosis"))
+    assert not [name for key, rule in SCHEMA["$defs"].items() for name in bare(rule, f"$defs.{key}")]
