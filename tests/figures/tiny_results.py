@@ -10,7 +10,7 @@ import pandas as pd
 
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import write_law
-from asphalt_nscd.store import save, write_table
+from asphalt_nscd.store import save, write_json, write_table
 
 LAWS = {0.0: Burgers(35.5e9, 22.6e9, 295e9, 3.46e9), 20.0: Burgers(20.2e9, 1.79e9, 27.2e9, 0.461e9)}
 
@@ -112,3 +112,65 @@ class Results:
         shape = {"b": 0.01, "B": 0.02, "e": 0.01, "h": 0.06, "mass": 0.021, "mobile_mass": 0.008}
         save(path := self.folder / "specimen.h5", "specimen", arrays, shape | {"volume_reduction": 0.1})
         return [path]
+
+    def diagnosis(self, **changes: object) -> dict[str, list[Path]]:
+        """Two specimens at two temperatures: 20 % and 4 degrees too soft before at 20 degC, scatter 1 % and 0.5 degrees.
+
+        After, nothing is left at 0 degC and 1 % at 20 degC. Specimen 2 has a loose clamp.
+        """
+        rows = []
+        for specimen in ("1", "2"):
+            for temperature, law in LAWS.items():
+                for frequency in (3.0, 10.0, 40.0):
+                    norm, phase = modulus(law, frequency)
+                    off = (20.0, 4.0, 1.0, 0.0) if temperature == 20.0 else (0.0, 0.0, 0.0, 0.0)
+                    rows.append(
+                        {
+                            "specimen": specimen, "temperature_C": temperature, "frequency_Hz": frequency,
+                            "E_MPa": norm, "phase_deg": phase,
+                            "E_before_MPa": norm * np.exp(-off[0] / 100), "phase_before_deg": phase - off[1],
+                            "residual_E_before_percent": off[0], "residual_phase_before_deg": off[1],
+                            "E_after_MPa": norm * np.exp(-off[2] / 100), "phase_after_deg": phase - off[3],
+                            "residual_E_after_percent": off[2], "residual_phase_after_deg": off[3],
+                        }
+                    )  # fmt: skip
+        write_table(residuals := self.folder / "residuals.csv", pd.DataFrame(rows))
+        pair = {"before": 8.0, "after": 2.0}
+        gain = {"mre_E_percent": pair, "mre_phase_percent": pair, "rms_over_scatter": pair}
+        rung = {"where": None, "p_value": 1e-9, "as_good": [], "sentence": "s", "confirmed_by": "c"}
+        rung["gain"] = {"in_sample": gain, "held_out": {"leave_one_frequency_out": gain}}
+        spectrum = {"wlf_C1": {"value": 12.0, "std_error": None, "unit": "1"}}
+        clamp = {"compliance": {"value": 3e-12, "std_error": 2e-13, "unit": "1/Pa"}}
+        places = {"confined_to": "specimen", "places": {"1": 9e-13, "2": 8e-13}}
+        errors = {"0": 1.0, "20": 2.0}
+        parameters = {"Em_Pa": 2e10, "eta_m_Pa_s": 1e9, "Ek_Pa": 3e10, "eta_k_Pa_s": 1e8}
+        content = {
+            "schema_version": 1, "verdict": "explained", "tests": 12, "origin": "reconstructed",
+            "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": True},
+            "numerics": {
+                "specimen": "s1", "packing_ratio": 1.1, "largest_modulus_percent": 0.1, "largest_phase_deg": 0.02,
+            },
+            "baseline": {
+                "law": "burgers", "p_value": 0.0, "parameters": {"0": parameters, "20": parameters},
+                "mre_E_percent": errors, "mre_phase_percent": errors,
+            },
+            "ladder": [
+                rung | {"cause": "relaxation_spectrum", "parameters": spectrum, "log10_shift": {"0": 2.0, "20": 0.0}},
+                rung | {"cause": "loose_clamp", "where": "2", "parameters": clamp},
+            ],
+            "withdrawn": [], "indistinguishable": [["loose_clamp of all specimens", "relaxation_spectrum"]],
+            "not_testable": [{"cause": "damage", "needs": "the order of the tests"}],
+            "detection_limits": {
+                "channel_delay": {"value": 3e-5, "unit": "s"},
+                "loose_clamp": {"value": 8e-13, "unit": "1/Pa", **places},
+                "temperature_bias": {
+                    "value": 0.3, "unit": "K", "confined_to": "temperature_C", "places": {"0.0": 0.9, "20.0": 0.3},
+                },
+            },
+            "lack_of_fit_p_value": 0.4, "largest_pattern_left": None, "unexplained": [], "notes": [],
+            "provenance": {
+                "git_commit": "c", "python": "3", "packages": {}, "measurements": "m.csv", "draws": 500, "seed": 0,
+            },
+        }  # fmt: skip
+        write_json(path := self.folder / "diagnosis.json", content | changes)
+        return {"residuals": [residuals], "diagnosis": [path]}

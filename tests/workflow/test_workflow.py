@@ -64,7 +64,7 @@ def test_least_study_is_the_tests_and_their_figures(workspace):
     )
     jobs = workspace.planned()
     assert jobs["simulate"] == 4 and jobs["fit"] == 2 and jobs["fig09"] == 1
-    assert jobs["reduced_specimen"] == jobs["diagnose"] == 1
+    assert jobs["reduced_specimen"] == jobs["diagnose"] == jobs["fig_limits"] == 1
     others = {"reconstruct", "published_law", "simulate_scaled", "simulate_pascal", "audit", "table2", "fig06"}
     assert not others & set(jobs)
 

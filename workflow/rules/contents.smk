@@ -8,8 +8,14 @@ TYPICAL = TEMPERATURES[len(TEMPERATURES) // 2]  # where the study names no other
 SOFTER = label(SENSITIVITY["temperature_C"]) if "sensitivity" in STUDY else TYPICAL
 FIRST = SAMPLES[0]
 
+RESIDUALS = {"residuals": ["<results>/diagnosis/residuals.csv"], "diagnosis": ["<results>/diagnosis/diagnosis.json"]}
+
 # name: category in the report, {kind of data: files}
 FIGURES = {
+    "fig_residual_map": ("0 Diagnosis", RESIDUALS),
+    "fig_black": ("0 Diagnosis", RESIDUALS),
+    "fig_master": ("0 Diagnosis", RESIDUALS),
+    "fig_limits": ("0 Diagnosis", {"diagnosis": RESIDUALS["diagnosis"]}),
     "fig01": ("1 Measurements and laws", {"study": ["<results>/study.json"]}),
     "fig05": (
         "2 Preparation",

@@ -16,9 +16,7 @@ from asphalt_nscd.diagnosis.diagnose import Diagnosis, cell_residuals
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.ladder import Rung
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-
-SCHEMA_VERSION = 1
-NOTABLE = 3.0  # standard deviations from which a condition is listed as unexplained
+from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION
 
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
@@ -265,6 +263,7 @@ def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
         entry = limits.setdefault(name, {"value": np.inf, "unit": units[name]})
         entry["value"] = min(entry["value"], float(value))
         if place is not None:
+            entry["confined_to"] = "specimen" if isinstance(place, str) else "temperature_C"
             entry.setdefault("places", {})[str(place)] = float(value)
     return limits
 

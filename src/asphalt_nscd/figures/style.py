@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
 SINGLE, WIDE = 90.0, 140.0  # mm, the widths of a journal's column and of a column and a half
@@ -62,6 +63,19 @@ def series(count: int) -> list[tuple[Any, str]]:
     """Colour and marker of each of `count` ordered series, dark to light."""
     shades = colormaps["plasma"](np.linspace(0.0, 0.76, max(count, 2)))[:count]
     return [(tuple(shade), MARKERS[n % len(MARKERS)]) for n, shade in enumerate(shades)]
+
+
+def isotherm_legends(figure: Figure, keys: Sequence[Line2D], temperatures: Sequence[float]) -> None:
+    """Above the axes: at the left what `keys` explain, at the right the point of each isotherm of `series`."""
+    looks = zip(temperatures, series(len(temperatures)), strict=True)
+    points = [
+        Line2D([], [], ls="", marker=marker, color=colour, label=celsius(t)) for t, (colour, marker) in looks
+    ]
+    tight = {"borderpad": 0.1, "labelspacing": 0.3, "columnspacing": 1.0}
+    figure.legend(handles=keys, loc="outside upper left", **tight)
+    figure.legend(
+        handles=points, loc="outside upper right", ncols=-(-len(points) // 5), handlelength=1.0, **tight
+    )
 
 
 def frequency_axis(axes: Axes, frequencies: Sequence[float]) -> None:
@@ -118,4 +132,9 @@ def spread(places: Sequence[float], least: float) -> np.ndarray:
 
 def celsius(temperature: float) -> str:
     """15 -> "15 °C", with a true minus."""
-    return f"{temperature:g} °C".replace("-", "\N{MINUS SIGN}")
+    return minus(f"{temperature:g} °C")
+
+
+def minus(number: str) -> str:
+    """A number in text with a true minus."""
+    return number.replace("-", "\N{MINUS SIGN}")

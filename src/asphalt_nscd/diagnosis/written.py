@@ -1,0 +1,88 @@
+"""A diagnosis as it was written: what figures and the report read of diagnosis.json and residuals.csv."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.csvinput import read_csv
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.results import averages, the_only
+from asphalt_nscd.store import read_json
+
+SCHEMA_VERSION = 1
+NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
+BEFORE_AFTER = ("before", "after")
+RESIDUALS = {"E": "residual_E_{}_percent", "phase": "residual_phase_{}_deg"}
+_NUMBERS = ["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
+_NUMBERS += [
+    column.format(when)
+    for when in BEFORE_AFTER
+    for column in ("E_{}_MPa", "phase_{}_deg", *RESIDUALS.values())
+]
+_SHOWN = {
+    "s": (1e3, "ms"), "Pa": (1e-6, "MPa"), "1/Pa": (1e12, "1/TPa"), "kg": (1e3, "g"), "deg": (1.0, "°"),
+    "degC": (1.0, "°C"), "1": (1.0, ""),
+}  # fmt: skip
+
+
+def read_diagnosis(paths: Sequence[Path]) -> dict[str, Any]:
+    """Content of the one diagnosis.json (schema: workflow/schemas/diagnosis.schema.yaml)."""
+    path = the_only(paths, "diagnosis")
+    content = read_json(path)
+    version = content.get("schema_version") if isinstance(content, dict) else None
+    if version != SCHEMA_VERSION:
+        raise InputError(f"{path}: not a diagnosis of version {SCHEMA_VERSION}; make it with `diagnose`.")
+    return content
+
+
+def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
+    """The one residuals.csv: each test measured and simulated, before and after, and what lies between."""
+    table = read_csv(the_only(paths, "residuals"))
+    table.require(["specimen", *_NUMBERS])
+    numbers = {name: table.numbers(name) for name in _NUMBERS}
+    return pd.DataFrame({"specimen": table.text("specimen")} | numbers)
+
+
+def conditions(residuals: pd.DataFrame, scatter: dict[str, float]) -> pd.DataFrame:
+    """Means over specimens by temperature and frequency, with `z_<column>` for each residual.
+
+    z: the mean residual over its standard deviation, by the scatter of one test (of diagnosis.json).
+    """
+    means = averages(residuals, columns=_NUMBERS[2:])
+    for quantity, sigma in (("E", scatter["modulus_percent"]), ("phase", scatter["phase_deg"])):
+        for when in BEFORE_AFTER:
+            column = RESIDUALS[quantity].format(when)
+            means[f"z_{column}"] = means[column] / sigma * np.sqrt(means["count"])
+    return means
+
+
+def shown(value: float, unit: str) -> tuple[float, str]:
+    """A value of the diagnosis in the unit that people use for its size: 2.9e-5, "s" -> 0.029, "ms"."""
+    factor, name = _SHOWN.get(unit, (1.0, unit))
+    return factor * value, name
+
+
+def three_digits(value: float) -> str:
+    """1553.2 -> "1550", 0.02861 -> "0.0286"."""
+    return f"{float(f'{value:.3g}'):.10g}"
+
+
+def place_name(where: str | float | None) -> str:
+    """Where a cause sits, in words; empty for all tests."""
+    if where is None:
+        return ""
+    return f"specimen {where}" if isinstance(where, str) else f"{where:g} °C".replace("-", "\N{MINUS SIGN}")
+
+
+def limits_by_place(limit: dict[str, Any]) -> dict[str, float]:
+    """Detection limits of one cause by `place_name` of its places."""
+    places = limit.get("places")
+    if places is None:
+        return {place_name(None): limit["value"]}
+    kind = {"specimen": str, "temperature_C": float}[limit["confined_to"]]
+    return {place_name(kind(place)): value for place, value in places.items()}
