@@ -17,6 +17,7 @@ GAS_CONSTANT = 8.314462618  # J/(mol K)
 KELVIN = 273.15
 REFERENCE = 15.0  # degC
 BRANCHES = 60
+MOST_DRAWS = 1000  # one in two is a mix
 EXPONENTS = ("k", "h", "a", "b")
 
 Complex = NDArray[np.complex128]
@@ -105,10 +106,11 @@ class Law:
 def draw_law(rng: np.random.Generator, shape: str | None = None) -> Law:
     """A mix around the centre of `shape`, or of a shape drawn."""
     shape = shape or str(rng.choice(list(SHAPES)))
-    while True:
+    for _ in range(MOST_DRAWS):
         law = Law(shape, _around(CENTRES[shape], rng), *_draw_shift(rng))
         if _is_a_mix(law):
             return law
+    raise ArithmeticError(f"no mix among {MOST_DRAWS} draws around the centre of {shape}")
 
 
 def _around(centre: dict[str, float], rng: np.random.Generator) -> dict[str, float]:

@@ -144,8 +144,8 @@ def test_measure_adds_nothing_but_scatter_to_simulated_histories():
     histories = []
     for f in tests["frequency_Hz"]:
         time = np.arange(1, round(5 / f / 5e-5) + 1) * 5e-5
-        early = np.exp(-time * f)  # a transient that the last two cycles hardly see
-        force = 20.0 * np.sin(2 * np.pi * f * time + 0.3) + 0.01 * early
+        early = np.exp(-3.0 * time * f)  # a transient that the last two cycles hardly see
+        force = 20.0 * np.sin(2 * np.pi * f * time + 0.3) + 20.0 * early
         histories.append((time, force, 63e-6 * np.sin(2 * np.pi * f * time)))
     table = measure(tests, histories, GEOMETRY, seed=1, scatter=Scatter(0.0, 0.0, 0.0))
     assert table["F0_N"].to_numpy() == pytest.approx(20.0, rel=1e-4)

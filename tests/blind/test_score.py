@@ -77,6 +77,8 @@ def test_an_unknown_unit_is_refused():
 def test_the_place_counts():
     right, wrong = (diagnosis(entry(CLAMP, 5e-8, "m/N", where=w)) for w in "BC")
     assert only(LOOSE, right)["named"]
+    assert not only(LOOSE, diagnosis(entry(CLAMP, 5e-8, "m/N")))["named"]
+    assert not only(LATE, diagnosis(entry(DELAY, where="B")))["named"]
     row = only(LOOSE, wrong)
     assert not row["named"] and row["outcome"] == ELSEWHERE and row["wrong"] == 1
     bias = seal(Hidden("temperature_bias", amplitude=1.0, where=10.0))
@@ -137,14 +139,14 @@ def test_summary_efficiency_and_matrix():
     cases = (
         [(LATE, named)] * 3 + [(LATE, missed)] + [(EMPTY, missed)] * 9 + [(EMPTY, diagnosis(entry(DELAY)))]
     )
-    cases += [(STEP, diagnosis(verdict=UNEXPLAINED))] * 4 + [(STEP, named)]
+    cases += [(STEP, diagnosis(verdict=UNEXPLAINED))] * 4 + [(STEP, named)] * 2
     cases += [(STEP, diagnosis(entry(DELAY), verdict=UNEXPLAINED))]
     table = outcomes(cases)
     figures = summary(table)
     assert figures["found"]["rate"] == 0.75 and figures["named"]["rate"] == 1.0
     assert figures["false_alarm"]["hits"] == 1 and figures["false_alarm"]["n"] == 10
-    assert figures["outside_unexplained"]["hits"] == 5 and figures["outside_unexplained"]["n"] == 6
-    assert figures["outside_named"]["hits"] == 2 and figures["outside_confidently_named"]["hits"] == 1
+    assert figures["outside_unexplained"]["hits"] == 5 and figures["outside_unexplained"]["n"] == 7
+    assert figures["outside_named"]["hits"] == 3 and figures["outside_confidently_named"]["hits"] == 2
     assert figures["covered"] == figures["gained"] and figures["covered"]["n"] == 3
     curve = efficiency(table)
     assert curve[["cause", "ratio", "n", "found"]].values.tolist() == [[DELAY, 3.0, 4, 0.75]]

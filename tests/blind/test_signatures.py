@@ -1,13 +1,16 @@
 """Each effect in a noise-free case against its analytic signature on the apparent modulus."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from .causes import CATALOGUE
 from .design import GEOMETRY, apparent_modulus, factorial, form_factor, head_stiffness
 from .generator import Case, Hidden, draw
+from .laws import draw_law
 from .outside import OUTSIDE
-from .strength import Scatter
+from .strength import Scatter, strength, visible_strength
 
 QUIET = Scatter(1e-12, 1e-12, 1e-12, 0.0)
 STRAINS = factorial(amplitudes=(20e-6, 63e-6))
@@ -37,6 +40,12 @@ def quiet_moduli(design, hidden):
 
 def test_form_factor_is_the_paper_s():
     assert pytest.approx(25.0958e3, rel=1e-5) == GAMMA  # 1/m
+
+
+def test_reduction_adds_the_moving_mass():
+    # mu = 0.135 * 0.6 kg + 0.235 kg = 0.316 kg
+    inertia = GAMMA * 0.316 * (2.0 * np.pi * 40.0) ** 2
+    assert apparent_modulus(GEOMETRY, 40.0, 1e5 + 0j) == pytest.approx(GAMMA * 1e5 + inertia)
 
 
 def test_reduction_inverts_itself():
@@ -198,3 +207,22 @@ def test_asked_strength_is_given(cause):
         (name, value), effect = *asked.items(), case.seal["effects"][0]
         assert effect[name] == pytest.approx(value, rel=1e-5)
         assert effect["visible_strength"] <= effect["strength"] * (1 + 1e-9)
+
+
+def test_strength_counts_standard_deviations():
+    effect = np.array([0.03, 0.0, np.radians(1.2) * 1j])
+    assert strength(effect, Scatter(modulus=0.01, phase_deg=0.3)) == pytest.approx(5.0)
+
+
+def test_what_a_mix_or_its_specimens_may_do_is_hardly_visible():
+    design, law = factorial(), draw_law(np.random.default_rng(2))
+    omega, temperature = 2.0 * np.pi * design["frequency_Hz"], design["temperature_C"]
+    modulus = law.modulus(omega, temperature)
+    faster = replace(law, parameters=law.parameters | {"log10_tau": law.parameters["log10_tau"] + 0.05})
+    on_one = 0.03 * (design["specimen"] == "C").to_numpy() + 0j
+    rough = 0.03 * (design["frequency_Hz"] == 10.0).to_numpy() + 0j
+    smooth = np.log(faster.modulus(omega, temperature) / modulus)
+    shares = [
+        visible_strength(e, law, design, Scatter()) / strength(e, Scatter()) for e in (smooth, on_one, rough)
+    ]
+    assert shares[0] < 0.05 and shares[1] < 0.1 and 0.7 < shares[2] < 1.0
