@@ -24,6 +24,7 @@ from asphalt_nscd.preparation import read_specimen
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.laws_io import read_bond_law
+from asphalt_nscd.rig import Rig, read_rig
 from asphalt_nscd.signals import harmonic_response, peak_response, require_steps
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.store import load, save
@@ -117,30 +118,39 @@ class Record:
 def run_test(
     model: Model, law: BondLaw, frequency: float, amplitude: float, cycles: float, time_step: float,
     rest_steps: int, method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
-    progress: Progress = lambda done, total: None,
+    progress: Progress = lambda done, total: None, rig: Rig = Rig(),
 ) -> Record:  # fmt: skip
-    """Gravity for rest_steps, then z = A sin(2 pi f t) at the head for the given number of cycles.
+    """Gravity for rest_steps, then z = A sin(2 pi f t) at the actuator for the given number of cycles.
 
     frequency [Hz], amplitude [m], time_step [s]; tolerance and most_sweeps concern "sweeps" only.
     "harmonic" gives the steady oscillation of the unbroken system, without gravity or transient.
+    The actuator is the head itself but for the rig; the record is that of the rig's channel.
     """
+    if method == "harmonic" and rig.guide_friction:
+        raise InputError("rig: a slider has no steady harmonic oscillation; choose the method reduced.")
+    if method == "sweeps" and not rig.is_rigid:
+        raise InputError(
+            "rig: Gauss-Seidel on bonds knows no devices at the head; choose the method reduced."
+        )
     steps = round(cycles / frequency / time_step)
     times = time_step * np.arange(1, steps + 1)
-    displacement = amplitude * np.sin(2.0 * np.pi * frequency * times)
-    driven = np.concatenate([np.zeros(rest_steps), displacement])
+    omega = 2.0 * np.pi * frequency
+    driven = np.concatenate([np.zeros(rest_steps), amplitude * np.sin(omega * times)])
+    recorded = omega * (times - rig.channel_delay) - rig.phase_offset
+    displacement = np.where(recorded > 0.0, amplitude * np.sin(recorded), 0.0)
     if method == "harmonic":
-        omega = 2.0 * np.pi * frequency
-        amplitude_of_force = amplitude * harmonic.driving_force(
-            model.system, law.discrete_modulus(omega, 0.0), omega
-        )
+        stiffness = harmonic.driving_force(model.system, law.discrete_modulus(omega, 0.0), omega)
+        amplitude_of_force = amplitude * harmonic.actuator_stiffness(stiffness, rig, omega)
         force = (amplitude_of_force * np.exp(1j * omega * times)).imag
         return Record(times, displacement, force, [], np.nan, {})
     if method == "reduced":
-        force, velocity, broken, residual, details = _run_reduced(model, law, time_step, driven, progress)
+        force, velocity, broken, residual, details = _run_reduced(
+            model, law, time_step, driven, rig, progress
+        )
     else:
         state = CondensedState.at_rest(model.system, law)
         if method == "condensed":
-            stepper = CondensedStepper(model.system, law, time_step, state)
+            stepper = CondensedStepper(model.system, law, time_step, state, rig)
         else:
             stepper = SweepingStepper(model.system, law, time_step, state, tolerance, most_sweeps)
         force, velocity = _march(stepper, driven, 0.0, time_step, model.layers, progress)
@@ -155,9 +165,10 @@ def run_test(
 
 
 def _run_reduced(
-    model: Model, law: BondLaw, time_step: float, driven: np.ndarray, progress: Progress
+    model: Model, law: BondLaw, time_step: float, driven: np.ndarray, rig: Rig, progress: Progress
 ) -> tuple[np.ndarray, np.ndarray, list[int], float, dict[str, float | int]]:
-    stepper = ReducedStepper(ReducedModel(model.system, model.basis), law, time_step, RESIDUAL_TOLERANCE)
+    reduced = ReducedModel(model.system, model.basis)
+    stepper = ReducedStepper(reduced, law, time_step, RESIDUAL_TOLERANCE, devices=rig)
     along = (model.layers.mean @ model.basis).T
     full_steps = 0
     broken = stepper.state.broken
@@ -167,8 +178,8 @@ def _run_reduced(
     except FullSystemNeeded as accepted:
         done = accepted.force.size
         state = stepper.full_state()
-        full = CondensedStepper(model.system, law, time_step, state)
         rest, start = driven[done:], driven[done - 1] if done else 0.0
+        full = CondensedStepper(model.system, law, time_step, state, rig, start)
         further = _march(full, rest, start, time_step, model.layers, progress, lambda: stepper.certify(full))
         force = np.concatenate([accepted.force, further[0]])
         velocity = np.concatenate([accepted.velocity @ along, further[1]])
@@ -204,19 +215,20 @@ def simulate(
     model_file: str | Path, law_file: str | Path, temperature: float, frequency: float, amplitude: float,
     cycles: float, time_step: float, rest_steps: int, output: str | Path, law_source: str = "",
     method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
-    progress: Progress = lambda done, total: None,
+    progress: Progress = lambda done, total: None, rig_file: str | Path | None = None,
 ) -> None:  # fmt: skip
     """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking."""
     if cycles < 1.0:
         raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
     require_steps(time_step, frequency)
     law = read_bond_law(law_file)
+    rig = Rig() if rig_file is None else read_rig(rig_file)
     model = read_model(model_file)
     began = time.process_time()
     try:
         record = run_test(
             model, bond_law(law), frequency, amplitude, cycles, time_step, rest_steps, method, tolerance,
-            most_sweeps, progress,
+            most_sweeps, progress, rig,
         )  # fmt: skip
     except ArithmeticError as error:
         raise InputError(
@@ -242,6 +254,7 @@ def simulate(
     columns |= {
         "residual": record.residual, "cpu_s": cpu, "method": method, "head": model.head,
         "law_source": law_source, "time_step_s": time_step, "amplitude_m": amplitude, **record.details,
+        **({} if rig_file is None else rig.columns()),
     }  # fmt: skip
     arrays = {
         "time_s": record.time, "displacement_m": record.displacement, "force_N": record.force,

@@ -44,7 +44,7 @@ def test_shifts_written_out():
 
 
 def test_wlf_ends_at_its_pole():
-    SHIFT.factor([-62.0, 15.0])
+    SHIFT.factor([-60.0, 15.0])
     with pytest.raises(InputError, match="79.9 K below 15 degC"):
         SHIFT.factor([-65.0, 15.0])
 

@@ -7,6 +7,7 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from asphalt_nscd.nscd.bonds import BondedSystem
+from asphalt_nscd.nscd.head import HeadDevices
 
 
 def driving_force(
@@ -29,3 +30,12 @@ def driving_force(
         options={"SymmetricMode": True},
     ).solve(-coupling)  # fmt: skip
     return complex(dynamic[[system.driven]].dot(motion)[0])
+
+
+def actuator_stiffness(head: complex, devices: HeadDevices, omega: float) -> complex:
+    """Complex force [N] per amplitude [m] of the actuator, `head` being that of the specimen's head.
+
+    Without the slider, whose force does not grow with the motion.
+    """
+    clamp, spring, _, mass = devices.of_head
+    return 1.0 / (clamp + 1.0 / (head + spring - mass * omega**2))

@@ -13,6 +13,7 @@ import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled
 from asphalt_nscd.nscd.condensed import CLOSED, CondensedState, CondensedStepper, ShiftedOperator
+from asphalt_nscd.nscd.head import RIGID, HeadDevices, actuator_force, follow_actuator
 from asphalt_nscd.nscd.law import BondLaw
 from asphalt_nscd.nscd.reduced import ReducedModel, append_columns
 
@@ -62,11 +63,11 @@ class ReducedStepper:
 
     def __init__(
         self, model: ReducedModel, law: BondLaw, dt: float, tolerance: float,
-        most_enrichments: int = MOST_ENRICHMENTS,
+        most_enrichments: int = MOST_ENRICHMENTS, devices: HeadDevices = RIGID,
     ) -> None:  # fmt: skip
         k = model.basis.shape[1]
         elements = np.size(law.kelvin_springs)
-        self.model, self.dt, self.tolerance = model, dt, tolerance
+        self.model, self.dt, self.tolerance, self.devices = model, dt, tolerance, devices
         self.law = law.step(dt)
         self.state = ReducedState(np.zeros(k), np.zeros(k), np.zeros(k), np.zeros((elements, k)))
         self.enrichments, self.most_enrichments = 0, most_enrichments
@@ -79,9 +80,9 @@ class ReducedStepper:
         self._watch(np.zeros(k), np.zeros(k))
 
     def run(self, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Follow the driven displacements (n,) [m], one per step.
+        """Follow the displacements (n,) [m] of the actuator, one per step.
 
-        Returns the driving force (n,) [N] and the velocity coordinates (n, k) of the basis as it
+        Returns its force (n,) [N] and the velocity coordinates (n, k) of the basis as it
         was at the call. Raises FullSystemNeeded, with what was accepted, where it cannot go on.
         """
         force, velocity = np.empty(driven.size), np.zeros((driven.size, self.model.basis.shape[1]))
@@ -101,7 +102,7 @@ class ReducedStepper:
             if code == _YIELD:
                 self.state.broken.append(bond)
                 self.model = self.model.with_basis(self.model.basis, self.state.broken)
-            self._enrich(driven[done])
+            self._enrich()
 
     def full_state(self) -> CondensedState:
         """The state of the full system at this instant."""
@@ -140,9 +141,10 @@ class ReducedStepper:
     def _advance(self, driven: np.ndarray, force: np.ndarray, velocity: np.ndarray) -> tuple[int, int, int]:
         model, state, law = self.model, self.state, self.law
         self._trial = np.zeros((3, model.basis.shape[1]))
+        inverse = self._step_inverse()
         taken, code, watched = _advance_reduced(
-            driven, model.mass, model.stiffness, model.load, self._step_inverse(),
-            law.dt, law.compliance, law.memory, law.recall, law.keep, law.gain,
+            driven, self.devices.of_head, *self._seen_from_head(inverse), model.mass, model.stiffness,
+            model.load, inverse, law.dt, law.compliance, law.memory, law.recall, law.keep, law.gain,
             model.residual_factor, model.head_norm, model.load_norm, self.tolerance,
             model.reaction[self._may_yield], model.closing[self._may_close],
             self._sigma_envelope, self._motion_envelope, self._reached_sigma, self._reached_motion,
@@ -155,6 +157,16 @@ class ReducedStepper:
         model = self.model
         return np.linalg.inv((model.mass + self.dt / self.law.compliance * model.stiffness)[1:, 1:])
 
+    def _seen_from_head(self, inverse: np.ndarray) -> tuple[float, np.ndarray, np.ndarray, float]:
+        """(Z, a, b, c) of the coming step: the head takes the force Z v+ - a v - b explicit - c."""
+        model, dt, compliance = self.model, self.dt, self.law.compliance
+        step = model.mass / dt + model.stiffness / compliance
+        following = np.concatenate([[1.0], -dt * (inverse @ step[1:, 0])])  # motion for v+ = 1
+        return (
+            float(following @ step[:, 0]), model.mass @ following / dt, model.stiffness @ following / compliance,
+            float(following @ model.load),
+        )  # fmt: skip
+
     def _watch(self, sigma: np.ndarray, motion: np.ndarray) -> None:
         """Widen the envelope of s and q, and list the bonds that could yield or close within it."""
         self._sigma_envelope = np.maximum(sigma, 2.0 * self._reached_sigma)
@@ -165,13 +177,13 @@ class ReducedStepper:
         borne = np.delete(self.model.utilisation_bound(self._reached_sigma), watched)
         self._maxima[2] = max(self._maxima[2], borne.max(initial=0.0))
 
-    def _enrich(self, driven: float) -> None:
-        """Add the correction that makes the coming step exact to the basis."""
+    def _enrich(self) -> None:
+        """Add the correction to the basis that makes the step exact at the head velocity just tried."""
         self.enrichments += 1
         model, state, dt = self.model, self.state, self.dt
         explicit = self.law.explicit_part(state.sigma, state.kelvin)
         velocity = np.empty_like(state.velocity)
-        velocity[0] = (driven - state.displacement[0]) / dt
+        velocity[0] = self._trial[0, 0]
         scale = dt / self.law.compliance
         known = model.mass @ state.velocity + dt * model.load + scale * (model.stiffness @ explicit)
         known -= (model.mass + scale * model.stiffness)[:, 0] * velocity[0]
@@ -206,7 +218,8 @@ def _widened(coordinates: np.ndarray, more: int) -> np.ndarray:
 
 @compiled
 def _advance_reduced(
-    driven, mass, stiffness, load, inverse, dt, compliance, memory, recall, keep, gain,
+    driven, devices, impedance, head_inertia, head_strain, head_load, mass, stiffness, load, inverse,
+    dt, compliance, memory, recall, keep, gain,
     residual_factor, head_norm, load_norm, tolerance, reaction, closing, sigma_envelope,
     motion_envelope, reached_sigma, reached_motion, maxima, q, v, s, kelvin, trial, force, velocity,
 ):  # fmt: skip
@@ -226,7 +239,10 @@ def _advance_reduced(
             explicit[a] = memory * s[a]
             for e in range(recall.shape[0]):
                 explicit[a] -= recall[e] * kelvin[e, a]
-        new_v[0] = (driven[n] - q[0]) / dt
+        free_force = -head_load
+        for a in range(k):
+            free_force -= head_inertia[a] * v[a] + head_strain[a] * explicit[a]
+        new_v[0], friction = follow_actuator(devices, dt, free_force, impedance, driven[n], q[0], v[0])
         for a in range(1, k):
             known[a] = dt * load[a] - (mass[a, 0] + scale * stiffness[a, 0]) * new_v[0]
             for b in range(k):
@@ -272,6 +288,7 @@ def _advance_reduced(
         force[n] = -load[0]
         for b in range(k):
             force[n] += mass[0, b] * combined[b] - stiffness[0, b] * new_s[b]
+        force[n] = actuator_force(devices, dt, force[n], friction, q[0], v[0], new_v[0])
         for a in range(k):
             v[a], s[a], q[a] = new_v[a], new_s[a], new_q[a]
             for e in range(recall.shape[0]):

@@ -30,8 +30,8 @@ def kelvin_chain(
     """
     if not 0.0 < lowest_omega <= highest_omega < np.inf:
         raise InputError(
-            f"band from {lowest_omega:g} to {highest_omega:g} rad/s: give a lowest frequency that is positive "
-            "and not above the highest."
+            f"band from {lowest_omega:g} to {highest_omega:g} rad/s: give a lowest frequency that is "
+            "positive and not above the highest."
         )
     best = np.inf
     for elements in range(1, MOST_ELEMENTS + 1):
@@ -42,14 +42,15 @@ def kelvin_chain(
         best = min(best, error)
     raise InputError(
         f"no Kelvin chain of {MOST_ELEMENTS} elements or fewer follows the law to {tolerance:g} from "
-        f"{lowest_omega:g} to {highest_omega:g} rad/s, the best to {best:.2g}; allow a larger error or check the law."
+        f"{lowest_omega:g} to {highest_omega:g} rad/s, the best to {best:.2g}; "
+        "allow a larger error or check the law."
     )
 
 
 def _fit(
     modulus: Modulus, low: float, high: float, elements: int, reach: float
 ) -> tuple[float, int, KelvinChain | None]:
-    """(error, number of elements left, chain) of one set of retardation times; no chain where nothing fits."""
+    """(error, number of elements left, chain) of one set of retardation times; None where nothing fits."""
     middle, half = np.sqrt(low * high), np.sqrt(high / low) * reach
     omega = _grid(low, high, FITTED)
     time = np.geomspace(1.0 / half, half, elements) / middle if elements > 1 else np.array([1.0 / middle])

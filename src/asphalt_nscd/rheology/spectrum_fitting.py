@@ -17,7 +17,7 @@ from asphalt_nscd.rheology.fitting import (
     rms_of,
 )
 from asphalt_nscd.rheology.shift import SHIFTS
-from asphalt_nscd.rheology.spectrum import LAWS, HuetSayegh, TwoS2P1D, parameter_names, parameters
+from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameter_names, parameters
 
 LEAST_TEMPERATURES = {"wlf": 3, "arrhenius": 2}
 
@@ -42,7 +42,7 @@ NO_EFFECT = 1e-5  # of a parameter on the residuals, relative to that of the str
 def fit_spectrum(
     omega: ArrayLike, temperature: ArrayLike, modulus: ArrayLike, reference_temperature: float,
     law: str = "2s2p1d", shift: str = "wlf",
-) -> Fit:  # fmt: skip
+) -> Fit[Spectrum]:  # fmt: skip
     """A law of LAWS with a shift of SHIFTS, all parameters jointly, from E* [Pa] of all temperatures.
 
     omega [rad/s], temperature [degC], modulus [Pa]: vectors of one length. Standard errors go by
@@ -50,15 +50,17 @@ def fit_spectrum(
     """
     omega, modulus = require_points(omega, modulus)
     temperature = np.asarray(temperature, dtype=float)
-    if np.unique(temperature).size < LEAST_TEMPERATURES[shift]:
+    least = LEAST_TEMPERATURES[shift]
+    if np.unique(temperature).size < least:
         raise InputError(
-            f"a shift of kind {shift!r} needs at least {LEAST_TEMPERATURES[shift]} temperatures; measure more of them."
+            f"a shift of kind {shift!r} needs at least {least} temperatures; measure more of them."
         )
     own, of_shift = parameter_names(LAWS[law]), parameter_names(SHIFTS[shift])
     names = own + of_shift
     if 2 * modulus.size < len(names):
         raise InputError(
-            f"{modulus.size} points cannot determine {len(names)} parameters; measure at least {(len(names) + 1) // 2}."
+            f"{modulus.size} points cannot determine {len(names)} parameters; "
+            f"measure at least {(len(names) + 1) // 2}."
         )
     rate, largest = float(np.sqrt(omega.min() * omega.max())), float(np.abs(modulus).max())
     # The shift is singular at c2 below the coldest test; 5 K keeps the steps of the fit off it.
@@ -67,7 +69,7 @@ def fit_spectrum(
         "static_modulus": largest, "glassy_modulus": largest, "tau": 1.0 / rate, "activation_energy": 1e5,
     }  # fmt: skip
 
-    def build(x: NDArray) -> HuetSayegh | TwoS2P1D:
+    def build(x: NDArray) -> Spectrum:
         given = dict(zip(names, x.tolist(), strict=True))
         values = {name: scales.get(name, 1.0) * float(np.exp(value)) for name, value in given.items()}
         values["h"] = float(expit(given["h"]))

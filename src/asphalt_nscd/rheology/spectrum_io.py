@@ -9,7 +9,7 @@ from typing import Any
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.rheology.laws_io import content_of, numbers_of, renamed
 from asphalt_nscd.rheology.shift import SHIFTS
-from asphalt_nscd.rheology.spectrum import LAWS, HuetSayegh, TwoS2P1D, parameter_names, parameters
+from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameter_names, parameters
 from asphalt_nscd.store import write_json
 
 _KEYS = {
@@ -29,7 +29,7 @@ _REFERENCE = {"reference_temperature": "reference_temperature_C"}
 
 def write_spectrum(
     path: str | Path,
-    law: HuetSayegh | TwoS2P1D,
+    law: Spectrum,
     *,
     source: str,
     rms_log_residual: float,
@@ -51,7 +51,7 @@ def write_spectrum(
     return content
 
 
-def read_spectrum(path: str | Path) -> HuetSayegh | TwoS2P1D:
+def read_spectrum(path: str | Path) -> Spectrum:
     """Read a continuous law."""
     content = content_of(path, list(LAWS))
     if content.get("shift") not in SHIFTS:
