@@ -9,7 +9,7 @@ import pandas as pd
 
 from asphalt_nscd.errors import InputError
 
-_STYLE = """
+STYLE = """
 body { font: 14px/1.4 system-ui, sans-serif; margin: 1.5em; color: #111; background: #fff; }
 table { border-collapse: collapse; }
 caption { text-align: left; font-weight: bold; padding-bottom: .6em; }
@@ -33,7 +33,7 @@ def page(table: str | Path, title: str) -> str:
     rows = "\n".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in frame.itertuples(index=False))
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
-        f"<style>{_STYLE}</style></head>\n<body><table><caption>{escape(title)}</caption>\n"
+        f"<style>{STYLE}</style></head>\n<body><table><caption>{escape(title)}</caption>\n"
         f"<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table></body></html>\n"
     )
 

@@ -10,7 +10,7 @@ from asphalt_nscd.errors import InputError
 from asphalt_nscd.failures import failures
 from asphalt_nscd.feasible import require_feasible
 from asphalt_nscd.lock import release_stale_locks
-from asphalt_nscd.sources import modules_of, source_files
+from asphalt_nscd.sources import PACKAGE, modules_of, source_files
 from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
 
 if workflow.is_main_process:

@@ -8,7 +8,7 @@ TYPICAL = TEMPERATURES[len(TEMPERATURES) // 2]  # where the study names no other
 SOFTER = label(SENSITIVITY["temperature_C"]) if "sensitivity" in STUDY else TYPICAL
 FIRST = SAMPLES[0]
 
-RESIDUALS = {"residuals": ["<results>/diagnosis/residuals.csv"], "diagnosis": ["<results>/diagnosis/diagnosis.json"]}
+RESIDUALS = {"diagnosis": DIAGNOSED[:1], "residuals": DIAGNOSED[1:]}
 
 # name: category in the report, {kind of data: files}
 FIGURES = {
@@ -120,5 +120,5 @@ RESULTS = [
     COMPUTED,
     "<results>/timings.csv",
     "<results>/provenance.json",
-    [f"<results>/pages/{name}.html" for name in PAGES],
+    [f"<results>/pages/{name}.html" for name in ("diagnosis", *PAGES)],
 ]

@@ -42,3 +42,31 @@ rule diagnose:
         "Diagnose where simulation and measurements differ, and why"
     shell:
         "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} --geometry {params.geometry:q} {params.settings} --output {params.folder} > {log} 2>&1"
+
+
+rule diagnosis_page:
+    # What to make of it, for who has to act on it.
+    input:
+        diagnosis=DIAGNOSED[0],
+        map="<results>/figures/fig_residual_map.png",
+        table4="<results>/table4.csv",
+        code=code("diagnosis-page"),
+        template=os.path.relpath(PACKAGE / "diagnosis/page.html"),
+    output:
+        report(
+            "<results>/pages/diagnosis.html",
+            caption="../report/diagnosis.rst",
+            category="0 Diagnosis",
+            labels={"result": title("diagnosis")},
+        ),
+    params:
+        title=title("diagnosis"),
+        data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "map", "table4")],
+    log:
+        "<results>/logs/page/diagnosis.log",
+    benchmark:
+        "<results>/benchmarks/page/diagnosis.tsv"
+    message:
+        "Show the diagnosis as a page"
+    shell:
+        "asphalt-nscd diagnosis-page {params.data:q} --title {params.title:q} --output {output} > {log} 2>&1"

@@ -16,6 +16,7 @@ from asphalt_nscd.store import read_json
 
 SCHEMA_VERSION = 1
 NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
+CONFIDENCE = 1.96  # standard errors to either side of an estimate: 95 %
 BEFORE_AFTER = ("before", "after")
 RESIDUALS = {"E": "residual_E_{}_percent", "phase": "residual_phase_{}_deg"}
 _NUMBERS = ["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]

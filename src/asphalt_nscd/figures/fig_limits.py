@@ -11,11 +11,17 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from asphalt_nscd.diagnosis.written import limits_by_place, place_name, read_diagnosis, shown, three_digits
+from asphalt_nscd.diagnosis.written import (
+    CONFIDENCE,
+    limits_by_place,
+    place_name,
+    read_diagnosis,
+    shown,
+    three_digits,
+)
 from asphalt_nscd.figures import style
 
 ROW, FRAME = 4.2, 11.0  # mm of a bar, and of the rest of its cause's panel
-CONFIDENCE = 1.96  # standard errors to either side
 NONE = "No cause of the catalogue could have shown in these data."
 
 

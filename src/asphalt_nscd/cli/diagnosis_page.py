@@ -1,0 +1,21 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _data, _options
+
+
+@click.command()
+@click.argument("data", nargs=-1, type=_data.Data())
+@click.option("--title", required=True, help="What stands at its head.")
+@_options.output
+def command(data: tuple[tuple[str, Path], ...], title: str, output: Path) -> None:
+    """Show a diagnosis as an HTML page, from diagnosis=FILE map=PNG and, where there is one, table4=CSV."""
+    from asphalt_nscd.diagnosis.page import render, sections
+    from asphalt_nscd.store import atomic_path
+
+    content = render(_data.made_from(data, sections), title)
+    with atomic_path(output) as path:
+        path.write_text(content, encoding="utf-8")
