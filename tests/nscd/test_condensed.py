@@ -10,8 +10,9 @@ from naive.stepping import NaiveState, naive_step
 from scipy import sparse
 
 from asphalt_nscd.nscd.bonds import BondedSystem, opening_operator
-from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper, ShiftedOperator
+from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.shifted import ShiftedOperator
 from asphalt_nscd.rheology.burgers import Burgers
 
 BURGERS = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)  # 15 degC

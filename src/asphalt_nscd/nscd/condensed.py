@@ -13,23 +13,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy import sparse
 from scipy.optimize import brentq
-from scipy.sparse.linalg import splu
 
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.friction import solve_contacts
 from asphalt_nscd.nscd.head import RIGID, HeadDevices, actuator_force, follow_actuator
 from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.shifted import ShiftedOperator
 
 CLOSED = 1e-12  # m, by which a gap in contact may differ from zero
-
-
-def factorise(matrix: sparse.csc_matrix):
-    """Factors of a symmetric positive definite matrix; `.solve` takes one or many columns."""
-    return splu(
-        matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-    )
 
 
 @dataclass
@@ -48,63 +40,6 @@ class CondensedState:
         d, rows = system.mass.size, system.weight.size
         kelvin = np.zeros((np.size(law.kelvin_springs), rows))
         return cls(np.zeros(d), np.zeros(d), np.zeros(rows), kelvin)
-
-
-class ShiftedOperator:
-    """M + scale K on the free degrees of freedom, solvable while bonds break.
-
-    Factorised once. Each bond that breaks takes away three rank-one terms, which the Woodbury
-    identity accounts for at the cost of three more solves; after many, it is factorised again.
-    """
-
-    most_updates = 60  # breakages after which a new factorisation is cheaper
-
-    def __init__(self, system: BondedSystem, scale: float) -> None:
-        self._system, self._scale = system, scale
-        self._broken: list[int] = []
-        self._factorise()
-
-    def remove(self, broken: list[int]) -> None:
-        """Make `broken`, which may only grow, the bonds that are absent."""
-        new = broken[len(self._broken) :]
-        if not new:
-            return
-        self._broken = list(broken)
-        if len(broken) - self._factored > self.most_updates:
-            self._factorise()
-            return
-        rows = (3 * np.asarray(new)[:, None] + np.arange(3)).ravel()
-        taken = self._system.operator[rows][:, self._system.free].toarray().T
-        self._taken = np.column_stack([self._taken, taken])
-        self._response = np.column_stack([self._response, self._factor.solve(taken)])
-        self._strength = np.append(self._strength, self._scale * self.weight[rows])
-        self.weight[rows] = 0.0
-        self._capacitance = np.linalg.inv(np.diag(1.0 / self._strength) - self._taken.T @ self._response)
-
-    def solve(self, force: np.ndarray) -> np.ndarray:
-        """Solution for one force (f,) or several (f, columns)."""
-        solution = self._solve_once(force)
-        if self._strength.size:  # the update cancels digits where bodies become nearly loose
-            taken = (self._taken * self._strength) @ (self._taken.T @ solution)
-            solution += self._solve_once(force - self._matrix @ solution + taken)
-        return solution
-
-    def _solve_once(self, force: np.ndarray) -> np.ndarray:
-        solution = self._factor.solve(force)
-        if self._strength.size:
-            solution += self._response @ (self._capacitance @ (self._taken.T @ solution))
-        return solution
-
-    def _factorise(self) -> None:
-        system = self._system
-        self.weight = system.weight.copy()
-        for bond in self._broken:
-            self.weight[3 * bond : 3 * bond + 3] = 0.0
-        matrix = (sparse.diags_array(system.mass) + self._scale * system.stiffness(self.weight)).tocsc()
-        self._matrix = matrix[system.free][:, system.free]
-        self._factor, self._factored = factorise(self._matrix), len(self._broken)
-        self._taken = self._response = np.empty((system.free.size, 0))
-        self._strength, self._capacitance = np.empty(0), np.empty((0, 0))
 
 
 class CondensedStepper:

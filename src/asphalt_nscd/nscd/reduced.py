@@ -15,7 +15,7 @@ from scipy import sparse
 from scipy.sparse.linalg import LinearOperator, cg
 
 from asphalt_nscd.nscd.bonds import BondedSystem
-from asphalt_nscd.nscd.condensed import factorise
+from asphalt_nscd.nscd.shifted import factorise
 
 DEPENDENT = 1e-9
 

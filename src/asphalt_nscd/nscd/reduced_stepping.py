@@ -12,10 +12,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled
-from asphalt_nscd.nscd.condensed import CLOSED, CondensedState, CondensedStepper, ShiftedOperator
+from asphalt_nscd.nscd.condensed import CLOSED, CondensedState, CondensedStepper
 from asphalt_nscd.nscd.head import RIGID, HeadDevices, actuator_force, follow_actuator
 from asphalt_nscd.nscd.law import BondLaw
 from asphalt_nscd.nscd.reduced import ReducedModel, append_columns
+from asphalt_nscd.nscd.shifted import ShiftedOperator
 
 FIRST_ENRICHMENT, LARGEST_ENRICHMENT = 4, 16
 """Vectors added at a violation: the correction of the refused step, and those its inertia will need.
