@@ -32,6 +32,7 @@ include: "workflow/rules/time_step.smk"  # Fig. 6: time step
 include: "workflow/rules/sensitivity.smk"  # Section 4.3: sensitivity of the law's parameters
 include: "workflow/rules/audit.smk"  # other readings, looser samples
 include: "workflow/rules/diagnosis.smk"  # what the simulation gets wrong, and why
+include: "workflow/rules/extension.smk"  # the simulation extended by it
 include: "workflow/rules/contents.smk"  # figures and tables, and their data
 include: "workflow/rules/report.smk"  # figures, tables, report
 include: "workflow/rules/publish.smk"  # what is committed

@@ -57,7 +57,7 @@ PAGES = {
     "samples": "2 Preparation",
     "simulations": "3 Bending tests",
     "table4": "3 Bending tests",
-    "timings": "7 About this run",
+    "timings": "8 About this run",
 }
 
 if "published" in STUDY:
@@ -109,6 +109,17 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
         "converged": SOLVED,
         "stopped": STOPPED,
         "profile": FIGURES["fig08"][1]["test"],
+    }
+
+if COMMON_LAW:
+    PAGES["extended"] = "7 Diagnosis"
+    PAGES["gain"] = "7 Diagnosis"
+    TABLES["gain"] = {
+        "simulations": SIMULATIONS,
+        "extended": ["<results>/extended.csv"],
+        "measured": MEASURED,
+        "diagnosis": DIAGNOSED[:1],
+        "published": [STUDY["published"]["errors_table"]] if "published" in STUDY else [],
     }
 
 COMPUTED = [

@@ -3,21 +3,23 @@
 SETTINGS = dict(STUDY["diagnosis"])
 SETTINGS |= SETTINGS.pop("scatter", {})
 DIAGNOSED = ["<results>/diagnosis/diagnosis.json", "<results>/diagnosis/residuals.csv"]
+# One law for all temperatures, for the extended simulation; one temperature determines none.
+COMMON_LAW = ["<results>/diagnosis/law.json"] if len(TEMPERATURES) > 1 else []
 
 
 rule reduced_specimen:
     # The numerical specimen as two small matrices, from which its test follows for any law.
     input:
-        model=f"<results>/models/{HEAD}/{SAMPLES[0]}.h5",
+        model=f"<results>/models/{HEAD}/{{sample}}.h5",
         code=code("reduced-specimen"),
     output:
-        "<results>/diagnosis/specimen.h5",
+        "<results>/diagnosis/specimens/{sample}.h5",
     log:
-        "<results>/logs/reduced_specimen.log",
+        "<results>/logs/reduced_specimen/{sample}.log",
     benchmark:
-        "<results>/benchmarks/reduced_specimen.tsv"
+        "<results>/benchmarks/reduced_specimen/{sample}.tsv"
     message:
-        f"Reduce sample {SAMPLES[0]} to what a diagnosis needs of it"
+        "Reduce sample {wildcards.sample} to what a diagnosis needs of it"
     shell:
         "asphalt-nscd reduced-specimen {input.model} --output {output} > {log} 2>&1"
 
@@ -26,10 +28,11 @@ rule diagnose:
     # Residuals, ladder of causes, verdict; the log holds the ladder as a table.
     input:
         measured="<results>/measured.csv",
-        specimen="<results>/diagnosis/specimen.h5",
+        specimen=f"<results>/diagnosis/specimens/{SAMPLES[0]}.h5",
         code=code("diagnose", *modules_of("diagnosis.causes")),
     output:
         DIAGNOSED,
+        COMMON_LAW,
     params:
         geometry=text(STUDY["geometry"]),
         settings=options(SETTINGS),

@@ -12,6 +12,7 @@ rule publish:
             *(f"<results>/figures/{name}.png" for name in FIGURES),
             *(f"<results>/{name}.csv" for name in PAGES),
             *DIAGNOSED,
+            *COMMON_LAW,
             "<results>/provenance.json",
         ],
         code=code("publish"),
@@ -31,7 +32,7 @@ if STUDY["study"] == "paper":
         # The specimen that `asphalt-nscd diagnose` takes where none is given. Only on request, like the above:
         #   snakemake --cores 1 ship_specimen
         input:
-            "<results>/diagnosis/specimen.h5",
+            f"<results>/diagnosis/specimens/{SAMPLES[0]}.h5",
         message:
             "Put the reduced specimen into the package"
         shell:

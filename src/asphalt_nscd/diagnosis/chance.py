@@ -93,31 +93,50 @@ def candidate_directions(joint: Joint, fitted: Fitted, candidates: list[Candidat
 
 def structures(observed: Observations) -> list[Structure]:
     """Nameless patterns by frequency, isotherm, specimen, condition and single test."""
-    out: list[Structure] = []
-
-    def add(name: str, pattern: NDArray) -> None:
-        if 0 < np.count_nonzero(pattern):
-            out.append(Structure(f"{name}, modulus", pattern.astype(complex)))
-            out.append(Structure(f"{name}, phase", 1j * pattern))
-
-    log_f = np.log(observed.frequency)
-    log_f = log_f - log_f.mean()
+    log_f = np.log(observed.frequency) - np.log(observed.frequency).mean()
     above = observed.temperature - observed.temperature.mean()
-    add("slope over frequency", log_f)
+    patterns = {
+        "slope over frequency": log_f,
+        "slope over temperature": above,
+        "bend over frequency": log_f**2,
+        "bend over temperature": above**2,
+        "slope over frequency growing with temperature": log_f * above,
+        "slope over frequency in warm tests": log_f * np.maximum(above, 0.0),
+        "warm tests": np.maximum(above, 0.0),
+    }
     for f in observed.frequencies:
-        add(f"{f:g} Hz", observed.frequency == f)
-        add(f"above {f:g} Hz", observed.frequency > f)
+        patterns[f"{f:g} Hz"] = observed.frequency == f
+        patterns[f"above {f:g} Hz"] = observed.frequency > f
     for t in observed.isotherms:
-        add(f"{t:g} degC", observed.temperature == t)
-        add(f"{t:g} degC, slope over frequency", (observed.temperature == t) * log_f)
-    if len(observed.names) > 1:
-        for k, name in enumerate(observed.names):
-            at = observed.specimen == k
-            add(f"specimen {name}", at)
-            add(f"specimen {name}, slope over frequency", at * log_f)
-            add(f"specimen {name}, slope over temperature", at * above)
+        patterns[f"{t:g} degC"] = observed.temperature == t
+        patterns[f"{t:g} degC, slope over frequency"] = (observed.temperature == t) * log_f
     for cell in range(observed.cell.max() + 1):
         at = observed.cell == cell
         row = int(np.flatnonzero(at)[0])
-        add(f"{observed.temperature[row]:g} degC, {observed.frequency[row]:g} Hz", at)
-    return out
+        patterns[f"{observed.temperature[row]:g} degC, {observed.frequency[row]:g} Hz"] = at
+    return _both(patterns) + specimen_structures(observed)
+
+
+def specimen_structures(observed: Observations) -> list[Structure]:
+    """Nameless patterns of one specimen against the others."""
+    if len(observed.names) < 2:
+        return []
+    log_f = np.log(observed.frequency) - np.log(observed.frequency).mean()
+    above = observed.temperature - observed.temperature.mean()
+    patterns = {}
+    for k, name in enumerate(observed.names):
+        at = observed.specimen == k
+        patterns[f"specimen {name}"] = at
+        patterns[f"specimen {name}, slope over frequency"] = at * log_f
+        patterns[f"specimen {name}, slope over temperature"] = at * above
+    return _both(patterns)
+
+
+def _both(patterns: dict[str, NDArray]) -> list[Structure]:
+    """Each pattern in the modulus and in the phase."""
+    return [
+        Structure(f"{name}, {part}", unit * pattern.astype(complex))
+        for name, pattern in patterns.items()
+        if np.any(pattern)
+        for part, unit in (("modulus", 1.0), ("phase", 1j))
+    ]

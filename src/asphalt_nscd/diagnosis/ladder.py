@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.stats import f as fisher
+from scipy.stats import norm
 
 from asphalt_nscd.diagnosis import chance
 from asphalt_nscd.diagnosis.causes._cause import Cause
@@ -18,6 +20,7 @@ SHORTLIST = 0.4  # candidates whose score gain is above this share of the best a
 MOST_REFITS = 8
 BY_SCORE = False
 AS_GOOD = 6.0  # gains of the objective closer than this are a likelihood ratio of 20: not told apart
+AS_MUCH = 0.97  # of the gain of the best nameless pattern, which may be the cause's own
 EXCESS = 4.0  # standard deviations of the misfit above which it is structure
 MOSTLY = 0.75  # share of the structure that named causes must explain, else no name is given
 
@@ -81,13 +84,20 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
         if p_value > CHANCE:
             break
         rung = _best(joint, fitted, candidates, gains, p_value, np.quantile(by_chance, 1.0 - CHANCE) ** 2)
-        if rung.before.objective - rung.after.objective < ladder.remaining.gain - AS_GOOD:
-            break  # a nameless pattern does better: a name would be forced
+        if not _stands_out(rung, ladder.remaining):
+            break
         ladder.rungs.append(rung)
         fitted = rung.after
     _drop_needless(ladder, draws, random)
     _withdraw(ladder)
     return ladder
+
+
+def _stands_out(rung: Rung, remaining: Remaining) -> bool:
+    """Whether the cause does no worse than the best nameless pattern; else its name would be forced."""
+    more = len(rung.candidate.values) - 1
+    gain = rung.before.objective - rung.after.objective
+    return gain - more * AS_GOOD >= AS_MUCH * remaining.gain
 
 
 def _scores(joint: Joint, fitted: Fitted, candidates: list[Candidate]):
@@ -100,8 +110,6 @@ def _scores(joint: Joint, fitted: Fitted, candidates: list[Candidate]):
 
 def _tail(by_chance: np.ndarray, z: float) -> float:
     """Chance of z or more: the share of draws, and beyond them the normal tail scaled to meet them."""
-    from scipy.stats import norm
-
     share = float(np.mean(by_chance >= z))
     if share * by_chance.size >= 10:
         return share
@@ -128,27 +136,54 @@ def _best(joint, fitted, candidates, gains, p_value, least) -> Rung:
 
 
 def _remaining(joint: Joint, fitted: Fitted, draws: int, random: np.random.Generator) -> Remaining:
+    """The largest nameless pattern, and whether specimens depend on the frequency each in its own way."""
     patterns = chance.structures(joint.observed)
     directions = np.column_stack([pattern.direction for pattern in patterns])
-    confined = np.zeros(len(patterns), bool)
-    found = chance.scores(joint, fitted, directions, confined)
-    by_chance = chance.largest_by_chance(found, confined, joint.noise.freedom, draws, random)
+    anywhere = np.zeros(len(patterns), bool)
+    found = chance.scores(joint, fitted, directions, anywhere)
+    by_chance = chance.largest_by_chance(found, anywhere, joint.noise.freedom, draws, random)
     k = int(np.argmax(np.abs(found.z)))
     largest = float(abs(found.z[k]))
-    return Remaining(_tail(by_chance, largest), patterns[k].name, largest**2)
+    alone = Remaining(_tail(by_chance, largest), patterns[k].name, largest**2)
+    return min([alone, *_interactions(joint, fitted)], key=lambda remaining: remaining.p_value)
+
+
+def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
+    """F tests of a residual that each specimen has at each frequency, in modulus and in phase."""
+    observed = joint.observed
+    pairs = np.column_stack([observed.specimen, observed.frequency])
+    members = np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
+    if len(observed.names) < 2 or observed.size < 2 * (members.max() + 1):
+        return []
+    out = []
+    for name, unit in (("modulus", 1.0), ("phase", 1j)):
+        found = chance.scores(
+            joint, fitted, unit * np.eye(members.max() + 1)[members], np.ones(members.max() + 1, bool)
+        )
+        value, vector = np.linalg.eigh(found.roots.T @ found.roots)
+        kept = value > 1e-3
+        square = float((((vector.T @ found.z)[kept]) ** 2 / value[kept]).sum())
+        rank = int(kept.sum())
+        p_value = 2.0 * float(fisher.sf(square / rank, rank, joint.noise.freedom))
+        out.append(Remaining(min(p_value, 1.0), f"each specimen at each frequency, {name}", square - rank))
+    return out
 
 
 def _limits(candidates, found, by_chance) -> tuple[dict, list[Candidate]]:
-    """Amplitude found with 95 % probability, for each cause and place; and those never seen."""
+    """Amplitude found with 95 % probability, for each cause and place; and those never seen.
+
+    Of a cause that comes in several shapes, the median over those that can be seen.
+    """
     threshold = float(np.quantile(by_chance, 1.0 - CHANCE)) + chance.POWER
-    limits: dict[tuple, float] = {}
+    sizes: dict[tuple, list[float]] = {}
     unseen = {}
     for candidate, information, seen in zip(candidates, found.information, found.seen, strict=True):
         if not seen:
             unseen.setdefault(candidate.key, candidate)
             continue
         size = threshold / np.sqrt(information) * candidate.typical[0]
-        limits[candidate.key] = min(size, limits.get(candidate.key, np.inf))
+        sizes.setdefault(candidate.key, []).append(size)
+    limits = {key: float(np.median(values)) for key, values in sizes.items()}
     return limits, [candidate for key, candidate in unseen.items() if key not in limits]
 
 

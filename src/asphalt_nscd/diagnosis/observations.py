@@ -17,7 +17,8 @@ class Observations:
     specimen (n,): index into names; temperature (n,) [degC]; frequency (n,) [Hz]; modulus (n,): apparent
     E* [Pa]; form_factor (n,): gamma [1/m] between force over displacement at the head and modulus;
     amplitude (n,) [m], order (n,), cycles (n,): None where the table has no such column.
-    static_modulus: modulus at long times [Pa], known from another test, or None.
+    static_modulus: modulus at long times [Pa], known from another test, or None. whole: the table these
+    are rows of, None if they are all.
     """
 
     specimen: NDArray[np.int64]
@@ -30,6 +31,12 @@ class Observations:
     order: Vector | None = None
     cycles: Vector | None = None
     static_modulus: float | None = None
+    whole: Observations | None = None
+
+    @property
+    def table(self) -> Observations:
+        """All tests, to which the largest amplitude, the last cycle and their like refer."""
+        return self.whole or self
 
     @property
     def size(self) -> int:
@@ -72,5 +79,5 @@ class Observations:
         return replace(
             self, specimen=self.specimen[rows], temperature=self.temperature[rows],
             frequency=self.frequency[rows], modulus=self.modulus[rows],
-            form_factor=self.form_factor[rows], **optional,
+            form_factor=self.form_factor[rows], whole=self.table, **optional,
         )  # fmt: skip

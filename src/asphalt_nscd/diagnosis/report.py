@@ -18,6 +18,8 @@ from asphalt_nscd.diagnosis.ladder import Rung
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION
 
+Logarithm = NDArray[np.complex128]  # ln E* (n,)
+
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
     """Content of `diagnosis.json` (schema: workflow/schemas/diagnosis.schema.yaml)."""
@@ -124,9 +126,16 @@ def _misses(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str
     }
 
 
-def _pair(diagnosis, before, after) -> dict[str, dict[str, float]]:
-    before, after = _misses(diagnosis, before), _misses(diagnosis, after)
-    return {name: {"before": before[name], "after": after[name]} for name in before}
+def _pair(diagnosis: Diagnosis, before: Logarithm, after: Logarithm) -> dict[str, Any]:
+    """Errors before and after, over all temperatures and at each."""
+    first, second = _misses(diagnosis, before), _misses(diagnosis, after)
+    pair: dict[str, Any] = {name: {"before": first[name], "after": second[name]} for name in first}
+    errors = [_errors(diagnosis, logarithm) for logarithm in (before, after)]
+    pair["by_temperature"] = {
+        t: {name: {"before": errors[0][name][t], "after": errors[1][name][t]} for name in errors[0]}
+        for t in errors[0]["mre_E_percent"]
+    }
+    return pair
 
 
 def _rung(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen) -> dict[str, Any]:

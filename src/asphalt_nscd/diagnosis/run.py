@@ -9,10 +9,12 @@ from typing import Any
 from tabulate import tabulate
 
 from asphalt_nscd.diagnosis import report
-from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
+from asphalt_nscd.diagnosis.extension import material_law
 from asphalt_nscd.diagnosis.reading import read_observations
 from asphalt_nscd.diagnosis.simulated import read_specimen
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.rheology.spectrum_io import write_spectrum
 from asphalt_nscd.store import provenance, write_json, write_table
 
 VERDICTS = {
@@ -27,7 +29,7 @@ def run(
     specimen: str | Path | None = None, static_modulus: float | None = None,
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
 ) -> str:  # fmt: skip
-    """Diagnose a table, write diagnosis.json and residuals.csv into the folder, return the summary."""
+    """Diagnose a table, write diagnosis.json, residuals.csv and law.json into the folder, return the summary."""
     numerical = read_specimen(specimen)
     observed, origin = read_observations(measurements, geometry, static_modulus)
     try:
@@ -44,8 +46,20 @@ def run(
     }
     folder = Path(folder)
     write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical))
+    _write_law(folder / "law.json", diagnosis, origin)
     write_json(folder / "diagnosis.json", content)
     return summary(content)
+
+
+def _write_law(path: Path, diagnosis: Diagnosis, origin: str) -> None:
+    """The continuous law of the mix, where the table determines one."""
+    if diagnosis.observed.isotherms.size < 2 or diagnosis.observed.size < 5:
+        return
+    fit = material_law(diagnosis)
+    write_spectrum(
+        path, fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,
+        std_error=fit.std_error, unseen=fit.unseen,
+    )  # fmt: skip
 
 
 def summary(content: dict[str, Any]) -> str:

@@ -68,6 +68,9 @@ class Cause(ABC):
         """Modulus E* (n,) [Pa] after this cause, of the modulus before it; analytic in the modulus."""
         return modulus
 
-    def rig(self, values: Vector, form_factor: float) -> dict[str, float]:
-        """What it changes at the head and in the channel of the simulation, in SI units."""
+    def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
+        """What it changes at the head and in the channel of the simulation: keys of `rig.read_rig`.
+
+        form_factor: gamma [1/m] of the specimen; amplitude [m] of the simulated test.
+        """
         return {}

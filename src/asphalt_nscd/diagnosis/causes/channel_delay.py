@@ -18,5 +18,5 @@ class ChannelDelay(Cause):
     def apparent(self, modulus, values, observed):
         return modulus * np.exp(1j * observed.omega * values[0])
 
-    def rig(self, values, form_factor):
+    def rig(self, values, form_factor, amplitude):
         return {"channel_delay_s": values[0]}

@@ -22,8 +22,8 @@ class Damage(Cause):
 
     @staticmethod
     def _progress(observed):
-        """From zero at the first test to one at the last."""
-        count = observed.cycles if observed.cycles is not None else observed.order
+        """(n,) from zero at the first test to one at the last; None where the order is not known."""
+        count, every = ((o.cycles if o.cycles is not None else o.order) for o in (observed, observed.table))
         if count is None:
             return None
-        return (count - count.min()) / max(np.ptp(count), 1e-300)
+        return (count - every.min()) / max(np.ptp(every), 1e-300)

@@ -1,3 +1,5 @@
+import numpy as np
+
 from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Parameter
 
 
@@ -17,12 +19,8 @@ class GuideFriction(Cause):
     def apparent(self, modulus, values, observed):
         loss = values[0]
         if observed.amplitude is not None:
-            loss = loss * self._median(observed.amplitude) / observed.amplitude
+            loss = loss * np.median(observed.table.amplitude) / observed.amplitude
         return modulus + 1j * loss
 
-    @staticmethod
-    def _median(amplitude):
-        return float(sorted(amplitude)[amplitude.size // 2])
-
-    def rig(self, values, form_factor):
-        return {"guide_loss_N_per_m": values[0] / form_factor}
+    def rig(self, values, form_factor, amplitude):
+        return {"guide_friction_N": values[0] / form_factor * np.pi * amplitude / 4.0}

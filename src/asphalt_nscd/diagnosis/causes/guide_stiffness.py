@@ -17,5 +17,5 @@ class GuideStiffness(Cause):
     def apparent(self, modulus, values, observed):
         return modulus + values[0]
 
-    def rig(self, values, form_factor):
-        return {"guide_stiffness_N_per_m": values[0] / form_factor}
+    def rig(self, values, form_factor, amplitude):
+        return {"guide_stiffness_N_m": values[0] / form_factor}

@@ -17,5 +17,5 @@ class LooseClamp(Cause):
     def apparent(self, modulus, values, observed):
         return modulus / (1.0 + values[0] * modulus)
 
-    def rig(self, values, form_factor):
-        return {"clamp_compliance_m_per_N": values[0] * form_factor}
+    def rig(self, values, form_factor, amplitude):
+        return {"clamp_compliance_m_N": values[0] * form_factor}

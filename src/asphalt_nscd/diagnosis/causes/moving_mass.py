@@ -16,5 +16,5 @@ class MovingMass(Cause):
     def apparent(self, modulus, values, observed):
         return modulus - observed.form_factor * values[0] * observed.omega**2
 
-    def rig(self, values, form_factor):
+    def rig(self, values, form_factor, amplitude):
         return {"head_mass_kg": values[0]}

@@ -15,5 +15,5 @@ class PhaseOffset(Cause):
     def apparent(self, modulus, values, observed):
         return modulus * np.exp(1j * np.radians(values[0]))
 
-    def rig(self, values, form_factor):
+    def rig(self, values, form_factor, amplitude):
         return {"phase_offset_rad": float(np.radians(values[0]))}

@@ -29,7 +29,7 @@ class SecondaryProcess(Cause):
 
     def apparent(self, modulus, values, observed):
         strength, log_time, energy = values
-        middle = float(np.median(observed.isotherms)) + ZERO
+        middle = float(np.median(observed.table.isotherms)) + ZERO
         kelvin = observed.temperature + ZERO
         log_shift = energy * 1e3 / GAS * (1.0 / kelvin - 1.0 / middle)
         root = np.sqrt(1j * observed.omega * 10.0**log_time * np.exp(log_shift))

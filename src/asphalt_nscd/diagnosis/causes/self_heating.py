@@ -16,8 +16,10 @@ class SelfHeating(Cause):
         return (None,) if observed.frequencies.size > 1 and observed.isotherms.size > 1 else ()
 
     def temperature_rise(self, values, observed):
+        return values[0] * self._power(observed) / self._power(observed.table).max()
+
+    @staticmethod
+    def _power(observed):
         # The measured loss: a true feedback would only change the rise by its own small share.
         power = observed.omega * np.maximum(observed.modulus.imag, 0.0)
-        if observed.amplitude is not None:
-            power = power * observed.amplitude**2
-        return values[0] * power / power.max()
+        return power if observed.amplitude is None else power * observed.amplitude**2

@@ -18,4 +18,4 @@ class StrainSoftening(Cause):
         return (None,) if amplitude is not None and np.ptp(amplitude) > 0.2 * amplitude.max() else ()
 
     def apparent(self, modulus, values, observed):
-        return modulus * (1.0 - values[0] * observed.amplitude / observed.amplitude.max())
+        return modulus * (1.0 - values[0] * observed.amplitude / observed.table.amplitude.max())

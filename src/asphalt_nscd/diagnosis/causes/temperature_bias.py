@@ -1,4 +1,3 @@
-
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter
 
 

@@ -1,0 +1,45 @@
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+class Test(click.ParamType):
+    """`15,10,laws/T15/f10.json`: temperature, frequency, and the file of the bond law of this test."""
+
+    name = "T,f,file"
+
+    def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
+        try:
+            temperature, frequency, path = value.split(",", 2)
+            return float(temperature), float(frequency), Path(path)
+        except ValueError:
+            self.fail(f"{value!r} is not of the form T,f,file.", param, context)
+
+
+@click.command()
+@click.argument("diagnosis", type=_options.File)
+@click.option("--law", required=True, type=_options.File, help="Continuous law of the diagnosis.")
+@click.option("--measured", required=True, type=_options.File, help="Measurements that were diagnosed.")
+@_options.geometry
+@click.option(
+    "--specimen", required=True, type=_options.File, help="The sample, a file of `reduced-specimen`."
+)
+@click.option("--number", required=True, type=click.IntRange(0), help="Of the sample, from 0.")
+@click.option("--amplitude-m", required=True, type=_options.POSITIVE, help="Of the simulated tests.")
+@click.option(
+    "--test", "tests", required=True, multiple=True, type=Test(), help="A test and its bond law to write."
+)
+@click.option("--rig-output", required=True, type=_options.File, help="Rig to write.")
+def command(
+    diagnosis: Path, law: Path, measured: Path, geometry: object, specimen: Path, number: int, amplitude_m: float,
+    tests: tuple[tuple[float, float, Path], ...], rig_output: Path,
+) -> None:  # fmt: skip
+    """Extend the simulation of one sample by what a diagnosis named: bond laws of its tests, and a rig."""
+    from asphalt_nscd.diagnosis.extension import extend
+
+    extend(diagnosis, law, measured, geometry, specimen, number, amplitude_m, tests, rig_output)

@@ -1,0 +1,141 @@
+"""The simulation extended by what a diagnosis named: a law for each test, and a rig for each sample.
+
+One continuous law holds for all temperatures. It is fitted to the measurements with the effect of the
+named causes taken out; a test gets the Kelvin chain of this law at its temperature, changed by the
+causes that sit in the material or the specimen; those at the head and in the channel become the rig.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, SPECIMEN
+from asphalt_nscd.diagnosis.diagnose import Diagnosis
+from asphalt_nscd.diagnosis.joint import Candidate
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.reading import read_observations
+from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.errors import InputError
+from asphalt_nscd.rheology.conversion import kelvin_chain
+from asphalt_nscd.rheology.fitting import Fit
+from asphalt_nscd.rheology.laws_io import write_chain
+from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
+from asphalt_nscd.rheology.spectrum_io import read_spectrum
+from asphalt_nscd.store import read_json, write_json
+
+TOLERANCE = 1e-3  # of ln E* of a Kelvin chain over the tested band
+MARGIN = 2.0  # of the band, for the transient of a test
+
+
+def material_law(diagnosis: Diagnosis) -> Fit:
+    """One 2S2P1D law with a WLF shift (nine parameters) of the measurements without the named causes.
+
+    Of two temperatures, which determine no WLF constants, with an Arrhenius shift.
+    """
+    observed, ladder = diagnosis.observed, diagnosis.ladder
+    named = ladder.rungs[-1].after if ladder.rungs else ladder.start
+    alone = ladder.joint.apparent(named.law, ())[0]
+    with_causes = ladder.joint.apparent(named.law, named.active)[0]
+    modulus = observed.modulus * alone / with_causes
+    reference = float(observed.isotherms[observed.isotherms.size // 2])
+    shift = "wlf" if observed.isotherms.size > 2 else "arrhenius"
+    return fit_spectrum(observed.omega, observed.temperature, modulus, reference, shift=shift)
+
+
+def extend(
+    diagnosis_file: str | Path, law_file: str | Path, measured: str | Path,
+    geometry: str | Path | Mapping[str, Any], specimen_file: str | Path, number: int, amplitude: float,
+    tests: Sequence[tuple[float, float, str | Path]], rig_output: str | Path,
+) -> None:  # fmt: skip
+    """Write the bond law (a Kelvin chain) of each test (T [degC], f [Hz], path) of one sample, and its rig.
+
+    specimen_file: the sample as `reduced-specimen` writes it; its packing's factor is divided out.
+    number: of the sample from 0; it stands for the measured specimen of this number.
+    """
+    named = named_causes(diagnosis_file)
+    observed, _ = read_observations(measured, geometry)
+    law, specimen = read_spectrum(law_file), read_specimen(specimen_file)
+    stands_for = number % len(observed.names)
+    ratio = specimen.ratio()
+    frequencies = [frequency for _, frequency, _ in tests]
+    band = 2.0 * np.pi * min(frequencies) / MARGIN, 2.0 * np.pi * max(frequencies) * MARGIN
+
+    for temperature, frequency, path in tests:
+        row = _row(observed, stands_for, temperature, frequency)
+        here = [c for c in named if c.cause.rows(observed, c.place)[row]]
+        rise = sum(_at(c.cause.temperature_rise(np.array(c.values), observed), row) for c in here)
+
+        def modulus(omega, row=row, here=here, rise=rise, temperature=temperature):
+            value = law.complex_modulus(omega, temperature + rise)
+            swept = replace(observed.subset(np.full(omega.size, row)), frequency=omega / (2.0 * np.pi))
+            for candidate in sorted(here, key=lambda c: c.cause.stage):
+                if candidate.cause.stage == MATERIAL or _scales(candidate):
+                    value = candidate.cause.apparent(value, np.array(candidate.values), swept)
+            return value / ratio
+
+        chain, error = kelvin_chain(modulus, *band, TOLERANCE)
+        lowest, highest = (omega / (2.0 * np.pi) for omega in band)
+        write_chain(
+            path,
+            chain,
+            source="diagnosis",
+            temperature=temperature,
+            error=error,
+            lowest_hz=lowest,
+            highest_hz=highest,
+        )
+    rig: dict[str, float] = {}
+    gamma = float(observed.form_factor[observed.specimen == stands_for][0])
+    for candidate in named:
+        if candidate.place is None or candidate.place == observed.names[stands_for]:
+            rig |= candidate.cause.rig(np.array(candidate.values), gamma, amplitude)
+    write_json(rig_output, {key: float(value) for key, value in rig.items()})
+
+
+def named_causes(diagnosis_file: str | Path) -> list[Candidate]:
+    """The causes on the ladder of a diagnosis.json, with their values; the law itself is not among them."""
+    content = read_json(diagnosis_file)
+    causes = {cause.name: cause for cause in CATALOGUE}
+    out = []
+    try:
+        for rung in content["ladder"]:
+            if rung["cause"] == "relaxation_spectrum":
+                continue
+            cause = causes[rung["cause"]]
+            values = tuple(float(rung["parameters"][p.name]["value"]) for p in cause.parameters)
+            out.append(Candidate(cause, rung["where"], values))
+    except (KeyError, TypeError) as error:
+        raise InputError(
+            f"{diagnosis_file}: not a diagnosis of this version ({error}); make it again."
+        ) from None
+    return out
+
+
+def _scales(candidate: Candidate) -> bool:
+    """Whether a cause of the specimen acts on its modulus, and not at its head."""
+    rig = candidate.cause.rig(np.array(candidate.values), 1.0, 1.0)
+    return candidate.cause.stage == SPECIMEN and not rig
+
+
+def _row(observed: Observations, specimen: int, temperature: float, frequency: float) -> int:
+    """The row of a test, of another specimen where this one has none."""
+    near = (np.abs(observed.temperature - temperature) < 1e-6) & (
+        np.abs(observed.frequency / frequency - 1.0) < 1e-9
+    )
+    own = np.flatnonzero(near & (observed.specimen == specimen))
+    found = own if own.size else np.flatnonzero(near)
+    if not found.size:
+        raise InputError(
+            f"no measurement at {temperature:g} degC, {frequency:g} Hz to extend the test by; add it."
+        )
+    return int(found[0])
+
+
+def _at(rise: np.ndarray | float, row: int) -> float:
+    return float(np.broadcast_to(rise, (row + 1,))[row]) if np.ndim(rise) == 0 else float(rise[row])
