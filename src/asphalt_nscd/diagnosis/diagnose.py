@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import chi2
 from scipy.stats import f as fisher
 
 from asphalt_nscd.diagnosis import chance, scatter, start
@@ -27,7 +28,7 @@ class Diagnosis:
     observed: Observations
     set_aside: Observations  # outliers among replicates, not used
     noise: Noise
-    replicated: bool
+    replicated: bool  # whether a lack of fit can be tested: by replicates or a stated scatter
     baseline: Fitted
     baseline_joint: Joint
     baseline_p: float  # of a misfit as large as the baseline's, by the replicate scatter
@@ -70,10 +71,13 @@ def diagnose(
 
 
 def misfit_p_value(fitted: Fitted, noise: Noise) -> float:
-    """Lack of fit against pure error: F test of what the fit leaves beyond the replicate scatter."""
-    left = float(fitted.residual @ fitted.residual) - noise.freedom
+    """Lack of fit: of what the fit leaves beyond the replicates (F test), or a stated scatter (chi-squared)."""
+    size = fitted.residual.size
     used = float(np.trace(np.linalg.solve(fitted.precision, fitted.jacobian.T @ fitted.jacobian)))
-    freedom = fitted.residual.size - used - noise.freedom
+    if noise.freedom >= scatter.STATED:
+        return float(chi2.sf(fitted.residual @ fitted.residual, size - used))
+    left = float(fitted.residual @ fitted.residual) - noise.freedom
+    freedom = size - used - noise.freedom
     if freedom < 1.0:
         return 1.0
     return float(fisher.sf(max(left, 0.0) / freedom, freedom, noise.freedom))

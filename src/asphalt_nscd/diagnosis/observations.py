@@ -15,7 +15,8 @@ class Observations:
     """n tests on S specimens, one row each.
 
     specimen (n,): index into names; temperature (n,) [degC]; frequency (n,) [Hz]; modulus (n,): apparent
-    E* [Pa]; form_factor (n,): gamma [1/m] between force over displacement at the head and modulus;
+    E* [Pa]; form_factor (n,): gamma [1/m] between force over displacement at the head and modulus; inertia
+    (n,): gamma mu [kg/m], of which the reduction added omega^2 to force over displacement, Eq. (1);
     amplitude (n,) [m], order (n,), cycles (n,): None where the table has no such column.
     static_modulus: modulus at long times [Pa], known from another test, or None. whole: the table these
     are rows of, None if they are all.
@@ -27,6 +28,7 @@ class Observations:
     frequency: Vector
     modulus: NDArray[np.complex128]
     form_factor: Vector
+    inertia: Vector
     amplitude: Vector | None = None
     order: Vector | None = None
     cycles: Vector | None = None
@@ -79,5 +81,6 @@ class Observations:
         return replace(
             self, specimen=self.specimen[rows], temperature=self.temperature[rows],
             frequency=self.frequency[rows], modulus=self.modulus[rows],
-            form_factor=self.form_factor[rows], whole=self.table, **optional,
+            form_factor=self.form_factor[rows],
+            inertia=self.inertia[rows], whole=self.table, **optional,
         )  # fmt: skip

@@ -14,7 +14,7 @@ from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.geometry_input import read_geometry
 from asphalt_nscd.measurements import FORMS, KEYS, REDUCED_COLUMNS, reduced_frame
-from asphalt_nscd.twopoint import form_factor
+from asphalt_nscd.twopoint import form_factor, mass_factor
 
 SYNONYMS = {"T_C": "temperature_C", "f_Hz": "frequency_Hz", "phi_deg": "phase_deg"}
 OPTIONAL = {
@@ -54,6 +54,7 @@ def read_observations(
     distinguishing = [
         name for name in ("replicate", "amplitude_m", "order", "cycles") if name in table.columns
     ]
+    by_force = bool({"F0_N", "record"} & set(table.columns))
     if set(REDUCED_COLUMNS) <= set(table.columns):  # reduced before: peaks stand beside the moduli
         peaks = FORMS["peaks"] + REDUCED_COLUMNS[-2:]
         table = replace(table, columns={k: v for k, v in table.columns.items() if k not in peaks})
@@ -61,6 +62,8 @@ def read_observations(
     names, specimen = np.unique(frame["specimen"], return_inverse=True)
     geometries = read_geometry(geometry, names)
     gamma = np.array([form_factor(geometries[name]) for name in names])
+    # Ready moduli may come from any test; only peaks and records went through Eq. (1).
+    mass = np.array([mass_factor(geometries[name]) if by_force else 0.0 for name in names])
     origins = sorted(set(frame["origin"]))
     observed = Observations(
         specimen=specimen, names=tuple(str(name) for name in names),
@@ -68,6 +71,7 @@ def read_observations(
         frequency=frame["frequency_Hz"].to_numpy(float),
         modulus=frame["E_MPa"].to_numpy(float) * 1e6 * np.exp(1j * np.radians(frame["phase_deg"].to_numpy(float))),
         form_factor=gamma[specimen],
+        inertia=(gamma * mass)[specimen],
         amplitude=_rounded(optional.get("amplitude_m")), order=optional.get("order"), cycles=optional.get("cycles"),
         static_modulus=static_modulus,
     )  # fmt: skip

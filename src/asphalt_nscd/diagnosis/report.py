@@ -15,6 +15,7 @@ from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, cell_residuals
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.ladder import Rung
+from asphalt_nscd.diagnosis.scatter import STATED
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION
 
@@ -35,7 +36,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         "tests": diagnosis.observed.size,
         "scatter": {
             "modulus_percent": 100.0 * modulus_scatter, "phase_deg": float(np.degrees(phase_scatter)),
-            "specimens_percent": 100.0 * diagnosis.noise.scale, "from_replicates": diagnosis.replicated,
+            "specimens_percent": 100.0 * diagnosis.noise.scale, "from_replicates": diagnosis.replicated and diagnosis.noise.freedom < STATED,
         },
         "numerics": _numerics(diagnosis, specimen),
         "baseline": {

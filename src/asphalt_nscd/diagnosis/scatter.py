@@ -11,6 +11,7 @@ from asphalt_nscd.diagnosis.joint import Noise
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
+STATED = 10**6  # degrees of freedom of a scatter that is known
 SPECIMEN_SCALE = 0.03  # standard deviation of ln|E*| between specimens of one mix, worth SCALE_FREEDOM
 OUTLIER = 9.0  # robust standard deviations from the replicates
 UNEVEN = 1e-3  # chance below which isotherms are given a scatter each
@@ -57,7 +58,9 @@ def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise
     return Noise(factors[0], factors[1], (sigmas[0], sigmas[1]), _scale(scales), freedom)
 
 
-def stated(observed: Observations, modulus: float, phase: float, scale: float, freedom: int = 10**6) -> Noise:
+def stated(
+    observed: Observations, modulus: float, phase: float, scale: float, freedom: int = STATED
+) -> Noise:
     """Noise of stated size: relative scatter of |E*|, scatter of the phase [rad], of whole specimens."""
     one = np.eye(observed.size)
     return Noise(one / modulus, one / phase, (modulus, phase), scale, freedom)

@@ -4,7 +4,7 @@ from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Parameter
 
 
 class ChannelDelay(Cause):
-    """The displacement is recorded later than the force by a fixed time: E* exp(i omega tau)."""
+    """The displacement is recorded later than the force by a fixed time: F/z exp(i omega tau)."""
 
     name = "channel_delay"
     stage = CHANNEL
@@ -16,7 +16,8 @@ class ChannelDelay(Cause):
         return (None,) if observed.frequencies.size > 1 else ()
 
     def apparent(self, modulus, values, observed):
-        return modulus * np.exp(1j * observed.omega * values[0])
+        inertia = observed.inertia * observed.omega**2
+        return (modulus - inertia) * np.exp(1j * observed.omega * values[0]) + inertia
 
     def rig(self, values, form_factor, amplitude):
         return {"channel_delay_s": values[0]}

@@ -4,7 +4,7 @@ from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Parameter
 
 
 class PhaseOffset(Cause):
-    """A constant error of the phase: E* exp(i phi)."""
+    """A constant error of the phase: F/z exp(i phi)."""
 
     name = "phase_offset"
     stage = CHANNEL
@@ -13,7 +13,8 @@ class PhaseOffset(Cause):
     confirmed_by = "a test on a metal reference beam: its phase must be zero at every frequency"
 
     def apparent(self, modulus, values, observed):
-        return modulus * np.exp(1j * np.radians(values[0]))
+        inertia = observed.inertia * observed.omega**2
+        return (modulus - inertia) * np.exp(1j * np.radians(values[0])) + inertia
 
     def rig(self, values, form_factor, amplitude):
         return {"phase_offset_rad": float(np.radians(values[0]))}

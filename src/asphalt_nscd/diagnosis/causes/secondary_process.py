@@ -7,7 +7,7 @@ ZERO = 273.15
 
 
 class SecondaryProcess(Cause):
-    """A second loss bump (Cole-Cole, exponent 1/2) with an Arrhenius shift of its own."""
+    """A second loss bump (Cole-Cole) with an Arrhenius shift of its own."""
 
     name = "secondary_process"
     stage = MATERIAL
@@ -15,6 +15,7 @@ class SecondaryProcess(Cause):
         Parameter("strength", "Pa", 0.0, 2e10, 2e8),
         Parameter("log10_time", "log10(s)", -9.0, 4.0, 1.0),
         Parameter("activation_energy", "kJ/mol", 10.0, 120.0, 30.0),
+        Parameter("exponent", "1", 0.3, 1.0, 0.2),
     )
     sentence = "a second relaxation process, with a shift of its own, adds a loss bump"
     confirmed_by = "tests at more frequencies, or the loss peak of the binder"
@@ -25,12 +26,12 @@ class SecondaryProcess(Cause):
     def shapes(self, observed):
         # Its peak anywhere in the tested band at the middle temperature, shifting less than the mix.
         slow, fast = -np.log10(observed.omega.min()) + 0.5, -np.log10(observed.omega.max()) - 0.5
-        return tuple((time, energy) for time in np.linspace(fast, slow, 5) for energy in (30.0, 60.0))
+        return tuple((time, energy, 0.6) for time in np.linspace(fast, slow, 5) for energy in (30.0, 60.0))
 
     def apparent(self, modulus, values, observed):
-        strength, log_time, energy = values
+        strength, log_time, energy, exponent = values
         middle = float(np.median(observed.table.isotherms)) + ZERO
         kelvin = observed.temperature + ZERO
         log_shift = energy * 1e3 / GAS * (1.0 / kelvin - 1.0 / middle)
-        root = np.sqrt(1j * observed.omega * 10.0**log_time * np.exp(log_shift))
-        return modulus + strength * root / (1.0 + root)
+        power = (1j * observed.omega * 10.0**log_time * np.exp(log_shift)) ** exponent
+        return modulus + strength * power / (1.0 + power)
