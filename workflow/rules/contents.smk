@@ -57,7 +57,7 @@ PAGES = {
     "samples": "2 Preparation",
     "simulations": "3 Bending tests",
     "table4": "3 Bending tests",
-    "timings": "8 About this run",
+    "timings": "7 About this run",
 }
 
 if "published" in STUDY:
@@ -112,8 +112,12 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
     }
 
 if COMMON_LAW:
-    PAGES["extended"] = "7 Diagnosis"
-    PAGES["gain"] = "7 Diagnosis"
+    PAGES["extended"] = "0 Diagnosis"
+    PAGES["gain"] = "0 Diagnosis"
+    FIGURES["fig10_extended"] = (
+        "0 Diagnosis",
+        {"simulations": SIMULATIONS, "extended": ["<results>/extended.csv"], "measured": MEASURED},
+    )
     TABLES["gain"] = {
         "simulations": SIMULATIONS,
         "extended": ["<results>/extended.csv"],

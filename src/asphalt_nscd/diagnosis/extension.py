@@ -39,7 +39,7 @@ def material_law(diagnosis: Diagnosis) -> Fit:
     Of two temperatures, which determine no WLF constants, with an Arrhenius shift.
     """
     observed, ladder = diagnosis.observed, diagnosis.ladder
-    named = ladder.rungs[-1].after if ladder.rungs else ladder.start
+    named = ladder.fitted
     alone = ladder.joint.apparent(named.law, ())[0]
     with_causes = ladder.joint.apparent(named.law, named.active)[0]
     modulus = observed.modulus * alone / with_causes

@@ -60,8 +60,8 @@ class Ladder:
 
     @property
     def fitted(self) -> Fitted:
-        """The fit with all causes taken."""
-        return (self.rungs + self.withdrawn)[-1].after if self.rungs or self.withdrawn else self.start
+        """The fit with all causes named."""
+        return self.rungs[-1].after if self.rungs else self.start
 
 
 def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, seed: int) -> Ladder:
@@ -89,7 +89,7 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
         ladder.rungs.append(rung)
         fitted = rung.after
     _drop_needless(ladder, draws, random)
-    _withdraw(ladder)
+    _withdraw(ladder, draws, random)
     return ladder
 
 
@@ -227,7 +227,7 @@ def _drop_needless(ladder: Ladder, draws: int, random: np.random.Generator) -> N
         ladder.remaining = _remaining(joint, before, draws, random)
 
 
-def _withdraw(ladder: Ladder) -> None:
+def _withdraw(ladder: Ladder, draws: int, random: np.random.Generator) -> None:
     """No name where more structure stays than the named causes should leave."""
     remaining = ladder.remaining
     fitted = ladder.fitted
@@ -244,3 +244,4 @@ def _withdraw(ladder: Ladder) -> None:
         if gain > MOSTLY / (1.0 - MOSTLY) * left:
             return
         ladder.withdrawn.insert(0, ladder.rungs.pop())
+        ladder.remaining = _remaining(ladder.joint, ladder.fitted, draws, random)

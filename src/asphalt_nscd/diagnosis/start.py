@@ -15,7 +15,7 @@ from asphalt_nscd.rheology.fitting import fit_burgers
 Vector = NDArray[np.float64]
 SPACING = 1.2  # of ln(relaxation time): Maxwell elements this close ripple by less than 0.1 %
 MARGIN = 3.5  # of ln(time) beyond the tested band on either side
-ROUGHNESS = (0.05, 0.1, 0.2, 0.4, 0.8)
+ROUGHNESS = (0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
 WLF_STARTS = ((12.0, 60.0), (12.0, 100.0), (20.0, 200.0), (30.0, 280.0))  # C1, C2 [K] at mid temperature
 
 
