@@ -66,6 +66,7 @@ def apparent(modulus, rig, model, amplitude=1e-6):
         *(Rig(**{name: value}) for name, value in asdict(LINEAR).items() if value),
         LINEAR,
         replace(LINEAR, channel_delay=-3e-4, phase_offset=0.15),
+        Rig(head_mass=-0.2),
     ],
 )
 @pytest.mark.parametrize(("method", "accuracy"), [("harmonic", 1e-9), ("reduced", 3e-3)])

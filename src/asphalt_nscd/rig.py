@@ -18,7 +18,7 @@ KEYS = {
     "channel_delay": "channel_delay_s",
     "phase_offset": "phase_offset_rad",
 }
-SIGNED = ("channel_delay", "phase_offset")
+SIGNED = ("channel_delay", "phase_offset", "head_mass")
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,8 @@ class Rig(HeadDevices):
 
     clamp_compliance [m/N]: of the clamp between actuator, which is driven and measured, and head;
     guide_stiffness [N/m], guide_friction [N]: spring and Coulomb slider between head and ground;
-    head_mass [kg]: moves with the head beside the mobile mass of the geometry; channel_delay [s]:
+    head_mass [kg]: moves with the head beside the mobile mass of the geometry, negative where that was
+    taken too large, which a compliant clamp does not allow; channel_delay [s]:
     of the displacement behind the force; phase_offset [rad]: the same as a constant angle. Both of
     the channel, of either sign, add to the phase: E_apparent = E exp(i (omega delay + offset)).
     """
@@ -41,6 +42,11 @@ class Rig(HeadDevices):
             if not math.isfinite(value) or (value < 0.0 and name not in SIGNED):
                 wanted = "finite" if name in SIGNED else "zero or positive"
                 raise InputError(f"rig: {KEYS[name]} = {value:g} must be {wanted}.")
+        if self.head_mass < 0.0 < self.clamp_compliance:
+            raise InputError(
+                f"rig: head_mass_kg = {self.head_mass:g} behind a compliant clamp; give one of the two, or a "
+                "smaller mobile mass."
+            )
 
     @property
     def is_rigid(self) -> bool:

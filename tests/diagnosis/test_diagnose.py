@@ -23,7 +23,13 @@ def table(seed, effect=lambda modulus, specimen, temperature, omega: modulus):
     noise = SCATTER[0] * random.standard_normal(120) + 1j * SCATTER[1] * random.standard_normal(120)
     noise += SCATTER[2] * random.standard_normal(4)[specimen]
     return Observations(
-        specimen, tuple("abcd"), temperature, frequency, modulus * np.exp(noise), np.full(120, GAMMA), np.zeros(120)
+        specimen,
+        tuple("abcd"),
+        temperature,
+        frequency,
+        modulus * np.exp(noise),
+        np.full(120, GAMMA),
+        np.zeros(120),
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.stats import f as fisher
@@ -38,11 +38,15 @@ class Rung:
 
 @dataclass(frozen=True)
 class Remaining:
-    """Structure that no cause explains: p-value over all nameless patterns, and the largest of them."""
+    """Structure that no cause explains: the least p-value, of which pattern, and what it would gain.
+
+    simple: gain of the best pattern of one amplitude, which a cause has to equal to be named.
+    """
 
     p_value: float
     pattern: str
     gain: float
+    simple: float = 0.0
 
 
 @dataclass
@@ -97,7 +101,7 @@ def _stands_out(rung: Rung, remaining: Remaining) -> bool:
     """Whether the cause does no worse than the best nameless pattern; else its name would be forced."""
     more = len(rung.candidate.values) - 1
     gain = rung.before.objective - rung.after.objective
-    return gain - more * AS_GOOD >= AS_MUCH * remaining.gain
+    return gain - more * AS_GOOD >= AS_MUCH * remaining.simple
 
 
 def _scores(joint: Joint, fitted: Fitted, candidates: list[Candidate]):
@@ -145,7 +149,8 @@ def _remaining(joint: Joint, fitted: Fitted, draws: int, random: np.random.Gener
     k = int(np.argmax(np.abs(found.z)))
     largest = float(abs(found.z[k]))
     alone = Remaining(_tail(by_chance, largest), patterns[k].name, largest**2)
-    return min([alone, *_interactions(joint, fitted)], key=lambda remaining: remaining.p_value)
+    least = min([alone, *_interactions(joint, fitted)], key=lambda remaining: remaining.p_value)
+    return replace(least, simple=largest**2)
 
 
 def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:

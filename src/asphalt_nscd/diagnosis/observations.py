@@ -17,7 +17,7 @@ class Observations:
     specimen (n,): index into names; temperature (n,) [degC]; frequency (n,) [Hz]; modulus (n,): apparent
     E* [Pa]; form_factor (n,): gamma [1/m] between force over displacement at the head and modulus; inertia
     (n,): gamma mu [kg/m], of which the reduction added omega^2 to force over displacement, Eq. (1);
-    amplitude (n,) [m], order (n,), cycles (n,): None where the table has no such column.
+    amplitude (n,) [m], order (n,), cycles (n,), time_step (n,) [s]: None where the table has no such column.
     static_modulus: modulus at long times [Pa], known from another test, or None. whole: the table these
     are rows of, None if they are all.
     """
@@ -32,6 +32,7 @@ class Observations:
     amplitude: Vector | None = None
     order: Vector | None = None
     cycles: Vector | None = None
+    time_step: Vector | None = None
     static_modulus: float | None = None
     whole: Observations | None = None
 
@@ -76,7 +77,7 @@ class Observations:
         """The rows of a mask or index; names stay, so that numbers keep their meaning."""
         optional = {
             name: None if (value := getattr(self, name)) is None else value[rows]
-            for name in ("amplitude", "order", "cycles")
+            for name in ("amplitude", "order", "cycles", "time_step")
         }
         return replace(
             self, specimen=self.specimen[rows], temperature=self.temperature[rows],

@@ -20,6 +20,7 @@ SYNONYMS = {"T_C": "temperature_C", "f_Hz": "frequency_Hz", "phi_deg": "phase_de
 OPTIONAL = {
     "amplitude_m": Limits(1e-9, 1e-2, "give the displacement amplitude in m"),
     "order": Limits(0, 1e9, "number the tests of the campaign from 1"),
+    "time_step_s": Limits(1e-9, 10.0, "give the time step of the simulation in s"),
     "cycles": Limits(0, 1e12, "give the load cycles borne before the test"),
 }
 MOST_ROWS = 3000  # the chance level takes matrices of twice the rows
@@ -73,6 +74,7 @@ def read_observations(
         form_factor=gamma[specimen],
         inertia=(gamma * mass)[specimen],
         amplitude=_rounded(optional.get("amplitude_m")), order=optional.get("order"), cycles=optional.get("cycles"),
+        time_step=optional.get("time_step_s"),
         static_modulus=static_modulus,
     )  # fmt: skip
     return observed, origins[0] if len(origins) == 1 else "mixed: " + ", ".join(origins)

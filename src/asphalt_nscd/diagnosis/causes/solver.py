@@ -1,0 +1,26 @@
+import numpy as np
+
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter
+
+
+class Solver(Cause):
+    """Implicit Euler steps too long for the oscillation: i omega becomes (1 - exp(-i omega dt))/dt.
+
+    ln E* moves by the logarithm of their ratio times d ln E*/d ln(i omega); the slope of a smooth law
+    is its phase over pi/2.
+    """
+
+    name = "solver"
+    stage = MATERIAL
+    parameters = (Parameter("effect_of_time_step", "1", -20.0, 20.0, 1.0),)
+    sentence = "the time step of the simulation is too long"
+    confirmed_by = "the same tests at half the time step"
+    needs = "simulated tests (column time_step_s); in measurements there is no time step"
+
+    def places(self, observed):
+        return () if observed.time_step is None else (None,)
+
+    def apparent(self, modulus, values, observed):
+        slope = np.angle(modulus) / (0.5 * np.pi)
+        step = 1j * observed.omega * observed.time_step
+        return modulus * (-np.expm1(-step) / step) ** (values[0] * slope)

@@ -1,0 +1,113 @@
+"""Each cause is absent at zero and moves the apparent modulus as its definition says."""
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.diagnosis.bases import BurgersAtEach, FlexibleSpectrum
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rig import KEYS
+from asphalt_nscd.twopoint import Geometry, complex_modulus, form_factor, mass_factor
+
+GEOMETRY = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+GAMMA, MU = form_factor(GEOMETRY), mass_factor(GEOMETRY)
+OMEGA = 2 * np.pi * np.tile([3.0, 10, 40], 4)
+E = np.repeat([20e9 + 2e9j, 12e9 + 3e9j, 6e9 + 3e9j, 2e9 + 1.5e9j], 3)
+TABLE = Observations(
+    specimen=np.tile([0, 1, 2], 4), names=("a", "b", "c"), temperature=np.repeat([-10.0, 0, 10, 30], 3),
+    frequency=OMEGA / (2 * np.pi), modulus=E, form_factor=np.full(12, GAMMA), inertia=np.full(12, GAMMA * MU),
+    amplitude=np.tile([20e-6, 40e-6, 80e-6], 4), order=np.arange(12.0), time_step=np.full(12, 1e-4),
+    static_modulus=1e8,
+)  # fmt: skip
+CAUSES = {cause.name: cause for cause in CATALOGUE}
+SHAPES = {"secondary_process": (-1.0, 40.0, 0.5)}
+
+
+def force(modulus):
+    """Complex force per displacement at the head that the reduction takes for E*."""
+    return modulus / GAMMA - MU * OMEGA**2
+
+
+def reduced(stiffness):
+    return complex_modulus(GEOMETRY, OMEGA / (2 * np.pi), np.abs(stiffness), 1.0, np.angle(stiffness))
+
+
+ROOT = (1j * OMEGA * 0.1 * np.exp(40e3 / 8.314 * (1 / (TABLE.temperature + 273.15) - 1 / 278.15))) ** 0.5
+EXPECTED = {
+    "channel_delay": (2e-4, reduced(force(E) * np.exp(2e-4j * OMEGA))),
+    "phase_offset": (2.0, reduced(force(E) * np.exp(1j * np.pi / 90))),
+    "moving_mass": (0.1, reduced(force(E) - 0.1 * OMEGA**2)),
+    "guide_stiffness": (3e8, E + 3e8),
+    "guide_friction": (2e8, E + 2e8j * 40e-6 / TABLE.amplitude),
+    "loose_clamp": (1e-11, 1 / (1 / E + 1e-11)),
+    "specimen_geometry": (-0.1, 0.9 * E),
+    "strain_softening": (0.1, E * (1 - 0.1 * TABLE.amplitude / 80e-6)),
+    "damage": (0.2, E * (1 - 0.2 * np.arange(12) / 11)),
+    "secondary_process": (1e9, E + 1e9 * ROOT / (1 + ROOT)),
+    "solver": (
+        1.0,
+        E * ((1 - np.exp(-1e-4j * OMEGA)) / (1e-4j * OMEGA)) ** (np.angle(E) / (np.pi / 2)),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", EXPECTED)
+def test_apparent_modulus(name):
+    size, expected = EXPECTED[name]
+    shape = SHAPES.get(name, ())
+    found = CAUSES[name].apparent(E, np.array([size, *shape]), TABLE)
+    assert np.allclose(found, expected, rtol=1e-9)
+    assert np.allclose(CAUSES[name].apparent(E, np.array([0.0, *shape]), TABLE), E, rtol=1e-12)
+    assert np.abs(expected / E - 1).max() > 2e-3
+
+
+def test_temperature_causes():
+    assert CAUSES["temperature_bias"].temperature_rise([1.5], TABLE) == 1.5
+    rise = CAUSES["self_heating"].temperature_rise([2.0], TABLE)
+    power = OMEGA * E.imag * TABLE.amplitude**2
+    assert np.allclose(rise, 2.0 * power / power.max())
+    part = TABLE.subset(np.arange(3))
+    assert np.allclose(CAUSES["self_heating"].temperature_rise([2.0], part), rise[:3])
+    assert set(EXPECTED) | {"temperature_bias", "self_heating"} == set(CAUSES)
+
+
+@pytest.mark.parametrize("cause", CATALOGUE, ids=lambda cause: cause.name)
+def test_rig_keys_and_parameters(cause):
+    values = np.array([parameter.typical for parameter in cause.parameters])
+    assert set(cause.rig(values, GAMMA, 63e-6)) <= set(KEYS.values())
+    amplitude = cause.parameters[0]
+    assert amplitude.low <= 0 < amplitude.typical < amplitude.high
+    assert cause.sentence and cause.confirmed_by
+
+
+def test_guide_friction_of_the_rig_has_the_loss_of_the_formula():
+    (friction,) = CAUSES["guide_friction"].rig([2e8], GAMMA, 63e-6).values()
+    assert GAMMA * 4 * friction / (np.pi * 63e-6) == pytest.approx(2e8)
+
+
+def test_what_the_table_cannot_show_is_not_looked_for():
+    bare = Observations(
+        np.zeros(4, int), ("a",), np.full(4, 10.0), np.array([1.0, 1, 10, 10]), E[:4], np.ones(4), np.zeros(4)
+    )
+    seen = {cause.name for cause in CATALOGUE if cause.places(bare)}
+    assert seen == {"channel_delay", "phase_offset", "moving_mass", "guide_friction"}
+
+
+@pytest.mark.parametrize(
+    "base",
+    [
+        FlexibleSpectrum(np.geomspace(1e-6, 1e6, 12), 10.0, 25.0, 20.0, 0.2),
+        FlexibleSpectrum(np.geomspace(1e-6, 1e6, 12), 10.0, 25.0, 20.0, 0.2, static_modulus=1e8),
+        BurgersAtEach(np.array([-10.0, 0, 10, 30])),
+    ],
+)
+def test_derivatives_of_the_laws(base):
+    random = np.random.default_rng(1)
+    x = random.normal(20.0, 0.5, base.parameters)
+    if isinstance(base, FlexibleSpectrum):
+        x[-3:] = np.log(12.0), np.log(60.0), 0.1
+    modulus, slope = base.modulus(x, OMEGA, TABLE.temperature)
+    for k in range(x.size):
+        step = np.eye(x.size)[k] * 1e-5
+        above, below = (base.modulus(x + s * step, OMEGA, TABLE.temperature)[0] for s in (1, -1))
+        assert np.allclose((above - below) / 2e-5, slope[:, k], rtol=1e-5, atol=1e-7 * np.abs(modulus))
