@@ -2,6 +2,7 @@
 #   snakemake --cores 1 publish
 
 BLOCKS = ["<results>/samples.csv", "<results>/table4.csv", "<results>/timings.md"]
+BLOCKS += ["<results>/gain.csv"] if COMMON_LAW else []
 
 
 rule publish:
