@@ -7,12 +7,13 @@ causes that sit in the material or the specimen; those at the head and in the ch
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL, SPECIMEN
@@ -25,10 +26,13 @@ from asphalt_nscd.errors import InputError
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.fitting import Fit
 from asphalt_nscd.rheology.laws_io import write_chain
+from asphalt_nscd.rheology.spectrum import Spectrum
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 from asphalt_nscd.store import read_json, write_json
 
+Vector = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 TOLERANCE = 1e-3  # of ln E* of a Kelvin chain over the tested band
 MARGIN = 2.0  # of the band, for the transient of a test
 
@@ -68,34 +72,38 @@ def extend(
 
     for temperature, frequency, path in tests:
         row = _row(observed, stands_for, temperature, frequency)
-        here = [c for c in named if c.cause.rows(observed, c.place)[row]]
-        rise = sum(_at(c.cause.temperature_rise(np.array(c.values), observed), row) for c in here)
-
-        def modulus(omega, row=row, here=here, rise=rise, temperature=temperature):
-            value = law.complex_modulus(omega, temperature + rise)
-            swept = replace(observed.subset(np.full(omega.size, row)), frequency=omega / (2.0 * np.pi))
-            for candidate in sorted(here, key=lambda c: c.cause.stage):
-                if candidate.cause.stage == MATERIAL or _scales(candidate):
-                    value = candidate.cause.apparent(value, np.array(candidate.values), swept)
-            return value / ratio
-
-        chain, error = kelvin_chain(modulus, *band, TOLERANCE)
+        bonds = _bond_modulus(law, observed, row, named)
+        chain, error = kelvin_chain(lambda omega, bonds=bonds: bonds(omega) / ratio, *band, TOLERANCE)
         lowest, highest = (omega / (2.0 * np.pi) for omega in band)
         write_chain(
-            path,
-            chain,
-            source="diagnosis",
-            temperature=temperature,
-            error=error,
-            lowest_hz=lowest,
-            highest_hz=highest,
-        )
+            path, chain, source="diagnosis", temperature=temperature, error=error,
+            lowest_hz=lowest, highest_hz=highest,
+        )  # fmt: skip
     rig: dict[str, float] = {}
     gamma = float(observed.form_factor[observed.specimen == stands_for][0])
     for candidate in named:
         if candidate.place is None or candidate.place == observed.names[stands_for]:
             rig |= candidate.cause.rig(np.array(candidate.values), gamma, amplitude)
     write_json(rig_output, {key: float(value) for key, value in rig.items()})
+
+
+def _bond_modulus(
+    law: Spectrum, observed: Observations, row: int, named: Sequence[Candidate]
+) -> Callable[[Vector], Complex]:
+    """E* [Pa] at omega (m,) [rad/s] of the mix in one test, with the causes that sit in mix or specimen."""
+    here = [c for c in named if c.cause.rows(observed, c.place)[row]]
+    rises = [c.cause.temperature_rise(np.array(c.values), observed) for c in here]
+    temperature = observed.temperature[row] + sum(np.broadcast_to(rise, observed.size)[row] for rise in rises)
+    inside = [c for c in here if c.cause.stage == MATERIAL or _scales(c)]
+
+    def modulus(omega: Vector) -> Complex:
+        swept = replace(observed.subset(np.full(omega.size, row)), frequency=omega / (2.0 * np.pi))
+        value = law.complex_modulus(omega, temperature)
+        for candidate in sorted(inside, key=lambda c: c.cause.stage):
+            value = candidate.cause.apparent(value, np.array(candidate.values), swept)
+        return value
+
+    return modulus
 
 
 def named_causes(diagnosis_file: str | Path) -> list[Candidate]:
@@ -135,7 +143,3 @@ def _row(observed: Observations, specimen: int, temperature: float, frequency: f
             f"no measurement at {temperature:g} degC, {frequency:g} Hz to extend the test by; add it."
         )
     return int(found[0])
-
-
-def _at(rise: np.ndarray | float, row: int) -> float:
-    return float(np.broadcast_to(rise, (row + 1,))[row]) if np.ndim(rise) == 0 else float(rise[row])
