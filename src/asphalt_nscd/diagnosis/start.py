@@ -6,16 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import nnls
 
 from asphalt_nscd.diagnosis.bases import BurgersAtEach, FlexibleSpectrum
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.rheology.fitting import fit_burgers
 
 Vector = NDArray[np.float64]
 SPACING = 1.2  # of ln(relaxation time): Maxwell elements this close ripple by less than 0.1 %
 MARGIN = 3.5  # of ln(time) beyond the tested band on either side
 ROUGHNESS = (0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
+KELVIN_TIMES = 24  # tried as first guess of a Burgers law, over the tested band and a decade on either side
+UNSEEN = np.exp(-14.0)  # relative compliance that no measured phase tells from none
 WLF_STARTS = ((12.0, 60.0), (12.0, 100.0), (20.0, 200.0), (30.0, 280.0))  # C1, C2 [K] at mid temperature
 
 
@@ -50,13 +52,28 @@ def marginal_likelihood(joint: Joint, fitted: Fitted) -> float:
 def fit_burgers_at_each(observed: Observations, noise: Noise) -> tuple[Joint, Fitted]:
     """A Burgers law for each temperature, the paper's baseline."""
     base = BurgersAtEach(observed.isotherms)
-    law = []
-    for temperature in observed.isotherms:
-        at = observed.temperature == temperature
-        burgers = fit_burgers(observed.omega[at], observed.modulus[at]).law
-        law += [burgers.modulus_m, burgers.viscosity_m, burgers.modulus_k, burgers.viscosity_k]
+    law = [
+        _first_burgers(observed.omega[at], observed.modulus[at])
+        for at in (observed.temperature == temperature for temperature in observed.isotherms)
+    ]
     joint = Joint(observed, base, noise)
-    return joint, joint.fit(np.log(law), np.zeros(len(observed.names)))
+    return joint, joint.fit(np.log(np.concatenate(law)), np.zeros(len(observed.names)))
+
+
+def _first_burgers(omega: Vector, modulus: NDArray[np.complex128]) -> Vector:
+    """Em, eta_m, Ek, eta_k: given its Kelvin time, the compliance of a Burgers law is linear in the rest."""
+    stress, rate = np.abs(modulus).max(), np.sqrt(omega.min() * omega.max())
+    target = np.concatenate([np.ones(omega.size), np.zeros(omega.size)])
+    best: tuple[float, Vector] | None = None
+    for time in np.geomspace(0.1 / omega.max(), 10.0 / omega.min(), KELVIN_TIMES):
+        terms = np.array([np.ones(omega.size), rate / (1j * omega), 1.0 / (1.0 + 1j * omega * time)])
+        relative = (terms * modulus / stress).T
+        compliance, miss = nnls(np.vstack([relative.real, relative.imag]), target)
+        if best is None or miss < best[0]:
+            em, eta_m, ek = stress / np.maximum(compliance, UNSEEN) / [1.0, rate, 1.0]
+            best = miss, np.array([em, eta_m, ek, ek * time])
+    assert best is not None
+    return best[1]
 
 
 def _spectrum(observed: Observations, c1: float, c2: float) -> FlexibleSpectrum:

@@ -1,0 +1,28 @@
+"""First fits of a table."""
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.diagnosis import scatter, start
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.fitting import fit_burgers
+
+
+@pytest.mark.parametrize("frequency", [[3.0, 6, 10, 25, 40], [0.1, 1, 10]], ids=["paper", "two decades"])
+def test_each_burgers_law_is_the_best_of_many_random_starts(frequency):
+    omega = 2.0 * np.pi * np.array(frequency)
+    isotherms = [-10.0, 15.0, 30.0]
+    time = [10.0, 0.05, 1e-3]
+    moduli = [30e9 / (1.0 + 2.0 * (1j * omega * t) ** -0.2 + (1j * omega * t) ** -0.6) for t in time]
+    n, m = omega.size, len(isotherms)
+    observed = Observations(
+        np.zeros(m * n, int), ("a",), np.repeat(isotherms, n), np.tile(frequency, m),
+        np.concatenate(moduli), np.ones(m * n), np.zeros(m * n),
+    )  # fmt: skip
+    # Modulus and phase weighted alike and the specimen's scale held, as fit_burgers takes them.
+    noise = scatter.stated(observed, 1e-2, 1e-2, 1e-9)
+    _, fitted = start.fit_burgers_at_each(observed, noise)
+    for rows, modulus in zip(np.split(np.arange(m * n), m), moduli, strict=True):
+        law = fit_burgers(omega, modulus).law
+        wanted = np.log(law.complex_modulus(omega))
+        assert np.abs(fitted.modelled[rows] - wanted).max() < 1e-5
