@@ -28,6 +28,7 @@ rule diagnose:
     # Residuals, ladder of causes, verdict; the log holds the ladder as a table.
     input:
         measured="<results>/measured.csv",
+        simulations="<results>/simulations.csv",
         specimen=f"<results>/diagnosis/specimens/{SAMPLES[0]}.h5",
         code=code("diagnose", *modules_of("diagnosis.causes")),
     output:
@@ -44,7 +45,7 @@ rule diagnose:
     message:
         "Diagnose where simulation and measurements differ, and why"
     shell:
-        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} --geometry {params.geometry:q} {params.settings} --output {params.folder} > {log} 2>&1"
+        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} --simulations {input.simulations} --geometry {params.geometry:q} {params.settings} --output {params.folder} > {log} 2>&1"
 
 
 rule diagnosis_page:

@@ -38,11 +38,13 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
     type=_options.POSITIVE,
     help="Scatter of the phase of one test; else from replicates.",
 )
+@click.option("--simulations", type=_options.File, help="Simulated tests of the campaign, to say what in them is numerics.")
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 def command(
     measurements: Path, output: Path, geometry: object, specimen: Path | None, static_modulus_mpa: float | None,
     modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
+    simulations: Path | None,
 ) -> None:  # fmt: skip
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict."""
     import math
@@ -55,4 +57,4 @@ def command(
     if modulus_scatter_percent is not None:
         stated = modulus_scatter_percent / 100.0, math.radians(phase_scatter_deg)
     static = None if static_modulus_mpa is None else 1e6 * static_modulus_mpa
-    click.echo(run(measurements, output, geometry, specimen, static, stated, draws, seed))
+    click.echo(run(measurements, output, geometry, specimen, static, stated, draws, seed, simulations))

@@ -11,6 +11,7 @@ from tabulate import tabulate
 from asphalt_nscd.diagnosis import report
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.extension import material_law
+from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.reading import read_observations
 from asphalt_nscd.diagnosis.simulated import read_specimen
 from asphalt_nscd.errors import InputError
@@ -28,8 +29,9 @@ def run(
     measurements: str | Path, folder: str | Path, geometry: str | Path | Mapping[str, Any],
     specimen: str | Path | None = None, static_modulus: float | None = None,
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
+    simulations: str | Path | None = None,
 ) -> str:  # fmt: skip
-    """Diagnose a table, write diagnosis.json, residuals.csv and law.json into the folder, return the summary."""
+    """Diagnose a table (and the numerics of simulated tests, if given), write diagnosis.json, residuals.csv and law.json into the folder, return the summary."""
     numerical = read_specimen(specimen)
     observed, origin = read_observations(measurements, geometry, static_modulus)
     try:
@@ -37,6 +39,8 @@ def run(
     except InputError as error:
         raise InputError(f"{measurements}: {error}") from None
     content = report.as_json(diagnosis, numerical)
+    if simulations is not None:
+        content["numerics"]["campaign"] = of_campaign(simulations)
     content["origin"] = origin
     content["provenance"] = {
         **provenance(),

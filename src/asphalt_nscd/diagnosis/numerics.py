@@ -1,0 +1,35 @@
+"""What is numerics in a campaign of simulated tests: steps and transient, broken bonds, peak picking."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.results import read_tests
+
+
+def of_campaign(simulations: str | Path) -> dict[str, float | int]:
+    """Largest departures of |E*| (percent) and phase (degrees) of simulated tests from what is no numerics.
+
+    time_stepping: from the law of the bonds times the specimen's own ratio, tests without broken bonds;
+    broken_bonds: the same in the others; peak_picking: of the paper's reduction from the harmonic fit.
+    """
+    tests = read_tests([simulations], ["broken_bonds", "E_peak_MPa", "phase_peak_deg"])
+    whole = tests["broken_bonds"] == 0
+    relative = np.log(tests["E_MPa"] / tests["E_law_MPa"])
+    relative -= tests["specimen"].map(relative[whole].groupby(tests["specimen"]).median())
+    turned = tests["phase_deg"] - tests["phase_law_deg"]
+    found: dict[str, float | int] = {"tests": len(tests), "tests_with_broken_bonds": int((~whole).sum())}
+    for name, rows in (("time_stepping", whole), ("broken_bonds", ~whole)):
+        found |= _largest(name, relative[rows], turned[rows])
+    peaks = np.log(tests["E_peak_MPa"] / tests["E_MPa"]), tests["phase_peak_deg"] - tests["phase_deg"]
+    return found | _largest("peak_picking", *peaks)
+
+
+def _largest(name: str, relative: pd.Series, turned: pd.Series) -> dict[str, float]:
+    return {
+        f"{name}_modulus_percent": 100.0 * float(relative.abs().max()) if relative.notna().any() else 0.0,
+        f"{name}_phase_deg": float(turned.abs().max()) if turned.notna().any() else 0.0,
+    }
