@@ -118,7 +118,7 @@ def test_every_mapping_of_the_schema_refuses_unknown_keys():
         ({"laws": {"simulate": "published"}}, "laws.published is missing"),
         ({"geometry": 25}, "geometry is 25, but must be a mapping or text"),
         ({"geometry": "gone.csv"}, "geometry is a table and the simulated trapezoid unknown"),
-        ({"geometry": {**TRAPEZOID, "b_mm": 60}}, "geometry.b_mm must be smaller than B_mm"),
+        ({"geometry": {**TRAPEZOID, "b_mm": 60}}, "geometry.b_mm must not be larger than B_mm"),
         ({"geometry": {**TRAPEZOID, "H_mm": 1}}, "unknown key 'H_mm' in geometry; did you mean 'h_mm'?"),
         ({"geometry": {"b_mm": 25}}, "key 'B_mm' is missing from geometry; add it."),
         ({"sensitivity": {"temperature_C": 20}}, "sensitivity.temperature_C 20 is not in temperatures_C"),
@@ -141,6 +141,11 @@ def test_key_that_stands_twice(tmp_path):
         refuse_repeated_keys(path)
     for study in ("paper", "smoke"):
         refuse_repeated_keys(ROOT / f"config/{study}.yaml")
+
+
+def test_prism_is_a_trapezoid_as_wide_at_the_head_as_at_the_foot(config):
+    config["geometry"] = {**TRAPEZOID, "b_mm": 56}
+    assert complete(config)["specimens"]["geometry"]["b_mm"] == 56
 
 
 def test_empty_study():

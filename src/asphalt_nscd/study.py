@@ -184,9 +184,9 @@ def _check_geometry(study: dict[str, Any], source: str) -> None:
         study["specimens"]["geometry"] = dict(study["geometry"])
     for where, holder in (("geometry", study), ("specimens.geometry", study["specimens"])):
         shape = holder["geometry"]
-        if isinstance(shape, dict) and not shape["b_mm"] < shape["B_mm"]:
+        if isinstance(shape, dict) and not shape["b_mm"] <= shape["B_mm"]:
             raise InputError(
-                f"{source}: {where}.b_mm must be smaller than B_mm; exchange them if they are swapped."
+                f"{source}: {where}.b_mm must not be larger than B_mm; exchange them if they are swapped."
             )
 
 
