@@ -23,7 +23,7 @@ def warm_up() -> None:
     for _ in range(200):
         granulate.advance(PouringNumerics())
     granulate.contacts(1e-6)
-    solve_contacts(np.eye(3), np.array([-1.0, 0.5, 0.0]), 0.5)
+    solve_contacts(np.eye(3), [-1.0, 0.5, 0.0], 0.5)
     geometry = Geometry(b=4.2e-3, B=4.2e-3, e=4.2e-3, h=4.2e-3, mass=1e-3, mobile_mass=1e-3)
     network = bond_network(position, radius, geometry.h, 1e-3)
     system = bending_system(Specimen(geometry, position, radius, 2600.0, network, 0), 0.35, 2.7e6, 0.7)

@@ -11,13 +11,20 @@ def naive_contacts(delassus, free, friction, sweeps=3000):
     impulse = np.zeros(free.size)
     for _ in range(sweeps):
         before = impulse.copy()
-        for c in range(free.size // 3):
-            block = slice(3 * c, 3 * c + 3)
-            own = delassus[block, block]
-            others = free[block] + delassus[block] @ impulse - own @ impulse[block]
-            impulse[block] = one_contact(own, others, friction)
+        impulse = naive_sweep(delassus, free, friction, impulse)
         if np.abs(impulse - before).max() <= 1e-15 * np.abs(impulse).max():
             break
+    return impulse
+
+
+def naive_sweep(delassus, free, friction, impulse):
+    """Every contact solved once in turn."""
+    impulse = impulse.copy()
+    for c in range(free.size // 3):
+        block = slice(3 * c, 3 * c + 3)
+        own = delassus[block, block]
+        others = free[block] + delassus[block] @ impulse - own @ impulse[block]
+        impulse[block] = one_contact(own, others, friction)
     return impulse
 
 
@@ -47,3 +54,43 @@ def one_contact(w, q, friction):
             if r[0] >= 0 and slip @ direction <= 0:  # friction opposes the slip
                 return r
     raise ArithmeticError("no slip direction")
+
+
+def naive_natural_map(delassus, free, friction, impulse):
+    """Both errors, written out with norms; friction is one number or one for each contact."""
+    contacts = free.size // 3
+    mu = np.broadcast_to(friction, contacts)
+    u = (delassus @ impulse + free).reshape(-1, 3)
+    r, q = impulse.reshape(-1, 3), free.reshape(-1, 3)
+    rho = np.array([3 / np.trace(delassus[3 * c : 3 * c + 3, 3 * c : 3 * c + 3]) for c in range(contacts)])
+    errors = []
+    for unit in (np.ones(contacts), rho):
+        miss = []
+        for c in range(contacts):
+            shifted = u[c] + [mu[c] * np.hypot(u[c, 1], u[c, 2]), 0, 0]
+            miss.append((r[c] - nearest_in_cone(r[c] - unit[c] * shifted, mu[c])) / np.sqrt(unit[c]))
+        root = np.sqrt(unit)[:, None]
+        sizes = [np.linalg.norm(root * q), np.linalg.norm(r / root), np.linalg.norm(root * u)]
+        if unit is rho:
+            errors.append(max(np.linalg.norm(miss), 2.0**-52 * sizes[1]) / sizes[0])
+        else:
+            errors.append(np.linalg.norm(miss) / max(sizes))
+    return tuple(errors)
+
+
+def nearest_in_cone(z, mu):
+    """Projection on |z_T| <= mu z_n: the point itself, the tip, or the foot on the nearest ray."""
+    tangential = np.hypot(z[1], z[2])
+    if tangential <= mu * z[0]:
+        return np.array(z)
+    direction = z[1:] / tangential
+    ray = np.array([1.0, *(mu * direction)]) / np.sqrt(1 + mu**2)
+    return max(ray @ z, 0.0) * ray
+
+
+def naive_extrapolation(results, changes, damping=1e-10):
+    """Anderson's combination of results, oldest first: the last change, least over the differences."""
+    g, f = np.diff(results, axis=0), np.diff(changes, axis=0)
+    normal = f @ f.T
+    normal += damping * np.trace(normal) * np.eye(len(f))
+    return results[-1] - np.linalg.solve(normal, f @ changes[-1]) @ g

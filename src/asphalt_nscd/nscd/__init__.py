@@ -3,3 +3,12 @@
 Imports nothing else of this package. Sign convention throughout: relative velocity positive =
 opening, reaction on the second body positive = repulsion.
 """
+
+
+def __getattr__(name: str):
+    """`solve_contacts`, imported when asked for: the other kernels do without scipy.sparse."""
+    if name == "solve_contacts":
+        from asphalt_nscd.nscd.friction import solve_contacts
+
+        return solve_contacts
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

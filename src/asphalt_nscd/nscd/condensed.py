@@ -171,7 +171,8 @@ class CondensedStepper:
             delassus = normal[:, system.free] @ response
             free_velocity = normal @ velocity
             free_velocity[::3] += np.maximum(gap[touching], 0.0) / dt
-            impulse = solve_contacts(delassus, free_velocity, system.friction)
+            solution = solve_contacts(delassus, free_velocity, system.friction, tolerance=1e-12)
+            impulse = solution.require_converged().reactions
             corrected = velocity.copy()
             corrected[system.free] += response @ impulse
             force = normal.T @ impulse / dt

@@ -1,75 +1,103 @@
-"""Signorini-Coulomb contacts coupled through a dense Delassus operator."""
+"""Signorini-Coulomb contacts coupled through a Delassus operator: the solver for all of them.
+
+Sweeps are cheap and end most problems. Those on which they stall are led to a solution along an
+interior path, with Newton's method trying to finish whenever the error has fallen to a tenth.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from asphalt_nscd.nscd.compiled import compiled
+from asphalt_nscd.nscd.contact_interior import interior_path
+from asphalt_nscd.nscd.contact_newton import refine
+from asphalt_nscd.nscd.contact_problem import ContactProblem
+from asphalt_nscd.nscd.contact_sweeps import accelerated_sweeps
+
+PATHS = ((3.0, 0.0), (100.0, 0.3), (1000.0, 0.0))
+"""Start and balance of the paths, tried in turn: no single choice leads through every rock pile."""
+
+FIRST_REFINEMENT = 1e-3  # error from which Newton's method may see the right statuses
+AGAIN = 10  # steps of a path after which Newton's method tries anew
+PATIENCE = 60  # steps of a path that may pass without the error falling to a half
 
 
-def solve_contacts(
-    delassus: np.ndarray, free_velocity: np.ndarray, friction: float,
-    tolerance: float = 1e-12, most_sweeps: int = 100_000,
-) -> np.ndarray:  # fmt: skip
-    """Impulses r (3 c,) [N s] with u = W r + q, opening u_n >= 0, r_n >= 0, and Coulomb friction.
+@dataclass(frozen=True)
+class ContactSolution:
+    """Reactions with their error. Only where `converged` are they a solution."""
 
-    delassus W (3 c, 3 c) [1/kg], free_velocity q (3 c,) [m/s], both in contact frames with the
-    normal first. The error is that of the natural map, relative to |q|. Raises ArithmeticError
-    where it stays above `tolerance`.
-    """
-    impulse, error = _projected_sweeps(
-        np.ascontiguousarray(delassus), free_velocity, friction, tolerance, most_sweeps
-    )
-    if error > tolerance:
-        raise ArithmeticError(f"contacts not solved: error {error:.1e} above {tolerance:.1e}")
-    return impulse
+    reactions: np.ndarray  # r (3 c,) [N s]
+    velocities: np.ndarray  # u = W r + q (3 c,) [m/s]
+    error: float  # natural map in the given units, comparable with Siconos's
+    scaled_error: float  # natural map in units of energy
+    sweeps: int  # of Gauss-Seidel
+    steps: int  # of the interior path and of Newton's method: one factorisation each, or more
+    converged: bool  # both errors within the tolerance
 
+    @property
+    def iterations(self) -> int:
+        """Sweeps and steps together."""
+        return self.sweeps + self.steps
 
-@compiled
-def _projected_sweeps(w, q, friction, tolerance, most_sweeps):
-    """Gauss-Seidel with one projection on the cone per contact; the step length is that of its block."""
-    contacts = q.shape[0] // 3
-    r = np.zeros(q.shape[0])
-    u = q.copy()
-    scale = np.sqrt((q * q).sum())
-    step = np.empty(contacts)
-    for c in range(contacts):
-        trace = w[3 * c, 3 * c] + w[3 * c + 1, 3 * c + 1] + w[3 * c + 2, 3 * c + 2]
-        step[c] = 1.0 / trace
-    error = np.inf
-    for _ in range(most_sweeps):
-        square = 0.0
-        for c in range(contacts):
-            k = 3 * c
-            slip = np.sqrt(u[k + 1] ** 2 + u[k + 2] ** 2)
-            # de Saxce: the shifted velocity turns Coulomb's law into a projection on the cone
-            new = _project_on_cone(
-                r[k] - step[c] * (u[k] + friction * slip),
-                r[k + 1] - step[c] * u[k + 1],
-                r[k + 2] - step[c] * u[k + 2],
-                friction,
+    def require_converged(self) -> ContactSolution:
+        """Itself, or ArithmeticError that says how far it is."""
+        if not self.converged:
+            worst = max(self.error, self.scaled_error)
+            raise ArithmeticError(
+                f"contacts not solved: error {worst:.1e} after {self.iterations} iterations"
             )
-            for d in range(3):
-                delta = new[d] - r[k + d]
-                if delta != 0.0:
-                    square += (delta / step[c]) ** 2
-                    r[k + d] = new[d]
-                    for m in range(u.shape[0]):
-                        u[m] += w[m, k + d] * delta
-        error = np.sqrt(square) / scale if scale > 0.0 else 0.0
-        if error < tolerance:
+        return self
+
+
+def solve_contacts(W, q, mu, tolerance: float = 1e-8, most_sweeps: int = 3000, most_steps: int = 100):
+    """Reactions r with u = W r + q, opening u_n >= 0, r_n >= 0, complementary, and Coulomb friction.
+
+    W (3 c, 3 c) [1/kg] positive semidefinite, sparse of any storage or dense; q (3 c,) [m/s]; mu, one
+    for all contacts or (c,); normal first. most_steps: of each interior path. Returns a
+    ContactSolution whose error is that of the natural map (see `natural_map`), relative; it is
+    for the caller to look at `converged`. Raises ValueError for input that is no such problem.
+    """
+    problem = ContactProblem.of(W, q, mu)
+    best, sweeps = accelerated_sweeps(
+        problem.start, problem.other, problem.block, problem.free_velocity, problem.friction, problem.length,
+        tolerance, most_sweeps,
+    )  # fmt: skip
+    least, steps = max(problem.errors(best)), 0
+    for start, balance in PATHS:
+        if least <= tolerance:
             break
-    return r, error
+        with np.errstate(over="ignore", invalid="ignore"):  # a path without an end ends there
+            path = interior_path(problem, start, balance)
+            found, error, taken = _follow(problem, path, tolerance, most_steps)
+        steps += taken
+        if error < least:
+            best, least = found, error
+    error, scaled = problem.errors(best)
+    return ContactSolution(
+        best, problem.velocity(best), error, scaled, sweeps, steps, bool(least <= tolerance)
+    )
 
 
-@compiled
-def _project_on_cone(n, t, s, friction):
-    """Nearest point of the cone |(t, s)| <= friction n."""
-    tangential = np.sqrt(t * t + s * s)
-    if tangential <= friction * n:
-        return n, t, s
-    if friction * tangential <= -n:
-        return 0.0, 0.0, 0.0
-    height = (n + friction * tangential) / (1.0 + friction * friction)
-    scale = friction * height / tangential if tangential > 0.0 else 0.0
-    return height, scale * t, scale * s
+def _follow(problem, path, tolerance, most_steps):
+    """The best reactions along a path and by Newton's method from it, their error, and the steps."""
+    best, least, steps = np.zeros_like(problem.free_velocity), np.inf, 0
+    refined, refined_step, mark, mark_step = 10.0 * FIRST_REFINEMENT, 0, np.inf, 0
+    for step, r in zip(range(most_steps), path, strict=False):
+        error, steps = max(problem.errors(r)), steps + 1
+        candidates = [(error, r)]
+        if tolerance < error < 0.1 * refined or (error < refined and step - refined_step >= AGAIN):
+            refined, refined_step = error, step
+            r, taken = refine(problem, r, tolerance)
+            steps += taken
+            candidates.append((max(problem.errors(r)), r))
+        for candidate, reactions in candidates:
+            if candidate < least:
+                best, least = reactions, candidate
+        if least <= tolerance:
+            break
+        if error < 0.5 * mark:
+            mark, mark_step = error, step
+        elif step - mark_step > PATIENCE:
+            break
+    return best, least, steps

@@ -1,0 +1,32 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=_options.File)
+@click.option(
+    "--tolerance", default=1e-8, type=_options.POSITIVE, help="Both errors of the natural map, relative."
+)
+@click.option("--output", type=_options.File, help="Table (CSV) to write as well.")
+def command(files: tuple[Path, ...], tolerance: float, output: Path | None) -> None:
+    """Solve frictional contact problems in FCLIB's HDF5 format; exit status 1 if one did not converge.
+
+    One line for each: contacts, iterations, error, CPU seconds, and whether it converged. The error
+    is that of Siconos and FCLIB; the scaled one does not depend on units. Iterations: Gauss-Seidel
+    sweeps and steps of the interior path and of Newton's method.
+    """
+    from asphalt_nscd import fclib, store
+
+    outcomes = fclib.solve_files(files, tolerance)
+    for outcome in outcomes:
+        click.echo(outcome)
+    if output is not None:
+        store.write_table(output, fclib.table(outcomes))
+    unsolved = [outcome.file for outcome in outcomes if not outcome.converged]
+    if unsolved:
+        raise click.ClickException(f"not converged to {tolerance:g}: {', '.join(unsolved)}")

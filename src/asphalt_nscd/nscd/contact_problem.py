@@ -1,0 +1,67 @@
+"""The frictional contact problem, and how far reactions are from solving it.
+
+    u = W r + q,    K* ∋ u + mu |u_T| n  ⟂  r ∈ K,    K: |r_T| <= mu r_n
+
+(de Saxcé's form of Signorini's and Coulomb's laws.) All vectors are ordered n, t1, t2 contact by
+contact. W need not have full rank, nor be exactly symmetric.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+
+from asphalt_nscd.nscd.contact_sweeps import natural_map
+
+
+@dataclass(frozen=True)
+class ContactProblem:
+    """Checked input in the forms that the methods need."""
+
+    matrix: sparse.csr_array  # W (3 c, 3 c) [1/kg]
+    start: np.ndarray  # (c + 1,) first block of each block row of W
+    other: np.ndarray  # (blocks,) block column
+    block: np.ndarray  # (blocks, 3, 3)
+    free_velocity: np.ndarray  # q (3 c,) [m/s]
+    friction: np.ndarray  # mu (c,)
+    length: np.ndarray  # rho (c,) [kg]: 3 / tr W_aa, the step length that suits each contact
+
+    @classmethod
+    def of(cls, W, q, mu) -> ContactProblem:
+        """From a matrix of any storage and a coefficient of friction, or one for each contact."""
+        q = np.array(q, float).ravel()
+        contacts = q.size // 3
+        if np.shape(W) != (3 * contacts, 3 * contacts) or q.size % 3:
+            raise ValueError(f"W {np.shape(W)} and q ({q.size},) are not of three rows for each contact")
+        if np.ndim(mu) and np.shape(mu) != (contacts,):
+            raise ValueError(f"mu {np.shape(mu)} is not one number for each of {contacts} contacts")
+        friction = np.broadcast_to(np.asarray(mu, float), contacts).copy()
+        matrix = sparse.csr_array(W, dtype=float)
+        blocks = sparse.bsr_array(matrix, blocksize=(3, 3))
+        blocks.sort_indices()
+        if not (np.isfinite(blocks.data).all() and np.isfinite(q).all() and np.isfinite(friction).all()):
+            raise ValueError("W, q and mu must be finite")
+        if (friction < 0.0).any():
+            raise ValueError("mu must not be negative")
+        trace = np.zeros(contacts)
+        row = np.repeat(np.arange(contacts), np.diff(blocks.indptr))
+        own = row == blocks.indices
+        trace[row[own]] = np.trace(blocks.data[own], axis1=1, axis2=2)
+        usual = trace.mean() if trace.any() else 1.0
+        length = 3.0 / np.where(trace > 1e-14 * usual, trace, usual)
+        return cls(
+            matrix, blocks.indptr.astype(np.int64), blocks.indices.astype(np.int64), blocks.data, q,
+            friction, length,
+        )  # fmt: skip
+
+    def velocity(self, r: np.ndarray) -> np.ndarray:
+        """u = W r + q."""
+        return self.matrix @ r + self.free_velocity
+
+    def errors(self, r: np.ndarray) -> tuple[float, float]:
+        """Error of the natural map as Siconos states it, and free of units; see `natural_map`."""
+        return natural_map(
+            self.start, self.other, self.block, self.free_velocity, self.friction, self.length, r
+        )

@@ -1,0 +1,210 @@
+"""Block Gauss-Seidel on frictional contacts, each solved exactly, and its Anderson acceleration.
+
+The plain method stalls where more contacts hold a body than it needs. Extrapolating from the last
+few sweeps (Walker and Ni, SIAM J. Numer. Anal. 49, 2011) takes a tenth of the sweeps on most problems.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asphalt_nscd.nscd.compiled import compiled
+
+_DEPTH = 5  # sweeps that an extrapolation looks back on; ten save little
+_CHECK = 10  # sweeps between two computations of the error
+_ASTRAY = 4.0  # growth of the square of a sweep's change that is not forgiven
+_ROUNDING = 2.0**-52
+_PATIENCE = 300  # sweeps that may pass without the error falling to a tenth
+
+
+@compiled
+def accelerated_sweeps(start, other, block, q, friction, length, tolerance, most_sweeps):
+    """Sweeps from r = 0 until both errors are below tolerance, or progress ends.
+
+    Returns (r of the least error, sweeps).
+    """
+    rows = q.shape[0]
+    r, swept, best = np.zeros(rows), np.zeros(rows), np.zeros(rows)
+    results, changes = np.zeros((_DEPTH + 1, rows)), np.zeros((_DEPTH + 1, rows))
+    kept, newest, last_size = 0, -1, np.inf
+    least = mark = np.inf
+    mark_sweep = 0
+    for sweep in range(1, most_sweeps + 1):
+        swept[:] = r
+        sweep_once(start, other, block, q, friction, swept)
+        size = whole = 0.0
+        for i in range(rows):
+            size += (swept[i] - r[i]) ** 2 / length[i // 3]
+            whole += swept[i] ** 2 / length[i // 3]
+        if sweep % _CHECK == 0 or sweep == most_sweeps or size <= tolerance**2 * whole:
+            error = max(natural_map(start, other, block, q, friction, length, swept))
+            if error < least:
+                least = error
+                best[:] = swept
+            if least <= tolerance:
+                return best, sweep
+            if error <= 0.1 * mark:
+                mark, mark_sweep = error, sweep
+            elif sweep - mark_sweep > _PATIENCE:
+                return best, sweep
+        if size > _ASTRAY * last_size:  # the extrapolation led astray: back to the last result, anew
+            r[:] = results[newest]
+            kept, last_size = 0, np.inf
+            continue
+        last_size = size
+        newest = (newest + 1) % (_DEPTH + 1)
+        for i in range(rows):
+            results[newest, i] = swept[i]
+            changes[newest, i] = (swept[i] - r[i]) / np.sqrt(length[i // 3])
+        kept = min(kept + 1, _DEPTH + 1)
+        r[:] = extrapolated(results, changes, newest, kept)
+    return best, most_sweeps
+
+
+@compiled
+def extrapolated(results, changes, newest, kept):
+    """Combination of the last results (in a ring) whose change would be least, to first order."""
+    combined = results[newest].copy()
+    depth, (ring, rows) = kept - 1, results.shape
+    if depth < 1:
+        return combined
+    normal = np.zeros((depth, depth))
+    right = np.zeros(depth)
+    difference = np.empty(depth)
+    for i in range(rows):
+        for k in range(depth):
+            difference[k] = changes[(newest - k) % ring, i] - changes[(newest - k - 1) % ring, i]
+            right[k] += difference[k] * changes[newest, i]
+            for m in range(k + 1):
+                normal[k, m] += difference[k] * difference[m]
+    damping = 1e-10 * np.trace(normal)
+    if damping <= 0.0:
+        return combined
+    for k in range(depth):
+        normal[k, k] += damping
+        for m in range(k):
+            normal[m, k] = normal[k, m]
+    share = np.linalg.solve(normal, right)
+    for k in range(depth):
+        now, last = (newest - k) % ring, (newest - k - 1) % ring
+        for i in range(rows):
+            combined[i] -= share[k] * (results[now, i] - results[last, i])
+    return combined
+
+
+@compiled
+def sweep_once(start, other, block, q, friction, r):
+    """Solve each contact in turn with all others held; r (3 c,) changes in place."""
+    empty = np.zeros((3, 3))
+    for a in range(friction.shape[0]):
+        u0, u1, u2 = q[3 * a], q[3 * a + 1], q[3 * a + 2]
+        own = empty
+        for k in range(start[a], start[a + 1]):
+            b = 3 * other[k]
+            if b == 3 * a:
+                own = block[k]
+            else:
+                u0 += block[k, 0, 0] * r[b] + block[k, 0, 1] * r[b + 1] + block[k, 0, 2] * r[b + 2]
+                u1 += block[k, 1, 0] * r[b] + block[k, 1, 1] * r[b + 1] + block[k, 1, 2] * r[b + 2]
+                u2 += block[k, 2, 0] * r[b] + block[k, 2, 1] * r[b + 1] + block[k, 2, 2] * r[b + 2]
+        r[3 * a], r[3 * a + 1], r[3 * a + 2] = one_contact(own, u0, u1, u2, friction[a])
+
+
+@compiled
+def one_contact(w, q0, q1, q2, mu):
+    """Reaction of one contact with full 3 x 3 block w and free velocity q.
+
+    Slip means r_T = -u_T / s with s > 0. With r_n eliminated by u_n = 0 there remains
+    (A + s) r_T = -g, and s follows from |r_T| = mu r_n: Newton's method on the difference of the
+    reciprocals, kept within bounds. s = 0 is sticking.
+    """
+    if q0 >= 0.0 or w[0, 0] <= 0.0:
+        return 0.0, 0.0, 0.0
+    stopping = -q0 / w[0, 0]
+    if mu == 0.0:
+        return stopping, 0.0, 0.0
+    b1, b2 = w[0, 1] / w[0, 0], w[0, 2] / w[0, 0]
+    a11, a12 = w[1, 1] - w[1, 0] * b1, w[1, 2] - w[1, 0] * b2
+    a21, a22 = w[2, 1] - w[2, 0] * b1, w[2, 2] - w[2, 0] * b2
+    g1, g2 = q1 + w[1, 0] * stopping, q2 + w[2, 0] * stopping
+    if g1 == 0.0 and g2 == 0.0:
+        return stopping, 0.0, 0.0
+    trace = a11 + a22
+    low, high = 0.0, np.inf
+    s = 0.0 if a11 * a22 - a12 * a21 > 1e-14 * trace * trace else 1e-12 * (trace + w[0, 0])
+    n = x = y = 0.0
+    for step in range(100):
+        determinant = (a11 + s) * (a22 + s) - a12 * a21
+        x = (a12 * g2 - (a22 + s) * g1) / determinant
+        y = (a21 * g1 - (a11 + s) * g2) / determinant
+        n = stopping - b1 * x - b2 * y
+        tangential = np.sqrt(x * x + y * y)
+        excess = tangential - mu * n
+        if (step == 0 and excess <= 0.0) or abs(excess) <= 1e-15 * tangential:
+            break
+        if excess > 0.0:
+            low = s
+        else:
+            high = s
+        if high < np.inf and high - low <= 4e-16 * high:
+            break
+        new = -1.0
+        if n > 0.0:
+            dx = (a12 * y - (a22 + s) * x) / determinant
+            dy = (a21 * x - (a11 + s) * y) / determinant
+            slope = (b1 * dx + b2 * dy) / (mu * n * n) + (x * dx + y * dy) / tangential**3
+            new = s + (1.0 / tangential - 1.0 / (mu * n)) / slope if slope != 0.0 else -1.0
+        if not low < new < high:
+            new = 0.5 * (low + high) if high < np.inf else 8.0 * max(s, 0.05 * (trace + w[0, 0]))
+        s = new
+    return n, x, y
+
+
+@compiled
+def natural_map(start, other, block, q, friction, length, r):
+    """Two errors of reactions r (3 c,): as Siconos states it, and free of units.
+
+    |r - P_K(r - (u + mu |u_T| n))| / max(|q|, |r|, |u|) adds impulses to velocities, so that it
+    depends on the units, and becomes small where reactions grow without end. The second takes
+    the variables r / sqrt(rho) and u sqrt(rho), both square roots of energies, with the step
+    lengths rho_a = `length` (c,), is relative to |q| alone, and at least the rounding of r.
+    """
+    plain = np.zeros(4)
+    distance = pressing = available = 0.0
+    for a in range(friction.shape[0]):
+        u0, u1, u2 = q[3 * a], q[3 * a + 1], q[3 * a + 2]
+        for k in range(start[a], start[a + 1]):
+            b = 3 * other[k]
+            u0 += block[k, 0, 0] * r[b] + block[k, 0, 1] * r[b + 1] + block[k, 0, 2] * r[b + 2]
+            u1 += block[k, 1, 0] * r[b] + block[k, 1, 1] * r[b + 1] + block[k, 1, 2] * r[b + 2]
+            u2 += block[k, 2, 0] * r[b] + block[k, 2, 1] * r[b + 1] + block[k, 2, 2] * r[b + 2]
+        r0, r1, r2 = r[3 * a], r[3 * a + 1], r[3 * a + 2]
+        shifted = u0 + friction[a] * np.sqrt(u1 * u1 + u2 * u2)
+        force = r0 * r0 + r1 * r1 + r2 * r2
+        free = q[3 * a] ** 2 + q[3 * a + 1] ** 2 + q[3 * a + 2] ** 2
+        speed = u0 * u0 + u1 * u1 + u2 * u2
+        p0, p1, p2 = project_on_cone(r0 - shifted, r1 - u1, r2 - u2, friction[a])
+        plain += np.array([(r0 - p0) ** 2 + (r1 - p1) ** 2 + (r2 - p2) ** 2, free, force, speed])
+        h = length[a]
+        p0, p1, p2 = project_on_cone(r0 - h * shifted, r1 - h * u1, r2 - h * u2, friction[a])
+        distance += ((r0 - p0) ** 2 + (r1 - p1) ** 2 + (r2 - p2) ** 2) / h
+        pressing += force / h
+        available += free * h
+    tiny = 1e-300  # no motion and no force is no error
+    return (
+        np.sqrt(plain[0] / max(plain[1:].max(), tiny)),
+        np.sqrt(max(distance, _ROUNDING**2 * pressing) / max(available, tiny)),
+    )
+
+
+@compiled
+def project_on_cone(n, t, s, friction):
+    """Nearest point of the cone |(t, s)| <= friction n."""
+    tangential = np.sqrt(t * t + s * s)
+    if tangential <= friction * n:
+        return n, t, s
+    if friction * tangential <= -n:
+        return 0.0, 0.0, 0.0
+    height = (n + friction * tangential) / (1.0 + friction * friction)
+    scale = friction * height / tangential if tangential > 0.0 else 0.0
+    return height, scale * t, scale * s

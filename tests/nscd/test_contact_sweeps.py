@@ -1,0 +1,105 @@
+"""The compiled sweeps and error against their naive twins, to rounding."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from naive.friction import naive_extrapolation, naive_natural_map, naive_sweep, nearest_in_cone, one_contact
+
+from asphalt_nscd.nscd import contact_sweeps as kernels
+from asphalt_nscd.nscd.contact_problem import ContactProblem
+
+
+def random_problem(seed, contacts=6):
+    rng = np.random.default_rng(seed)
+    jacobian = rng.normal(size=(3 * contacts, 3 * contacts + 4))
+    return jacobian @ jacobian.T / contacts, rng.normal(-0.3, 1.0, 3 * contacts), rng
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3, 0.8])
+def test_one_contact(friction):
+    """Full blocks; those for which friction this strong has one solution only: small W_nt."""
+    rng = np.random.default_rng(3)
+    seen = set()
+    for _ in range(60):
+        factor = rng.normal(size=(3, 6))
+        w = factor @ factor.T + 3.0 * np.eye(3)
+        q = rng.normal(-0.5, 1.0, 3)
+        expected = one_contact(w, q, friction)
+        found = np.array(kernels.one_contact(w, *q, friction))
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13)
+        slip = np.linalg.norm((w @ found + q)[1:]) > 1e-12
+        seen.add("open" if found[0] == 0 else "slip" if slip else "stick")
+    assert seen == ({"open", "slip"} if friction == 0.0 else {"open", "slip", "stick"})
+
+
+def test_one_contact_without_tangential_motion():
+    """A sphere pressed head-on whose block is singular in the tangential plane."""
+    assert kernels.one_contact(np.diag([2.0, 0.0, 0.0]), -2.0, 0.0, 0.0, 0.3) == (1.0, 0.0, 0.0)
+    n, t, s = kernels.one_contact(np.diag([2.0, 0.0, 0.0]), -2.0, 3.0, 4.0, 0.5)  # slips
+    np.testing.assert_allclose((n, t, s), (1.0, -0.3, -0.4), rtol=1e-9)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_sweep(friction):
+    w, q, _ = random_problem(1)
+    problem = ContactProblem.of(w, q, friction)
+    r, expected = np.zeros(q.size), np.zeros(q.size)
+    for _ in range(3):
+        kernels.sweep_once(problem.start, problem.other, problem.block, q, problem.friction, r)
+        expected = naive_sweep(w, q, friction, expected)
+        np.testing.assert_allclose(r, expected, rtol=0, atol=1e-12)
+    assert np.abs(r).max() > 0.1
+
+
+def test_natural_map():
+    """On reactions that solve nothing, so that both errors are of order one."""
+    for seed in range(5):
+        w, q, rng = random_problem(seed)
+        mu, r = rng.uniform(0.0, 1.0, 6), rng.normal(size=q.size)
+        found = ContactProblem.of(w, q, mu).errors(r)
+        np.testing.assert_allclose(found, naive_natural_map(w, q, mu, r), rtol=1e-13)
+        assert min(found) > 0.05
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.4, 3.0])
+def test_projection(friction):
+    for z in np.random.default_rng(2).normal(size=(40, 3)):
+        found = kernels.project_on_cone(*z, friction)
+        np.testing.assert_allclose(found, nearest_in_cone(z, friction), rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("kept", [1, 2, 6])
+def test_extrapolation(kept):
+    """A ring of six in which the newest is the third: the last `kept` in order of age."""
+    rng = np.random.default_rng(4)
+    results, changes = rng.normal(size=(6, 9)), rng.normal(size=(6, 9))
+    order = [3, 4, 5, 0, 1, 2][-kept:]
+    found = kernels.extrapolated(results, changes, 2, kept)
+    expected = naive_extrapolation(results[order], changes[order]) if kept > 1 else results[2]
+    np.testing.assert_allclose(found, expected, rtol=1e-11)
+
+
+def test_extrapolation_of_a_linear_map_ends_at_its_fixed_point():
+    """x -> A x + b in three dimensions: four results determine the fixed point."""
+    rng = np.random.default_rng(5)
+    a, b = 0.3 * rng.normal(size=(3, 3)), rng.normal(size=3)
+    x, results, changes = np.zeros(3), np.zeros((6, 3)), np.zeros((6, 3))
+    for k in range(4):
+        results[k] = a @ x + b
+        changes[k] = results[k] - x
+        x = results[k]
+    fixed = np.linalg.solve(np.eye(3) - a, b)
+    np.testing.assert_allclose(kernels.extrapolated(results, changes, 3, 4), fixed, rtol=1e-6)
+
+
+def test_accelerated_sweeps_return_the_best_and_stop():
+    w, q, _ = random_problem(7)
+    problem = ContactProblem.of(w, q, 0.4)
+    arguments = (problem.start, problem.other, problem.block, q, problem.friction, problem.length)
+    r, sweeps = kernels.accelerated_sweeps(*arguments, 1e-10, 500)
+    assert sweeps < 100 and max(problem.errors(r)) <= 1e-10
+    r, sweeps = kernels.accelerated_sweeps(*arguments, 1e-10, 2)
+    assert sweeps == 2 and 1e-10 < max(problem.errors(r)) < max(problem.errors(np.zeros_like(r)))
+    _, sweeps = kernels.accelerated_sweeps(*arguments, 0.0, 10_000)
+    assert sweeps < 1000  # rounding is reached: no progress, no end
