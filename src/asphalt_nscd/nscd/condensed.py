@@ -145,9 +145,10 @@ class CondensedStepper:
             """How much faster the head would go under the contact forces of this head velocity."""
             return follow(self._move(impulse, head_velocity)[1])[0] - head_velocity
 
-        velocity, slider = follow(np.zeros_like(impulse))
+        velocity, _ = follow(np.zeros_like(impulse))
         motion, contact_force = self._move(impulse, velocity)
-        excess = follow(contact_force)[0] - velocity
+        resisted, slider = follow(contact_force)
+        excess = resisted - velocity
         if excess:  # contacts resist motion, so the answer lies between
             velocity = brentq(yields, velocity, velocity + excess, xtol=1e-14 * abs(excess))
             velocity, slider = follow(self._move(impulse, velocity)[1])
