@@ -21,6 +21,7 @@ from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.harmonic import driving_force
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import write_law
+from asphalt_nscd.signals import harmonic_response
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.store import load, save
 from asphalt_nscd.twopoint import complex_modulus
@@ -100,6 +101,49 @@ def test_methods_agree(model):
     assert stopped.details.keys() == {"sweeps", "tolerance", "most_sweeps"}
     assert 25 * 520 < stopped.details["sweeps"] <= 50 * 520
     assert told[-1] == (520, 520)
+
+
+@pytest.mark.parametrize("method", ["reduced", "condensed"])
+def test_a_fitted_scheme_needs_a_hundred_steps_a_cycle(model, method):
+    """|E*| within 1e-4 and phase within 0.01 deg of the exact law on the same specimen; bonds break alike."""
+    arguments = (model, bond_law(LAW), FREQUENCY, 1e-6, 4.0, 1 / (100 * FREQUENCY), 20)
+    moduli = []
+    for way in (method, "harmonic"):
+        record = run_test(*arguments, way, scheme="fitted" if way == method else "euler")
+        found = harmonic_response(record.time, record.force, record.displacement, FREQUENCY, cycles=2)
+        moduli.append(found.force_amplitude * np.exp(1j * found.phase))
+    ratio = moduli[0] / moduli[1]
+    assert abs(abs(ratio) - 1) < 1e-4 and abs(np.degrees(np.angle(ratio))) < 0.01
+
+
+@pytest.mark.parametrize("scheme", ["euler", "fitted"])
+def test_energy_account_of_a_run(model, scheme):
+    """Bonds break, the account closes to 1e-11 by either method, and the two agree."""
+    details = [
+        run(model, method, amplitude=8e-5, cycles=1.0, scheme=scheme, energy=True).details
+        for method in ("reduced", "condensed")
+    ]
+    assert all(abs(each["energy_error"]) < 1e-11 for each in details)
+    for name in ("actuator", "springs", "dashpots", "fracture", "kinetic", "numerical"):
+        reduced, condensed = (each[f"energy_{name}_J"] for each in details)
+        assert reduced == pytest.approx(condensed, rel=1e-4) and reduced > 0.0
+
+
+def test_energy_account_where_the_full_system_takes_over(model):
+    system = replace(model.system, gap=1e-3 * model.system.gap, strength=np.full_like(model.system.strength, np.inf))
+    narrow = replace(model, system=system)
+    reduced, condensed = (
+        run(narrow, method, 3e-5, cycles=0.2, scheme="fitted") for method in ("reduced", "condensed")
+    )
+    assert 5 < reduced.details["full_steps"] < 45
+    assert abs(reduced.details["energy_error"]) < 1e-11 and reduced.details["energy_impact_J"] > 0.0
+    np.testing.assert_allclose(reduced.force, condensed.force, rtol=0, atol=1e-6 * np.abs(condensed.force).max())
+
+
+@pytest.mark.parametrize("method", ["sweeps", "harmonic"])
+def test_methods_without_a_scheme(model, method):
+    with pytest.raises(InputError, match=f"method {method} knows no scheme 'fitted'"):
+        run(model, method, scheme="fitted")
 
 
 def test_bonds_break_alike(model):

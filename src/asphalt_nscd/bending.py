@@ -19,6 +19,7 @@ from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.law import BondLaw
 from asphalt_nscd.nscd.reduced import ReducedModel, ritz_basis
 from asphalt_nscd.nscd.reduced_stepping import FullSystemNeeded, ReducedStepper
+from asphalt_nscd.nscd.scheme import Scheme
 from asphalt_nscd.nscd.sweeping import SweepingStepper
 from asphalt_nscd.preparation import read_specimen
 from asphalt_nscd.rheology.burgers import Burgers
@@ -27,6 +28,7 @@ from asphalt_nscd.rheology.laws_io import read_bond_law
 from asphalt_nscd.rig import Rig, read_rig
 from asphalt_nscd.signals import harmonic_response, peak_response, require_steps
 from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.stepwise import condensed_steps, reduced_steps
 from asphalt_nscd.store import load, save
 from asphalt_nscd.twopoint import Geometry, complex_modulus, norm_and_phase
 
@@ -118,16 +120,23 @@ class Record:
 def run_test(
     model: Model, law: BondLaw, frequency: float, amplitude: float, cycles: float, time_step: float,
     rest_steps: int, method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
-    progress: Progress = lambda done, total: None, rig: Rig = Rig(),
+    progress: Progress = lambda done, total: None, rig: Rig = Rig(), scheme: str = "euler",
+    energy: bool = False,
 ) -> Record:  # fmt: skip
     """Gravity for rest_steps, then z = A sin(2 pi f t) at the actuator for the given number of cycles.
 
     frequency [Hz], amplitude [m], time_step [s]; tolerance and most_sweeps concern "sweeps" only.
     "harmonic" gives the steady oscillation of the unbroken system, without gravity or transient.
+    scheme: one of nscd.scheme.SCHEMES, for "reduced" and "condensed"; energy: keep the energy account
+    of a reduced run too, whose steps are then made one by one, as those of other schemes than "euler".
     The actuator is the head itself but for the rig; the record is that of the rig's channel.
     """
     if method == "harmonic" and rig.guide_friction:
         raise InputError("rig: a slider has no steady harmonic oscillation; choose the method reduced.")
+    if scheme != "euler" and method not in ("reduced", "condensed"):
+        raise InputError(
+            f"method {method} knows no scheme {scheme!r}; choose the method reduced or condensed."
+        )
     if method == "sweeps" and not rig.is_rigid:
         raise InputError(
             "rig: Gauss-Seidel on bonds knows no devices at the head; choose the method reduced."
@@ -143,22 +152,29 @@ def run_test(
         amplitude_of_force = amplitude * harmonic.actuator_stiffness(stiffness, rig, omega)
         force = (amplitude_of_force * np.exp(1j * omega * times)).imag
         return Record(times, displacement, force, [], np.nan, {})
-    if method == "reduced":
+    if method == "sweeps":
+        state = CondensedState.at_rest(model.system, law)
+        stepper = SweepingStepper(model.system, law, time_step, state, tolerance, most_sweeps)
+        force, velocity = _march(stepper, driven, 0.0, time_step, model.layers, progress)
+        broken, residual = state.broken, stepper.largest_change
+        details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most_sweeps}
+    elif method == "reduced" and scheme == "euler" and not energy:
         force, velocity, broken, residual, details = _run_reduced(
             model, law, time_step, driven, rig, progress
         )
     else:
-        state = CondensedState.at_rest(model.system, law)
+        coefficients = Scheme.named(scheme, omega * time_step)
         if method == "condensed":
-            stepper = CondensedStepper(model.system, law, time_step, state, rig)
+            steps = condensed_steps(
+                model.system, law, coefficients, time_step, driven, rig, model.layers, progress
+            )
+            residual, details = np.nan, {}
         else:
-            stepper = SweepingStepper(model.system, law, time_step, state, tolerance, most_sweeps)
-        force, velocity = _march(stepper, driven, 0.0, time_step, model.layers, progress)
-        broken = state.broken
-        residual = stepper.largest_change if method == "sweeps" else np.nan
-        details = {}
-        if method == "sweeps":
-            details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most_sweeps}
+            stepper = _reduced_stepper(model, law, time_step / coefficients.a, rig)
+            steps = reduced_steps(stepper, law, coefficients, time_step, driven, model.layers, progress)
+            residual, details = _certified(stepper, steps.full_steps)
+        force, velocity, broken = steps.force, steps.velocity, steps.broken
+        details |= steps.energies.columns()
     return Record(
         times, displacement, force[rest_steps:], broken, residual, details, velocity[rest_steps:]
     )  # fmt: skip
@@ -167,8 +183,7 @@ def run_test(
 def _run_reduced(
     model: Model, law: BondLaw, time_step: float, driven: np.ndarray, rig: Rig, progress: Progress
 ) -> tuple[np.ndarray, np.ndarray, list[int], float, dict[str, float | int]]:
-    reduced = ReducedModel(model.system, model.basis)
-    stepper = ReducedStepper(reduced, law, time_step, RESIDUAL_TOLERANCE, devices=rig)
+    stepper = _reduced_stepper(model, law, time_step, rig)
     along = (model.layers.mean @ model.basis).T
     full_steps = 0
     broken = stepper.state.broken
@@ -184,15 +199,24 @@ def _run_reduced(
         force = np.concatenate([accepted.force, further[0]])
         velocity = np.concatenate([accepted.velocity @ along, further[1]])
         full_steps, broken = rest.size, state.broken
+    progress(driven.size, driven.size)
+    return force, velocity, broken, *_certified(stepper, full_steps)
+
+
+def _reduced_stepper(model: Model, law: BondLaw, time_step: float, rig: Rig) -> ReducedStepper:
+    reduced = ReducedModel(model.system, model.basis)
+    return ReducedStepper(reduced, law, time_step, RESIDUAL_TOLERANCE, devices=rig)
+
+
+def _certified(stepper: ReducedStepper, full_steps: int) -> tuple[float, dict[str, float | int]]:
+    """(residual, columns) of the certificate of a run, `full_steps` of which the full system made."""
     certificate = stepper.certificate()
-    details = {
+    return certificate.largest_residual, {
         "largest_utilisation": certificate.largest_utilisation,
         "smallest_gap_m": certificate.smallest_gap,
         "enrichments": certificate.enrichments,
         "full_steps": full_steps,
     }
-    progress(driven.size, driven.size)
-    return force, velocity, broken, certificate.largest_residual, details
 
 
 def _march(
@@ -215,7 +239,8 @@ def simulate(
     model_file: str | Path, law_file: str | Path, temperature: float, frequency: float, amplitude: float,
     cycles: float, time_step: float, rest_steps: int, output: str | Path, law_source: str = "",
     method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
-    progress: Progress = lambda done, total: None, rig_file: str | Path | None = None,
+    progress: Progress = lambda done, total: None, rig_file: str | Path | None = None, scheme: str = "euler",
+    energy: bool = False,
 ) -> None:  # fmt: skip
     """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking."""
     if cycles < 1.0:
@@ -228,7 +253,7 @@ def simulate(
     try:
         record = run_test(
             model, bond_law(law), frequency, amplitude, cycles, time_step, rest_steps, method, tolerance,
-            most_sweeps, progress, rig,
+            most_sweeps, progress, rig, scheme, energy,
         )  # fmt: skip
     except ArithmeticError as error:
         raise InputError(
@@ -254,7 +279,7 @@ def simulate(
     columns |= {
         "residual": record.residual, "cpu_s": cpu, "method": method, "head": model.head,
         "law_source": law_source, "time_step_s": time_step, "amplitude_m": amplitude, **record.details,
-        **({} if rig_file is None else rig.columns()),
+        **({} if rig_file is None else rig.columns()), **({} if scheme == "euler" else {"scheme": scheme}),
     }  # fmt: skip
     arrays = {
         "time_s": record.time, "displacement_m": record.displacement, "force_N": record.force,

@@ -26,11 +26,18 @@ from asphalt_nscd.cli import _options, _progress
 @click.option("--tolerance", default=1e-4, type=_options.NOT_NEGATIVE, help="Relative change per sweep that stops Gauss-Seidel.")
 @click.option("--most-sweeps", default=50, type=click.IntRange(1), help="Most sweeps of Gauss-Seidel in a step.")
 @click.option("--rig", default=None, type=_options.File, help="What stands at the head and in the measuring channel, JSON.")
+@click.option(
+    "--scheme",
+    default="euler",
+    type=click.Choice(["euler", "fitted"]),
+    help="Implicit Euler, or BDF2 fitted to the frequency: exact in steady oscillation, 100 steps a cycle do.",
+)
+@click.option("--energy", is_flag=True, help="Keep the energy account of a reduced run too; condensed ones always do.")
 @_options.output
 def command(
     model: Path, law: Path, law_source: str, temperature_c: float, frequency_hz: float, amplitude_m: float,
     cycles: float, time_step_s: float, rest_steps: int, method: str, tolerance: float, most_sweeps: int,
-    rig: Path | None, output: Path,
+    rig: Path | None, scheme: str, energy: bool, output: Path,
 ) -> None:  # fmt: skip
     """One complex modulus test at one temperature and frequency."""
     from asphalt_nscd.bending import simulate
@@ -39,5 +46,5 @@ def command(
         simulate(
             model, law, temperature_c, frequency_hz, amplitude_m, cycles, time_step_s, rest_steps, output,
             law_source, method, tolerance, most_sweeps, lambda done, total: report("testing", done, total),
-            rig,
+            rig, scheme, energy,
         )  # fmt: skip

@@ -46,7 +46,8 @@ class CondensedStepper:
     """Steps the full system at constant dt and law; breaks bonds and meets contacts on the way.
 
     Of the last step: `missing` (d,) [N, N m], what the equations of motion lack, which is the driving
-    force where the motion is driven and rounding elsewhere; `utilisation`, the largest of a bond.
+    force where the motion is driven and rounding elsewhere; `utilisation`, the largest of a bond;
+    `contact`, (reactions [N], openings [m/s]) (3 c,) of the gaps that closed, or None.
     """
 
     def __init__(
@@ -59,6 +60,18 @@ class CondensedStepper:
         self._operator = ShiftedOperator(system, dt / self.step_law.compliance)
         self._operator.remove(state.broken)
         self._following = np.empty(0), -1
+
+    @property
+    def weight(self) -> np.ndarray:
+        """w (3 b,) [m] of the bonds, zero for the broken ones."""
+        return self._operator.weight
+
+    def move(self, start: float, end: float) -> float:
+        """One step in which the actuator goes from start to end [m]; its force [N]."""
+        self.actuator = start
+        force = self.advance((end - start) / self.dt)
+        self.actuator = end
+        return force
 
     def advance(self, driven_velocity: float) -> float:
         """One step with the actuator moving at driven_velocity [m/s]; the head with it if the clamp is rigid.
@@ -163,7 +176,7 @@ class CondensedStepper:
         closing = np.flatnonzero(gap + dt * (opening_rows @ velocity) < 0.0)
         touching: list[int] = []
         force = np.zeros_like(velocity)
-        corrected = velocity
+        corrected, self.contact = velocity, None
         while not np.isin(closing, touching).all():
             touching = sorted({*touching, *closing.tolist()})
             rows = (3 * np.asarray(touching)[:, None] + np.arange(3)).ravel()
@@ -177,5 +190,6 @@ class CondensedStepper:
             corrected = velocity.copy()
             corrected[system.free] += response @ impulse
             force = normal.T @ impulse / dt
+            self.contact = impulse / dt, normal @ corrected
             closing = np.flatnonzero(gap + dt * (opening_rows @ corrected) < -CLOSED)
         return corrected, force

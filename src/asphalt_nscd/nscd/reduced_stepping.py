@@ -105,6 +105,10 @@ class ReducedStepper:
                 self.model = self.model.with_basis(self.model.basis, self.state.broken)
             self._enrich()
 
+    def move(self, start: float, end: float) -> float:
+        """One step in which the actuator goes from start to end [m]; its force [N]."""
+        return float(self.run(np.array([end]))[0][0])
+
     def full_state(self) -> CondensedState:
         """The state of the full system at this instant."""
         state, basis, opening = self.state, self.model.basis, self.model.opening

@@ -1,0 +1,56 @@
+"""Runs a stepper, full or reduced, through a test by any scheme, and keeps the energy account."""
+
+from __future__ import annotations
+
+from asphalt_nscd.nscd.condensed import CondensedStepper
+from asphalt_nscd.nscd.energy import EnergyAccount
+from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.reduced_stepping import ReducedStepper
+from asphalt_nscd.nscd.scheme import History, Scheme
+
+Stepper = CondensedStepper | ReducedStepper
+
+
+class March:
+    """Steps of dt [s] from rest; the stepper is one of step length dt / scheme.a."""
+
+    def __init__(self, stepper: Stepper, scheme: Scheme, law: BondLaw, dt: float) -> None:
+        self.stepper, self.scheme, self.dt = stepper, scheme, dt
+        self.now = self.earlier = History.of(stepper.state, 0.0)
+        self.account = EnergyAccount(law)
+
+    def move_to(self, actuator: float) -> float:
+        """One step at whose end the actuator stands at `actuator` [m]; its force [N].
+
+        Where the reduced stepper cannot make the step, it is left in the state before it.
+        """
+        stepper = self.stepper
+        base = self.now.beyond(self.earlier, self.scheme.b / self.scheme.a)
+        base.put(stepper.state)
+        try:
+            force = stepper.move(base.actuator, actuator)
+        except Exception:
+            self._widen()
+            self.now.put(stepper.state)
+            raise
+        base = base.widened(stepper.state)
+        self._widen()
+        after = History.of(stepper.state, actuator)
+        self.account.count(stepper, self.dt, force, self.now, base, after)
+        self.earlier, self.now = self.now, after
+        return force
+
+    def go_on_with(self, full: CondensedStepper) -> None:
+        """Replace the reduced stepper by one of the full system, with the same bonds broken."""
+        reduced = self.stepper
+
+        def lifted(history: History) -> History:
+            history.put(reduced.state)
+            return History.of(reduced.full_state(), history.actuator)
+
+        self.earlier, self.now = lifted(self.earlier), lifted(self.now)
+        self.stepper = full
+
+    def _widen(self) -> None:
+        state = self.stepper.state
+        self.earlier, self.now = self.earlier.widened(state), self.now.widened(state)
