@@ -3,6 +3,7 @@
 #   make            the paper study
 #   make smoke      the same chain at reduced size, in minutes
 #   make test       the tests
+#   make blind      blind tests of the diagnosis: hidden effects, found or not
 #   make study CONFIG=my.yaml     any other study
 #
 # CORES=1 limits the cores; PYTHON=/path/to/python3.12 chooses the Python.
@@ -26,7 +27,7 @@ ifeq ($(filter study,$(MAKECMDGOALS))$(shell test -f "$(CONFIG)" && echo found),
 $(error $(CONFIG): no such file; give a study with CONFIG=my.yaml)
 endif
 
-.PHONY: paper smoke study test
+.PHONY: paper smoke blind study test
 
 paper: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
@@ -35,6 +36,10 @@ paper: $(READY)
 smoke: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/smoke.yaml
 	@echo "Report: $(CURDIR)/results/smoke/report.html"
+
+blind: $(READY)
+	@.venv/bin/snakemake --cores $(CORES) --configfile config/blind.yaml blind
+	@cat results/blind/summary.csv
 
 study: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile $(CONFIG)

@@ -36,3 +36,7 @@ include: "workflow/rules/extension.smk"  # the simulation extended by it
 include: "workflow/rules/contents.smk"  # figures and tables, and their data
 include: "workflow/rules/report.smk"  # figures, tables, report
 include: "workflow/rules/publish.smk"  # what is committed
+
+if STUDY["study"] == "blind":
+
+    include: "workflow/rules/blind.smk"  # blind tests of the diagnosis
