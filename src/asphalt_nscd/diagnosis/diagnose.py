@@ -46,6 +46,7 @@ def diagnose(
     """Diagnose a table. scatter_stated: of |E*| (relative) and phase [rad], where replicates do not tell."""
     if observed.size < 4 or observed.frequencies.size < 2:
         raise InputError("a diagnosis needs at least four tests at two frequencies; measure more.")
+    scatter.refuse_copies(observed)
     notes: list[str] = []
     aside = scatter.outliers(observed)
     whole, observed = observed, observed.subset(np.setdiff1d(np.arange(observed.size), aside))

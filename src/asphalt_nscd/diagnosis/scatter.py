@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
@@ -9,6 +11,7 @@ from scipy.stats import f as fisher
 
 from asphalt_nscd.diagnosis.joint import Noise
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.errors import InputError
 
 Vector = NDArray[np.float64]
 STATED = 10**6  # degrees of freedom of a scatter that is known
@@ -127,6 +130,23 @@ def outliers(observed: Observations) -> NDArray[np.int64]:
         far = np.maximum(far, np.abs(deviation) / max(spread, 1e-9))
     rows = np.flatnonzero((far > OUTLIER) & (members >= 3))
     return rows if rows.size <= max(2, int(0.02 * observed.size)) else np.zeros(0, np.int64)
+
+
+def refuse_copies(observed: Observations) -> None:
+    """Refuse two specimens that agree in every digit wherever both were tested: copies have no scatter."""
+    tests = {
+        name: {
+            int(observed.cell[row]): observed.modulus[row] for row in np.flatnonzero(observed.specimen == k)
+        }
+        for k, name in enumerate(observed.names)
+    }
+    for one, other in combinations(observed.names, 2):
+        common = tests[one].keys() & tests[other].keys()
+        if len(common) > 2 and all(np.isclose(tests[one][c], tests[other][c], 1e-9, 0.0) for c in common):
+            raise InputError(
+                f"specimens {one} and {other} have the same modulus at all {len(common)} conditions they share: "
+                "copies are no replicates and tell no scatter; keep one of them."
+            )
 
 
 def median_by(values: Vector, label: NDArray[np.int64]) -> Vector:

@@ -1,0 +1,96 @@
+"""Data that say little, or are wrong: a clear sentence or a diagnosis that states its limits, no wrong name."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from asphalt_nscd.errors import InputError
+
+from blind.design import factorial
+from blind.generator import Hidden, draw
+from blind.sealed import open_case
+
+NO_REPLICATE = "No condition was repeated on another specimen"
+
+
+def diagnosed(table, geometry, **options):
+    found = open_case(table, geometry, **options)
+    return found, {(rung["cause"], rung["where"]) for rung in found["ladder"]} - {
+        ("relaxation_spectrum", None)
+    }
+
+
+@pytest.fixture(scope="module")
+def full():
+    return draw(5, form="moduli")
+
+
+SMALL = {
+    "one specimen": {"specimens": "A"},
+    "one temperature": {"temperatures": (15.0,)},
+    "two frequencies": {"frequencies": (3.0, 40.0)},
+    "one specimen, two frequencies": {"specimens": "A", "frequencies": (3.0, 40.0)},
+    "one specimen, one temperature": {"specimens": "A", "temperatures": (15.0,)},
+    "four tests": {"specimens": "AB", "temperatures": (15.0,), "frequencies": (3.0, 40.0)},
+}
+
+
+@pytest.mark.parametrize("design", SMALL.values(), ids=SMALL)
+def test_small_designs_name_nothing_that_is_not_there(design):
+    empty = draw(1, design=factorial(**design))
+    found, named = diagnosed(empty.table, empty.geometry)
+    assert named == set() and found["verdict"] != "unexplained_structure"
+    assert found["detection_limits"]
+    if design.get("specimens") or len(empty.table) < 9:
+        assert any(NO_REPLICATE in note for note in found["notes"])
+
+
+@pytest.mark.parametrize("design", SMALL.values(), ids=SMALL)
+def test_small_designs_find_what_is_there_or_nothing(design):
+    late = draw(1, [Hidden("channel_delay", amplitude=3e-4)], design=factorial(**design))
+    assert diagnosed(late.table, late.geometry)[1] <= {("channel_delay", None)}
+
+
+def test_copies_are_no_replicates(full):
+    one = full.table[full.table["specimen"] == "A"]
+    copies = pd.concat([one, one.assign(specimen="E"), full.table[full.table["specimen"] == "B"]])
+    with pytest.raises(InputError, match=r"specimens A and E have the same modulus at all 30 conditions"):
+        diagnosed(copies, full.geometry)
+
+
+@pytest.mark.parametrize(
+    ("column", "change"), [("E_MPa", lambda v: 3.0 * v), ("phase_deg", lambda v: v + 20.0)]
+)
+def test_an_outlier_is_set_aside_and_not_named(full, column, change):
+    table = full.table.copy()
+    table.loc[37, column] = change(table.loc[37, column])
+    found, named = diagnosed(table, full.geometry)
+    assert named == set() and found["verdict"] == "explained"
+
+
+def test_an_outlier_without_replicates_is_not_named(full):
+    table = full.table[full.table["specimen"] == "A"].reset_index(drop=True)
+    table.loc[12, "E_MPa"] *= 1.5
+    assert diagnosed(table, full.geometry)[1] == set()
+
+
+WRONG = {
+    "NaN": (lambda t: t.assign(E_MPa=t["E_MPa"].where(t.index != 3)), r"line 5: E_MPa is empty"),
+    "radians": (lambda t: t.assign(phase_deg=np.radians(t["phase_deg"])), "looks like radians; multiply it by 180/pi"),
+    "GPa": (lambda t: t.assign(E_MPa=t["E_MPa"] / 1000.0), "E_MPa looks like GPa, multiply by 1000"),
+    "Pa": (lambda t: t.assign(E_MPa=t["E_MPa"] * 1e6), "give a positive norm of E\\* in MPa"),
+    "repeated rows": (lambda t: pd.concat([t, t]), "line 122: repeats the test of line 2"),
+    "three tests": (lambda t: t.head(3), "at least four tests at two frequencies"),
+    "one frequency": (lambda t: t[t["frequency_Hz"] == 10.0], "at least four tests at two frequencies"),
+    "the same everywhere": (lambda t: t.assign(E_MPa=1e4, phase_deg=10.0), "copies are no replicates"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("spoil", "sentence"), WRONG.values(), ids=WRONG)
+def test_wrong_tables_are_refused_in_a_sentence(full, spoil, sentence):
+    with pytest.raises(InputError, match=sentence):
+        diagnosed(spoil(full.table.copy()), full.geometry)
+
+
+def test_one_modulus_for_all_temperatures_gets_no_name(full):
+    table = full.table[full.table["specimen"] == "A"].assign(E_MPa=1e4, phase_deg=10.0)
+    assert diagnosed(table, full.geometry)[1] == set()
