@@ -13,6 +13,7 @@ HEAD = """\
 # Studies
 
 A study is one YAML file. `paper.yaml` is the paper, `smoke.yaml` the same chain at reduced size.
+`asphalt-nscd new-study` writes one from your table of measurements (`docs/tutorial.md`).
 Run your own with `make study CONFIG=my.yaml` or `snakemake --cores all --configfile my.yaml`.
 Keys left out take their default, which is the paper's value; unknown keys are refused. Paths are
 relative to the folder in which you call.

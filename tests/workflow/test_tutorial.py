@@ -1,0 +1,51 @@
+"""docs/tutorial.md does what it says, as far as the workflow's plan."""
+
+from __future__ import annotations
+
+import re
+import runpy
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+TUTORIAL = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"```(sh)?\n(.*?)```", TUTORIAL, re.DOTALL)
+COMMANDS = [line for kind, block in BLOCKS if kind for line in block.splitlines()]
+
+
+def new_study(workspace, command):
+    script = "from asphalt_nscd.cli import main; main()"
+    arguments = [sys.executable, "-c", script, *shlex.split(command)[1:]]
+    return subprocess.run(arguments, cwd=workspace.folder, capture_output=True, text=True)
+
+
+def test_data_are_made_by_the_tool():
+    page = runpy.run_path(str(ROOT / "tools/tutorial_data.py"))["page"]()
+    assert (ROOT / "data/tutorial/campaign.csv").read_text(encoding="utf-8") == page
+    assert page.startswith("# Synthetic")
+
+
+def test_commands_lead_from_the_table_to_the_plan_of_a_report(workspace):
+    small, full = [command for command in COMMANDS if command.startswith("asphalt-nscd")]
+    done = new_study(workspace, small)
+    assert done.returncode == 0, done.stderr
+    said = next(block for kind, block in BLOCKS if not kind)
+    assert done.stdout == said
+    assert new_study(workspace, full).returncode == 0
+    assert "snakemake --cores all --configfile config/mine.yaml" in COMMANDS
+    (workspace.folder / "config/mine.yaml").rename(workspace.folder / "study.yaml")
+    planned = workspace.planned()
+    assert (
+        planned["simulate"] == planned["simulate_extended"] == 16
+        and planned["diagnose"] == planned["report"] == 1
+    )
+    (workspace.folder / "config/mine-full.yaml").rename(workspace.folder / "study.yaml")
+    assert workspace.planned()["deposit"] == 4
+
+
+def test_options_of_the_tutorial_exist(workspace):
+    helped = new_study(workspace, "asphalt-nscd new-study --help").stdout
+    used = set(re.findall(r"`?(--[a-z-]+)", TUTORIAL)) - {"--cores", "--configfile", "--help"}
+    assert used and all(option in helped for option in used)
