@@ -70,3 +70,14 @@ def test_plots_are_no_concern_of_the_tests_and_the_core_is():
 def test_modules_that_a_package_finds_by_itself(package):
     assert sources.modules_of("core") == ["core.kernel", "core.solver"]
     assert names(package, *sources.modules_of("core")) == ["core/kernel.py", "core/solver.py", "errors.py"]
+
+
+def test_a_stamp_changes_with_the_content_only(tmp_path, package):
+    files = sources.source_files("plotting")
+    path = sources.stamp(tmp_path, "plotting", files)
+    first, kept = path.read_text(), path.stat().st_mtime_ns
+    files[0].touch()
+    assert sources.stamp(tmp_path, "plotting", files).stat().st_mtime_ns == kept
+    files[0].write_text(files[0].read_text() + "# changed\n")
+    assert sources.stamp(tmp_path, "plotting", files).read_text() != first
+    assert path.stat().st_mtime_ns == max(file.stat().st_mtime_ns for file in files)

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import ast
+import hashlib
+import os
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
+
+from asphalt_nscd.store import atomic_path
 
 PACKAGE = Path(__file__).resolve().parent
 
@@ -24,6 +29,23 @@ def source_files(*modules: str) -> list[Path]:
             found.add(path)
             waiting.extend(_imported(path))
     return sorted(found)
+
+
+def stamp(folder: str | Path, name: str, files: Sequence[Path]) -> Path:
+    """A file that stands for the content of many, rewritten only when one of them changed.
+
+    Snakemake looks at each input of each waiting job whenever a job ends, so one is better than thirty.
+    """
+    digest = hashlib.sha256()
+    for file in files:
+        digest.update(f"{file.relative_to(PACKAGE)}\n".encode() + file.read_bytes())
+    path = Path(folder, name)
+    if not path.is_file() or path.read_text() != digest.hexdigest():
+        with atomic_path(path) as temporary:
+            temporary.write_text(digest.hexdigest())
+        newest = max(file.stat().st_mtime_ns for file in files)
+        os.utime(path, ns=(newest, newest))  # a lost stamp must not look like a change
+    return path
 
 
 def modules_of(package: str) -> list[str]:

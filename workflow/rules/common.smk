@@ -10,7 +10,7 @@ from asphalt_nscd.errors import InputError
 from asphalt_nscd.failures import failures
 from asphalt_nscd.feasible import require_feasible
 from asphalt_nscd.lock import release_stale_locks
-from asphalt_nscd.sources import PACKAGE, modules_of, source_files
+from asphalt_nscd.sources import PACKAGE, modules_of, source_files, stamp
 from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
 
 if workflow.is_main_process:
@@ -57,8 +57,9 @@ wildcard_constraints:
 
 
 def code(step, *modules):
-    """Source files behind a step of the command line and modules that it picks by name."""
-    return [os.path.relpath(file) for file in source_files(f"cli.{step.replace('-', '_')}", *modules)]
+    """What stands for the source behind a step of the command line and modules that it picks by name."""
+    files = source_files(f"cli.{step.replace('-', '_')}", *modules)
+    return stamp(".snakemake/code", "-".join([step, *modules[:1]]), files).as_posix()
 
 
 def text(value):
