@@ -43,6 +43,13 @@ def harmonic_response(
 
     time [s], force [N], displacement [m]: vectors of one length; frequency [Hz]. The window is the
     last `cycles` cycles, or the whole cycles of the last ten seconds where `cycles` is None.
+
+    >>> time = np.arange(2000) / 1000
+    >>> force = 100 * np.sin(2 * np.pi * 10 * time + 0.3)
+    >>> displacement = 6e-5 * np.sin(2 * np.pi * 10 * time)
+    >>> response = harmonic_response(time, force, displacement, frequency=10.0)
+    >>> print(f"{response.force_amplitude:.1f} N, {response.phase:.4f} rad")
+    100.0 N, 0.3000 rad
     """
     window = _window(time, force, displacement, frequency, cycles)
     phase = 2.0 * np.pi * frequency * window.time
@@ -68,6 +75,13 @@ def peak_response(
     Arguments as `harmonic_response`. Amplitudes are half the range within a cycle; values of all
     cycles in the window are averaged. Nothing is interpolated, so the phase comes in steps of
     2 pi frequency dt, and drift within a cycle stays in the result.
+
+    >>> time = np.arange(2000) / 1000
+    >>> force = 100 * np.sin(2 * np.pi * 10 * time + 0.3)
+    >>> displacement = 6e-5 * np.sin(2 * np.pi * 10 * time)
+    >>> response = peak_response(time, force, displacement, frequency=10.0)
+    >>> print(f"{response.phase:.4f} rad")  # five samples of 0.0628
+    0.3142 rad
     """
     window = _window(time, force, displacement, frequency, cycles)
     cycle = np.minimum((window.time - window.time[0]) * frequency, window.cycles - 0.5).astype(int)

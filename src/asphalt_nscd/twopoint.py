@@ -50,6 +50,10 @@ def form_factor(geometry: Geometry) -> float:
     With x = 1 - b/B, Eq. (3) reads gamma = 12 h^3 / (e B^3) (-ln(1-x) - x - x^2/2) / x^3. The
     quotient tends to 1/3 as b -> B (a prismatic cantilever: 4 h^3 / (e B^3)); near that limit it
     is summed as the series 1/3 + x/4 + x^2/5 + ..., because the closed form cancels.
+
+    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    >>> round(form_factor(paper), 1)  # the paper prints 25.1 1/mm
+    25095.8
     """
     x = 1.0 - geometry.b / geometry.B
     if x < 0.05:
@@ -60,7 +64,12 @@ def form_factor(geometry: Geometry) -> float:
 
 
 def mass_factor(geometry: Geometry) -> float:
-    """Mass factor mu = 0.135 M + m [kg]."""
+    """Mass factor mu = 0.135 M + m [kg].
+
+    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    >>> round(mass_factor(paper), 3)
+    0.316
+    """
     return HEAD_SHARE_OF_MASS * geometry.mass + geometry.mobile_mass
 
 
@@ -75,6 +84,11 @@ def complex_modulus(
 
     frequency [Hz], force_amplitude F0 [N], displacement_amplitude z0 [m], phase Psi [rad];
     scalars or arrays of one shape.
+
+    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    >>> modulus = complex_modulus(paper, 10.0, force_amplitude=24.0, displacement_amplitude=63e-6, phase=0.3)
+    >>> print(f"{modulus / 1e9:.3f} GPa")
+    9.165+2.825j GPa
     """
     omega = 2.0 * np.pi * np.asarray(frequency)
     stiffness = (
@@ -89,6 +103,11 @@ def head_response(
     """Force amplitude F0 [N] and phase Psi [rad] at the head: the exact inverse of Eqs. (1)-(2).
 
     frequency [Hz], modulus E* [Pa], displacement_amplitude z0 [m]; scalars or arrays of one shape.
+
+    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    >>> force, phase = head_response(paper, frequency=10.0, modulus=10e9, displacement_amplitude=63e-6)
+    >>> print(f"{force:.2f} N, {phase:.1f} rad")
+    25.03 N, 0.0 rad
     """
     omega = 2.0 * np.pi * np.asarray(frequency)
     stiffness = np.asarray(modulus) / form_factor(geometry) - mass_factor(geometry) * omega**2
@@ -100,6 +119,10 @@ def norm_and_phase(modulus: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.
 
     Eq. (5) prints arctan(E2/E1); the angle in (-pi, pi] agrees with it where E1 > 0 and does not
     hide a negative E1.
+
+    >>> norm, phase = norm_and_phase(3e9 + 4e9j)
+    >>> print(f"{norm / 1e9:.0f} GPa, {phase:.4f} rad")
+    5 GPa, 0.9273 rad
     """
     modulus = np.asarray(modulus)
     return np.abs(modulus), np.angle(modulus)

@@ -16,6 +16,11 @@ class KelvinChain:
 
     spring [Pa] and dashpot [Pa s], infinite where the chain has none; kelvin_springs [Pa] and
     kelvin_dashpots [Pa s]: one of each for every Kelvin-Voigt element.
+
+    A spring alone has no phase:
+
+    >>> complex(KelvinChain(10e9, np.inf, (), ()).complex_modulus(2 * np.pi * 10))
+    (10000000000+0j)
     """
 
     spring: float

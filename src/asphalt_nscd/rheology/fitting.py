@@ -53,7 +53,13 @@ class Fit(Generic[Law]):
 
 
 def fit_burgers(omega: ArrayLike, modulus: ArrayLike) -> Fit[Burgers]:
-    """Burgers law of one temperature from E* [Pa] at angular frequencies omega [rad/s] (vectors)."""
+    """Burgers law of one temperature from E* [Pa] at angular frequencies omega [rad/s] (vectors).
+
+    >>> omega = 2 * np.pi * np.array([3.0, 10.0, 40.0])
+    >>> fit = fit_burgers(omega, Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9).complex_modulus(omega))
+    >>> print(f"E_m = {fit.law.modulus_m / 1e9:.1f} GPa, eta_m = {fit.law.viscosity_m / 1e9:.2f} GPa s")
+    E_m = 24.3 GPa, eta_m = 3.71 GPa s
+    """
     omega, modulus = require_points(omega, modulus)
     if np.unique(omega).size < 2:
         raise InputError("a Burgers law needs at least two frequencies; measure more at this temperature.")

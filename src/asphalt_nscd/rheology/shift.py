@@ -15,7 +15,11 @@ ZERO_CELSIUS = 273.15  # K
 
 @dataclass(frozen=True)
 class WLF:
-    """Williams, Landel & Ferry (1955): c1 [decades], c2 [K], reference_temperature [degC]."""
+    """Williams, Landel & Ferry (1955): c1 [decades], c2 [K], reference_temperature [degC].
+
+    >>> WLF(c1=24.0, c2=160.0, reference_temperature=15.0).factor([5, 15, 25]).round(3).tolist()
+    [39.811, 1.0, 0.039]
+    """
 
     c1: float
     c2: float
@@ -34,7 +38,11 @@ class WLF:
 
 @dataclass(frozen=True)
 class Arrhenius:
-    """One activation_energy [J/mol]; reference_temperature [degC]."""
+    """One activation_energy [J/mol]; reference_temperature [degC].
+
+    >>> Arrhenius(activation_energy=200e3, reference_temperature=15.0).factor([5, 15, 25]).round(3).tolist()
+    [20.11, 1.0, 0.061]
+    """
 
     activation_energy: float
     reference_temperature: float

@@ -55,6 +55,10 @@ class TwoS2P1D:
     """2S2P1D law of one mix.
 
     As HuetSayegh, and beta: dashpot, viscosity = (glassy - static) beta tau.
+
+    >>> law = TwoS2P1D(30e6, 36e9, k=0.2, h=0.58, delta=2.2, tau=0.06, beta=250.0, shift=WLF(24.0, 160.0, 15.0))
+    >>> abs(law.complex_modulus(2 * np.pi * 10, [0, 15, 30]) / 1e6).round().tolist()  # MPa
+    [23504.0, 11931.0, 3032.0]
     """
 
     static_modulus: float
