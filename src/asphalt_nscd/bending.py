@@ -17,9 +17,10 @@ from asphalt_nscd.nscd import harmonic
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.law import BondLaw
-from asphalt_nscd.nscd.reduced import ReducedModel, ritz_basis
+from asphalt_nscd.nscd.reduced import ReducedModel, ritz_basis, shifted_factor
 from asphalt_nscd.nscd.reduced_stepping import FullSystemNeeded, ReducedStepper
 from asphalt_nscd.nscd.scheme import Scheme
+from asphalt_nscd.nscd.standby import StandBy
 from asphalt_nscd.nscd.sweeping import SweepingStepper
 from asphalt_nscd.preparation import read_specimen
 from asphalt_nscd.rheology.burgers import Burgers
@@ -52,6 +53,7 @@ class Model:
     sphere_height: np.ndarray  # (n,) m
     name: str
     head: str
+    stand_by: StandBy | None = None  # directions for breaks
 
     @cached_property
     def layers(self) -> Layers:
@@ -63,14 +65,16 @@ def condense(
     specimen_file: str | Path, head: str, poisson: float, yield_stress: float, friction: float,
     output: str | Path,
 ) -> None:  # fmt: skip
-    """Assemble the system of a specimen, find its Ritz basis, and save both."""
+    """Assemble the system of a specimen, find its basis and directions for breaks, and save all."""
     specimen = read_specimen(specimen_file)
     system = bending_system(specimen, poisson, yield_stress, friction, head)
-    g = system.operator
+    g, shifted = system.operator, shifted_factor(system)
+    basis = ritz_basis(system, KRYLOV_STEPS, shifted)
     arrays = {
-        "basis": ritz_basis(system, KRYLOV_STEPS), "operator/indptr": g.indptr, "operator/indices": g.indices,
+        "basis": basis, "operator/indptr": g.indptr, "operator/indices": g.indices,
         "operator/data": g.data, "weight": system.weight, "mass": system.mass, "load": system.load,
         "gap": system.gap, "strength": system.strength, "sphere_height": specimen.position[:, 2],
+        **{f"stand_by/{name}": value for name, value in StandBy.of(system, basis, shifted).arrays().items()},
     }  # fmt: skip
     attributes = {
         "name": Path(specimen_file).stem, "head": head, "driven": system.driven, "friction": friction,
@@ -91,9 +95,12 @@ def read_model(path: str | Path) -> Model:
         gap=arrays["gap"], strength=arrays["strength"], friction=attributes["friction"],
     )  # fmt: skip
     geometry = Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__})
+    prefix = "stand_by/"
+    own = {name.removeprefix(prefix): value for name, value in arrays.items() if name.startswith(prefix)}
     return Model(
-        system, arrays["basis"], geometry, arrays["sphere_height"], attributes["name"], attributes["head"]
-    )
+        system, arrays["basis"], geometry, arrays["sphere_height"], attributes["name"], attributes["head"],
+        StandBy.from_arrays(own),
+    )  # fmt: skip
 
 
 def bond_law(law: Burgers | KelvinChain) -> BondLaw:
@@ -204,8 +211,9 @@ def _run_reduced(
 
 
 def _reduced_stepper(model: Model, law: BondLaw, time_step: float, rig: Rig) -> ReducedStepper:
-    reduced = ReducedModel(model.system, model.basis)
-    return ReducedStepper(reduced, law, time_step, RESIDUAL_TOLERANCE, devices=rig)
+    system, basis, stand_by = model.system, model.basis, model.stand_by
+    reduced = ReducedModel(system, basis) if stand_by is None else stand_by.model(system, basis, [])
+    return ReducedStepper(reduced, law, time_step, RESIDUAL_TOLERANCE, devices=rig, stand_by=stand_by)
 
 
 def _certified(stepper: ReducedStepper, full_steps: int) -> tuple[float, dict[str, float | int]]:

@@ -92,11 +92,13 @@ def test_projected_operators(beam_system, broken):
 
     # shares of strength and of gaps
     reaction = (weight * sigma).reshape(-1, 3)
-    finite = np.isfinite(system.strength)
-    own = np.einsum("bca,a->bc", model.reaction, s)[finite] * system.strength[finite, None]
+    finite = np.flatnonzero(np.isfinite(system.strength))
+    own = model.reaction_of(finite) @ s * system.strength[finite, None]
     np.testing.assert_allclose(own, reaction[finite], rtol=0, atol=1e-12 * np.abs(reaction).max())
-    assert not model.reaction[~finite].any()
-    np.testing.assert_allclose(model.closing @ s * system.gap, -sigma[::3], rtol=0, atol=1e-12 * np.abs(sigma).max())
+    everywhere = np.arange(system.gap.size)
+    assert not model.reaction_of(np.setdiff1d(everywhere, finite)).any()
+    closing = model.closing_of(everywhere) @ s * system.gap
+    np.testing.assert_allclose(closing, -sigma[::3], rtol=0, atol=1e-12 * np.abs(sigma).max())
 
 
 def test_bounds_hold_everywhere_in_the_envelope(beam_system):
@@ -113,5 +115,18 @@ def test_bounds_hold_everywhere_in_the_envelope(beam_system):
         share = beam_system.utilisation(model.weight * (model.opening @ s))
         assert (share <= bound * (1 + 1e-12)).all()
         assert np.isin(np.flatnonzero(share > 1.0), may_yield).all()
+        head, others = model.beyond_head(np.arange(share.size), sigma).T
+        assert (share <= (head * abs(s[0]) + others) * (1 + 1e-12)).all()
         closed = beam_system.gap + model.opening[::3] @ q < 0
         assert np.isin(np.flatnonzero(closed), may_close).all()
+        assert (beam_system.gap + model.opening[::3] @ q).min() >= model.smallest_gap(motion) - 1e-18
+
+
+def test_naive_twin_of_the_bounds(beam_system):
+    """One coordinate at a time: the norm of the reactions over the strength, the closing over the gap."""
+    model = ReducedModel(beam_system, ritz_basis(beam_system, 2), broken=[11])
+    for a, unit in enumerate(np.eye(model.basis.shape[1])):
+        reaction = (model.weight * model.opening[:, a]).reshape(-1, 3)
+        found, wanted = model.utilisation_bound(unit), np.linalg.norm(reaction, axis=1) / beam_system.strength
+        np.testing.assert_allclose(found, wanted, rtol=1e-14)
+        assert model.smallest_gap(unit) == (beam_system.gap - np.abs(model.opening[::3, a])).min()

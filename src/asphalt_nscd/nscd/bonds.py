@@ -38,6 +38,11 @@ class BondedSystem:
         """Indices of the degrees of freedom that are not driven."""
         return np.delete(np.arange(self.mass.size), self.driven)
 
+    @cached_property
+    def stiffness_diagonal(self) -> np.ndarray:
+        """Diagonal (d,) of K [m] of the unbroken system."""
+        return self.operator.power(2).T @ self.weight
+
     def stiffness(self, weight: np.ndarray | None = None) -> sparse.csc_matrix:
         """K = G^T w G [m]; w may be given with zeros for broken bonds."""
         weight = self.weight if weight is None else weight

@@ -12,26 +12,36 @@ from collections.abc import Sequence
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, cg
+from scipy.sparse.linalg import LinearOperator, SuperLU, cg
 
 from asphalt_nscd.nscd.bonds import BondedSystem
+from asphalt_nscd.nscd.compiled import compiled
+from asphalt_nscd.nscd.projection import Projection, rows_of
 from asphalt_nscd.nscd.shifted import factorise
 
 DEPENDENT = 1e-9
+SHIFT = 1e-2
+"""m/kg, S/dt of a typical law: for it, the first step from rest or after a break is exact."""
 
 
-def ritz_basis(system: BondedSystem, iterations: int, shift: float = 1e-2) -> np.ndarray:
+def shifted_factor(system: BondedSystem) -> SuperLU:
+    """Factors of K + SHIFT M on the free degrees of freedom."""
+    free = system.free
+    return factorise((system.stiffness() + SHIFT * sparse.diags_array(system.mass)).tocsc()[free][:, free])
+
+
+def ritz_basis(system: BondedSystem, iterations: int, shifted: SuperLU | None = None) -> np.ndarray:
     """Phi (d, 2 + 2 iterations): the static response to the driven motion, then Krylov vectors.
 
     Column 0 has unit motion of the driven degree of freedom; the others leave it at rest. They
-    come from the inertia of column 0 and from the constant load by repeated (K + shift M)^-1 M;
-    `shift` [m/kg] is S/dt of a typical law, for which the first step from rest is then exact.
+    come from the inertia of column 0 and from the constant load by repeated (K + SHIFT M)^-1 M;
+    `shifted`, where it stands already, is the factor of that.
     """
     free, k = system.free, system.stiffness()
     mass = system.mass[free]
     stiffness = k[free][:, free]
     coupling = k[free][:, [system.driven]].toarray()[:, 0]
-    shifted = factorise((stiffness + shift * sparse.diags_array(mass)).tocsc())
+    shifted = shifted_factor(system) if shifted is None else shifted
     near = LinearOperator(stiffness.shape, matvec=shifted.solve)
 
     def static(force: np.ndarray) -> np.ndarray:
@@ -83,33 +93,42 @@ def append_columns(system: BondedSystem, basis: np.ndarray, extra: np.ndarray) -
 class ReducedModel:
     """A bonded system projected on a basis, with some bonds removed."""
 
-    def __init__(self, system: BondedSystem, basis: np.ndarray, broken: Sequence[int] = ()) -> None:
-        """basis (d, k): column 0 moves the driven degree of freedom by one, the others leave it."""
+    def __init__(
+        self, system: BondedSystem, basis: np.ndarray, broken: Sequence[int] = (),
+        projection: Projection | None = None,
+    ) -> None:  # fmt: skip
+        """basis (d, k): column 0 moves the driven degree of freedom by one, the others leave it.
+
+        projection: that of the system without `broken` on this basis, where it is known already.
+        """
         self.system, self.basis = system, basis
+        small = Projection.of(system, basis, broken) if projection is None else projection
+        self.mass, self.stiffness, self.load = small.mass, small.stiffness, small.load
+        self.residual_factor = small.residual_factor
+        self.head_norm, self.load_norm = small.head_norm, small.load_norm
         self.weight = system.weight.copy()
-        for bond in broken:
-            self.weight[3 * bond : 3 * bond + 3] = 0.0
+        self.weight[rows_of(broken)] = 0.0
         self.opening = system.operator @ basis  # G Phi (3 b, k)
-        weighted = self.weight[:, None] * self.opening
-        self.mass = basis.T @ (system.mass[:, None] * basis)
-        self.stiffness = self.opening.T @ weighted
-        self.load = basis.T @ system.load
-        # residual of the full equations = [M Phi, -K Phi, -f] (a, s, 1); its norm, each row over the
-        # root of its stiffness, is that of a small triangular factor times (a, s, 1)
-        free = system.free
-        self._root = root = np.sqrt((system.operator.power(2).T @ system.weight)[free])
-        columns = [system.mass[:, None] * basis, -(system.operator.T @ weighted), -system.load[:, None]]
-        self.residual_factor = np.linalg.qr(np.hstack(columns)[free] / root[:, None], mode="r")
-        head = system.operator.T @ (system.weight * system.operator[:, [system.driven]].toarray()[:, 0])
-        self.head_norm = float(np.linalg.norm(head[free] / root))
-        self.load_norm = float(np.linalg.norm(system.load[free] / root))
-        # per unit s: reactions over strength; per unit q: share of the gap that closes
-        self.reaction = weighted.reshape(-1, 3, basis.shape[1]) / system.strength[:, None, None]
-        self.closing = -self.opening[::3] / system.gap[:, None]
+        # of each bond, what a unit of each coordinate can at most contribute (b, k)
+        self._utilised, self._closed = _contributions(self.opening, self._share_of_strength, system.gap)
+
+    @property
+    def _share_of_strength(self) -> np.ndarray:
+        """Share of the strength that a unit of stress takes (b, 3)."""
+        return self.weight.reshape(-1, 3) / self.system.strength[:, None]
+
+    def reaction_of(self, bonds: np.ndarray) -> np.ndarray:
+        """Reactions (n, 3, k) of bonds (n,) over their strength, per unit s."""
+        return self._share_of_strength[bonds, :, None] * self.opening.reshape(-1, 3, self.load.size)[bonds]
+
+    def closing_of(self, bonds: np.ndarray) -> np.ndarray:
+        """Share (n, k) of the gaps of bonds (n,) that closes, per unit q."""
+        return -self.opening[3 * bonds] / self.system.gap[bonds, None]
 
     def residual_norm(self, force: np.ndarray) -> float:
         """The norm that `residual_factor` gives, of any residual (d,)."""
-        return float(np.linalg.norm(force[self.system.free] / self._root))
+        free = self.system.free
+        return float(np.linalg.norm(force[free] / np.sqrt(self.system.stiffness_diagonal[free])))
 
     def with_basis(self, basis: np.ndarray, broken: Sequence[int]) -> ReducedModel:
         """The same system on another basis with the bonds `broken` removed."""
@@ -117,10 +136,34 @@ class ReducedModel:
 
     def utilisation_bound(self, sigma: np.ndarray) -> np.ndarray:
         """Upper bound (b,) of the yield measure while |s| <= sigma (k,)."""
-        return np.sqrt(((np.abs(self.reaction) @ sigma) ** 2).sum(axis=1))
+        return self._utilised @ sigma
+
+    def smallest_gap(self, motion: np.ndarray) -> float:
+        """Lower bound [m] of all gaps while |q| <= motion (k,)."""
+        return float((self.system.gap * (1.0 - self._closed @ motion)).min())
 
     def candidates(self, sigma: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Bonds that could yield, and gaps that could close, while |s| <= sigma and |q| <= motion."""
         may_yield = np.flatnonzero(self.utilisation_bound(sigma) > 1.0)
-        may_close = np.flatnonzero(np.abs(self.closing) @ motion > 1.0)
+        may_close = np.flatnonzero(self._closed @ motion > 1.0)
         return may_yield, may_close
+
+    def beyond_head(self, bonds: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+        """(n, 2) for bonds (n,): while |s| <= sigma, the yield measure is below [:, 0] |s_0| + [:, 1]."""
+        part = self._utilised[bonds]
+        return np.column_stack([part[:, 0], part[:, 1:] @ sigma[1:]])
+
+
+@compiled
+def _contributions(opening, share_of_strength, gap):
+    """Yield measure of each bond, and share of its gap that closes, for each coordinate alone."""
+    bonds, k = gap.shape[0], opening.shape[1]
+    utilised, closed = np.empty((bonds, k)), np.empty((bonds, k))
+    for b in range(bonds):
+        for a in range(k):
+            square = 0.0
+            for c in range(3):
+                square += (share_of_strength[b, c] * opening[3 * b + c, a]) ** 2
+            utilised[b, a] = np.sqrt(square)
+            closed[b, a] = abs(opening[3 * b, a]) / gap[b]
+    return utilised, closed

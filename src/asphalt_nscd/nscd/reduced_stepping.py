@@ -15,8 +15,10 @@ from asphalt_nscd.nscd.compiled import compiled
 from asphalt_nscd.nscd.condensed import CLOSED, CondensedState, CondensedStepper
 from asphalt_nscd.nscd.head import RIGID, HeadDevices, actuator_force, follow_actuator
 from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.projection import rows_of
 from asphalt_nscd.nscd.reduced import ReducedModel, append_columns
 from asphalt_nscd.nscd.shifted import ShiftedOperator
+from asphalt_nscd.nscd.standby import StandBy
 
 FIRST_ENRICHMENT, LARGEST_ENRICHMENT = 4, 16
 """Vectors added at a violation: the correction of the refused step, and those its inertia will need.
@@ -65,7 +67,9 @@ class ReducedStepper:
     def __init__(
         self, model: ReducedModel, law: BondLaw, dt: float, tolerance: float,
         most_enrichments: int = MOST_ENRICHMENTS, devices: HeadDevices = RIGID,
+        stand_by: StandBy | None = None,
     ) -> None:  # fmt: skip
+        """stand_by: directions for breaks, on the basis of `model`."""
         k = model.basis.shape[1]
         elements = np.size(law.kelvin_springs)
         self.model, self.dt, self.tolerance, self.devices = model, dt, tolerance, devices
@@ -77,6 +81,7 @@ class ReducedStepper:
         self._smallest_gap = np.inf  # where the full system took over
         self._may_yield = np.empty(0, np.int64)
         self._reached_sigma, self._reached_motion = np.zeros(k), np.zeros(k)
+        self._stand_by, self._ritz = stand_by, model.basis
         self._operator: ShiftedOperator | None = None
         self._watch(np.zeros(k), np.zeros(k))
 
@@ -102,8 +107,7 @@ class ReducedStepper:
                 raise FullSystemNeeded("too many enrichments", force[:done], velocity[:done])
             if code == _YIELD:
                 self.state.broken.append(bond)
-                self.model = self.model.with_basis(self.model.basis, self.state.broken)
-            self._enrich()
+            self._enrich(code)
 
     def move(self, start: float, end: float) -> float:
         """One step in which the actuator goes from start to end [m]; its force [N]."""
@@ -135,11 +139,10 @@ class ReducedStepper:
         model = self.model
         share = model.utilisation_bound(self._reached_sigma)
         share[self._may_yield] = 0.0
-        closing = np.abs(model.closing) @ self._reached_motion
         return Certificate(
             largest_residual=float(self._maxima[1]),
             largest_utilisation=max(float(share.max(initial=0.0)), float(self._maxima[2])),
-            smallest_gap=min(float((model.system.gap * (1.0 - closing)).min()), self._smallest_gap),
+            smallest_gap=min(model.smallest_gap(self._reached_motion), self._smallest_gap),
             enrichments=self.enrichments,
         )
 
@@ -151,7 +154,7 @@ class ReducedStepper:
             driven, self.devices.of_head, *self._seen_from_head(inverse), model.mass, model.stiffness,
             model.load, inverse, law.dt, law.compliance, law.memory, law.recall, law.keep, law.gain,
             model.residual_factor, model.head_norm, model.load_norm, self.tolerance,
-            model.reaction[self._may_yield], model.closing[self._may_close],
+            self._reaction, self._beyond_head, self._closing,
             self._sigma_envelope, self._motion_envelope, self._reached_sigma, self._reached_motion,
             self._maxima, state.displacement, state.velocity, state.sigma, state.kelvin, self._trial,
             force, velocity,
@@ -168,8 +171,8 @@ class ReducedStepper:
         step = model.mass / dt + model.stiffness / compliance
         following = np.concatenate([[1.0], -dt * (inverse @ step[1:, 0])])  # motion for v+ = 1
         return (
-            float(following @ step[:, 0]), model.mass @ following / dt, model.stiffness @ following / compliance,
-            float(following @ model.load),
+            float(following @ step[:, 0]), model.mass @ following / dt,
+            model.stiffness @ following / compliance, float(following @ model.load),
         )  # fmt: skip
 
     def _watch(self, sigma: np.ndarray, motion: np.ndarray) -> None:
@@ -181,24 +184,37 @@ class ReducedStepper:
         # of what the others have borne so far, only the bound is known
         borne = np.delete(self.model.utilisation_bound(self._reached_sigma), watched)
         self._maxima[2] = max(self._maxima[2], borne.max(initial=0.0))
+        self._reaction = self.model.reaction_of(self._may_yield)
+        self._beyond_head = self.model.beyond_head(self._may_yield, self._sigma_envelope)
+        self._closing = self.model.closing_of(self._may_close)
 
-    def _enrich(self) -> None:
-        """Add the correction to the basis that makes the step exact at the head velocity just tried."""
+    def _enrich(self, code: int) -> None:
+        """Widen the basis until it holds the step just refused, at the head velocity just tried."""
         self.enrichments += 1
-        model, state, dt = self.model, self.state, self.dt
-        explicit = self.law.explicit_part(state.sigma, state.kelvin)
-        velocity = np.empty_like(state.velocity)
-        velocity[0] = self._trial[0, 0]
-        scale = dt / self.law.compliance
-        known = model.mass @ state.velocity + dt * model.load + scale * (model.stiffness @ explicit)
-        known -= (model.mass + scale * model.stiffness)[:, 0] * velocity[0]
-        velocity[1:] = self._step_inverse() @ known[1:]
-        sigma = (explicit - velocity) / self.law.compliance
-        system = model.system
+        model = None
+        if code == _YIELD and self._stand_by is not None:
+            model = self._stand_by.model(self.model.system, self._ritz, self.state.broken)
+        if model is None:
+            self._stand_by = None  # its projection knows nothing of the directions now found
+            basis = append_columns(self.model.system, self.model.basis, self._corrections())
+            model = self.model.with_basis(basis, self.state.broken)
+        more, self.model = model.basis.shape[1] - self.state.sigma.size, model
+        for name in ("displacement", "velocity", "sigma", "kelvin"):
+            setattr(self.state, name, _widened(getattr(self.state, name), more))
+        self._reached_sigma = _widened(self._reached_sigma, more)
+        self._reached_motion = _widened(self._reached_motion, more)
+        self._watch(_widened(self._sigma_envelope, more), _widened(self._motion_envelope, more))
+
+    def _corrections(self) -> np.ndarray:
+        """What the refused step misses of the full solution, and what its inertia will need (d, columns)."""
+        model, system, state, dt = self.model, self.model.system, self.state, self.dt
+        weight = system.weight.copy()
+        weight[rows_of(state.broken)] = 0.0
+        velocity, sigma, _ = self._trial
         residual = dt * system.load - system.mass * (model.basis @ (velocity - state.velocity))
-        residual += dt * (system.operator.T @ (model.weight * (model.opening @ sigma)))
+        residual += dt * (system.operator.T @ (weight * (model.opening @ sigma)))
         if self._operator is None:
-            self._operator = ShiftedOperator(system, scale)
+            self._operator = ShiftedOperator(system, dt / self.law.compliance)
         self._operator.remove(state.broken)
         columns = min(FIRST_ENRICHMENT * 2 ** (self.enrichments - 1), LARGEST_ENRICHMENT)
         extra = np.zeros((system.mass.size, columns))
@@ -206,13 +222,7 @@ class ReducedStepper:
         for column in range(columns):
             extra[system.free, column] = self._operator.solve(force)
             force = system.mass[system.free] * extra[system.free, column]
-        self.model = model.with_basis(append_columns(system, model.basis, extra), state.broken)
-        more = self.model.basis.shape[1] - state.sigma.size
-        for name in ("displacement", "velocity", "sigma", "kelvin"):
-            setattr(state, name, _widened(getattr(state, name), more))
-        self._reached_sigma = _widened(self._reached_sigma, more)
-        self._reached_motion = _widened(self._reached_motion, more)
-        self._watch(_widened(self._sigma_envelope, more), _widened(self._motion_envelope, more))
+        return extra
 
 
 def _widened(coordinates: np.ndarray, more: int) -> np.ndarray:
@@ -225,7 +235,7 @@ def _widened(coordinates: np.ndarray, more: int) -> np.ndarray:
 def _advance_reduced(
     driven, devices, impedance, head_inertia, head_strain, head_load, mass, stiffness, load, inverse,
     dt, compliance, memory, recall, keep, gain,
-    residual_factor, head_norm, load_norm, tolerance, reaction, closing, sigma_envelope,
+    residual_factor, head_norm, load_norm, tolerance, reaction, beyond_head, closing, sigma_envelope,
     motion_envelope, reached_sigma, reached_motion, maxima, q, v, s, kelvin, trial, force, velocity,
 ):  # fmt: skip
     """Steps until the end or the first violation: (steps taken, code, index into the watched bonds).
@@ -278,18 +288,18 @@ def _advance_reduced(
                 share += closing[c, a] * new_q[a]
             if share > 1.0:
                 return n, _CLOSED_GAP, c
-        worst, most = -1, 1.0
+        worst, most = -1, maxima[2]
         for c in range(reaction.shape[0]):
-            share = _utilisation(reaction[c], new_s)
-            if share > most:
-                worst, most = c, share
-        if worst >= 0:
+            if beyond_head[c, 0] * abs(new_s[0]) + beyond_head[c, 1] > most:
+                share = _utilisation(reaction[c], new_s)
+                if share > most:
+                    worst, most = c, share
+        if most > 1.0:
             return n, _YIELD, worst
+        maxima[2] = most
         maxima[0] = stress
         if size > 0.0:
             maxima[1] = max(maxima[1], missing / size)
-        for c in range(reaction.shape[0]):
-            maxima[2] = max(maxima[2], _utilisation(reaction[c], new_s))
         force[n] = -load[0]
         for b in range(k):
             force[n] += mass[0, b] * combined[b] - stiffness[0, b] * new_s[b]
