@@ -70,6 +70,7 @@ def tables(lines: tuple[Path, ...], folder: Path) -> None:
 def figure(name: str, table: Path, output_stem: Path) -> None:
     """Draw figure NAME from its TABLE."""
     import pandas as pd
+
     from asphalt_nscd.figures.save import save_figure
 
     from . import figures

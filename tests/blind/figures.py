@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
-from asphalt_nscd.figures import style
 from matplotlib.figure import Figure
+
+from asphalt_nscd.figures import style
 
 COLUMNS = 4
 

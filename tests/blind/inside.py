@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+
 from asphalt_nscd.bending import Model, bond_law, read_model, run_test
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rig import Rig

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+
 from asphalt_nscd.diagnosis import reading, report
 from asphalt_nscd.diagnosis.causes import CATALOGUE as NAMEABLE
 from asphalt_nscd.diagnosis.diagnose import diagnose

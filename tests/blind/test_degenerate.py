@@ -3,8 +3,8 @@
 import numpy as np
 import pandas as pd
 import pytest
-from asphalt_nscd.errors import InputError
 
+from asphalt_nscd.errors import InputError
 from blind.design import factorial
 from blind.generator import Hidden, draw
 from blind.sealed import open_case
