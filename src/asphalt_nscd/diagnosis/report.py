@@ -115,9 +115,10 @@ def _errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str
     }
 
 
-def _misses(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, float]:
-    """Mean relative errors over all temperatures, and the error over the scatter (root mean square)."""
-    errors = _errors(diagnosis, logarithm)
+def _misses(
+    diagnosis: Diagnosis, logarithm: NDArray[np.complex128], errors: dict[str, dict[str, float]]
+) -> dict[str, float]:
+    """Mean of the errors over all temperatures, and the error over the scatter (root mean square)."""
     left = diagnosis.observed.logarithm - logarithm
     sigma = diagnosis.noise.sigma
     squares = np.concatenate([(left.real / sigma[0]) ** 2, (left.imag / sigma[1]) ** 2])
@@ -129,9 +130,9 @@ def _misses(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str
 
 def _pair(diagnosis: Diagnosis, before: Logarithm, after: Logarithm) -> dict[str, Any]:
     """Errors before and after, over all temperatures and at each."""
-    first, second = _misses(diagnosis, before), _misses(diagnosis, after)
-    pair: dict[str, Any] = {name: {"before": first[name], "after": second[name]} for name in first}
     errors = [_errors(diagnosis, logarithm) for logarithm in (before, after)]
+    first, second = _misses(diagnosis, before, errors[0]), _misses(diagnosis, after, errors[1])
+    pair: dict[str, Any] = {name: {"before": first[name], "after": second[name]} for name in first}
     pair["by_temperature"] = {
         t: {name: {"before": errors[0][name][t], "after": errors[1][name][t]} for name in errors[0]}
         for t in errors[0]["mre_E_percent"]
