@@ -161,15 +161,18 @@ def _recovered(effect: Mapping[str, Any], entry: Mapping[str, Any]) -> dict[str,
     )
 
 
-def held_out_gain(entry: Mapping[str, Any]) -> float | None:
-    """ln of the mean relative error before over after, mean of modulus and phase and of all ways to hold out.
+MRE = ("mre_E_percent", "mre_phase_percent")  # of averages over specimens, as in the paper
+
+
+def held_out_gain(entry: Mapping[str, Any], errors: tuple[str, ...] = MRE) -> float | None:
+    """ln of the error before over after, mean of the errors and of all ways to hold out.
 
     Above zero is a gain; None where nothing could be held out.
     """
     held_out = entry["gain"]["held_out"]
     if not held_out:
         return None
-    parts = [way[name] for way in held_out.values() for name in ("mre_E_percent", "mre_phase_percent")]
+    parts = [way[name] for way in held_out.values() for name in errors]
     return float(np.mean([np.log(part["before"] / part["after"]) for part in parts]))
 
 
