@@ -8,6 +8,8 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd.figures import style
 
+from .score import NOTHING
+
 COLUMNS = 4
 
 
@@ -21,8 +23,7 @@ def efficiency(table: pd.DataFrame) -> Figure:
     )
     for axes, cause in zip(panels.flat, causes, strict=False):
         part = table[table["cause"] == cause]
-        bars = part[["found"]].to_numpy().T
-        low_high = np.abs(part[["found_low", "found_high"]].to_numpy().T - bars)
+        low_high = np.abs(part[["found_low", "found_high"]].to_numpy().T - part["found"].to_numpy())
         axes.errorbar(
             part["ratio"],
             part["found"],
@@ -35,14 +36,15 @@ def efficiency(table: pd.DataFrame) -> Figure:
             part["ratio"], part["found"] * part["named"], "D", ls=(0, (1.2, 1.2)), color=style.ORANGE,
             markersize=3.0, label="and named rightly", zorder=3,
         )  # fmt: skip
-        axes.set_title(f"{cause.replace('_', ' ')}", loc="left", fontsize=7.0, pad=2.0)
+        axes.set_title(cause.replace("_", " "), loc="left", fontsize=7.0, pad=2.0)
         axes.set_ylim(0.0, 1.05)
         axes.set_xticks(part["ratio"])
     for axes in panels.flat[len(causes) :]:
         axes.set_axis_off()
     figure.supxlabel("amplitude over detection limit", fontsize=8.0)
     figure.supylabel("share of cases", fontsize=8.0)
-    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    figure.legend(handles[::-1], labels[::-1], loc="outside upper left", ncols=2)
     return figure
 
 
@@ -50,10 +52,10 @@ def efficiency(table: pd.DataFrame) -> Figure:
 def isolation(table: pd.DataFrame) -> Figure:
     """What was hidden against what came out, in per cent of the cases of a row."""
     counts = table.set_index("cause")
-    order = [name for name in counts.index if name in counts.columns]
+    order = [name for name in counts.index if name in counts.columns and name != NOTHING]
     rest = [name for name in counts.index if name not in order]
     columns = [*order, *(name for name in counts.columns if name not in order)]
-    counts = counts.loc[[*order, *rest], columns]
+    counts = counts.loc[[*order, *sorted(rest, key=NOTHING.__eq__)], columns]
     share = 100.0 * counts.to_numpy(float) / counts.to_numpy(float).sum(axis=1, keepdims=True)
     figure, axes = style.new_figure(style.WIDE, 5.0 * len(counts) + 38.0)
     axes.imshow(share, cmap="Greys", vmin=0.0, vmax=140.0, aspect="auto")
@@ -63,7 +65,7 @@ def isolation(table: pd.DataFrame) -> Figure:
     axes.set_xticks(
         range(len(columns)), [name.replace("_", " ") for name in columns], rotation=60, ha="right"
     )
-    axes.set_yticks(range(len(counts)), [f"{name.replace('_', ' ')}" for name in counts.index])
+    axes.set_yticks(range(len(counts)), [name.replace("_", " ") for name in counts.index])
     axes.axhline(len(order) - 0.5, color=style.INK, linewidth=0.6)
     axes.tick_params(length=0.0)
     axes.set_xlabel("named, or how it ended (% of the row)")
