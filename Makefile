@@ -4,6 +4,7 @@
 #   make smoke      the same chain at reduced size, in minutes
 #   make test       the tests
 #   make blind      blind tests of the diagnosis: hidden effects, found or not
+#   make verify     the core against theory: results/verification/verification.csv
 #   make study CONFIG=my.yaml     any other study
 #
 # CORES=1 limits the cores; PYTHON=/path/to/python3.12 chooses the Python.
@@ -27,7 +28,7 @@ ifeq ($(filter study,$(MAKECMDGOALS))$(shell test -f "$(CONFIG)" && echo found),
 $(error $(CONFIG): no such file; give a study with CONFIG=my.yaml)
 endif
 
-.PHONY: paper smoke blind study test
+.PHONY: paper smoke blind study test verify
 
 paper: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
@@ -43,6 +44,10 @@ blind: $(READY)
 
 study: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile $(CONFIG)
+
+verify: $(READY)
+	@.venv/bin/snakemake --cores $(CORES) verify
+	@echo "Table: $(CURDIR)/results/verification/verification.csv"
 
 test: $(READY)
 	.venv/bin/python -m pytest

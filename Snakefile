@@ -36,6 +36,7 @@ include: "workflow/rules/extension.smk"  # the simulation extended by it
 include: "workflow/rules/contents.smk"  # figures and tables, and their data
 include: "workflow/rules/report.smk"  # figures, tables, report
 include: "workflow/rules/publish.smk"  # what is committed
+include: "workflow/rules/verification.smk"  # is the core right
 
 if STUDY["study"] == "blind":
 

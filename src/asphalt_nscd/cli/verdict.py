@@ -1,0 +1,21 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+@click.command()
+@click.argument("tables", nargs=-1, required=True, type=_options.File)
+@click.option("--output", default=None, type=_options.File, help="Write all rows here instead of judging them.")
+def command(tables: tuple[Path, ...], output: Path | None) -> None:
+    """Judge TABLES of the verification: exit status 2, naming them, if any row has failed."""
+    from asphalt_nscd.store import write_table
+    from asphalt_nscd.verification.study import joined, require_passed
+
+    if output is None:
+        require_passed(tables)
+    else:
+        write_table(output, joined(tables))

@@ -1,0 +1,153 @@
+"""Networks of bonds against structural mechanics: chains, beams, two-point bending, devices of the rig."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.integrate import quad
+
+from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.harmonic import actuator_stiffness, driving_force
+from asphalt_nscd.nscd.head import HeadDevices
+from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.marching import March
+from asphalt_nscd.nscd.scheme import Scheme
+from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.twopoint import Geometry, form_factor, mass_factor
+from asphalt_nscd.verification.row import Checks, Row, order
+from asphalt_nscd.verification.specimens import QUICK_LAW, chain, elastic, jittered_beam, laminated_beam
+
+checks = Checks()
+
+SPECIMEN = Geometry(b=25e-3, B=56e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)  # the paper's
+PRISM = Geometry(b=40e-3, B=40e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
+RIGID_IN_SHEAR = 1e4
+MODULUS = 1e10  # Pa
+
+
+@checks
+def chain_of_bonds() -> list[Row]:
+    """n equal masses on equal springs, the last to the wall: force at the driven end by transfer matrices."""
+    system, omega, n = chain(6, 2e-3, 0.3), 4e3, 6
+    stiffness, inertia = 2e-3 * MODULUS, -0.3 * omega**2
+    seen = stiffness  # of the wall's spring, then a mass and a spring in series with it, n - 1 times
+    for _ in range(n - 1):
+        seen = 1.0 / (1.0 / stiffness + 1.0 / (seen + inertia))
+    expected = seen + inertia
+    found = driving_force(system, MODULUS, omega)
+    return [Row("chain of six masses and bonds, dynamic stiffness", expected, found.real, 1e-12, "transfer matrices")]
+
+
+@checks
+def hanging_chain() -> Row:
+    """Hung up in a Maxwell law it creeps: the lowest body sinks by the sum over the bonds below which it hangs."""
+    n, weight, load = 4, 2e-3, 3.0
+    system, law = chain(n, weight, 1e-9, load), BondLaw(MODULUS, 1e9, np.array([]), np.array([]))
+    state, dt, steps = CondensedState.at_rest(system, law), 1e-4, 400
+    system = replace(system, driven=n - 1, mass=np.append(np.full(n - 1, 1e-9), 1.0))
+    stepper = CondensedStepper(system, law, dt, state)
+    for _ in range(steps):
+        stepper.advance(0.0)
+    pulled = load * (n - 1) * n / 2  # the free ends' bonds carry one, two, ... loads
+    expected = pulled / weight * (1.0 / MODULUS + steps * dt / 1e9)
+    return Row("chain of bodies hung on Maxwell bonds, creep", expected, state.displacement[0], 1e-6, "J(t) = 1/E + t/eta")
+
+
+@checks
+def oscillator() -> list[Row]:
+    """A mass on an elastic bond, let go: amplitude and phase after four periods; second order and first."""
+    errors = {"euler": [], "fitted": []}
+    omega = np.sqrt(2e-3 * MODULUS / 0.2)
+    for name, found in errors.items():
+        for steps in (400, 800):
+            dt = 2 * np.pi / omega / steps
+            system, scheme = chain(2, 2e-3, 0.2), Scheme.named(name, 0.0)
+            law, state = elastic(MODULUS), CondensedState.at_rest(chain(2, 2e-3, 0.2), elastic(MODULUS))
+            system = replace(system, weight=np.array([1e-30, 1.0, 1.0, 2e-3, 1.0, 1.0]))
+            state.velocity[1] = 1.0
+            march = March(CondensedStepper(system, law, dt / scheme.a, state), scheme, law, dt)
+            for _ in range(4 * steps):
+                march.move_to(0.0)
+            found.append(abs(state.velocity[1] - 1.0))
+    return [
+        Row("oscillator, order in dt of implicit Euler", 1.0, order(errors["euler"]), 0.1, "m u'' + k u = 0"),
+        Row("oscillator, order in dt of the two-step scheme", 2.0, order(errors["fitted"]), 0.1, "m u'' + k u = 0"),
+    ]
+
+
+@checks
+def timoshenko() -> list[Row]:
+    """Cantilever under a tip load: sum over the cuts exactly, the continuous beam in second order."""
+    shear, source = 0.02, "Timoshenko: F L^3/(3 E I) + F L/(k G A)"
+    inertia, area, length = PRISM.e * PRISM.B**3 / 12, PRISM.e * PRISM.B, PRISM.h
+    exact = 1.0 / (length**3 / (3 * MODULUS * inertia) + length / (shear * MODULUS * area))
+    found = []
+    for slices in (10, 20, 40):
+        found.append(driving_force(laminated_beam(PRISM, slices, shear), MODULUS, 0.0).real)
+    arm = length - (np.arange(10) + 0.5) * length / 10
+    cut = length / 10 / (MODULUS * inertia), length / 10 / (shear * MODULUS * area)
+    discrete = 1.0 / ((cut[0] * arm**2).sum() + 10 * cut[1])
+    return [
+        Row("beam of bonds in ten cuts, stiffness", discrete, found[0], 1e-9, "virtual work over the cuts"),
+        Row("beam of bonds in forty cuts, stiffness", exact, found[-1], 1e-3, source),
+        Row("beam of bonds, order in the length of a slice", 2.0, order([value - exact for value in found]), 0.05, source),
+    ]
+
+
+@checks
+def euler_bernoulli() -> Row:
+    found = driving_force(laminated_beam(PRISM, 80, RIGID_IN_SHEAR), MODULUS, 0.0).real
+    expected = 3 * MODULUS * PRISM.e * PRISM.B**3 / 12 / PRISM.h**3
+    return Row("slender beam of bonds, stiffness", expected, found, 2e-4, "Euler-Bernoulli: 3 E I/L^3")
+
+
+@checks
+def trapezoid() -> Row:
+    """Eq. (3): E = gamma F/z, the head free to rotate."""
+    found = driving_force(laminated_beam(SPECIMEN, 200, RIGID_IN_SHEAR), MODULUS, 0.0).real
+    return Row("trapezoid in two-point bending, form factor", MODULUS, form_factor(SPECIMEN) * found, 1e-4, "Eq. (3), EN 12697-26")
+
+
+def _deflection(height: float) -> float:
+    """Of the trapezoid under a unit tip load, Euler-Bernoulli, times E e/12; double integral of the curvature."""
+    h, B, taper = SPECIMEN.h, SPECIMEN.B, (SPECIMEN.b - SPECIMEN.B) / SPECIMEN.h
+    return quad(lambda z: (height - z) * (h - z) / (B + taper * z) ** 3, 0.0, height)[0]
+
+
+@checks
+def moving_mass() -> list[Row]:
+    """Below resonance the beam's inertia is that of its static shape (Rayleigh): Eq. (1) rounds it to 0.135 M."""
+    tip, h = _deflection(SPECIMEN.h), SPECIMEN.h
+    width = lambda z: SPECIMEN.B + (SPECIMEN.b - SPECIMEN.B) * z / h  # noqa: E731
+    shape = quad(lambda z: width(z) * (_deflection(z) / tip) ** 2, 0.0, h)[0] / quad(width, 0.0, h)[0]
+    beam, omega = laminated_beam(SPECIMEN, 200, RIGID_IN_SHEAR), 60.0
+    drop = driving_force(beam, MODULUS, 0.0).real - driving_force(beam, MODULUS, omega).real
+    found = drop / omega**2
+    expected = shape * SPECIMEN.mass + SPECIMEN.mobile_mass
+    return [
+        Row("trapezoid in two-point bending, mass at the head (kg)", expected, found, 1e-3, "Rayleigh's quotient of the static shape"),
+        Row("the same by Eq. (1) (kg)", mass_factor(SPECIMEN), found, 0.03, "mu = 0.135 M + m, EN 12697-26"),
+    ]
+
+
+@checks
+def rig_devices() -> list[Row]:
+    """Spring and mass at the head, clamp to the actuator: stiffnesses in parallel and in series."""
+    system = bending_system(jittered_beam(), 0.35, 2.7e6, 0.7)
+    omega, steps = 80 * np.pi, 100
+    dt = 2 * np.pi / omega / steps
+    rows = []
+    for name, devices in (("guide spring", HeadDevices(0.0, 1e5)), ("moving mass", HeadDevices(0.0, 0.0, 0.0, 2.0)), ("clamp", HeadDevices(2e-6))):
+        head = driving_force(system, QUICK_LAW.discrete_modulus(omega, 0.0), omega)
+        clamp, spring, _, mass = devices.of_head
+        exact = 1 / (clamp + 1 / (head + spring - mass * omega**2))
+        scheme, state = Scheme.named("fitted", omega * dt), CondensedState.at_rest(system, QUICK_LAW)
+        march = March(CondensedStepper(system, QUICK_LAW, dt / scheme.a, state, devices), scheme, QUICK_LAW, dt)
+        force = np.array([march.move_to(1e-6 * np.sin(omega * dt * (n + 1))) for n in range(4 * steps)])
+        carrier = np.exp(-1j * omega * dt * np.arange(3 * steps + 1, 4 * steps + 1))
+        found = 2j * (force[3 * steps :] * carrier).mean() / 1e-6
+        rows.append(Row(f"rig with a {name}, apparent |F/z|", abs(exact), abs(found), 1e-5, "1/(C + 1/(H + k - m omega^2))"))
+        other = actuator_stiffness(head, devices, omega)
+        rows.append(Row(f"rig with a {name}, phase (rad)", np.angle(exact), np.angle(other), 1e-12, "the same, frequency domain"))
+    return rows

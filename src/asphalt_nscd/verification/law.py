@@ -1,0 +1,91 @@
+"""The bond law alone against the analytic Burgers law and Kelvin chain."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.verification.row import Checks, Row, order
+
+checks = Checks()
+
+BURGERS = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)  # Table 3, 15 degC
+LAW = BondLaw(24.3e9, 3.71e9, np.array([48.4e9]), np.array([0.773e9]))
+CHAIN = BondLaw(24.3e9, 3.71e9, np.array([48.4e9, 90e9]), np.array([0.773e9, 0.18e9]))
+FREQUENCY = 10.0
+STEPS = (5e-4, 2.5e-4, 1.25e-4)  # s
+BURGERS_LAW = "Findley, Lai & Onaran 1976, ch. 5; Eqs. (15)-(29)"
+
+
+def creep(law: BondLaw, time: float, dt: float) -> float:
+    """Opening [m] after a unit tension of 1 Pa has acted for `time` [s]."""
+    step = law.step(dt)
+    sigma, kelvin, opening = np.zeros(1), np.zeros((law.kelvin_springs.size, 1)), 0.0
+    for _ in range(round(time / dt)):
+        explicit = step.explicit_part(sigma, kelvin)
+        velocity = explicit + step.compliance  # U+ = b - S sigma+ at sigma+ = -1
+        opening += dt * velocity[0]
+        sigma, kelvin = step.update(explicit, velocity, kelvin)
+    return opening
+
+
+def follow(law: BondLaw, opening: np.ndarray, dt: float) -> np.ndarray:
+    """Stress (n,) [Pa] at a prescribed history of the opening (n,) [m], from rest."""
+    step = law.step(dt)
+    sigma, kelvin = np.zeros(1), np.zeros((law.kelvin_springs.size, 1))
+    history = np.empty(opening.size)
+    for n, velocity in enumerate(np.diff(opening, prepend=0.0) / dt):
+        sigma, kelvin = step.update(step.explicit_part(sigma, kelvin), velocity, kelvin)
+        history[n] = sigma[0]
+    return history
+
+
+def steady_modulus(law: BondLaw, steps: int, cycles: int = 40) -> complex:
+    """-sigma/u [Pa] of the steady oscillation with `steps` per cycle."""
+    angle = 2 * np.pi * np.arange(1, cycles * steps + 1) / steps
+    sigma = follow(law, np.sin(angle), 1 / (FREQUENCY * steps))
+    last = slice(-steps, None)
+    return complex(-2j * (sigma[last] * np.exp(-1j * angle[last])).mean())
+
+
+def chain_creep(time: float) -> float:
+    """Creep compliance [1/Pa] of CHAIN, element by element."""
+    delayed = sum(-np.expm1(-time * e / n) / e for e, n in zip(CHAIN.kelvin_springs, CHAIN.kelvin_dashpots))
+    return 1 / CHAIN.spring + time / CHAIN.dashpot + delayed
+
+
+@checks
+def creep_rows() -> list[Row]:
+    rows = []
+    for name, law, exact in (("Burgers", LAW, float(BURGERS.creep_compliance(0.02))), ("Kelvin chain", CHAIN, chain_creep(0.02))):
+        found = [creep(law, 0.02, dt) for dt in STEPS]
+        rows += [
+            Row(f"{name} creep, opening after 20 ms", exact, found[-1], 2e-3, BURGERS_LAW),
+            Row(f"{name} creep, order in dt", 1.0, order([value - exact for value in found]), 0.05, "implicit Euler"),
+        ]
+    return rows
+
+
+@checks
+def relaxation_rows() -> list[Row]:
+    exact = float(BURGERS.relaxation_modulus(0.02))
+    found = [-follow(LAW, np.ones(round(0.02 / dt)), dt)[-1] for dt in STEPS]
+    return [
+        Row("Burgers relaxation, stress after 20 ms", exact, found[-1], 5e-3, BURGERS_LAW),
+        Row("Burgers relaxation, order in dt", 1.0, order([value - exact for value in found]), 0.05, "implicit Euler"),
+    ]
+
+
+@checks
+def oscillation_rows() -> list[Row]:
+    omega = 2 * np.pi * FREQUENCY
+    exact = complex(BURGERS.complex_modulus(omega))
+    found = [steady_modulus(LAW, n) for n in (100, 200, 400)]
+    scheme = LAW.discrete_modulus(omega, 1 / (400 * FREQUENCY))
+    return [
+        Row("Burgers oscillation, |E*| at 400 steps a cycle", abs(exact), abs(found[-1]), 5e-3, "Eqs. (27)-(29)"),
+        Row("Burgers oscillation, order in dt", 1.0, order([abs(value - exact) for value in found]), 0.05, "implicit Euler"),
+        Row("Burgers oscillation, |E*| of the scheme", abs(scheme), abs(found[-1]), 1e-8, "i omega -> (1 - exp(-i omega dt))/dt"),
+        Row("Burgers oscillation, phase of the scheme (rad)", float(np.angle(scheme)), float(np.angle(found[-1])), 1e-8, "the same"),
+    ]

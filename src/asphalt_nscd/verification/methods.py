@@ -1,0 +1,146 @@
+"""Ways to one answer: condensed, reduced, Gauss-Seidel run to convergence, frequency domain; and their orders."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+
+from asphalt_nscd.nscd.bonds import BondedSystem
+from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.harmonic import driving_force
+from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.marching import March
+from asphalt_nscd.nscd.reduced import ReducedModel, ritz_basis
+from asphalt_nscd.nscd.reduced_stepping import ReducedStepper
+from asphalt_nscd.nscd.scheme import Scheme
+from asphalt_nscd.nscd.sweeping import SweepingStepper
+from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.verification.row import Checks, Row, order
+from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam
+
+checks = Checks()
+
+FREQUENCY, OMEGA = 40.0, 80 * np.pi
+# of two spheres across, and soft enough for Gauss-Seidel to converge
+SOFT = BondLaw(72.9e6, 0.18e6, np.array([145e6]), np.array([0.231e6]))
+
+
+@cache
+def beam(*shape: int) -> BondedSystem:
+    """Two-point bending of a small beam."""
+    return bending_system(jittered_beam(shape=shape or (3, 2, 9)), 0.35, 2.7e6, 0.7)
+
+
+def march(method: str, scheme_name: str, system: BondedSystem, law: BondLaw, steps: int, omega: float = OMEGA) -> March:
+    """A run from rest with so many steps in a cycle, by the method "condensed" or "reduced"."""
+    dt = 2 * np.pi / omega / steps
+    scheme = Scheme.named(scheme_name, omega * dt)
+    if method == "reduced":
+        stepper = ReducedStepper(ReducedModel(system, ritz_basis(system, 12)), law, dt / scheme.a, 1e-6)
+    else:
+        stepper = CondensedStepper(system, law, dt / scheme.a, CondensedState.at_rest(system, law))
+    return March(stepper, scheme, law, dt)
+
+
+def stiffness(force: np.ndarray, steps: int, amplitude: float) -> complex:
+    """Force over displacement [N/m] in the last of the cycles of a sine."""
+    angle = 2 * np.pi / steps * np.arange(force.size - steps + 1, force.size + 1)
+    return complex(2j * (force[-steps:] * np.exp(-1j * angle)).mean() / amplitude)
+
+
+def stepped(method: str, scheme: str, steps: int, cycles: int = 5) -> complex:
+    """Apparent stiffness [N/m] of the beam, weightless, by time stepping."""
+    system = replace(beam(), load=np.zeros(beam().mass.size))
+    run = march(method, scheme, system, QUICK_LAW, steps)
+    sine = 1e-7 * np.sin(2 * np.pi / steps * np.arange(1, cycles * steps + 1))
+    return stiffness(np.array([run.move_to(place) for place in sine]), steps, 1e-7)
+
+
+def of_the_law() -> complex:
+    """Apparent stiffness [N/m] of the beam by the frequency domain."""
+    return driving_force(beam(), QUICK_LAW.discrete_modulus(OMEGA, 0.0), OMEGA)
+
+
+@checks
+def stepping_against_frequency_domain() -> list[Row]:
+    dt = 1 / FREQUENCY / 200
+    rate = (1 - np.exp(-1j * OMEGA * dt)) / dt
+    exact = driving_force(beam(), QUICK_LAW.discrete_modulus(OMEGA, dt), OMEGA, rate**2)
+    rows = []
+    for method in ("condensed", "reduced"):
+        found = stepped(method, "euler", 200)
+        rows += [
+            Row(f"{method}, |F/z| of implicit Euler", abs(exact), abs(found), 1e-7, "(E* K - omega^2 M) u = f of the scheme"),
+            Row(f"{method}, phase of implicit Euler (rad)", np.angle(exact), np.angle(found), 1e-7, "the same"),
+        ]
+    return rows
+
+
+@checks
+def fitted_scheme() -> list[Row]:
+    exact, rows = of_the_law(), []
+    for method in ("condensed", "reduced"):
+        found = stepped(method, "fitted", 100)
+        angle = np.degrees(np.angle(found / exact))
+        rows += [
+            Row(f"{method}, |E*| at 100 steps a cycle, fitted scheme", 1.0, abs(found / exact), 1e-4, "exact law on the same specimen"),
+            Row(f"{method}, phase at 100 steps a cycle, fitted scheme (deg)", 0.0, angle, 0.01, "exact law on the same specimen"),
+        ]
+    return rows
+
+
+@checks
+def order_in_dt() -> list[Row]:
+    exact = of_the_law()
+    euler = [abs(stepped("reduced", "euler", steps) - exact) for steps in (200, 400)]
+
+    def pulse(steps: int) -> float:
+        scheme, dt = Scheme.named("fitted", 0.0), 8e-3 / steps
+        stepper = ReducedStepper(ReducedModel(beam(), ritz_basis(beam(), 12)), QUICK_LAW, dt / scheme.a, 1e-6)
+        run = March(stepper, scheme, QUICK_LAW, dt)
+        return [run.move_to(1e-6 * np.sin(np.pi * n / steps) ** 4) for n in range(1, 5 * steps // 8 + 1)][-1]
+
+    reference = pulse(1024)
+    fitted = [abs(pulse(steps) - reference) for steps in (64, 128)]
+    return [
+        Row("bending, order in dt of implicit Euler", 1.0, order(euler), 0.05, "against the frequency domain"),
+        Row("bending by a pulse, order in dt of the two-step scheme", 2.0, order(fitted), 0.3, "BDF2"),
+    ]
+
+
+@checks
+def gauss_seidel() -> list[Row]:
+    """Run to convergence it agrees; the error follows the tolerance in first order."""
+    system, steps = beam(2, 2, 4), 50
+    sine = 1e-6 * np.sin(2 * np.pi / steps * np.arange(1, 21))
+    dt = 1 / FREQUENCY / steps
+    reference = march("condensed", "euler", system, SOFT, steps)
+    expected = np.array([reference.move_to(place) for place in sine])
+    errors = []
+    for tolerance in (1e-5, 1e-7, 1e-9):
+        stepper = SweepingStepper(system, SOFT, dt, CondensedState.at_rest(system, SOFT), tolerance, 100_000)
+        force = np.array([stepper.advance(v) for v in np.diff(sine, prepend=0.0) / dt])
+        errors.append(np.abs(force - expected).max() / np.abs(expected).max())
+    return [
+        Row("Gauss-Seidel at a tolerance of 1e-9, force", 0.0, errors[-1], 1e-5, "condensed solution"),
+        Row("Gauss-Seidel, order in its tolerance", 1.0, np.log10(errors[-2] / errors[-1]) / 2, 0.3, "linear convergence"),
+    ]
+
+
+@checks
+def breaking_alike() -> list[Row]:
+    """Beyond yield: the same bonds in the same order, the same forces, by full and reduced stepping."""
+    steps, force, broken = 100, [], []
+    for method in ("condensed", "reduced"):
+        run = march(method, "euler", beam(), QUICK_LAW, steps)
+        sine = 8e-5 * np.sin(2 * np.pi / steps * np.arange(1, steps + 1))
+        force.append(np.array([run.move_to(place) for place in np.append(np.zeros(10), sine)]))
+        broken.append(list(run.stepper.state.broken))
+    same = sum(a == b for a, b in zip(*broken))
+    difference = np.abs(force[0] - force[1]).max() / np.abs(force[0]).max()
+    return [
+        Row("fracture, bonds that break alike and in order", len(broken[0]), same if broken[0] else np.nan, 0.0, "condensed against reduced"),
+        Row("fracture, difference of the force", 0.0, difference, 1e-6, "condensed against reduced"),
+    ]

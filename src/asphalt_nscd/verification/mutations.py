@@ -1,0 +1,65 @@
+"""A wrong sign or factor in an equation of the core, in a copy of the sources, must turn a row red."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from functools import partial
+from pathlib import Path
+
+from asphalt_nscd.sources import PACKAGE
+from asphalt_nscd.verification.row import Checks, Row
+
+LONGEST = 300.0  # s, for the rows of a theme; one that hangs has failed
+MUTANTS = [
+    # what, theme that must notice, file, right, wrong
+    ("dashpot in the compliance of a bond", "law", "nscd/law.py", "+ 1.0 / self.dashpot +", "- 1.0 / self.dashpot +"),
+    ("recall of the Kelvin element", "law", "nscd/law.py", "recall=springs / damped", "recall=-springs / damped"),
+    ("growth of the Kelvin element", "law", "nscd/law.py", "* kelvin - self.gain", "* kelvin + self.gain"),
+    ("memory of the spring", "law", "nscd/law.py", "memory=1.0 / (dt * self.spring)", "memory=-1.0 / (dt * self.spring)"),
+    ("lever arm of a bond", "beams", "nscd/bonds.py", "arm[k1] * frame[b, c, k2] - arm", "arm[k1] * frame[b, c, k2] + arm"),
+    ("history of the bonds in the condensed equations", "beams", "nscd/condensed.py", "impulse += scale *", "impulse -= scale *"),
+    ("load in the force of the head", "accounts", "nscd/condensed.py", "inertia - system.load", "inertia + system.load"),
+    ("guide spring at the head", "beams", "nscd/head.py", "/ dt + spring * x)", "/ dt - spring * x)"),
+    ("inertia in the frequency domain", "beams", "nscd/harmonic.py", "-(omega**2)", "+(omega**2)"),
+    ("form factor of the trapezoid", "beams", "twopoint.py", "(-np.log1p(-x) - x", "(-np.log1p(-x) + x"),
+    ("stress of the reduced model", "methods", "nscd/reduced_stepping.py", "(explicit[a] - new_v[a])", "(explicit[a] + new_v[a])"),
+    ("opening in a sweep over bonds", "methods", "nscd/sweeping.py", "miss[c] -= data", "miss[c] += data"),
+    ("extrapolation of the two-step scheme", "methods", "nscd/scheme.py", "v + share * (v - earlier", "v - share * (v - earlier"),
+    ("dissipation of the dashpots", "accounts", "nscd/energy.py", "sums.dashpots += dt * strain", "sums.dashpots -= dt * strain"),
+    ("gravity of a sphere", "spheres", "nscd/granular.py", "+= dt * gravity[k]", "-= dt * gravity[k]"),
+    ("moment of a contact on a sphere", "spheres", "nscd/granular.py", "velocity[j, 3] -= wj * tx", "velocity[j, 3] += wj * tx"),
+    ("spin in the slip of two spheres", "spheres", "nscd/granular.py", "- (sy * nz - sz * ny)", "+ (sy * nz - sz * ny)"),
+    ("restitution of an impact", "spheres", "nscd/granular.py", "= -restitution * opening", "= restitution * opening"),
+]  # fmt: skip
+
+checks = Checks()
+
+
+def mutate(what: str, theme: str, file: str, right: str, wrong: str) -> Row:
+    """A row that passes when rows of `theme` fail once `right` is replaced by `wrong` in `file`."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder, PACKAGE.name)
+        shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+        text = (copy / file).read_text(encoding="utf-8")
+        if right not in text:
+            raise ValueError(f"{file} no longer holds {right!r}; adapt this mutant.")
+        (copy / file).write_text(text.replace(right, wrong), encoding="utf-8")
+        script = f"from asphalt_nscd.verification.study import verify; print((verify({theme!r}).verdict == 'failed').sum())"
+        environment = os.environ | {"PYTHONPATH": folder, "ASPHALT_NSCD_CACHE": str(Path(folder, "cache"))}
+        try:
+            done = subprocess.run(
+                [sys.executable, "-c", script], env=environment, cwd=folder, capture_output=True, text=True,
+                timeout=LONGEST, check=True,
+            )  # fmt: skip
+            red, seen = int(done.stdout), f"{int(done.stdout)} rows of {theme} fail"
+        except subprocess.TimeoutExpired:
+            red, seen = 1, f"{theme} does not end"
+    return Row(f"noticed: {what}", 1.0, float(min(red, 1)), 0.0, f"{right} -> {wrong} in {file}: {seen}")
+
+
+for _mutant in MUTANTS:
+    checks(partial(mutate, *_mutant))

@@ -1,0 +1,97 @@
+"""Small specimens for verification and tests: beams that need not be poured."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import sparse
+
+from asphalt_nscd.nscd.bonds import BondedSystem, opening_operator
+from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.specimen.network import bond_network
+from asphalt_nscd.specimen.trimming import Specimen
+from asphalt_nscd.twopoint import Geometry
+
+# Moduli of Table 3 at 15 degC, viscosities lowered until transients die within two cycles at 40 Hz
+# (relaxation times below 3 ms), so that a short test reaches its steady state to 1e-9.
+QUICK_LAW = BondLaw(24.3e9, 0.06e9, np.array([48.4e9]), np.array([0.077e9]))
+
+
+def elastic(modulus: float) -> BondLaw:
+    """Springs alone [Pa]."""
+    return BondLaw(modulus, np.inf, np.array([]), np.array([]))
+
+
+def jittered_beam(
+    seed: int = 1, shape: tuple[int, int, int] = (3, 2, 9), spacing: float = 4e-3, fill: float = 0.42,
+    reach: float = 2e-3,
+) -> Specimen:  # fmt: skip
+    """A prismatic beam of spheres on a cubic lattice, each moved within its cell.
+
+    fill: largest radius over `spacing` [m]; a sphere stays inside its cell, so that none overlap.
+    """
+    rng = np.random.default_rng(seed)
+    cells = np.stack(np.meshgrid(*map(np.arange, shape), indexing="ij"), axis=-1).reshape(-1, 3)
+    radius = spacing * fill * rng.uniform(0.8, 1.0, len(cells))
+    slack = 0.98 * (0.5 * spacing - radius)[:, None]
+    position = spacing * (cells + 0.5) + slack * rng.uniform(-1.0, 1.0, cells.shape)
+    width, thickness, height = spacing * np.array(shape)
+    position -= np.array([width / 2, thickness / 2, 0.0])
+    network = bond_network(position, radius, height, reach)
+    geometry = Geometry(b=width, B=width, e=thickness, h=height, mass=4e-3, mobile_mass=2e-3)
+    density = geometry.mass / float((4 / 3 * np.pi * radius**3).sum())
+    return Specimen(geometry, position, radius, density, network, 0)
+
+
+def system_of(
+    operator: np.ndarray, weight: np.ndarray, mass: np.ndarray, driven: int, load: np.ndarray | float = 0.0,
+    gap: float = 1.0, friction: float = 0.0,
+) -> BondedSystem:  # fmt: skip
+    """A system from dense arrays; bonds do not break."""
+    bonds, d = operator.shape[0] // 3, operator.shape[1]
+    return BondedSystem(
+        operator=sparse.csr_matrix(operator), weight=np.broadcast_to(weight, 3 * bonds).astype(float),
+        mass=np.broadcast_to(mass, d).astype(float), load=np.broadcast_to(load, d).astype(float), driven=driven,
+        gap=np.full(bonds, gap), strength=np.full(bonds, np.inf), friction=friction,
+    )  # fmt: skip
+
+
+def chain(bodies: int, weight: float, mass: float, load: float = 0.0) -> BondedSystem:
+    """Bodies in a row, each bonded to the next and the last to the wall; the first is driven along it."""
+    operator = np.zeros((3 * bodies, bodies))
+    for k in range(bodies):
+        operator[3 * k, k] = -1.0
+        if k + 1 < bodies:
+            operator[3 * k, k + 1] = 1.0
+    return system_of(operator, weight, mass, driven=0, load=load)
+
+
+def laminated_beam(geometry: Geometry, slices: int, shear: float) -> BondedSystem:
+    """A cantilever of rigid plates, joined by four bonds at each of `slices` middles of slices.
+
+    The normal stiffnesses per modulus have the second moment e B(z)^3/12 of the section there about the
+    axis of bending, the tangential ones `shear` times its area. Foot fixed, head plate driven along x and free
+    to rotate. The plate below a cut carries the mass of half a slice on either side.
+    """
+    h, step = geometry.h, geometry.h / slices
+    middle = (np.arange(slices) + 0.5) * step
+    width = geometry.B + (geometry.b - geometry.B) * middle / h
+    corner = np.array([[x, y] for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
+    point = np.empty((4 * slices, 3))
+    point[:, :2] = np.tile(corner, (slices, 1)) * np.repeat(width / np.sqrt(12.0), 4)[:, None]
+    point[:, 2] = np.repeat(middle, 4)
+    frame = np.tile(np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]]), (4 * slices, 1, 1))
+    upper = np.repeat(np.arange(slices), 4)
+    lower = np.where(upper == 0, slices, upper - 1)
+    position = np.zeros((slices, 3))
+    position[:, 2] = (np.arange(slices) + 1.0) * step
+    operator = opening_operator(lower, upper, frame, point, position)
+    area = geometry.e * width / step
+    weight = np.repeat(area / 4.0, 4)[:, None] * np.array([1.0, shear, shear])
+    height = np.append(position[:-1, 2], h - step / 4.0)
+    share = geometry.e * (geometry.B + (geometry.b - geometry.B) * height / h) * step
+    share[-1] /= 2.0
+    density = geometry.mass / (geometry.e * h * (geometry.B + geometry.b) / 2.0)
+    mass = np.full((slices, 6), 1e-12)
+    mass[:, :3] = density * share[:, None]
+    mass[-1, :3] += geometry.mobile_mass
+    return system_of(operator.toarray(), weight.ravel(), mass.ravel(), driven=6 * (slices - 1))

@@ -1,0 +1,193 @@
+"""Rigid spheres with contact and friction against textbook motions and conservation laws."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics
+from asphalt_nscd.specimen.lattice import random_lattice
+from asphalt_nscd.verification.row import Checks, Row, order
+
+checks = Checks()
+
+G, R = 9.81, 2.0**-9  # the radius a power of two, so that spheres touch to the last digit
+TIGHT = PouringNumerics(time_step=1e-4, tolerance=1e-14, most_sweeps=5000, recovery_speed=0.0)
+
+
+def balls(position, radius=R, friction=0.5, restitution=0.0, gravity=(0.0, 0.0, -G), box=(1.0, 1.0, 1.0)) -> Granulate:
+    """Spheres of 2600 kg/m3 at rest in a box of walls."""
+    position = np.atleast_2d(np.asarray(position, float))
+    radius = np.broadcast_to(radius, len(position)).astype(float)
+    granulate = Granulate.in_box(position, radius, box, 2600.0, friction, restitution)
+    granulate.gravity = np.asarray(gravity, float)
+    return granulate
+
+
+def advanced(granulate: Granulate, steps: int, numerics: PouringNumerics = TIGHT) -> Granulate:
+    """The same after so many steps."""
+    for _ in range(steps):
+        granulate.advance(numerics)
+    return granulate
+
+
+def masses(granulate: Granulate) -> np.ndarray:
+    """(n,) kg."""
+    return 1.0 / granulate.inverse_mass[: granulate.radius.size]
+
+
+def momentum(granulate: Granulate) -> np.ndarray:
+    """Linear momentum (3,) [N s]."""
+    return masses(granulate) @ granulate.velocity[: granulate.radius.size, :3]
+
+
+def angular_momentum(granulate: Granulate) -> np.ndarray:
+    """About the origin (3,) [N m s]."""
+    n, m = granulate.radius.size, masses(granulate)[:, None]
+    v, s = granulate.velocity[:n, :3], granulate.velocity[:n, 3:]
+    return (m * np.cross(granulate.position, v) + 0.4 * m * granulate.radius[:, None] * s).sum(axis=0)
+
+
+def energy(granulate: Granulate) -> float:
+    """Kinetic and potential [J]."""
+    return granulate.kinetic_energy() - float(masses(granulate) @ (granulate.position @ granulate.gravity))
+
+
+@checks
+def free_fall() -> list[Row]:
+    source = "v = g t; z = g t^2/2, of which implicit Euler makes g t (t + dt)/2"
+    ball = advanced(balls([0.5, 0.5, 0.5]), 300)
+    t, dt = ball.time, TIGHT.time_step
+    return [
+        Row("free fall, speed", -G * t, ball.velocity[0, 2], 1e-12, source),
+        Row("free fall, height", -0.5 * G * t * (t + dt), ball.position[0, 2] - 0.5, 1e-12, source),
+    ]
+
+
+def _on_incline(slope: float, friction: float) -> Granulate:
+    tilted = (G * np.sin(slope), 0.0, -G * np.cos(slope))
+    return advanced(balls([0.1, 0.5, R], friction=friction, gravity=tilted), 200)
+
+
+@checks
+def rolling() -> list[Row]:
+    ball = _on_incline(0.3, 2 / 7 * np.tan(0.3) * 1.001)
+    speed, source = 5 / 7 * G * np.sin(0.3) * ball.time, "a = (5/7) g sin(slope) where mu > (2/7) tan(slope)"
+    return [
+        Row("rolling sphere on a slope, speed", speed, ball.velocity[0, 0], 1e-10, source),
+        Row("rolling sphere on a slope, spin times radius", speed, ball.velocity[0, 4], 1e-10, source),
+    ]
+
+
+@checks
+def sliding() -> list[Row]:
+    friction = 2 / 7 * np.tan(0.9) * 0.7
+    ball = _on_incline(0.9, friction)
+    speed = G * (np.sin(0.9) - friction * np.cos(0.9)) * ball.time
+    spin, source = 2.5 * friction * G * np.cos(0.9) * ball.time, "a = g (sin - mu cos), r alpha = (5/2) mu g cos"
+    return [
+        Row("sliding sphere on a slope, speed", speed, ball.velocity[0, 0], 1e-10, source),
+        Row("sliding sphere on a slope, spin times radius", spin, ball.velocity[0, 4], 1e-10, source),
+    ]
+
+
+@checks
+def backspin() -> Row:
+    ball = balls([0.5, 0.5, R], friction=0.3)
+    ball.velocity[0] = [0.1, 0, 0, 0, -0.4, 0]
+    found = advanced(ball, 1500).velocity[0, 0]
+    return Row("sphere with backspin, final speed", -3 / 70, found, 1e-10, "(5 v0 - 2 s0)/7, s0 = 4 v0: it returns")
+
+
+@checks
+def impact() -> list[Row]:
+    rows = []
+    for restitution in (0.0, 0.6):
+        pair = balls([[0.4, 0.5, 0.5], [0.4 + 4 * R + 1e-4, 0.5, 0.5]], [R, 3 * R], 0.5, restitution, (0, 0, 0))
+        pair.velocity[0, 0], pair.velocity[1, 0] = 1.0, -0.5
+        m1, m2 = masses(advanced(pair, 10))
+        expected = (m1 - 0.5 * m2 - restitution * 1.5 * m2) / (m1 + m2)
+        name = f"head-on impact of unequal spheres, restitution {restitution:g}"
+        rows.append(Row(name, expected, pair.velocity[0, 0], 1e-12, "Newton's impact law and momentum"))
+    return rows
+
+
+@checks
+def bounce() -> Row:
+    errors = []
+    for dt in (4e-5, 1e-5):
+        ball, highest = balls([0.5, 0.5, R + 5e-3], restitution=0.5), 0.0
+        numerics = PouringNumerics(dt, 1e-14, 5000, recovery_speed=0.0)
+        while ball.time < 0.07:
+            ball.advance(numerics)
+            if ball.velocity[0, 2] > 0.0:
+                highest = max(highest, ball.position[0, 2] - R)
+        errors.append(highest - 0.25 * 5e-3)
+    return Row("bouncing sphere, height of the second arc", 1.25e-3, 1.25e-3 + errors[-1], 2e-2, "e^2 h, to O(dt)")
+
+
+@checks
+def oblique_impact() -> list[Row]:
+    pair = balls([[0.5, 0.5, 0.5], [0.5 + 3 * R, 0.5, 0.5]], [R, 2 * R], 0.4, 0.5, (0, 0, 0))
+    pair.velocity[0], pair.velocity[1] = [1.0, 0.3, -0.2, 0.1, 0.7, -0.4], [-0.5, -0.2, 0.4, -0.3, 0.2, 0.9]
+    before = momentum(pair), angular_momentum(pair), pair.kinetic_energy()
+    pair.advance(TIGHT)
+    changes = [np.abs(now - then).max() / np.abs(then).max() for now, then in zip((momentum(pair), angular_momentum(pair)), before)]
+    gained = max(pair.kinetic_energy() / before[2] - 1.0, 0.0)
+    source = "contact forces are internal: actio = reactio at one point"
+    return [
+        Row("oblique impact with spin, change of momentum", 0.0, changes[0], 1e-13, source),
+        Row("oblique impact with spin, change of angular momentum", 0.0, changes[1], 1e-12, source),
+        Row("oblique impact with spin, energy gained", 0.0, gained, 1e-15, "friction dissipates"),
+        Row("oblique impact with spin, normal speed after", 0.75, pair.velocity[1, 0] - pair.velocity[0, 0], 1e-12, "e times that before"),
+    ]
+
+
+@checks
+def column() -> list[Row]:
+    n = 5
+    pile = advanced(balls([[0.5, 0.5, (2 * k + 1) * R] for k in range(n)]), 5)
+    weight = masses(pile)[0] * G * TIGHT.time_step
+    first = np.repeat(np.arange(n), np.diff(pile._start))
+    load = {(i, j): abs(r[2]) / weight for i, j, r in zip(first, pile._other, pile.impulse)}
+    return [
+        Row("column of five spheres, force on the ground", n, load[(0, n + 2)], 1e-10, "weight above, m g each"),
+        Row("column of five spheres, force between the upper two", 1, load[(n - 2, n - 1)], 1e-10, "m g"),
+        Row("column of five spheres, speed at rest", 0.0, np.abs(pile.velocity[:n]).max(), 1e-12, "equilibrium"),
+    ]
+
+
+@checks
+def two_stacked_spheres() -> Row:
+    """A sphere let go at the side of a heavy one, on which it rolls: potential energy into (7/10) m v^2."""
+    lean, errors = 0.4, []
+    for dt in (4e-5, 2e-5, 1e-5):
+        radius = 10 * R
+        at = np.array([0.5, 0.5, radius]), np.array([0.5 + (radius + R) * np.sin(lean), 0.5, radius + (radius + R) * np.cos(lean)])
+        pair = balls(np.array(at), [radius, R], friction=2.0)
+        pair.inverse_mass[0] = 1e-12 * pair.inverse_mass[0]
+        advanced(pair, round(4e-3 / dt), PouringNumerics(dt, 1e-14, 5000, recovery_speed=0.0))
+        angle = np.arctan2(pair.position[1, 0] - 0.5, pair.position[1, 2] - radius)
+        kinetic = 0.5 * 7 / 5 * (pair.velocity[1, :3] ** 2).sum()
+        errors.append(kinetic / (G * (radius + R) * (np.cos(lean) - np.cos(angle))) - 1.0)
+    return Row("sphere rolling off a sphere, order in dt of its energy", 1.0, order(errors), 0.1, "(7/10) v^2 = g h")
+
+
+@checks
+def cloud() -> list[Row]:
+    rng = np.random.default_rng(3)
+    box = (0.017, 0.016, 0.05)
+    position, radius = random_lattice(np.array([3e-3, 5e-3]), np.array([20, 10]), box, rng)
+    pile = balls(position, radius, 0.5, 0.0, box=box)
+    pile.velocity[: radius.size] = rng.normal(0, 0.2, (radius.size, 6))
+    numerics = PouringNumerics(2e-4, 1e-10, 1000, margin=3e-4, recovery_speed=0.0)
+    last = start = energy(pile)
+    gained = deep = 0.0
+    for _ in range(600):
+        pile.advance(numerics)
+        now = energy(pile)
+        gained, last = max(gained, (now - last) / start), now
+        deep = max(deep, -float(pile.contacts(1e-6)[1].min(initial=0.0)))
+    return [
+        Row("thirty spheres fall to rest, energy gained in a step", 0.0, gained, 1e-12, "Moreau-Jean scheme, inelastic contacts: dissipative"),
+        Row("thirty spheres fall to rest, penetration over radius", 0.0, deep / radius.min(), 1e-4, "Signorini"),
+    ]
