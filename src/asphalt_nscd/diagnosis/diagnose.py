@@ -61,6 +61,14 @@ def diagnose(
         notes.append(
             "The Burgers laws fit and no law common to all temperatures does; causes are judged against the Burgers laws."
         )
+    if observed.frequencies.size < 3:
+        notes.append("Two frequencies: Burgers laws fit them exactly, so their misfit cannot be judged.")
+    for row in range(aside.size):
+        test = whole.subset(aside[[row]])
+        notes.append(
+            f"Set aside, far from its replicates: specimen {whole.names[test.specimen[0]]}, "
+            f"{test.temperature[0]:g} degC, {test.frequency[0]:g} Hz; check this test."
+        )
     ladder = climb(joint, fitted, catalogue, draws, seed)
     law_p = misfit_p_value(ladder.fitted, noise)
     diagnosis = Diagnosis(

@@ -34,6 +34,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         "schema_version": SCHEMA_VERSION,
         "verdict": diagnosis.verdict,
         "tests": diagnosis.observed.size,
+        "tested": diagnosis.replicated and diagnosis.observed.frequencies.size > 2,
         "scatter": {
             "modulus_percent": 100.0 * modulus_scatter, "phase_deg": float(np.degrees(phase_scatter)),
             "specimens_percent": 100.0 * diagnosis.noise.scale, "from_replicates": diagnosis.replicated and diagnosis.noise.freedom < STATED,
@@ -200,16 +201,21 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
             diagnosis, heldout.predictions(diagnosis.baseline_joint, diagnosis.baseline, label),
             heldout.predictions(ladder.joint, ladder.start, label),
         )  # fmt: skip
-    spectrum, law = ladder.joint.base, ladder.start.law
-    m = spectrum.times.size
-    shift = spectrum.log_shift(law, observed.isotherms)[0] / LN10
+    # As the last fit has them: a delay, say, that is not yet taken would be taken for relaxation.
+    spectrum, fitted = ladder.joint.base, ladder.fitted
+    shift = spectrum.log_shift(fitted.law, observed.isotherms)[0] / LN10
+    c1, above = np.exp(fitted.law[-3:-1])
+    relative = np.sqrt(np.diag(fitted.covariance))[fitted.law.size - 3 : fitted.law.size - 1]
+    shift_constants = {
+        "wlf_C1": _value(c1, "decades", c1 * relative[0]),
+        "wlf_C2": _value(spectrum.least_c2 + above, "K", above * relative[1]),
+    }
     return {
         "cause": "relaxation_spectrum", "where": None,
         "parameters": {
-            "wlf_C1": _value(np.exp(law[-3]), "1"),
-            "wlf_C2": _value(spectrum.least_c2 + np.exp(law[-2]), "K"),
+            # Two isotherms have one shift between them; one has none.
+            **(shift_constants if observed.isotherms.size > 2 else {}),
             "reference_temperature": _value(spectrum.reference_temperature, "degC"),
-            "glassy_modulus": _value(np.exp(law[:m]).sum() + np.exp(law[m]), "Pa"),
         },
         "log10_shift": {f"{t:g}": float(s) for t, s in zip(observed.isotherms, shift, strict=True)},
         "p_value": diagnosis.baseline_p, "gain": {"in_sample": _pair(diagnosis, before, after), "held_out": held_out},
@@ -219,8 +225,8 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
     }  # fmt: skip
 
 
-def _value(value: float, unit: str) -> dict[str, Any]:
-    return {"value": float(value), "std_error": None, "unit": unit}
+def _value(value: float, unit: str, error: float | None = None) -> dict[str, Any]:
+    return {"value": float(value), "std_error": None if error is None else float(error), "unit": unit}
 
 
 def _burgers_parameters(diagnosis: Diagnosis) -> dict[str, dict[str, float]]:
@@ -263,6 +269,8 @@ def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
     ]
     if not diagnosis.relaxation_spectrum and observed.frequencies.size < 3:
         out.append({"cause": "relaxation_spectrum", "needs": "three frequencies: a Burgers law fits any two"})
+    elif not diagnosis.replicated:
+        out.append({"cause": "relaxation_spectrum", "needs": "replicates, or a stated scatter"})
     return out
 
 

@@ -23,6 +23,7 @@ VERDICTS = {
     "unexplained_structure": "unexplained structure: something is left that no cause of the catalogue explains.",
     "nothing_to_explain": "nothing to explain: the Burgers laws miss the measurements by no more than scatter.",
 }
+UNJUDGED = "nothing found, but these data cannot judge the Burgers laws themselves."
 
 
 def run(
@@ -31,7 +32,10 @@ def run(
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
     simulations: str | Path | None = None,
 ) -> str:  # fmt: skip
-    """Diagnose a table (and the numerics of simulated tests, if given), write diagnosis.json, residuals.csv and law.json into the folder, return the summary."""
+    """Diagnose a table, write diagnosis.json, residuals.csv and law.json into the folder; the summary.
+
+    simulations: table of simulated tests whose numerics are told apart.
+    """
     numerical = read_specimen(specimen)
     observed, origin = read_observations(measurements, geometry, static_modulus)
     try:
@@ -74,23 +78,30 @@ def summary(content: dict[str, Any]) -> str:
         error = amplitude["std_error"]
         size = f"{amplitude['value']:.3g}" + ("" if error is None else f" +- {error:.1g}")
         inside = rung["gain"]["in_sample"]
-        held = rung["gain"]["held_out"].get("leave_one_isotherm_out") or rung["gain"]["held_out"].get(
-            "leave_one_frequency_out"
-        )
+        held = rung["gain"]["held_out"].get("leave_one_frequency_out")
         rows.append([
             rung["cause"], "" if rung["where"] is None else rung["where"],
-            f"{amplitude_name} {size} {amplitude['unit']}", f"{rung['p_value']:.1g}",
+            f"{amplitude_name} {size} {amplitude['unit']}", f"{rung['p_value']:.1g}" if rung["p_value"] > 1e-6 else "< 1e-6",
             *(f"{inside[k]['before']:.2f} -> {inside[k]['after']:.2f}" for k in ("mre_E_percent", "mre_phase_percent")),
             "" if held is None else f"{held['rms_over_scatter']['before']:.2f} -> {held['rms_over_scatter']['after']:.2f}",
         ])  # fmt: skip
-    headers = ["cause", "where", "parameter", "p", "error |E*| %", "error phase %", "held out, over scatter"]
+    headers = [
+        "cause",
+        "where",
+        "parameter",
+        "p",
+        "error |E*| %",
+        "error phase %",
+        "frequencies held out, over scatter",
+    ]
     scatter = content["scatter"]
+    judged = content["verdict"] != "nothing_to_explain" or content["tested"]
     lines = [
         f"{content['tests']} tests, scatter {scatter['modulus_percent']:.2g} % in |E*|, {scatter['phase_deg']:.2g} deg in phase.",
         "",
         tabulate(rows, headers) if rows else "No cause beats chance.",
         "",
-        VERDICTS[content["verdict"]],
+        VERDICTS[content["verdict"]] if judged else UNJUDGED,
     ]
     left = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and left is not None:

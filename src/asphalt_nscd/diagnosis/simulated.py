@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from asphalt_nscd.errors import InputError
 from asphalt_nscd.store import load, save
 from asphalt_nscd.twopoint import Geometry, form_factor, mass_factor
 
@@ -60,7 +61,12 @@ def read_specimen(path: str | Path | None = None) -> NumericalSpecimen:
     if path is None:
         with as_file(files("asphalt_nscd.diagnosis") / SHIPPED) as shipped:
             return read_specimen(shipped)
-    record = load(path, KIND)
+    try:
+        record = load(path, KIND)
+    except InputError:
+        raise InputError(
+            f"{path}: not a numerical specimen; give a file made by `reduced-specimen`."
+        ) from None
     geometry = Geometry(**{name: record.attributes[name] for name in Geometry.__dataclass_fields__})
     return NumericalSpecimen(
         record.arrays["stiffness"], record.arrays["mass"], geometry, record.attributes["name"]
