@@ -3,6 +3,7 @@
 #   make            the paper study
 #   make smoke      the same chain at reduced size, in minutes
 #   make test       the tests
+#   make lint       ruff and mypy
 #   make blind      blind tests of the diagnosis: hidden effects, found or not
 #   make verify     the core against theory: results/verification/verification.csv
 #   make study CONFIG=my.yaml     any other study
@@ -28,7 +29,7 @@ ifeq ($(filter study,$(MAKECMDGOALS))$(shell test -f "$(CONFIG)" && echo found),
 $(error $(CONFIG): no such file; give a study with CONFIG=my.yaml)
 endif
 
-.PHONY: paper smoke blind study test verify
+.PHONY: paper smoke blind study test lint verify
 
 paper: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
@@ -51,6 +52,11 @@ verify: $(READY)
 
 test: $(READY)
 	.venv/bin/python -m pytest
+
+lint: $(READY)
+	.venv/bin/ruff check .
+	.venv/bin/ruff format --check .
+	.venv/bin/mypy
 
 $(READY): requirements.txt pyproject.toml
 	@sh tools/venv.sh

@@ -91,5 +91,5 @@ def _from_mapping(mapping: Any, name: str) -> Geometry:
 
 
 def _in_metres(values: Mapping[str, float]) -> Geometry:
-    lengths = (values[name] * 1e-3 for name in ("b_mm", "B_mm", "e_mm", "h_mm"))
-    return Geometry(*lengths, mass=values["mass_kg"], mobile_mass=values["mobile_mass_kg"])
+    b, foot, e, h = (values[name] * 1e-3 for name in ("b_mm", "B_mm", "e_mm", "h_mm"))
+    return Geometry(b, foot, e, h, mass=values["mass_kg"], mobile_mass=values["mobile_mass_kg"])

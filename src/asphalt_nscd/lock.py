@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import fcntl
 from pathlib import Path
+from typing import IO
 
-_alive = []  # open files: the kernel drops their locks when this process ends, however it ends
+_alive: list[IO[str]] = []  # open files: the kernel drops their locks when this process ends, however it ends
 
 
 def release_stale_locks(directory: str | Path) -> bool:

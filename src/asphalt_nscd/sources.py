@@ -20,9 +20,12 @@ def source_files(*modules: str) -> list[Path]:
     Imports inside functions count. A package's `__init__.py` counts only where it is itself imported.
     """
     found: set[Path] = set()
-    waiting = [_file(("asphalt_nscd", *module.split("."))) for module in modules]
-    if None in waiting:
-        raise ValueError(f"no module asphalt_nscd.{modules[waiting.index(None)]}")
+    waiting = []
+    for module in modules:
+        file = _file(("asphalt_nscd", *module.split(".")))
+        if file is None:
+            raise ValueError(f"no module asphalt_nscd.{module}")
+        waiting.append(file)
     while waiting:
         path = waiting.pop()
         if path not in found:
@@ -57,7 +60,7 @@ def modules_of(package: str) -> list[str]:
 @cache
 def _imported(path: Path) -> frozenset[Path]:
     package = ("asphalt_nscd", *path.relative_to(PACKAGE).parent.parts)
-    files = set()
+    files: set[Path | None] = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             files.update(_file(tuple(name.name.split("."))) for name in node.names)
@@ -66,7 +69,7 @@ def _imported(path: Path) -> frozenset[Path]:
             base += tuple((node.module or "").split(".")) if node.module else ()
             for name in node.names:
                 files.add(_file((*base, name.name)) or _file(base))
-    return frozenset(files - {None})
+    return frozenset(file for file in files if file is not None)
 
 
 def _file(module: tuple[str, ...]) -> Path | None:

@@ -44,7 +44,7 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
         # h5py and most libraries do not name the file that they could not write, nor would a
         # temporary name help.
         if getattr(error, "filename", None) in (None, name):
-            error.filename = str(path)
+            error.filename = str(path)  # type: ignore[union-attr]
         raise
     finally:
         temporary.unlink(missing_ok=True)
@@ -99,8 +99,8 @@ def save(
         with h5py.File(temporary, "w") as file:
             for name, value in arrays.items():
                 file.create_dataset(name, data=value)
-            for name, value in attributes.items():
-                file.attrs[name] = value
+            for name, attribute in attributes.items():
+                file.attrs[name] = attribute
             file.attrs["kind"] = kind
             file.attrs["format_version"] = FORMAT_VERSION
             file.attrs["digest"] = _digest(kind, arrays, attributes)

@@ -76,7 +76,9 @@ def test_the_audit_holds_no_time_that_differs_from_run_to_run():
     tests = pd.DataFrame(
         {"frequency_Hz": [3.0, 40.0], "steps": [33333, 2500], "cpu_s": 1.0, "spheres": 9000, "residual": 1e-8}
     )
-    solved = pd.DataFrame({"E_MPa": [100.0], "E_law_MPa": 100.0, "residual": 1e-8, "most_sweeps": 50, "frequency_Hz": 40.0})
+    solved = pd.DataFrame(
+        {"E_MPa": [100.0], "E_law_MPa": 100.0, "residual": 1e-8, "most_sweeps": 50, "frequency_Hz": 40.0}
+    )
     one, two = (list(outcomes.numerics(tests.assign(cpu_s=cpu), solved, solved)) for cpu in (1.0, 1.7))
     assert one == two
     slow = list(outcomes.numerics(tests.assign(cpu_s=3000.0), solved, solved))

@@ -75,7 +75,8 @@ def test_published_table_is_the_check_of_reconstructed_data_only(page, tmp_path)
 
 def test_what_stays_unexplained_is_said(page):
     miss = {
-        "temperature_C": 20.0, "frequency_Hz": 3.0, "residual_E_percent": -15.13, "residual_phase_deg": -2.77, "z": 6.94,
+        "temperature_C": 20.0, "frequency_Hz": 3.0, "residual_E_percent": -15.13, "residual_phase_deg": -2.77,
+        "z": 6.94,
     }  # fmt: skip
     left = {"pattern": "20 degC, slope", "p_value": 1e-9, "z": 11.7}
     html = page(

@@ -114,7 +114,7 @@ class Results:
         return [path]
 
     def diagnosis(self, **changes: object) -> dict[str, list[Path]]:
-        """Two specimens at two temperatures: 20 % and 4 degrees too soft before at 20 degC, scatter 1 % and 0.5 degrees.
+        """Two specimens at two temperatures: before 20 % and 4 degrees too soft at 20 degC, scatter 1 % and 0.5 deg.
 
         After, nothing is left at 0 degC and 1 % at 20 degC. Specimen 2 has a loose clamp.
         """

@@ -73,7 +73,7 @@ def test_terms_of_elastic_bonds(beam_system):
         BondLaw(1e10, np.inf, np.array([]), np.array([])),
     )
     run, lost = march(system, law), 0.0
-    for sums in drive(run, 1e-6, 30):
+    for sums in drive(run, 1e-6, 30):  # noqa: B007 - the last one is read below
         step = {name: run.now.values[name] - run.earlier.values[name] for name in ("velocity", "sigma")}
         lost += (
             0.5 * system.mass @ step["velocity"] ** 2 + 0.5 * system.weight @ step["sigma"] ** 2 / law.spring

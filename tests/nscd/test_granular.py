@@ -124,7 +124,7 @@ def test_bounce_height(restitution):
     fall, errors = 5e-3, []
     for dt in (4e-5, 2e-5, 1e-5):
         ball = balls([0.5, 0.5, R + fall], restitution=restitution)
-        lowest_first = []
+        lowest_first, previous = [], 0.0
         while not (lowest_first and ball.velocity[0, 2] < 0 < previous):
             previous = ball.velocity[0, 2]
             ball.advance(numerics(time_step=dt))

@@ -107,7 +107,8 @@ def sensitivity(tests: pd.DataFrame, base: pd.DataFrame) -> Iterator[Statement]:
     effect = _effects(tests, base)
     modulus = effect["E"].abs().groupby("parameter").mean()
     yield Statement(
-        "4.2", "Em has the largest influence on |E*|.", "Em", str(modulus.idxmax()), "", judged(modulus.idxmax() == "Em"),
+        "4.2", "Em has the largest influence on |E*|.", "Em", str(modulus.idxmax()), "",
+        judged(modulus.idxmax() == "Em"),
         "Mean change by +-50 %: " + ", ".join(f"{name} {value:.1f} %" for name, value in modulus.items()) + ".",
     )  # fmt: skip
     for name, label in (("Em", "The influence of Em on |E*| grows with frequency."),

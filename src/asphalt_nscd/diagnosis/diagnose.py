@@ -59,7 +59,8 @@ def diagnose(
     if baseline_p > CHANCE and not spectrum_better and spectrum_p < CHANCE:
         joint, fitted = baseline_joint, baseline
         notes.append(
-            "The Burgers laws fit and no law common to all temperatures does; causes are judged against the Burgers laws."
+            "The Burgers laws fit and no law common to all temperatures does; causes are judged against "
+            "the Burgers laws."
         )
     if observed.frequencies.size < 3:
         notes.append("Two frequencies: Burgers laws fit them exactly, so their misfit cannot be judged.")
@@ -116,7 +117,8 @@ def _noise(observed, scatter_stated, catalogue, notes) -> tuple[Noise, bool]:
         return refined or noise, True
     notes.append(
         "No condition was repeated on another specimen, so the scatter is that of a smooth law: what no smooth law "
-        "shows cannot be told from scatter, and a lack of fit cannot be tested. Measure a second specimen or state the scatter."
+        "shows cannot be told from scatter, and a lack of fit cannot be tested. Measure a second specimen or "
+        "state the scatter."
     )
     sizes = FIRST_SCATTER
     for _ in range(3):

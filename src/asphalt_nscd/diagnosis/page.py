@@ -32,8 +32,8 @@ HELD_OUT = {
 ORIGINS = {
     "measured": "The data are measured.",
     "reconstructed": (
-        "This diagnosis rests on reconstructed data. They are not measurements: they were drawn about one smooth law fitted to the "
-        "published Burgers parameters, so that a cause found here is one of this reconstruction."
+        "This diagnosis rests on reconstructed data. They are not measurements: they were drawn about one smooth "
+        "law fitted to the published Burgers parameters, so that a cause found here is one of this reconstruction."
     ),
     "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
 }

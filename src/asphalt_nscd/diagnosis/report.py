@@ -37,7 +37,8 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         "tested": diagnosis.replicated and diagnosis.observed.frequencies.size > 2,
         "scatter": {
             "modulus_percent": 100.0 * modulus_scatter, "phase_deg": float(np.degrees(phase_scatter)),
-            "specimens_percent": 100.0 * diagnosis.noise.scale, "from_replicates": diagnosis.replicated and diagnosis.noise.freedom < STATED,
+            "specimens_percent": 100.0 * diagnosis.noise.scale,
+            "from_replicates": diagnosis.replicated and diagnosis.noise.freedom < STATED,
         },
         "numerics": _numerics(diagnosis, specimen),
         "baseline": {

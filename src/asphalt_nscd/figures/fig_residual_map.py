@@ -90,7 +90,8 @@ def _map(axes: Axes, cells: pd.DataFrame, column: str, norm: BoundaryNorm):
             dark = 0.3 * red + 0.6 * green + 0.1 * blue < 0.5
             digits = 0 if abs(value) >= 9.95 else 1
             axes.text(
-                k + 0.5, i + 0.5, style.minus(f"{round(value, digits) + 0.0:.{digits}f}"), ha="center", va="center", fontsize=5.5,
+                k + 0.5, i + 0.5, style.minus(f"{round(value, digits) + 0.0:.{digits}f}"), ha="center",
+                va="center", fontsize=5.5,
                 color="white" if dark else style.INK,
             )  # fmt: skip
     for axis, values in ((axes.xaxis, table.columns), (axes.yaxis, table.index)):

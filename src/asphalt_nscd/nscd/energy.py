@@ -83,7 +83,7 @@ class EnergyAccount:
         sigma = after.values["sigma"]
         sums.dashpots += dt * strain(sigma, sigma) / self.law.dashpot
         for viscosity, now, then in zip(
-            np.atleast_1d(self.law.kelvin_dashpots), after.values["kelvin"], base.values["kelvin"]
+            np.atleast_1d(self.law.kelvin_dashpots), after.values["kelvin"], base.values["kelvin"], strict=True
         ):
             rate = (now - then) / stepper.dt
             sums.dashpots += dt * viscosity * strain(rate, rate)
@@ -102,7 +102,9 @@ class EnergyAccount:
         clamp, spring, _, mass = stepper.devices.of_head
         one, other = x.values, y.values
         springs = strain(one["sigma"], other["sigma"]) / self.law.spring
-        for modulus, a, b in zip(np.atleast_1d(self.law.kelvin_springs), one["kelvin"], other["kelvin"]):
+        for modulus, a, b in zip(
+            np.atleast_1d(self.law.kelvin_springs), one["kelvin"], other["kelvin"], strict=True
+        ):
             springs += modulus * strain(a, b)
         places = [(h.values["displacement"][head], h.values["velocity"][head]) for h in (x, y)]
         (at, speed), (at_other, speed_other) = places

@@ -40,7 +40,6 @@ class SweepingStepper:
         reaction = system.weight * state.sigma
         velocity = state.velocity + dt * self._inverse_mass * (system.load + system.operator.T @ reaction)
         velocity[system.driven] = driven_velocity
-        g = system.operator
         sweeps, change = _sweep_until_still(
             system.operator.indptr, system.operator.indices, system.operator.data, dt * self._inverse_mass,
             self._law_diagonal, self._inverse_block, explicit, reaction, velocity, self.tolerance,

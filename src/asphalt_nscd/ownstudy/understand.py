@@ -197,7 +197,7 @@ def _specimens(cells: Cells, values: dict[str, list[str]]) -> tuple[list[str], s
         return values["replicate"], f"{len(set(values['replicate']))} replicates, taken as specimens"
     first: dict[tuple[str, str], int] = {}
     for (line, _), *test in zip(cells.rows, values["temperature_C"], values["frequency_Hz"], strict=True):
-        earlier = first.setdefault(tuple(test), line)
+        earlier = first.setdefault((test[0], test[1]), line)
         if earlier != line:
             raise InputError(
                 f"{cells.path}, line {line}: repeats the test of line {earlier}, and no column tells specimens "

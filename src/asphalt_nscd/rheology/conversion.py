@@ -37,7 +37,7 @@ def kelvin_chain(
     for elements in range(1, MOST_ELEMENTS + 1):
         tries = [_fit(modulus, lowest_omega, highest_omega, elements, reach) for reach in REACH]
         error, _, chain = min(tries, key=lambda found: found[:2])
-        if error <= tolerance:
+        if chain is not None and error <= tolerance:
             return chain, error
         best = min(best, error)
     raise InputError(

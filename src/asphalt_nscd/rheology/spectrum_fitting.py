@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import OptimizeResult
@@ -105,7 +107,9 @@ def _seen(solution: OptimizeResult, low: NDArray, high: NDArray) -> NDArray[np.b
     return inside & (effect > NO_EFFECT * effect.max())
 
 
-def _standard_errors(solution: OptimizeResult, seen: NDArray, build, names: list[str]) -> dict | None:
+def _standard_errors(
+    solution: OptimizeResult, seen: NDArray, build: Callable[[NDArray], Spectrum], names: list[str]
+) -> dict[str, float] | None:
     """Those of the parameters themselves, carried over from the coordinates to first order."""
     covariance = covariance_of(solution, seen)
     if covariance is None:

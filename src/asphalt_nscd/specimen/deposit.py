@@ -117,7 +117,6 @@ class Granulate:
 
     def contacts(self, below: float) -> tuple[np.ndarray, np.ndarray]:
         """Index pairs (c, 2) and gaps (c,) [m] of all contacts with a gap under `below` [m]."""
-        n = self.radius.size
         start, other = neighbours.find_pairs(
             self.position, self.radius, self.plane_point, self.plane_normal, below
         )
