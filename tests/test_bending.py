@@ -71,7 +71,9 @@ def test_a_model_file_holds_the_system_of_its_specimen(folder, beam, model):
 def test_the_law_of_a_bond_is_that_of_the_mix():
     law = bond_law(LAW)
     for omega in (1.0, 250.0):
-        assert law.discrete_modulus(omega, 0.0) == pytest.approx(complex(LAW.complex_modulus(omega)), rel=1e-14)
+        assert law.discrete_modulus(omega, 0.0) == pytest.approx(
+            complex(LAW.complex_modulus(omega)), rel=1e-14
+        )
 
 
 def test_record_of_a_test(model):
@@ -79,7 +81,9 @@ def test_record_of_a_test(model):
     record = run(model, cycles=1.5, rest=7)
     assert record.time.size == round(1.5 / FREQUENCY / DT) == record.force.size == record.displacement.size
     np.testing.assert_allclose(record.time, DT * np.arange(1, record.time.size + 1), rtol=1e-14)
-    np.testing.assert_allclose(record.displacement, 1e-6 * np.sin(2 * np.pi * FREQUENCY * record.time), rtol=1e-12)
+    np.testing.assert_allclose(
+        record.displacement, 1e-6 * np.sin(2 * np.pi * FREQUENCY * record.time), rtol=1e-12
+    )
     assert record.velocity.shape == (record.time.size, model.layers.height.size)
 
 
@@ -92,7 +96,9 @@ def test_methods_agree(model):
     assert reduced.residual < 1e-6 and reduced.details["full_steps"] == 0 and reduced.broken == []
     steady = run(model, "harmonic")
     force = 1e-6 * driving_force(model.system, complex(LAW.complex_modulus(80 * np.pi)), 80 * np.pi)
-    np.testing.assert_allclose(steady.force, (force * np.exp(80j * np.pi * steady.time)).imag, atol=1e-9 * abs(force))
+    np.testing.assert_allclose(
+        steady.force, (force * np.exp(80j * np.pi * steady.time)).imag, atol=1e-9 * abs(force)
+    )
     last = slice(-250, None)
     assert np.abs(reduced.force[last] - steady.force[last]).max() < 2e-2 * size
     told = []
@@ -130,14 +136,18 @@ def test_energy_account_of_a_run(model, scheme):
 
 
 def test_energy_account_where_the_full_system_takes_over(model):
-    system = replace(model.system, gap=1e-3 * model.system.gap, strength=np.full_like(model.system.strength, np.inf))
+    system = replace(
+        model.system, gap=1e-3 * model.system.gap, strength=np.full_like(model.system.strength, np.inf)
+    )
     narrow = replace(model, system=system)
     reduced, condensed = (
         run(narrow, method, 3e-5, cycles=0.2, scheme="fitted") for method in ("reduced", "condensed")
     )
     assert 5 < reduced.details["full_steps"] < 45
     assert abs(reduced.details["energy_error"]) < 1e-11 and reduced.details["energy_impact_J"] > 0.0
-    np.testing.assert_allclose(reduced.force, condensed.force, rtol=0, atol=1e-6 * np.abs(condensed.force).max())
+    np.testing.assert_allclose(
+        reduced.force, condensed.force, rtol=0, atol=1e-6 * np.abs(condensed.force).max()
+    )
 
 
 @pytest.mark.parametrize("method", ["sweeps", "harmonic"])
@@ -148,21 +158,31 @@ def test_methods_without_a_scheme(model, method):
 
 def test_bonds_break_alike(model):
     """Beyond yield by either method: the same bonds, the same forces."""
-    reduced, condensed = (run(model, method, amplitude=8e-5, cycles=1.0) for method in ("reduced", "condensed"))
+    reduced, condensed = (
+        run(model, method, amplitude=8e-5, cycles=1.0) for method in ("reduced", "condensed")
+    )
     assert reduced.broken == condensed.broken != []
     assert reduced.details["enrichments"] > 0 and reduced.details["largest_utilisation"] <= 1.0
-    np.testing.assert_allclose(reduced.force, condensed.force, rtol=0, atol=1e-6 * np.abs(condensed.force).max())
+    np.testing.assert_allclose(
+        reduced.force, condensed.force, rtol=0, atol=1e-6 * np.abs(condensed.force).max()
+    )
 
 
 @pytest.mark.parametrize("rest", [0, 20])
 def test_a_closing_gap_hands_over_to_the_full_system(model, rest):
     """Tiny gaps: the run goes on as the condensed one, says for how long, and is certified to its end."""
-    system = replace(model.system, gap=1e-3 * model.system.gap, strength=np.full_like(model.system.strength, np.inf))
+    system = replace(
+        model.system, gap=1e-3 * model.system.gap, strength=np.full_like(model.system.strength, np.inf)
+    )
     narrow = replace(model, system=system)
-    reduced, condensed = (run(narrow, method, 3e-5, cycles=0.2, rest=rest) for method in ("reduced", "condensed"))
+    reduced, condensed = (
+        run(narrow, method, 3e-5, cycles=0.2, rest=rest) for method in ("reduced", "condensed")
+    )
     full_steps = reduced.details["full_steps"]
     assert 5 < full_steps < 45
-    np.testing.assert_allclose(reduced.force, condensed.force, rtol=0, atol=1e-6 * np.abs(condensed.force).max())
+    np.testing.assert_allclose(
+        reduced.force, condensed.force, rtol=0, atol=1e-6 * np.abs(condensed.force).max()
+    )
     np.testing.assert_allclose(
         reduced.velocity, condensed.velocity, rtol=0, atol=1e-6 * np.abs(condensed.velocity).max()
     )
@@ -172,7 +192,9 @@ def test_a_closing_gap_hands_over_to_the_full_system(model, rest):
 
 def test_step_of_the_full_system_that_misses_its_equations_is_refused(model, monkeypatch):
     """As one that was left half solved."""
-    system = replace(model.system, gap=1e-3 * model.system.gap, strength=np.full_like(model.system.strength, np.inf))
+    system = replace(
+        model.system, gap=1e-3 * model.system.gap, strength=np.full_like(model.system.strength, np.inf)
+    )
     narrow = replace(model, system=system)
     advance = CondensedStepper.advance
 
@@ -222,7 +244,9 @@ def test_result_file(folder, model):
 
 def test_velocity_profile(folder, model, beam):
     """Mean velocities of layers against those of the spheres in the full system."""
-    simulate(folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 1e-6, 1.0, DT, 0, folder / "profile.h5")
+    simulate(
+        folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 1e-6, 1.0, DT, 0, folder / "profile.h5"
+    )
     arrays = load(folder / "profile.h5", "test").arrays
     height, speed = arrays["profile/height_m"], arrays["profile/velocity_m_s"]
     assert height.size == LAYERS and speed.shape == (arrays["profile/time_s"].size, height.size)
@@ -231,7 +255,9 @@ def test_velocity_profile(folder, model, beam):
     np.testing.assert_allclose(height, (edges[1:] + edges[:-1]) / 2)
 
     driven = np.diff(arrays["displacement_m"], prepend=0.0) / DT
-    stepper = CondensedStepper(model.system, bond_law(LAW), DT, CondensedState.at_rest(model.system, bond_law(LAW)))
+    stepper = CondensedStepper(
+        model.system, bond_law(LAW), DT, CondensedState.at_rest(model.system, bond_law(LAW))
+    )
     for n, velocity in enumerate(driven):
         stepper.advance(velocity)
         sample = np.flatnonzero(np.abs(arrays["profile/time_s"] - (n + 1) * DT) < 1e-9)
@@ -263,5 +289,15 @@ def test_the_same_test_twice(folder):
 )
 def test_tests_that_cannot_be_reduced(folder, cycles, time_step, message):
     with pytest.raises(InputError, match=message):
-        simulate(folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 1e-6, cycles, time_step, 0, folder / "no.h5")
+        simulate(
+            folder / "free.h5",
+            folder / "law.json",
+            15.0,
+            FREQUENCY,
+            1e-6,
+            cycles,
+            time_step,
+            0,
+            folder / "no.h5",
+        )
     assert not (folder / "no.h5").exists()

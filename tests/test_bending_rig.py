@@ -18,7 +18,9 @@ from asphalt_nscd.twopoint import form_factor, mass_factor
 
 CHAIN = KelvinChain(24.3e9, 0.06e9, (48.4e9, 90e9), (0.077e9, 0.02e9))
 FREQUENCY, DT, OMEGA = 40.0, 2.5e-5, 80 * np.pi
-LINEAR = Rig(clamp_compliance=1e-6, guide_stiffness=5e4, head_mass=0.5, channel_delay=3e-4, phase_offset=-0.15)
+LINEAR = Rig(
+    clamp_compliance=1e-6, guide_stiffness=5e4, head_mass=0.5, channel_delay=3e-4, phase_offset=-0.15
+)
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +95,8 @@ def test_slider_on_a_rigid_clamp(folder, model):
 def test_reduced_and_condensed_agree(model, rig):
     law = BondLaw(24.3e9, 0.06e9, np.array([48.4e9, 90e9]), np.array([0.077e9, 0.02e9]))
     one, two = (
-        run_test(model, law, FREQUENCY, 1e-4, 1.0, 1e-4, 20, method, rig=rig) for method in ("reduced", "condensed")
+        run_test(model, law, FREQUENCY, 1e-4, 1.0, 1e-4, 20, method, rig=rig)
+        for method in ("reduced", "condensed")
     )
     assert one.broken == two.broken != []
     np.testing.assert_allclose(one.force, two.force, rtol=0, atol=1e-6 * np.abs(two.force).max())
@@ -107,7 +110,8 @@ def test_a_closing_gap_hands_over_to_the_full_system(model):
     narrow = replace(model, system=replace(model.system, gap=1e-3 * model.system.gap, strength=strength))
     law = BondLaw(24.3e9, 0.06e9, np.array([48.4e9]), np.array([0.077e9]))
     one, two = (
-        run_test(narrow, law, FREQUENCY, 8e-5, 0.2, 1e-4, 20, method, rig=LINEAR) for method in ("reduced", "condensed")
+        run_test(narrow, law, FREQUENCY, 8e-5, 0.2, 1e-4, 20, method, rig=LINEAR)
+        for method in ("reduced", "condensed")
     )
     assert 5 < one.details["full_steps"] < 45
     np.testing.assert_allclose(one.force, two.force, rtol=0, atol=1e-6 * np.abs(two.force).max())
@@ -117,7 +121,9 @@ def test_chain_law_gives_the_ratio_of_burgers(folder, model):
     """Simulated over analytic modulus is the packing's alone: that of a chain and that of one element."""
     ratio = []
     for law in (CHAIN, KelvinChain(24.3e9, 0.06e9, (48.4e9,), (0.077e9,))):
-        write_chain(folder / "law.json", law, source="", temperature=15, error=0.0, lowest_hz=3, highest_hz=40)
+        write_chain(
+            folder / "law.json", law, source="", temperature=15, error=0.0, lowest_hz=3, highest_hz=40
+        )
         modulus, columns = simulated(folder, None, "harmonic")
         analytic = columns["E_law_MPa"] * 1e6 * np.exp(1j * np.radians(columns["phase_law_deg"]))
         assert analytic == pytest.approx(law.complex_modulus(OMEGA), rel=1e-12)

@@ -214,7 +214,9 @@ def test_number_out_of_its_range_is_refused_before_anything_is_read(arguments, c
         (["table", "table4", "simulation=s", "--output", "x.csv"], "data simulation: not known"),
     ],
 )
-def test_data_that_a_table_or_figure_does_not_take_is_named(arguments, sentence, capsys, tmp_path, monkeypatch):
+def test_data_that_a_table_or_figure_does_not_take_is_named(
+    arguments, sentence, capsys, tmp_path, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(SystemExit) as stop:
         cli.main(arguments)
@@ -232,7 +234,9 @@ def test_study_that_is_no_json(capsys, tmp_path, monkeypatch):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("damage", [lambda whole: whole[:-200], lambda whole: whole[:700] + b"x" + whole[701:], lambda _: b""])
+@pytest.mark.parametrize(
+    "damage", [lambda whole: whole[:-200], lambda whole: whole[:700] + b"x" + whole[701:], lambda _: b""]
+)
 def test_damaged_result_is_removed_within_the_workflow_only(tmp_path, damage):
     save(path := tmp_path / "f3.h5", "test", {"force_N": [1.0, 2.0]}, {"specimen": "s1"})
     path.write_bytes(damage(path.read_bytes()))

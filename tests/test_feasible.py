@@ -73,7 +73,9 @@ def test_frequency_with_more_digits_than_tables_keep_is_found(check):
     check(
         measurements=measure(*tests), frequencies_Hz=[3.3333333333, 10], time_step_study=None,
     )  # fmt: skip
-    with pytest.raises(InputError, match="frequencies_Hz: 3.33333 is not in mine.csv, which has 3.333333333, 10"):
+    with pytest.raises(
+        InputError, match="frequencies_Hz: 3.33333 is not in mine.csv, which has 3.333333333, 10"
+    ):
         check(measurements=measure(*tests), frequencies_Hz=[3.33333, 10], time_step_study=None)
 
 
@@ -93,7 +95,10 @@ def test_geometry_table_without_a_specimen(check):
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"h_mm": 0.06}, "my.yaml: geometry: h_mm = 0.06 is not a number from 20 to 1000; give the height in mm."),
+        (
+            {"h_mm": 0.06},
+            "my.yaml: geometry: h_mm = 0.06 is not a number from 20 to 1000; give the height in mm.",
+        ),
         ({"mass_kg": 21}, "my.yaml: geometry: mass_kg = 21 is not a number from 0.001 to 20"),
         ({"h_mm": 61}, "my.yaml: specimens: the specimen is 61 mm high, but the box only 60 mm long"),
         ({"e_mm": 12}, "my.yaml: specimens: the specimen is 12 mm thick, but the box only 10 mm wide"),
@@ -103,19 +108,25 @@ def test_implausible_geometry(check, change, sentence):
     with pytest.raises(InputError) as error:
         check(geometry=check.geometry | change)
     assert str(error.value).startswith(sentence)
-    with pytest.raises(InputError, match="my.yaml: specimens: geometry: mass_kg = 1e-07 is not a number from"):
+    with pytest.raises(
+        InputError, match="my.yaml: specimens: geometry: mass_kg = 1e-07 is not a number from"
+    ):
         check(specimens=check.specimens | {"geometry": check.geometry | {"mass_kg": 0.0000001}})
 
 
 def test_time_steps_too_coarse(check):
-    with pytest.raises(InputError, match=r"my.yaml: test.time_step_s: .* fewer than 20 steps per cycle at 10 Hz"):
+    with pytest.raises(
+        InputError, match=r"my.yaml: test.time_step_s: .* fewer than 20 steps per cycle at 10 Hz"
+    ):
         check(test={"time_step_s": 5.1e-3})
     check(test={"time_step_s": 5e-3})
     with pytest.raises(InputError, match=r"my.yaml: time_step_study.time_steps_s: time step 0.1 s: .* 10 Hz"):
         check(time_step_study=STEPS | {"time_steps_s": [1e-4, 0.1]})
 
 
-@pytest.mark.parametrize("table", ["diameter_mm\n2\n", "diameter_mm,count\n2,-4\n", "diameter_mm,count\n2,0\n"])
+@pytest.mark.parametrize(
+    "table", ["diameter_mm\n2\n", "diameter_mm,count\n2,-4\n", "diameter_mm,count\n2,0\n"]
+)
 def test_counts_that_cannot_be_poured(check, table):
     Path("counts.csv").write_text(table)
     with pytest.raises(InputError, match="my.yaml: specimens.counts_table: counts.csv"):
@@ -123,7 +134,9 @@ def test_counts_that_cannot_be_poured(check, table):
 
 
 def test_temperature_without_a_published_law(check):
-    sentence = "my.yaml: temperatures_C: 5 is not in data/paper/table3_burgers.csv, which has -10, 0, 10, 15, 20, 30"
+    sentence = (
+        "my.yaml: temperatures_C: 5 is not in data/paper/table3_burgers.csv, which has -10, 0, 10, 15, 20, 30"
+    )
     with pytest.raises(InputError, match=sentence):
         check(temperatures_C=[5, 20])
     tests = [(temperature, frequency) for temperature in (5, 20) for frequency in (3, 10)]

@@ -38,7 +38,9 @@ def test_fit_of_one_temperature(measured, tmp_path):
 
 
 def test_temperature_without_tests_or_with_too_few(measured, tmp_path):
-    with pytest.raises(InputError, match=r"measured.csv, 20 degC: no test at 20 degC; the table has 12.5, 15\."):
+    with pytest.raises(
+        InputError, match=r"measured.csv, 20 degC: no test at 20 degC; the table has 12.5, 15\."
+    ):
         fit_temperature(measured, 20, tmp_path / "law.json")
     with pytest.raises(
         InputError, match="measured.csv, 12.5 degC: a Burgers law needs at least two frequencies"

@@ -145,7 +145,9 @@ def test_record_in_kilonewtons_is_found_out(write, tmp_path):
     """At 40 Hz the mass term alone is 500 MPa, a modulus one could believe."""
     write_record(tmp_path / "a.csv", 40.0, 20e9, force_unit=1e-3)
     message = refusal(write(HEADS["records"], "A,15,40,a.csv"))
-    assert "line 2: 19.5 MPa is softer than any asphalt at 15 degC and 40 Hz" in message and "F0 in N" in message
+    assert (
+        "line 2: 19.5 MPa is softer than any asphalt at 15 degC and 40 Hz" in message and "F0 in N" in message
+    )
 
 
 P, M = HEADS["peaks"], HEADS["moduli"]

@@ -56,7 +56,9 @@ def test_what_was_poured(poured, told):
     assert attributes["kinetic_energy_J"] < 1e-8  # 50 g at 1 mm/s
     assert arrays["initial_position"][:, 2].max() > 3 * position[:, 2].max()  # it has come down
     assert np.abs(arrays["poured_position"] - position).max() > 1e-5  # and was shaken
-    assert attributes["poured_height_m"] == pytest.approx(layer_height(arrays["poured_position"], radius), rel=1e-14)
+    assert attributes["poured_height_m"] == pytest.approx(
+        layer_height(arrays["poured_position"], radius), rel=1e-14
+    )
     assert {stage for stage, *_ in told} == {"pouring", "vibrating", "coming to rest"}
 
 

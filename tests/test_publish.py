@@ -22,7 +22,9 @@ def test_files_are_copied_with_their_checksums(tmp_path):
 
 def test_blocks_are_replaced_and_the_rest_is_left(tmp_path):
     document, table, text = tmp_path / "README.md", tmp_path / "t.csv", tmp_path / "t.md"
-    document.write_text("before\n<!-- one -->\nold\n<!-- end one -->\nbetween\n<!-- two -->\n<!-- end two -->\nafter\n")
+    document.write_text(
+        "before\n<!-- one -->\nold\n<!-- end one -->\nbetween\n<!-- two -->\n<!-- end two -->\nafter\n"
+    )
     table.write_text("name,value\na,1.23456\n")
     text.write_text("| as it is |\n")
     fill_blocks(document, {"one": table, "two": text})

@@ -34,7 +34,10 @@ def test_what_is_not_given_is_zero(tmp_path):
         ('{"head_mass_g": 30}', "key 'head_mass_g' is not known; give keys among clamp_compliance_m_N"),
         ('{"head_mass_kg": "30 g"}', "key 'head_mass_kg' is '30 g'; give a number"),
         ('{"head_mass_kg": true}', "key 'head_mass_kg' is True"),
-        ('{"head_mass_kg": -0.1, "clamp_compliance_m_N": 1e-7}', "head_mass_kg = -0.1 behind a compliant clamp"),
+        (
+            '{"head_mass_kg": -0.1, "clamp_compliance_m_N": 1e-7}',
+            "head_mass_kg = -0.1 behind a compliant clamp",
+        ),
         ('{"channel_delay_s": NaN}', "channel_delay_s = nan must be finite"),
     ],
 )

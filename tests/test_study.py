@@ -108,7 +108,10 @@ def test_every_mapping_of_the_schema_refuses_unknown_keys():
         ({"frequencies_Hz": []}, "frequencies_Hz is [], but must be a list of at least 1"),
         ({"frequencies_Hz": [math.nan]}, "frequencies_Hz[0] is nan, but must be a finite number."),
         ({"temperatures_C": [15, 15]}, "temperatures_C is [15, 15], but must be a list without repetitions"),
-        ({"temperatures_C": [15, 15.00000000001]}, "temperatures_C is [15, 15.0], but must be a list without"),
+        (
+            {"temperatures_C": [15, 15.00000000001]},
+            "temperatures_C is [15, 15.0], but must be a list without",
+        ),
         ({"temperatures_C": ["warm"]}, "temperatures_C[0] is 'warm', but must be a number."),
         ({"measurements": {}}, "measurements needs exactly one of table, reconstruct."),
         ({"measurements": {"table": "a.csv", "reconstruct": {"seed": 1}}}, "measurements needs exactly one"),
@@ -137,7 +140,9 @@ def test_missing_key(config):
 
 def test_key_that_stands_twice(tmp_path):
     (path := tmp_path / "my.yaml").write_text("study: a\ntest:\n  cycles: 5\n  amplitude_m: 1\n  cycles: 3\n")
-    with pytest.raises(InputError, match=r"my\.yaml, line 5: key 'cycles' stands twice; keep one of the two\."):
+    with pytest.raises(
+        InputError, match=r"my\.yaml, line 5: key 'cycles' stands twice; keep one of the two\."
+    ):
         refuse_repeated_keys(path)
     for study in ("paper", "smoke"):
         refuse_repeated_keys(ROOT / f"config/{study}.yaml")

@@ -88,9 +88,7 @@ def trim_deposit(
     record = load(deposit_file, "deposit")
     shape = read_geometry(geometry, ["specimen"])["specimen"]
     require_within(shape, record.arrays["box"])
-    specimen = trim(
-        record.arrays["position"], record.arrays["radius"], shape, volume_reduction, gap_max
-    )
+    specimen = trim(record.arrays["position"], record.arrays["radius"], shape, volume_reduction, gap_max)
     network = specimen.network
     attributes = {
         **{name: record.attributes[name] for name in ("seed", "layer_height_m", "solid_fraction")},

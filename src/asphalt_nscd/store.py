@@ -118,9 +118,9 @@ def load(path: str | Path, kind: str) -> Record:
         with h5py.File(path, "r") as file:
             attributes = {name: _plain(value) for name, value in file.attrs.items()}
             file.visititems(
-                lambda name, item: arrays.__setitem__(name, item[()])
-                if isinstance(item, h5py.Dataset)
-                else None
+                lambda name, item: (
+                    arrays.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None
+                )
             )
     except Exception as error:  # h5py raises nearly any exception on a damaged file
         raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None

@@ -53,7 +53,9 @@ def refuse_repeated_keys(path: str | Path) -> None:
             for name, _ in node.value:
                 if name.value in seen:
                     line = name.start_mark.line + 1
-                    raise InputError(f"{path}, line {line}: key {name.value!r} stands twice; keep one of the two.")
+                    raise InputError(
+                        f"{path}, line {line}: key {name.value!r} stands twice; keep one of the two."
+                    )
                 seen.add(name.value)
             return super().construct_mapping(node, deep)
 

@@ -117,7 +117,9 @@ def test_profiles_at_instants_and_histories_at_heights(results):
 def test_last_cycle_that_begins_a_step_early(results):
     (path,) = results.test()
     record = load(path, "test")
-    arrays = record.arrays | {"profile/time_s": record.arrays["profile/time_s"] - 1.5 * record.arrays["time_s"][0]}
+    arrays = record.arrays | {
+        "profile/time_s": record.arrays["profile/time_s"] - 1.5 * record.arrays["time_s"][0]
+    }
     save(path, "test", arrays, record.attributes)
     _, right = fig08.draw(test=[path], specimen=results.specimen()).axes
     assert right.lines[0].get_xdata()[0] == pytest.approx(-0.0005, abs=1e-9)

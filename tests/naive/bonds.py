@@ -10,7 +10,9 @@ def naive_openings(first, second, frame, point, position, velocity):
     openings = np.empty((len(first), 3))
     for b, (i, j) in enumerate(zip(first, second)):
         at_point = [
-            velocity[k, :3] + np.cross(velocity[k, 3:], point[b] - position[k]) if k < len(position) else np.zeros(3)
+            velocity[k, :3] + np.cross(velocity[k, 3:], point[b] - position[k])
+            if k < len(position)
+            else np.zeros(3)
             for k in (i, j)
         ]
         openings[b] = frame[b] @ (at_point[1] - at_point[0])
@@ -29,7 +31,9 @@ def naive_forces(first, second, frame, point, position, reaction):
     return forces
 
 
-def naive_bond_sweeps(operator, weight, mass, driven, compliance, explicit, reaction, velocity, dt, tolerance, most_sweeps):
+def naive_bond_sweeps(
+    operator, weight, mass, driven, compliance, explicit, reaction, velocity, dt, tolerance, most_sweeps
+):
     """Gauss-Seidel bond by bond on dense rows: (reaction, velocity, sweeps). Bond law U = b - (S/w) R."""
     rows = operator.toarray()
     inverse = 1.0 / mass

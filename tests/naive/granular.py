@@ -35,7 +35,9 @@ def naive_step(
     free = velocity.copy()
     free[:n, :3] += dt * gravity
     # generalised masses: (1/2) (2/5 m) s^2 is the rotational energy in terms of s = radius * spin
-    inverse = np.array([[0.0] * 6 if k >= n else [1 / mass[k]] * 3 + [2.5 / mass[k]] * 3 for k in range(len(free))])
+    inverse = np.array(
+        [[0.0] * 6 if k >= n else [1 / mass[k]] * 3 + [2.5 / mass[k]] * 3 for k in range(len(free))]
+    )
 
     contacts = []
     for i, j in all_pairs(position, radius, plane_point, plane_normal, np.inf):

@@ -88,8 +88,14 @@ def small_system(**changes) -> BondedSystem:
     rows[:3, :3] = np.eye(3)
     rows[3:, :3], rows[3:, 6:9] = -np.eye(3), np.eye(3)
     given = dict(
-        operator=sparse.csr_matrix(rows), weight=np.arange(1.0, 7.0), mass=np.ones(12), load=np.zeros(12),
-        driven=3, gap=np.ones(2), strength=np.array([2.0, 4.0]), friction=0.5,
+        operator=sparse.csr_matrix(rows),
+        weight=np.arange(1.0, 7.0),
+        mass=np.ones(12),
+        load=np.zeros(12),
+        driven=3,
+        gap=np.ones(2),
+        strength=np.array([2.0, 4.0]),
+        friction=0.5,
     )
     return BondedSystem(**given | changes)
 
@@ -103,7 +109,9 @@ def test_yield_in_tension_and_in_shear_but_not_in_compression():
         ([1e3, 0, 1, -2, 1, 1], [0.5, 0.5]),  # the larger of the two counts
     ]
     for reaction, expected in cases:
-        np.testing.assert_allclose(system.utilisation(np.array(reaction, float)), np.maximum(expected, 0), rtol=1e-15)
+        np.testing.assert_allclose(
+            system.utilisation(np.array(reaction, float)), np.maximum(expected, 0), rtol=1e-15
+        )
 
 
 def test_plate_bonds_never_yield():

@@ -111,7 +111,9 @@ def test_factors_after_breakages(beam_system, count):
     expected = np.linalg.solve(dense, force)
     assert np.linalg.norm(dense @ shifted.solve(force) - force) < 1e-11 * np.linalg.norm(force)
     np.testing.assert_allclose(shifted.solve(force), expected, rtol=0, atol=1e-9 * np.abs(expected).max())
-    np.testing.assert_allclose(shifted.solve(force[:, 1]), shifted.solve(force)[:, 1], rtol=0, atol=1e-9 * np.abs(expected).max())
+    np.testing.assert_allclose(
+        shifted.solve(force[:, 1]), shifted.solve(force)[:, 1], rtol=0, atol=1e-9 * np.abs(expected).max()
+    )
 
 
 # A block of 0.4 kg, 40 x 30 mm and 8 mm high, on four broken bonds between its corners and a plane.

@@ -19,7 +19,9 @@ def numerics(**changes) -> PouringNumerics:
     return PouringNumerics(**tight | changes)
 
 
-def balls(position, radius=R, box=(1.0, 1.0, 1.0), friction=0.5, restitution=0.0, gravity=(0, 0, -G)) -> Granulate:
+def balls(
+    position, radius=R, box=(1.0, 1.0, 1.0), friction=0.5, restitution=0.0, gravity=(0, 0, -G)
+) -> Granulate:
     position = np.atleast_2d(np.asarray(position, float))
     granulate = Granulate.in_box(
         position, np.broadcast_to(radius, len(position)).astype(float), box, 2600.0, friction, restitution
@@ -138,7 +140,12 @@ def test_bounce_height(restitution):
 @pytest.mark.parametrize(("restitution", "ratio"), [(0.0, 1.0), (0.6, 1.0), (1.0, 3.0)])
 def test_head_on_collision(restitution, ratio):
     """Spheres of unequal mass on one line: momentum, and e times the speed of approach."""
-    pair = balls([[0.4, 0.5, 0.5], [0.4 + R * (1 + ratio) + 1e-4, 0.5, 0.5]], [R, ratio * R], restitution=restitution, gravity=(0, 0, 0))
+    pair = balls(
+        [[0.4, 0.5, 0.5], [0.4 + R * (1 + ratio) + 1e-4, 0.5, 0.5]],
+        [R, ratio * R],
+        restitution=restitution,
+        gravity=(0, 0, 0),
+    )
     pair.velocity[0, 0], pair.velocity[1, 0] = 1.0, -0.5
     start = momentum(pair)
     for _ in range(10):
@@ -155,7 +162,13 @@ def test_head_on_collision(restitution, ratio):
 
 def test_oblique_collision_conserves_momentum_and_angular_momentum():
     """Touching spheres with spin: linear and angular momentum to rounding, friction only dissipates."""
-    pair = balls([[0.5, 0.5, 0.5], [0.5 + 3 * R, 0.5, 0.5]], [R, 2 * R], restitution=0.5, friction=0.4, gravity=(0, 0, 0))
+    pair = balls(
+        [[0.5, 0.5, 0.5], [0.5 + 3 * R, 0.5, 0.5]],
+        [R, 2 * R],
+        restitution=0.5,
+        friction=0.4,
+        gravity=(0, 0, 0),
+    )
     pair.velocity[0] = [1.0, 0.3, -0.2, 0.1, 0.7, -0.4]
     pair.velocity[1] = [-0.5, -0.2, 0.4, -0.3, 0.2, 0.9]
     before = momentum(pair), angular_momentum(pair), pair.kinetic_energy()

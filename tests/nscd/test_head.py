@@ -31,7 +31,9 @@ def sine(amplitude, cycles=1.0, rest=20):
 
 
 def reduced(system, law, devices, vectors=12, tolerance=1e-6) -> ReducedStepper:
-    return ReducedStepper(ReducedModel(system, ritz_basis(system, vectors)), law, DT, tolerance, devices=devices)
+    return ReducedStepper(
+        ReducedModel(system, ritz_basis(system, vectors)), law, DT, tolerance, devices=devices
+    )
 
 
 def full(system, law, devices) -> CondensedStepper:
@@ -75,13 +77,21 @@ def test_at_rest_a_rigid_clamp_leaves_the_slider_at_rest():
 @pytest.mark.parametrize("method", [reduced, full])
 @pytest.mark.parametrize(
     "devices",
-    [CLAMP, HeadDevices(guide_stiffness=1e5), HeadDevices(head_mass=0.5), ALL, replace(ALL, clamp_compliance=0.0)],
+    [
+        CLAMP,
+        HeadDevices(guide_stiffness=1e5),
+        HeadDevices(head_mass=0.5),
+        ALL,
+        replace(ALL, clamp_compliance=0.0),
+    ],
 )
 def test_apparent_stiffness(beam_system, quick_law, devices, method):
     """1/(C + 1/(H + k + m a)), H and a those of implicit Euler: to 1e-8, what is left of the transient."""
     rate = (1 - np.exp(-1j * OMEGA * DT)) / DT
     head = driving_force(beam_system, quick_law.discrete_modulus(OMEGA, DT), OMEGA, rate**2)
-    expected = 1 / (devices.clamp_compliance + 1 / (head + devices.guide_stiffness + devices.head_mass * rate**2))
+    expected = 1 / (
+        devices.clamp_compliance + 1 / (head + devices.guide_stiffness + devices.head_mass * rate**2)
+    )
     assert abs(expected / head - 1) > 0.05
     driven, stepper = sine(1e-7, cycles=8), method(beam_system, quick_law, devices)
     force = stepper.run(driven)[0] if method is reduced else march(stepper, driven)
@@ -111,7 +121,9 @@ def test_frequency_domain_against_bonds(beam_system):
     """The same clamp, spring and mass among the bonds: a stiffness to rounding."""
     omega = 3e3
     expected = driving_force(with_actuator(beam_system, ALL, 1e10), 1e10, omega)
-    assert actuator_stiffness(driving_force(beam_system, 1e10, omega), ALL, omega) == pytest.approx(expected, rel=1e-9)
+    assert actuator_stiffness(driving_force(beam_system, 1e10, omega), ALL, omega) == pytest.approx(
+        expected, rel=1e-9
+    )
 
 
 @pytest.mark.parametrize("amplitude", [1e-6, 1e-4])
@@ -134,7 +146,9 @@ def test_devices_against_bonds_step_by_step(beam_system, amplitude):
 
 def test_contacts_behind_a_clamp(beam_system):
     """Gaps a thousand times narrower: closed ones hold the head back, and the clamp gives way."""
-    system = replace(beam_system, gap=1e-3 * beam_system.gap, strength=np.full_like(beam_system.strength, np.inf))
+    system = replace(
+        beam_system, gap=1e-3 * beam_system.gap, strength=np.full_like(beam_system.strength, np.inf)
+    )
     driven = sine(6e-5, cycles=0.2)
     joined = with_actuator(system, ALL, 1e10)
     reference = march(CondensedStepper(joined, ELASTIC, DT, CondensedState.at_rest(joined, ELASTIC)), driven)

@@ -51,7 +51,9 @@ def deviations(found: complex, expected: complex) -> tuple[float, float]:
 def test_stepping_is_the_frequency_domain_of_its_scheme(beam, quick_law, method, head):
     """To 1e-8 and 1e-6 deg, what is left of the transient."""
     system = bending_system(beam, 0.35, 2.7e6, 0.7, head)
-    norm, phase = deviations(stepped(system, quick_law, 5e-5, method, 5), of_the_scheme(system, quick_law, 5e-5))
+    norm, phase = deviations(
+        stepped(system, quick_law, 5e-5, method, 5), of_the_scheme(system, quick_law, 5e-5)
+    )
     assert norm < 1e-8 and phase < 1e-6
 
 
@@ -68,7 +70,9 @@ def test_gauss_seidel_run_to_convergence(make_beam):
 def test_step_length_acts_in_first_order(beam_system, quick_law):
     """The scheme's frequency response tends to that of the law itself; at 5e-5 s and 40 Hz by 3e-3."""
     exact = driving_force(beam_system, quick_law.discrete_modulus(OMEGA, 0.0), OMEGA)
-    errors = [abs(of_the_scheme(beam_system, quick_law, dt) / exact - 1) for dt in (1e-4, 5e-5, 2.5e-5, 1.25e-5)]
+    errors = [
+        abs(of_the_scheme(beam_system, quick_law, dt) / exact - 1) for dt in (1e-4, 5e-5, 2.5e-5, 1.25e-5)
+    ]
     assert errors[1] < 5e-3
     np.testing.assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), 1.0, atol=0.05)
 

@@ -24,7 +24,8 @@ def cloud(rng, n, size, spread):
 
 @pytest.mark.parametrize("reach", [0.0, 5e-4, 4e-3])
 @pytest.mark.parametrize(
-    ("n", "size", "spread"), [(1, 1e-2, 1.0), (120, 1.5e-2, 1.0), (120, 3e-2, 5.0), (60, 0.3, 5.0), (80, (0.2, 2e-3, 1e-2), 3.0)]
+    ("n", "size", "spread"),
+    [(1, 1e-2, 1.0), (120, 1.5e-2, 1.0), (120, 3e-2, 5.0), (60, 0.3, 5.0), (80, (0.2, 2e-3, 1e-2), 3.0)],
 )
 def test_pairs_are_those_of_brute_force(n, size, spread, reach):
     """Same pairs, same owner, same order: dense and sparse clouds, elongated boxes, five-fold sizes."""

@@ -14,7 +14,9 @@ def test_first_column_is_the_static_response(beam_system):
     force = beam_system.stiffness() @ basis[:, 0]
     assert basis[beam_system.driven, 0] == 1.0
     coupling = beam_system.stiffness()[:, [beam_system.driven]].toarray()[beam_system.free]
-    assert np.abs(force[beam_system.free]).max() < 1e-12 * np.linalg.norm(coupling)  # conjugate gradients: 1e-13
+    assert np.abs(force[beam_system.free]).max() < 1e-12 * np.linalg.norm(
+        coupling
+    )  # conjugate gradients: 1e-13
     assert not basis[beam_system.driven, 1:].any()
 
 
@@ -86,9 +88,13 @@ def test_projected_operators(beam_system, broken):
     expected = np.linalg.norm(missing / np.sqrt(diagonal))
     found = np.linalg.norm(model.residual_factor @ np.concatenate([a, s, [1.0]]))
     assert found == pytest.approx(expected, rel=1e-11)
-    column = (system.operator.T @ (system.weight * system.operator[:, [system.driven]].toarray()[:, 0]))[system.free]
+    column = (system.operator.T @ (system.weight * system.operator[:, [system.driven]].toarray()[:, 0]))[
+        system.free
+    ]
     assert model.head_norm == pytest.approx(np.linalg.norm(column / np.sqrt(diagonal)), rel=1e-13)
-    assert model.load_norm == pytest.approx(np.linalg.norm(system.load[system.free] / np.sqrt(diagonal)), rel=1e-13)
+    assert model.load_norm == pytest.approx(
+        np.linalg.norm(system.load[system.free] / np.sqrt(diagonal)), rel=1e-13
+    )
 
     # shares of strength and of gaps
     reaction = (weight * sigma).reshape(-1, 3)

@@ -69,9 +69,14 @@ def test_naive_twin(beam_system, law):
     assert certificate.largest_residual == pytest.approx(residual, rel=1e-6)
     assert utilised * (1 - 1e-9) <= certificate.largest_utilisation <= 3 * utilised
     assert narrow - 1e-9 < certificate.smallest_gap <= narrow + 1e-18
-    np.testing.assert_allclose(stepper.full_state().sigma, state.sigma, rtol=0, atol=1e-9 * np.abs(state.sigma).max())
     np.testing.assert_allclose(
-        stepper.full_state().displacement, state.displacement, rtol=0, atol=1e-9 * np.abs(state.displacement).max()
+        stepper.full_state().sigma, state.sigma, rtol=0, atol=1e-9 * np.abs(state.sigma).max()
+    )
+    np.testing.assert_allclose(
+        stepper.full_state().displacement,
+        state.displacement,
+        rtol=0,
+        atol=1e-9 * np.abs(state.displacement).max(),
     )
     assert stepper.full_state().kelvin.shape == state.kelvin.shape
     np.testing.assert_allclose(
@@ -98,7 +103,9 @@ def test_static_limit(beam_system):
     driven = np.concatenate([np.linspace(0, 1e-6, 200), np.full(1500, 1e-6)])
     stiffness = system.stiffness().toarray()
     free, head = system.free, system.driven
-    schur = stiffness[head, head] - stiffness[head, free] @ np.linalg.solve(stiffness[np.ix_(free, free)], stiffness[free, head])
+    schur = stiffness[head, head] - stiffness[head, free] @ np.linalg.solve(
+        stiffness[np.ix_(free, free)], stiffness[free, head]
+    )
     force = reduced(system, elastic).run(driven)[0]
     assert force[-1] == pytest.approx(1e10 * schur * 1e-6, rel=1e-7)
     assert march(full(system, elastic), driven)[-1] == pytest.approx(force[-1], rel=1e-10)
@@ -170,7 +177,10 @@ def test_a_model_that_has_grown_too_large_gives_way(beam_system, quick_law):
 # Yield: amplitudes at which single bonds go and take others with them in the same step.
 
 
-@pytest.mark.parametrize(("amplitude", "steps", "vectors", "tolerance"), [(4e-5, 270, 12, 1e-8), (4e-5, 270, 1, 1e-6), (6e-5, 100, 12, 1e-6)])
+@pytest.mark.parametrize(
+    ("amplitude", "steps", "vectors", "tolerance"),
+    [(4e-5, 270, 12, 1e-8), (4e-5, 270, 1, 1e-6), (6e-5, 100, 12, 1e-6)],
+)
 def test_the_same_bonds_break_in_the_same_order(beam_system, quick_law, amplitude, steps, vectors, tolerance):
     """Reduced and full, force by force, to 1e-7 before and after; what is left stays within yield."""
     driven = sine(amplitude, steps=steps)
@@ -230,7 +240,13 @@ def test_yield_is_not_decided_by_an_inaccurate_step():
 
 def test_of_several_overstressed_bonds_the_worst_goes_first():
     """Head - light body - four parallel bonds to the wall: two exceed yield at once, then two more."""
-    system = springs([1, None, None, None, None], [0, 1, 1, 1, 1], [1.0, 1e-6], np.ones(5), [np.inf, 0.30, 0.31, 0.44, 0.46])
+    system = springs(
+        [1, None, None, None, None],
+        [0, 1, 1, 1, 1],
+        [1.0, 1e-6],
+        np.ones(5),
+        [np.inf, 0.30, 0.31, 0.44, 0.46],
+    )
     basis = ritz_basis(replace(system, load=np.array([0.0, 1.0])), 0)
     stepper = ReducedStepper(ReducedModel(system, basis), ELASTIC, 1e-4, 1e-6)
     force, _ = stepper.run(np.full(1, 1.6e-7))
@@ -246,7 +262,9 @@ def test_yield_is_not_decided_before_contact():
     complete.advance(1e-3)
     assert complete.state.broken == []
     assert complete.state.displacement[1] == pytest.approx(1e-8, rel=1e-9)
-    stepper = ReducedStepper(ReducedModel(system, ritz_basis(replace(system, load=np.array([0, 1.0])), 0)), ELASTIC, 1e-4, 1e-6)
+    stepper = ReducedStepper(
+        ReducedModel(system, ritz_basis(replace(system, load=np.array([0, 1.0])), 0)), ELASTIC, 1e-4, 1e-6
+    )
     with pytest.raises(FullSystemNeeded, match="a gap closes") as closed:
         stepper.run(np.full(3, 1e-7))
     assert closed.value.force.size == 0 and stepper.state.broken == []
@@ -255,7 +273,9 @@ def test_yield_is_not_decided_before_contact():
 def test_a_closing_gap_ends_the_reduced_run(beam_system, quick_law):
     """Gaps a thousand times narrower: the reduced run stops before the very step in which the full one
     meets contact, and the full system goes on from its state as if it had run all the way."""
-    system = replace(beam_system, gap=1e-3 * beam_system.gap, strength=np.full_like(beam_system.strength, np.inf))
+    system = replace(
+        beam_system, gap=1e-3 * beam_system.gap, strength=np.full_like(beam_system.strength, np.inf)
+    )
     driven = sine(3e-5, steps=150)
     complete, forces, first, smallest = full(system, quick_law), [], None, np.inf
     for n, velocity in enumerate(np.diff(driven, prepend=0.0) / DT):
@@ -301,7 +321,9 @@ def test_a_closing_gap_ends_the_reduced_run(beam_system, quick_law):
 
 def test_contact_stiffens(beam_system, quick_law):
     """Closed gaps can only add force: the push that closes them is dearer than with wide gaps."""
-    narrow = replace(beam_system, gap=1e-3 * beam_system.gap, strength=np.full_like(beam_system.strength, np.inf))
+    narrow = replace(
+        beam_system, gap=1e-3 * beam_system.gap, strength=np.full_like(beam_system.strength, np.inf)
+    )
     wide = replace(narrow, gap=beam_system.gap)
     driven = np.linspace(0, 3e-5, 100)[1:]
     assert march(full(narrow, quick_law), driven)[-1] > 1.01 * march(full(wide, quick_law), driven)[-1]

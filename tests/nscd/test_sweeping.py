@@ -51,10 +51,14 @@ def test_naive_twin(small, most_sweeps):
         force, sweeps = stepper.advance(driven), sweeps + done
         size = np.abs(reaction).max()
         np.testing.assert_allclose(small.weight * stepper.state.sigma, reaction, rtol=0, atol=1e-11 * size)
-        np.testing.assert_allclose(stepper.state.velocity, velocity, rtol=0, atol=1e-10 * np.abs(velocity).max())
+        np.testing.assert_allclose(
+            stepper.state.velocity, velocity, rtol=0, atol=1e-10 * np.abs(velocity).max()
+        )
         column = small.operator[:, [small.driven]].toarray()[:, 0]
         inertia = small.mass[small.driven] * (driven - old_velocity[small.driven]) / DT
-        assert force == pytest.approx(inertia - small.load[small.driven] - column @ reaction, rel=1e-9, abs=1e-9 * size)
+        assert force == pytest.approx(
+            inertia - small.load[small.driven] - column @ reaction, rel=1e-9, abs=1e-9 * size
+        )
         kelvin = law.keep[:, None] * old_kelvin - law.gain[:, None] * reaction / small.weight
         np.testing.assert_allclose(stepper.state.kelvin, kelvin, rtol=0, atol=1e-11 * np.abs(kelvin).max())
     assert stepper.sweeps == sweeps
@@ -64,21 +68,28 @@ def test_run_to_convergence_it_solves_the_condensed_equations(small):
     """Soft bonds, relative change below 1e-14: forces and stresses as those of the direct solve, to 1e-9."""
     driven = 1e-6 * np.sin(2 * np.pi * 40.0 * DT * np.arange(1, 81))
     converged = sweeping(small, SOFT, 1e-14, 100_000)
-    direct = CondensedStepper(replace(small, strength=np.full_like(small.strength, np.inf)), SOFT, DT, CondensedState.at_rest(small, SOFT))
+    direct = CondensedStepper(
+        replace(small, strength=np.full_like(small.strength, np.inf)),
+        SOFT,
+        DT,
+        CondensedState.at_rest(small, SOFT),
+    )
     reference = march(direct, driven)
-    np.testing.assert_allclose(march(converged, driven), reference, rtol=0, atol=1e-9 * np.abs(reference).max())
+    np.testing.assert_allclose(
+        march(converged, driven), reference, rtol=0, atol=1e-9 * np.abs(reference).max()
+    )
     for name in ("velocity", "displacement", "sigma", "kelvin"):
         wanted = getattr(direct.state, name)
-        np.testing.assert_allclose(getattr(converged.state, name), wanted, rtol=0, atol=1e-8 * np.abs(wanted).max())
+        np.testing.assert_allclose(
+            getattr(converged.state, name), wanted, rtol=0, atol=1e-8 * np.abs(wanted).max()
+        )
     assert converged.largest_change < 1e-14
 
 
 def test_stopped_early_the_specimen_turns_soft(make_beam):
     """The paper's trouble (bonds of 15 degC at 5e-5 s): at 50 sweeps the head feels a fraction of the
     true resistance, at 500 more of it, although the criterion of change reads below 1e-2."""
-    system = replace(
-        bending_system(make_beam(), 0.35, np.inf, 0.7), load=np.zeros(330)
-    )
+    system = replace(bending_system(make_beam(), 0.35, np.inf, 0.7), load=np.zeros(330))
     driven = 1e-6 * np.sin(2 * np.pi * 40.0 * DT * np.arange(1, 126))  # a quarter of a cycle
     reference = march(CondensedStepper(system, STIFF, DT, CondensedState.at_rest(system, STIFF)), driven)
     share = []
@@ -93,7 +104,12 @@ def test_stopped_early_the_specimen_turns_soft(make_beam):
 def test_a_loose_criterion_stops_it_early_too(small):
     """The tolerance acts: a looser one takes fewer sweeps and leaves a larger error."""
     driven = 1e-6 * np.sin(2 * np.pi * 40.0 * DT * np.arange(1, 21))
-    direct = CondensedStepper(replace(small, strength=np.full_like(small.strength, np.inf)), SOFT, DT, CondensedState.at_rest(small, SOFT))
+    direct = CondensedStepper(
+        replace(small, strength=np.full_like(small.strength, np.inf)),
+        SOFT,
+        DT,
+        CondensedState.at_rest(small, SOFT),
+    )
     reference = march(direct, driven)
     errors, sweeps = [], []
     for tolerance in (1e-3, 1e-6, 1e-9):

@@ -30,7 +30,9 @@ def test_parts_may_be_absent():
 
 
 def test_a_factor_acts_on_every_modulus_alike():
-    np.testing.assert_allclose(CHAIN.scaled(1.2).complex_modulus(OMEGA), 1.2 * CHAIN.complex_modulus(OMEGA), rtol=1e-13)
+    np.testing.assert_allclose(
+        CHAIN.scaled(1.2).complex_modulus(OMEGA), 1.2 * CHAIN.complex_modulus(OMEGA), rtol=1e-13
+    )
 
 
 @pytest.mark.parametrize(

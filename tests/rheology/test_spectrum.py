@@ -32,7 +32,9 @@ def test_temperature_acts_as_a_change_of_frequency(shift):
     law = HuetSayegh(100e6, 42e9, 0.2, 0.6, 1.64, 0.14, shift)
     factor = shift.factor(30.0)
     assert shift.factor(15.0) == 1.0 and 0 < factor < 0.1
-    assert law.complex_modulus(100.0, 30.0) == pytest.approx(law.complex_modulus(100.0 * factor, 15.0), rel=1e-12)
+    assert law.complex_modulus(100.0, 30.0) == pytest.approx(
+        law.complex_modulus(100.0 * factor, 15.0), rel=1e-12
+    )
     assert abs(law.complex_modulus(100.0, 30.0)) < abs(law.complex_modulus(100.0, 15.0))
 
 

@@ -46,7 +46,9 @@ def test_standard_errors_are_those_of_linear_regression():
     omega, temperature = np.tile(OMEGA, repeats), np.tile(TEMPERATURE, repeats)
     random = np.random.default_rng(4)
     scatter = noise * (random.standard_normal(omega.size) + 1j * random.standard_normal(omega.size))
-    fit = fit_spectrum(omega, temperature, HUET.complex_modulus(omega, temperature) * np.exp(scatter), 15.0, "huet-sayegh")
+    fit = fit_spectrum(
+        omega, temperature, HUET.complex_modulus(omega, temperature) * np.exp(scatter), 15.0, "huet-sayegh"
+    )
 
     def changed(name, factor):
         if name in ("c1", "c2"):
@@ -83,7 +85,9 @@ def test_a_parameter_at_its_bound_is_unseen():
 
 def test_too_few_points_give_no_standard_errors():
     few = [0, 7, 13, 24]
-    fit = fit_spectrum(OMEGA[few], TEMPERATURE[few], HUET.complex_modulus(OMEGA[few], TEMPERATURE[few]), 15.0, "huet-sayegh")
+    fit = fit_spectrum(
+        OMEGA[few], TEMPERATURE[few], HUET.complex_modulus(OMEGA[few], TEMPERATURE[few]), 15.0, "huet-sayegh"
+    )
     assert fit.std_error is None
 
 
@@ -91,7 +95,9 @@ def test_too_few_points_give_no_standard_errors():
 def test_too_few_temperatures_for_a_shift_are_refused(shift, least):
     temperature = np.arange(FREQUENCIES.size) % (least - 1) * 10.0
     with pytest.raises(InputError, match=f"kind '{shift}' needs at least {least} temperatures"):
-        fit_spectrum(FREQUENCIES, temperature, SPECTRUM.complex_modulus(FREQUENCIES, temperature), 15.0, shift=shift)
+        fit_spectrum(
+            FREQUENCIES, temperature, SPECTRUM.complex_modulus(FREQUENCIES, temperature), 15.0, shift=shift
+        )
 
 
 def test_too_few_points_are_refused():

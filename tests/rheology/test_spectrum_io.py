@@ -22,7 +22,9 @@ def test_round_trip(tmp_path, law):
 
 def test_content(tmp_path):
     path = tmp_path / "spectrum.json"
-    write_spectrum(path, HUET, source="fitted", rms_log_residual=0.04, std_error={"k": 0.01}, unseen=["static_modulus"])
+    write_spectrum(
+        path, HUET, source="fitted", rms_log_residual=0.04, std_error={"k": 0.01}, unseen=["static_modulus"]
+    )
     assert json.loads(path.read_text()) == {
         "law": "huet-sayegh", "shift": "arrhenius", "source": "fitted",
         "E_static_Pa": 80e6, "E_glassy_Pa": 42e9, "k": 0.2, "h": 0.6, "delta": 1.64, "tau_s": 0.14,

@@ -19,7 +19,9 @@ def silent(*_):
 
 
 def granulate(seed=1, friction=0.2) -> Granulate:
-    position, radius = random_lattice(np.array([2e-3, 3e-3, 5e-3]), np.array([60, 40, 15]), BOX, np.random.default_rng(seed))
+    position, radius = random_lattice(
+        np.array([2e-3, 3e-3, 5e-3]), np.array([60, 40, 15]), BOX, np.random.default_rng(seed)
+    )
     return Granulate.in_box(position, radius, BOX, 2600.0, friction)
 
 
@@ -77,7 +79,9 @@ def test_poured_layer_is_at_rest_inside_the_box(layer):
     """Penetration below 1 % of the smallest radius under the numerics of the preparation."""
     n = layer.radius.size
     assert np.sqrt((layer.velocity[:n, :3] ** 2).sum(axis=1).mean()) < 1e-3
-    inside = (layer.position - layer.radius[:, None] > -1e-5) & (layer.position + layer.radius[:, None] < np.array(BOX) + 1e-5)
+    inside = (layer.position - layer.radius[:, None] > -1e-5) & (
+        layer.position + layer.radius[:, None] < np.array(BOX) + 1e-5
+    )
     assert inside.all()
     pairs, gap = layer.contacts(1e-6)
     assert gap.min() > -1e-5
@@ -93,7 +97,9 @@ def test_contacts_are_those_of_brute_force(layer):
     assert [tuple(p) for p in pairs.tolist()] == expected
     for (i, j), g in zip(expected, gap):
         if j < layer.radius.size:
-            assert g == pytest.approx(np.linalg.norm(layer.position[j] - layer.position[i]) - layer.radius[[i, j]].sum(), abs=1e-17)
+            assert g == pytest.approx(
+                np.linalg.norm(layer.position[j] - layer.position[i]) - layer.radius[[i, j]].sum(), abs=1e-17
+            )
 
 
 def test_settling_stops_in_time():

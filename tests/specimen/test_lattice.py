@@ -18,7 +18,9 @@ MIXES = {
 
 
 def strewn(mix, seed=1):
-    return random_lattice(np.array(MIXES[mix][0]), np.array(MIXES[mix][1]), MIXES[mix][2], np.random.default_rng(seed))
+    return random_lattice(
+        np.array(MIXES[mix][0]), np.array(MIXES[mix][1]), MIXES[mix][2], np.random.default_rng(seed)
+    )
 
 
 @pytest.mark.parametrize("mix", MIXES)
@@ -54,7 +56,9 @@ def test_sizes_and_places_are_mixed():
 def test_too_many_spheres_are_refused():
     """One more than fits: 24 cells, 4 large spheres, 160 small ones in the octants of the 20 others."""
     with pytest.raises(InputError, match="its 24 lattice cells cannot hold 165 spheres; raise the box"):
-        random_lattice(np.array([2e-3, 4e-3]), np.array([161, 4]), MIXES["crowded"][2], np.random.default_rng(1))
+        random_lattice(
+            np.array([2e-3, 4e-3]), np.array([161, 4]), MIXES["crowded"][2], np.random.default_rng(1)
+        )
     with pytest.raises(InputError, match="cannot hold 25 spheres"):
         random_lattice(np.array([4e-3]), np.array([25]), MIXES["crowded"][2], np.random.default_rng(1))
 

@@ -36,7 +36,13 @@ def brute_force(position, radius):
         if foot - radius[i] < REACH:  # from the foot (n + 1) up to the sphere
             bonds[n + 1, i] = up, np.array([x, y, (foot - radius[i]) / 2]), foot - radius[i], foot, radius[i]
         if head - radius[i] < REACH:  # from the sphere up to the head (n)
-            bonds[i, n] = up, np.array([x, y, HEIGHT - (head - radius[i]) / 2]), head - radius[i], head, radius[i]
+            bonds[i, n] = (
+                up,
+                np.array([x, y, HEIGHT - (head - radius[i]) / 2]),
+                head - radius[i],
+                head,
+                radius[i],
+            )
     return bonds
 
 
@@ -61,7 +67,9 @@ def test_bonds_are_those_of_brute_force(cloud):
 
 def test_frames_are_right_handed_and_orthonormal(cloud):
     frame = bond_network(*cloud, HEIGHT, REACH).frame
-    np.testing.assert_allclose(frame @ frame.transpose(0, 2, 1), np.broadcast_to(np.eye(3), frame.shape), atol=1e-14)
+    np.testing.assert_allclose(
+        frame @ frame.transpose(0, 2, 1), np.broadcast_to(np.eye(3), frame.shape), atol=1e-14
+    )
     np.testing.assert_allclose(np.linalg.det(frame), 1.0, rtol=1e-13)
 
 

@@ -21,7 +21,9 @@ def test_masses_and_loads(beam):
     np.testing.assert_allclose(mass[:n, 3:], np.tile((0.4 * ball * beam.radius**2)[:, None], 3), rtol=1e-14)
     assert mass[:n, 0].sum() == pytest.approx(geometry.mass, rel=1e-13)
     m, b, e = geometry.mobile_mass, geometry.b, geometry.e
-    np.testing.assert_allclose(mass[n], [m, m, m, m * e**2 / 12, m * b**2 / 12, m * (b**2 + e**2) / 12], rtol=1e-14)
+    np.testing.assert_allclose(
+        mass[n], [m, m, m, m * e**2 / 12, m * b**2 / 12, m * (b**2 + e**2) / 12], rtol=1e-14
+    )
     load = system.load.reshape(-1, 6)
     np.testing.assert_allclose(load[:, 2], -9.81 * mass[:, 2], rtol=1e-14)
     assert not np.delete(load, 2, axis=1).any()
@@ -50,7 +52,8 @@ def test_blocked_head_has_no_rotation(beam):
     np.testing.assert_array_equal(blocked.operator.toarray(), free.operator.toarray()[:, :-3])
     np.testing.assert_array_equal(blocked.mass, free.mass[:-3])
     stiffness = [
-        1 / np.linalg.inv(system.stiffness().toarray())[system.driven, system.driven] for system in (free, blocked)
+        1 / np.linalg.inv(system.stiffness().toarray())[system.driven, system.driven]
+        for system in (free, blocked)
     ]
     assert 1.5 < stiffness[1] / stiffness[0] < 4.0  # of an elastic cantilever: 4, less for shear
 

@@ -102,14 +102,18 @@ def test_a_grain_needs_three_bonds(hollow, bonds, kept):
 def test_a_wider_box_is_cut_to_the_thickness(layer):
     position, radius = layer
     outside = position[:60] + [0, 10e-3, 0]
-    specimen = trim(np.concatenate([position, outside]), np.append(radius, radius[:60]), GEOMETRY, REDUCTION, REACH)
+    specimen = trim(
+        np.concatenate([position, outside]), np.append(radius, radius[:60]), GEOMETRY, REDUCTION, REACH
+    )
     assert np.abs(specimen.position[:, 1]).max() <= GEOMETRY.e / 2
 
 
 def test_a_layer_too_low_is_refused(layer):
     position, radius = layer
     low = position[:, 2] < 15e-3
-    with pytest.raises(InputError, match=r"layer is 1\d\.\d mm high, less than the foot of the specimen \(20.0 mm\)"):
+    with pytest.raises(
+        InputError, match=r"layer is 1\d\.\d mm high, less than the foot of the specimen \(20.0 mm\)"
+    ):
         trim(position[low], radius[low], GEOMETRY, REDUCTION, REACH)
 
 

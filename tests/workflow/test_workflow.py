@@ -44,7 +44,9 @@ def test_key_that_stands_twice_is_one_sentence(workspace):
 
 def test_study_that_cannot_work_is_one_sentence(workspace):
     left_out = dict.fromkeys(OPTIONAL)
-    workspace.configure(measurements=workspace.measure(), temperatures_C=[0, 5, 20], laws={"simulate": "fitted"}, **left_out)
+    workspace.configure(
+        measurements=workspace.measure(), temperatures_C=[0, 5, 20], laws={"simulate": "fitted"}, **left_out
+    )
     done = workspace.run("--dry-run")
     assert done.returncode != 0 and "Traceback" not in done.stderr
     sentence = "error: study.yaml: temperatures_C: 5 is not in mine.csv, which has 0, 20; use these."
@@ -65,7 +67,15 @@ def test_least_study_is_the_tests_and_their_figures(workspace):
     jobs = workspace.planned()
     assert jobs["simulate"] == 4 and jobs["fit"] == 2 and jobs["fig09"] == 1
     assert jobs["reduced_specimen"] == jobs["diagnose"] == jobs["fig_limits"] == 1
-    others = {"reconstruct", "published_law", "simulate_scaled", "simulate_pascal", "audit", "table2", "fig06"}
+    others = {
+        "reconstruct",
+        "published_law",
+        "simulate_scaled",
+        "simulate_pascal",
+        "audit",
+        "table2",
+        "fig06",
+    }
     assert not others & set(jobs)
 
 
@@ -115,7 +125,9 @@ def test_failed_job_ends_with_its_sentence_and_its_log(workspace):
     done = workspace.run("results/smoke/measured.csv", "--cores", "1")
     assert done.returncode != 0
     lines = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
-    assert lines[-1].startswith("error: mine.csv, line 2: 9 MPa is softer than any asphalt at 0 degC and 3 Hz")
+    assert lines[-1].startswith(
+        "error: mine.csv, line 2: 9 MPa is softer than any asphalt at 0 degC and 3 Hz"
+    )
     assert lines[-1].endswith("multiply by 1000. (results/smoke/logs/reduce.log)")
 
 

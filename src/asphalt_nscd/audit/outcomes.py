@@ -173,7 +173,9 @@ def numerics(tests: pd.DataFrame, converged: pd.DataFrame, stopped: pd.DataFrame
 
 def _share(stopped: pd.DataFrame, converged: pd.DataFrame) -> float:
     """Largest |E*| of the stopped tests over the converged one, both relative to their law."""
-    return float((stopped["E_MPa"] / stopped["E_law_MPa"]).max() / (converged["E_MPa"] / converged["E_law_MPa"]).mean())
+    return float(
+        (stopped["E_MPa"] / stopped["E_law_MPa"]).max() / (converged["E_MPa"] / converged["E_law_MPa"]).mean()
+    )
 
 
 def _spread(tests: pd.DataFrame) -> float:

@@ -9,11 +9,23 @@ from asphalt_nscd.cli import _options
 
 @click.command()
 @click.argument("spectrum", type=_options.File)
-@click.option("--temperature-c", required=True, type=_options.Number(above=-273.15), help="Temperature of the test, degrees Celsius.")
+@click.option(
+    "--temperature-c",
+    required=True,
+    type=_options.Number(above=-273.15),
+    help="Temperature of the test, degrees Celsius.",
+)
 @click.option("--lowest-hz", required=True, type=_options.POSITIVE, help="Lowest frequency to follow, Hz.")
 @click.option("--highest-hz", required=True, type=_options.POSITIVE, help="Highest frequency to follow, Hz.")
-@click.option("--tolerance", default=1e-3, type=_options.POSITIVE, help="Largest |ln(E_chain/E)| allowed between them.")
-@click.option("--factor", default=1.0, type=_options.POSITIVE, help="Factor on all moduli, to make up for the packing's.")
+@click.option(
+    "--tolerance", default=1e-3, type=_options.POSITIVE, help="Largest |ln(E_chain/E)| allowed between them."
+)
+@click.option(
+    "--factor",
+    default=1.0,
+    type=_options.POSITIVE,
+    help="Factor on all moduli, to make up for the packing's.",
+)
 @_options.output
 def command(
     spectrum: Path, temperature_c: float, lowest_hz: float, highest_hz: float, tolerance: float,

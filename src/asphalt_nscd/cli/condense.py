@@ -10,9 +10,15 @@ from asphalt_nscd.cli import _options
 @click.command()
 @click.argument("specimen", type=_options.File)
 @click.option("--head", default="free", type=click.Choice(["free", "blocked"]), help="Rotation of the head.")
-@click.option("--poisson", default=0.35, type=_options.Number(above=-1.0, high=0.5), help="Ratio nu of Eqs. (8)-(11).")
-@click.option("--yield-pa", default=2.7e6, type=_options.POSITIVE, help="Yield stress of bonds between spheres, Pa.")
-@click.option("--friction", default=0.7, type=_options.NOT_NEGATIVE, help="Coefficient of friction where a gap closes.")
+@click.option(
+    "--poisson", default=0.35, type=_options.Number(above=-1.0, high=0.5), help="Ratio nu of Eqs. (8)-(11)."
+)
+@click.option(
+    "--yield-pa", default=2.7e6, type=_options.POSITIVE, help="Yield stress of bonds between spheres, Pa."
+)
+@click.option(
+    "--friction", default=0.7, type=_options.NOT_NEGATIVE, help="Coefficient of friction where a gap closes."
+)
 @_options.output
 def command(
     specimen: Path, head: str, poisson: float, yield_pa: float, friction: float, output: Path

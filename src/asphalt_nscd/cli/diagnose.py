@@ -38,7 +38,11 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
     type=_options.POSITIVE,
     help="Scatter of the phase of one test; else from replicates.",
 )
-@click.option("--simulations", type=_options.File, help="Simulated tests of the campaign, to say what in them is numerics.")
+@click.option(
+    "--simulations",
+    type=_options.File,
+    help="Simulated tests of the campaign, to say what in them is numerics.",
+)
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 def command(

@@ -9,7 +9,9 @@ from asphalt_nscd.cli import _data, _options
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=_options.File)
-@click.option("--root", required=True, type=_options.File, help="Folder of the study that the files are below.")
+@click.option(
+    "--root", required=True, type=_options.File, help="Folder of the study that the files are below."
+)
 @click.option("--output", required=True, type=_options.File, help="Folder to copy them to.")
 @click.option("--document", required=True, type=_options.File, help="Text whose blocks are filled.")
 @click.option("--block", multiple=True, type=_data.Data(), help="name=table for a block; repeatable.")

@@ -9,7 +9,12 @@ from asphalt_nscd.cli import _options
 
 @click.command()
 @click.argument("table", type=_options.File)
-@click.option("--temperature-c", required=True, type=_options.Number(above=-273.15), help="Temperature to take, degrees Celsius.")
+@click.option(
+    "--temperature-c",
+    required=True,
+    type=_options.Number(above=-273.15),
+    help="Temperature to take, degrees Celsius.",
+)
 @click.option("--unit", required=True, type=click.Choice(["kPa", "Pa"]), help="Unit of the table's moduli.")
 @_options.output
 def command(table: Path, temperature_c: float, unit: str, output: Path) -> None:

@@ -12,11 +12,30 @@ from asphalt_nscd.cli import _options
 @_options.geometry
 @click.option("--seed", required=True, type=click.IntRange(0), help="Seed of the scatter.")
 @click.option("--specimens", default=4, type=click.IntRange(1), help="Number of specimens to draw.")
-@click.option("--specimen-scatter", default=0.03, type=_options.NOT_NEGATIVE, help="Relative scatter of the modulus between specimens.")
-@click.option("--modulus-scatter", default=0.01, type=_options.NOT_NEGATIVE, help="Relative scatter of the modulus between tests.")
-@click.option("--phase-scatter-deg", default=0.3, type=_options.NOT_NEGATIVE, help="Scatter of the phase between tests, degrees.")
-@click.option("--amplitude-m", default=63e-6, type=_options.POSITIVE, help="Amplitude of the head's displacement, m.")
-@click.option("--frequencies-hz", required=True, type=_options.Numbers(), help="Test frequencies, comma-separated, Hz.")
+@click.option(
+    "--specimen-scatter",
+    default=0.03,
+    type=_options.NOT_NEGATIVE,
+    help="Relative scatter of the modulus between specimens.",
+)
+@click.option(
+    "--modulus-scatter",
+    default=0.01,
+    type=_options.NOT_NEGATIVE,
+    help="Relative scatter of the modulus between tests.",
+)
+@click.option(
+    "--phase-scatter-deg",
+    default=0.3,
+    type=_options.NOT_NEGATIVE,
+    help="Scatter of the phase between tests, degrees.",
+)
+@click.option(
+    "--amplitude-m", default=63e-6, type=_options.POSITIVE, help="Amplitude of the head's displacement, m."
+)
+@click.option(
+    "--frequencies-hz", required=True, type=_options.Numbers(), help="Test frequencies, comma-separated, Hz."
+)
 @click.option("--law-output", type=_options.File, help="File for the law behind the table.")
 @_options.output
 def command(

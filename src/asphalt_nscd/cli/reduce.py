@@ -10,7 +10,11 @@ from asphalt_nscd.cli import _options
 @click.command()
 @click.argument("measurements", type=_options.File)
 @_options.geometry
-@click.option("--cycles", type=click.IntRange(1), help="Whole cycles at the end of a record; else those of the last 10 s.")
+@click.option(
+    "--cycles",
+    type=click.IntRange(1),
+    help="Whole cycles at the end of a record; else those of the last 10 s.",
+)
 @_options.output
 def command(measurements: Path, geometry: object, cycles: int | None, output: Path) -> None:
     """Reduce measured peaks, records or moduli to complex moduli, Eqs. (1)-(5)."""

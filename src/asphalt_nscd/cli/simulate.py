@@ -11,28 +11,49 @@ from asphalt_nscd.cli import _options, _progress
 @click.argument("model", type=_options.File)
 @click.option("--law", required=True, type=_options.File, help="Law of the bonds, JSON.")
 @click.option("--law-source", default="", help="Where the law comes from; kept with the result.")
-@click.option("--temperature-c", required=True, type=_options.Number(above=-273.15), help="Temperature of the law, degrees Celsius.")
+@click.option(
+    "--temperature-c",
+    required=True,
+    type=_options.Number(above=-273.15),
+    help="Temperature of the law, degrees Celsius.",
+)
 @click.option("--frequency-hz", required=True, type=_options.POSITIVE, help="Frequency of the head, Hz.")
 @click.option("--amplitude-m", default=63e-6, type=_options.POSITIVE, help="Amplitude of the head, m.")
 @click.option("--cycles", default=5.0, type=_options.Number(low=1.0), help="Number of cycles.")
 @click.option("--time-step-s", default=5e-5, type=_options.POSITIVE, help="Time step, s.")
-@click.option("--rest-steps", default=1000, type=click.IntRange(0), help="Steps under gravity before the head moves.")
+@click.option(
+    "--rest-steps", default=1000, type=click.IntRange(0), help="Steps under gravity before the head moves."
+)
 @click.option(
     "--method",
     default="reduced",
     type=click.Choice(["reduced", "condensed", "sweeps", "harmonic"]),
     help="Reduced form, full condensed system, plain Gauss-Seidel on the bonds, or steady oscillation.",
 )
-@click.option("--tolerance", default=1e-4, type=_options.NOT_NEGATIVE, help="Relative change per sweep that stops Gauss-Seidel.")
-@click.option("--most-sweeps", default=50, type=click.IntRange(1), help="Most sweeps of Gauss-Seidel in a step.")
-@click.option("--rig", default=None, type=_options.File, help="What stands at the head and in the measuring channel, JSON.")
+@click.option(
+    "--tolerance",
+    default=1e-4,
+    type=_options.NOT_NEGATIVE,
+    help="Relative change per sweep that stops Gauss-Seidel.",
+)
+@click.option(
+    "--most-sweeps", default=50, type=click.IntRange(1), help="Most sweeps of Gauss-Seidel in a step."
+)
+@click.option(
+    "--rig",
+    default=None,
+    type=_options.File,
+    help="What stands at the head and in the measuring channel, JSON.",
+)
 @click.option(
     "--scheme",
     default="euler",
     type=click.Choice(["euler", "fitted"]),
     help="Implicit Euler, or BDF2 fitted to the frequency: exact in steady oscillation, 100 steps a cycle do.",
 )
-@click.option("--energy", is_flag=True, help="Keep the energy account of a reduced run too; condensed ones always do.")
+@click.option(
+    "--energy", is_flag=True, help="Keep the energy account of a reduced run too; condensed ones always do."
+)
 @_options.output
 def command(
     model: Path, law: Path, law_source: str, temperature_c: float, frequency_hz: float, amplitude_m: float,

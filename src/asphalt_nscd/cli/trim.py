@@ -11,8 +11,15 @@ from asphalt_nscd.cli import _options
 @click.command()
 @click.argument("deposit", type=_options.File)
 @_options.geometry
-@click.option("--volume-reduction", default=0.1, type=_options.Number(low=0.0, below=1.0), help="Part of each sphere's volume taken away.")
-@click.option("--gap-max-mm", default=2.0, type=_options.POSITIVE, help="Pairs with a smaller gap are bonded, mm.")
+@click.option(
+    "--volume-reduction",
+    default=0.1,
+    type=_options.Number(low=0.0, below=1.0),
+    help="Part of each sphere's volume taken away.",
+)
+@click.option(
+    "--gap-max-mm", default=2.0, type=_options.POSITIVE, help="Pairs with a smaller gap are bonded, mm."
+)
 @_options.output
 def command(
     deposit: Path, geometry: Any, volume_reduction: float, gap_max_mm: float, output: Path

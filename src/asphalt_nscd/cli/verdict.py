@@ -9,7 +9,9 @@ from asphalt_nscd.cli import _options
 
 @click.command()
 @click.argument("tables", nargs=-1, required=True, type=_options.File)
-@click.option("--output", default=None, type=_options.File, help="Write all rows here instead of judging them.")
+@click.option(
+    "--output", default=None, type=_options.File, help="Write all rows here instead of judging them."
+)
 def command(tables: tuple[Path, ...], output: Path | None) -> None:
     """Judge TABLES of the verification: exit status 2, naming them, if any row has failed."""
     from asphalt_nscd.store import write_table

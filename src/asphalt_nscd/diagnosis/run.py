@@ -81,9 +81,10 @@ def summary(content: dict[str, Any]) -> str:
         held = rung["gain"]["held_out"].get("leave_one_frequency_out")
         rows.append([
             rung["cause"], "" if rung["where"] is None else rung["where"],
-            f"{amplitude_name} {size} {amplitude['unit']}", f"{rung['p_value']:.1g}" if rung["p_value"] > 1e-6 else "< 1e-6",
+            f"{amplitude_name} {size} {amplitude['unit']}",
+            f"{rung['p_value']:.1g}" if rung["p_value"] > 1e-6 else "< 1e-6",
             *(f"{inside[k]['before']:.2f} -> {inside[k]['after']:.2f}" for k in ("mre_E_percent", "mre_phase_percent")),
-            "" if held is None else f"{held['rms_over_scatter']['before']:.2f} -> {held['rms_over_scatter']['after']:.2f}",
+            "" if held is None else "{before:.2f} -> {after:.2f}".format(**held["rms_over_scatter"]),
         ])  # fmt: skip
     headers = [
         "cause",
@@ -97,7 +98,8 @@ def summary(content: dict[str, Any]) -> str:
     scatter = content["scatter"]
     judged = content["verdict"] != "nothing_to_explain" or content["tested"]
     lines = [
-        f"{content['tests']} tests, scatter {scatter['modulus_percent']:.2g} % in |E*|, {scatter['phase_deg']:.2g} deg in phase.",
+        f"{content['tests']} tests, scatter {scatter['modulus_percent']:.2g} % in |E*|, "
+        f"{scatter['phase_deg']:.2g} deg in phase.",
         "",
         tabulate(rows, headers) if rows else "No cause beats chance.",
         "",

@@ -83,7 +83,10 @@ class EnergyAccount:
         sigma = after.values["sigma"]
         sums.dashpots += dt * strain(sigma, sigma) / self.law.dashpot
         for viscosity, now, then in zip(
-            np.atleast_1d(self.law.kelvin_dashpots), after.values["kelvin"], base.values["kelvin"], strict=True
+            np.atleast_1d(self.law.kelvin_dashpots),
+            after.values["kelvin"],
+            base.values["kelvin"],
+            strict=True,
         ):
             rate = (now - then) / stepper.dt
             sums.dashpots += dt * viscosity * strain(rate, rate)

@@ -11,9 +11,7 @@ from asphalt_nscd.nscd.bonds import BondedSystem
 
 def factorise(matrix: sparse.csc_matrix):
     """Factors of a symmetric positive definite matrix; `.solve` takes one or many columns."""
-    return splu(
-        matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-    )
+    return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
 class ShiftedOperator:

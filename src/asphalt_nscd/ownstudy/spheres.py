@@ -39,7 +39,7 @@ def spheres_for(geometry: Geometry, grading: pd.Series | None = None) -> Spheres
     if grading is None:
         counts = (PAPER_COUNTS * room).round().astype(int)
     else:
-        curve = grading.index.to_numpy(float), grading.to_numpy(float)
+        curve = np.array(grading.index, np.float64), np.array(grading, np.float64)
         shares = counts_of_grading(*curve, SMALLEST_MM, 1_000_000)
         mean = float((shares * shares.index**3).sum()) / 1e6
         total = round(room * float((PAPER_COUNTS * PAPER_COUNTS.index**3).sum()) / mean)
@@ -113,7 +113,9 @@ def read_grading(path: str | Path, sheet: str | None = None) -> pd.Series:
         curve[values["diameter_mm"]] = values["passing_percent"]
     grading = pd.Series(curve)
     try:
-        counts_of_grading(grading.index.to_numpy(float), grading.to_numpy(float), SMALLEST_MM, 1000)
+        counts_of_grading(
+            np.array(grading.index, np.float64), np.array(grading, np.float64), SMALLEST_MM, 1000
+        )
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
     return grading

@@ -66,7 +66,9 @@ class Granulate:
             plane_point=point, plane_normal=normal, friction=friction, restitution=restitution,
         )  # fmt: skip
 
-    def advance(self, numerics: PouringNumerics, plane_velocity: np.ndarray | None = None) -> tuple[int, float]:
+    def advance(
+        self, numerics: PouringNumerics, plane_velocity: np.ndarray | None = None
+    ) -> tuple[int, float]:
         """One step; planes move with plane_velocity (p, 3) [m/s]. Returns (sweeps, relative change)."""
         n, dt = self.radius.size, numerics.time_step
         if plane_velocity is not None:
@@ -103,9 +105,7 @@ class Granulate:
         if self._start is None:
             self.impulse = np.zeros((other.size, 3))
         else:
-            self.impulse = neighbours.carry_reactions(
-                self._start, self._other, self.impulse, start, other
-            )
+            self.impulse = neighbours.carry_reactions(self._start, self._other, self.impulse, start, other)
         self._start, self._other = start, other
         self._searched_at, self._planes_at = self.position.copy(), self.plane_point.copy()
 
@@ -169,4 +169,3 @@ def vibrate(
         if k % 50 == 49:
             progress("vibrating", k + 1, steps)
     granulate.velocity[-1, :3] = 0.0
-

@@ -62,7 +62,9 @@ def bond_network(position: np.ndarray, radius: np.ndarray, height: float, reach:
         middle[:, 2] = level + np.sign(position[k, 2] - level) * gap / 2.0
         ends = (k, body) if plate == n else (body, k)
         parts.append((*ends, up, middle, gap, distance[k], radius[k]))
-    first, second, normal, point, gap, length, rmin = (np.concatenate(column) for column in zip(*parts, strict=True))
+    first, second, normal, point, gap, length, rmin = (
+        np.concatenate(column) for column in zip(*parts, strict=True)
+    )
     return Network(first, second, _frames(normal), point, gap, length, np.pi * rmin**2)
 
 

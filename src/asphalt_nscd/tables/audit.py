@@ -73,7 +73,5 @@ def _refit_errors(fitted: list[Path], measured: list[Path]) -> pd.DataFrame:
         points = at_temperature(data, read_json(path)["temperature_C"])[["temperature_C", "frequency_Hz"]]
         points = points.drop_duplicates()
         modulus = law.complex_modulus(2.0 * np.pi * points["frequency_Hz"].to_numpy())
-        frames.append(
-            points.assign(E_MPa=np.abs(modulus) / 1e6, phase_deg=np.degrees(np.angle(modulus)))
-        )
+        frames.append(points.assign(E_MPa=np.abs(modulus) / 1e6, phase_deg=np.degrees(np.angle(modulus))))
     return mean_relative_error(data, pd.concat(frames, ignore_index=True))

@@ -33,7 +33,9 @@ def account(
     """(energies at the end, largest error of the account in any step over the work at the end)."""
     scheme = Scheme.named(name, OMEGA * DT)
     if method == "reduced":
-        stepper = ReducedStepper(ReducedModel(system, ritz_basis(system, 12)), law, DT / scheme.a, 1e-6, devices=devices)
+        stepper = ReducedStepper(
+            ReducedModel(system, ritz_basis(system, 12)), law, DT / scheme.a, 1e-6, devices=devices
+        )
     else:
         stepper = CondensedStepper(system, law, DT / scheme.a, CondensedState.at_rest(system, law), devices)
     run, worst = March(stepper, scheme, law, DT), 0.0
@@ -67,7 +69,25 @@ def terms() -> list[Row]:
     stored, _ = account(weightless, 1e-6, "condensed", "euler", cycles=0.25, law=elastic(1e10))
     still = 0.5e-12 * driving_force(beam(), 1e10, 0.0).real
     return [
-        Row("work of the actuator in a cycle (J)", loss, long.actuator - short.actuator, 1e-6, "pi F0 z0 sin(psi)"),
-        Row("dissipation of the dashpots in a cycle (J)", loss, long.dashpots - short.dashpots, 1e-6, "all of that work"),
-        Row("energy of elastic bonds at the crest (J)", still, stored.springs, 1e-5, "F0 z0/2, but for inertia"),
+        Row(
+            "work of the actuator in a cycle (J)",
+            loss,
+            long.actuator - short.actuator,
+            1e-6,
+            "pi F0 z0 sin(psi)",
+        ),
+        Row(
+            "dissipation of the dashpots in a cycle (J)",
+            loss,
+            long.dashpots - short.dashpots,
+            1e-6,
+            "all of that work",
+        ),
+        Row(
+            "energy of elastic bonds at the crest (J)",
+            still,
+            stored.springs,
+            1e-5,
+            "F0 z0/2, but for inertia",
+        ),
     ]

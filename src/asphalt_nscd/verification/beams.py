@@ -36,7 +36,15 @@ def chain_of_bonds() -> list[Row]:
         seen = 1.0 / (1.0 / stiffness + 1.0 / (seen + inertia))
     expected = seen + inertia
     found = driving_force(system, MODULUS, omega)
-    return [Row("chain of six masses and bonds, dynamic stiffness", expected, found.real, 1e-12, "transfer matrices")]
+    return [
+        Row(
+            "chain of six masses and bonds, dynamic stiffness",
+            expected,
+            found.real,
+            1e-12,
+            "transfer matrices",
+        )
+    ]
 
 
 @checks
@@ -51,7 +59,13 @@ def hanging_chain() -> Row:
         stepper.advance(0.0)
     pulled = load * (n - 1) * n / 2  # the free ends' bonds carry one, two, ... loads
     expected = pulled / weight * (1.0 / MODULUS + steps * dt / 1e9)
-    return Row("chain of bodies hung on Maxwell bonds, creep", expected, state.displacement[0], 1e-6, "J(t) = 1/E + t/eta")
+    return Row(
+        "chain of bodies hung on Maxwell bonds, creep",
+        expected,
+        state.displacement[0],
+        1e-6,
+        "J(t) = 1/E + t/eta",
+    )
 
 
 @checks
@@ -72,7 +86,13 @@ def oscillator() -> list[Row]:
             found.append(abs(state.velocity[1] - 1.0))
     return [
         Row("oscillator, order in dt of implicit Euler", 1.0, order(errors["euler"]), 0.1, "m u'' + k u = 0"),
-        Row("oscillator, order in dt of the two-step scheme", 2.0, order(errors["fitted"]), 0.1, "m u'' + k u = 0"),
+        Row(
+            "oscillator, order in dt of the two-step scheme",
+            2.0,
+            order(errors["fitted"]),
+            0.1,
+            "m u'' + k u = 0",
+        ),
     ]
 
 
@@ -91,7 +111,13 @@ def timoshenko() -> list[Row]:
     return [
         Row("beam of bonds in ten cuts, stiffness", discrete, found[0], 1e-9, "virtual work over the cuts"),
         Row("beam of bonds in forty cuts, stiffness", exact, found[-1], 1e-3, source),
-        Row("beam of bonds, order in the length of a slice", 2.0, order([value - exact for value in found]), 0.05, source),
+        Row(
+            "beam of bonds, order in the length of a slice",
+            2.0,
+            order([value - exact for value in found]),
+            0.05,
+            source,
+        ),
     ]
 
 
@@ -106,7 +132,13 @@ def euler_bernoulli() -> Row:
 def trapezoid() -> Row:
     """Eq. (3): E = gamma F/z, the head free to rotate."""
     found = driving_force(laminated_beam(SPECIMEN, 200, RIGID_IN_SHEAR), MODULUS, 0.0).real
-    return Row("trapezoid in two-point bending, form factor", MODULUS, form_factor(SPECIMEN) * found, 1e-4, "Eq. (3), EN 12697-26")
+    return Row(
+        "trapezoid in two-point bending, form factor",
+        MODULUS,
+        form_factor(SPECIMEN) * found,
+        1e-4,
+        "Eq. (3), EN 12697-26",
+    )
 
 
 def _deflection(height: float) -> float:
@@ -126,7 +158,13 @@ def moving_mass() -> list[Row]:
     found = drop / omega**2
     expected = shape * SPECIMEN.mass + SPECIMEN.mobile_mass
     return [
-        Row("trapezoid in two-point bending, mass at the head (kg)", expected, found, 1e-3, "Rayleigh's quotient of the static shape"),
+        Row(
+            "trapezoid in two-point bending, mass at the head (kg)",
+            expected,
+            found,
+            1e-3,
+            "Rayleigh's quotient of the static shape",
+        ),
         Row("the same by Eq. (1) (kg)", mass_factor(SPECIMEN), found, 0.03, "mu = 0.135 M + m, EN 12697-26"),
     ]
 
@@ -138,16 +176,38 @@ def rig_devices() -> list[Row]:
     omega, steps = 80 * np.pi, 100
     dt = 2 * np.pi / omega / steps
     rows = []
-    for name, devices in (("guide spring", HeadDevices(0.0, 1e5)), ("moving mass", HeadDevices(0.0, 0.0, 0.0, 2.0)), ("clamp", HeadDevices(2e-6))):
+    for name, devices in (
+        ("guide spring", HeadDevices(0.0, 1e5)),
+        ("moving mass", HeadDevices(0.0, 0.0, 0.0, 2.0)),
+        ("clamp", HeadDevices(2e-6)),
+    ):
         head = driving_force(system, QUICK_LAW.discrete_modulus(omega, 0.0), omega)
         clamp, spring, _, mass = devices.of_head
         exact = 1 / (clamp + 1 / (head + spring - mass * omega**2))
         scheme, state = Scheme.named("fitted", omega * dt), CondensedState.at_rest(system, QUICK_LAW)
-        march = March(CondensedStepper(system, QUICK_LAW, dt / scheme.a, state, devices), scheme, QUICK_LAW, dt)
+        march = March(
+            CondensedStepper(system, QUICK_LAW, dt / scheme.a, state, devices), scheme, QUICK_LAW, dt
+        )
         force = np.array([march.move_to(1e-6 * np.sin(omega * dt * (n + 1))) for n in range(4 * steps)])
         carrier = np.exp(-1j * omega * dt * np.arange(3 * steps + 1, 4 * steps + 1))
         found = 2j * (force[3 * steps :] * carrier).mean() / 1e-6
-        rows.append(Row(f"rig with a {name}, apparent |F/z|", abs(exact), abs(found), 1e-5, "1/(C + 1/(H + k - m omega^2))"))
+        rows.append(
+            Row(
+                f"rig with a {name}, apparent |F/z|",
+                abs(exact),
+                abs(found),
+                1e-5,
+                "1/(C + 1/(H + k - m omega^2))",
+            )
+        )
         other = actuator_stiffness(head, devices, omega)
-        rows.append(Row(f"rig with a {name}, phase (rad)", np.angle(exact), np.angle(other), 1e-12, "the same, frequency domain"))
+        rows.append(
+            Row(
+                f"rig with a {name}, phase (rad)",
+                np.angle(exact),
+                np.angle(other),
+                1e-12,
+                "the same, frequency domain",
+            )
+        )
     return rows

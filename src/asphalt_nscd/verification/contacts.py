@@ -20,7 +20,9 @@ def block_on_ground(gravity: np.ndarray, friction: float, gap: float = 0.0) -> B
     """A block of 0.4 kg on four corners; a second body far away is the driven one."""
     corners = np.array([[x, y, -4e-3] for x in (-0.02, 0.02) for y in (-0.015, 0.015)])
     centres = np.array([[0.0, 0, 0], [9.0, 0, 0]])
-    operator = opening_operator(np.full(4, 2), np.zeros(4, int), np.tile(UPRIGHT, (4, 1, 1)), corners, centres)
+    operator = opening_operator(
+        np.full(4, 2), np.zeros(4, int), np.tile(UPRIGHT, (4, 1, 1)), corners, centres
+    )
     inertia = 0.4 / 12 * np.array([0.03**2 + 0.008**2, 0.04**2 + 0.008**2, 0.04**2 + 0.03**2])
     mass = np.concatenate([[0.4] * 3, inertia, np.ones(6)])
     load = np.concatenate([0.4 * gravity, np.zeros(9)])
@@ -46,8 +48,20 @@ def block() -> list[Row]:
     below, above = slide(angle - 1e-3, friction), slide(angle + 1e-3, friction)
     expected = G * (np.sin(angle + 1e-3) - friction * np.cos(angle + 1e-3)) * 0.04
     return [
-        Row("block 1e-3 rad below the angle of friction, speed", 0.0, np.abs(below).max(), 1e-11, "tan(slope) < mu: rests"),
-        Row("block 1e-3 rad above the angle of friction, speed", expected, float(np.array([0.6, 0.8, 0.0]) @ above), 1e-8, "a = g (sin - mu cos)"),
+        Row(
+            "block 1e-3 rad below the angle of friction, speed",
+            0.0,
+            np.abs(below).max(),
+            1e-11,
+            "tan(slope) < mu: rests",
+        ),
+        Row(
+            "block 1e-3 rad above the angle of friction, speed",
+            expected,
+            float(np.array([0.6, 0.8, 0.0]) @ above),
+            1e-8,
+            "a = g (sin - mu cos)",
+        ),
     ]
 
 
@@ -61,7 +75,15 @@ def one_contact() -> list[Row]:
     ):
         found = solve_contacts(masses, np.array(free), 0.4, tolerance=1e-12).reactions
         error = float(np.abs(found - expected).max())
-        rows.append(Row(f"one contact that {name}, error of the impulse", 0.0, error, 1e-10, "closed solution, cone of friction"))
+        rows.append(
+            Row(
+                f"one contact that {name}, error of the impulse",
+                0.0,
+                error,
+                1e-10,
+                "closed solution, cone of friction",
+            )
+        )
     return rows
 
 
@@ -71,14 +93,19 @@ def wall(rows: int, across: int) -> tuple[np.ndarray, np.ndarray]:
     Each brick rests on two lower ones by four corners each: highly hyperstatic, W far from full rank.
     """
     length, depth, height, mass, dt = 0.2, 0.1, 0.06, 2.0, 1e-3
-    centres = np.array([[(k + 0.5 * (r % 2)) * length, 0.0, (r + 0.5) * height] for r in range(rows) for k in range(across)])
+    centres = np.array(
+        [[(k + 0.5 * (r % 2)) * length, 0.0, (r + 0.5) * height] for r in range(rows) for k in range(across)]
+    )
     bodies = len(centres)
     first, second, point = [], [], []
     for n, centre in enumerate(centres):
         for m in [bodies] if n < across else range(bodies):
             if m < bodies:
                 lower = centres[m]
-                left, right = np.maximum(centre[0], lower[0]) - length / 2, np.minimum(centre[0], lower[0]) + length / 2
+                left, right = (
+                    np.maximum(centre[0], lower[0]) - length / 2,
+                    np.minimum(centre[0], lower[0]) + length / 2,
+                )
                 if abs(centre[2] - lower[2] - height) > 1e-9 or right - left < 1e-9:
                     continue
             else:
@@ -89,7 +116,9 @@ def wall(rows: int, across: int) -> tuple[np.ndarray, np.ndarray]:
                     second.append(n)
                     point.append([x, y, centre[2] - height / 2])
     contacts = len(first)
-    operator = opening_operator(np.array(first), np.array(second), np.tile(UPRIGHT, (contacts, 1, 1)), np.array(point), centres)
+    operator = opening_operator(
+        np.array(first), np.array(second), np.tile(UPRIGHT, (contacts, 1, 1)), np.array(point), centres
+    )
     inertia = mass / 12 * np.array([depth**2 + height**2, length**2 + height**2, length**2 + depth**2])
     inverse = np.tile(np.concatenate([np.full(3, 1 / mass), 1 / inertia]), bodies)
     fall = np.zeros(6 * bodies)
@@ -102,7 +131,7 @@ def natural_map(w: np.ndarray, q: np.ndarray, mu: float, r: np.ndarray) -> float
     """|r - P_K(r - rho (u + mu |u_T| n))| relative, contact by contact, written from the definition."""
     u = (w @ r + q).reshape(-1, 3)
     r, misses, sizes = r.reshape(-1, 3), [], []
-    for ua, ra, block in zip(u, r, range(len(r))):
+    for ua, ra, block in zip(u, r, range(len(r)), strict=True):
         rho = 3.0 / np.trace(w[3 * block : 3 * block + 3, 3 * block : 3 * block + 3])
         x = ra - rho * (ua + [mu * np.hypot(ua[1], ua[2]), 0.0, 0.0])
         force = np.hypot(x[1], x[2])
@@ -124,7 +153,15 @@ def stacks() -> list[Row]:
     for name, shape, across in (("a wall of four rows of bricks", 4, 4), ("a tower of ten bricks", 10, 1)):
         w, q = wall(shape, across)
         solution = solve_contacts(w, q, 0.6, tolerance=1e-8)
-        rows.append(Row(f"{name}, error of the natural map", 0.0, natural_map(w, q, 0.6, solution.reactions), 1e-7, "de Saxce's form, computed apart"))
+        rows.append(
+            Row(
+                f"{name}, error of the natural map",
+                0.0,
+                natural_map(w, q, 0.6, solution.reactions),
+                1e-7,
+                "de Saxce's form, computed apart",
+            )
+        )
         ground = solution.reactions[::3][: 4 * across].sum() / (shape * across * 2.0 * G * 1e-3)
         rows.append(Row(f"{name}, force on the ground over its weight", 1.0, ground, 1e-6, "equilibrium"))
     return rows
@@ -141,4 +178,10 @@ def generated() -> Row:
         q[::3] -= 0.5
         w = jacobian @ jacobian.T / 66 + 0.2 * np.eye(60)
         worst = max(worst, natural_map(w, q, 0.7, solve_contacts(w, q, 0.7, tolerance=1e-10).reactions))
-    return Row("twenty coupled contacts, error of the natural map", 0.0, worst, 1e-9, "de Saxce's form, computed apart")
+    return Row(
+        "twenty coupled contacts, error of the natural map",
+        0.0,
+        worst,
+        1e-9,
+        "de Saxce's form, computed apart",
+    )

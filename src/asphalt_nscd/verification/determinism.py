@@ -28,7 +28,9 @@ def digest() -> str:
     from asphalt_nscd.verification.spheres import advanced, balls
 
     box = (0.017, 0.016, 0.05)
-    position, radius = random_lattice(np.array([3e-3, 5e-3]), np.array([20, 10]), box, np.random.default_rng(3))
+    position, radius = random_lattice(
+        np.array([3e-3, 5e-3]), np.array([20, 10]), box, np.random.default_rng(3)
+    )
     pile = advanced(balls(position, radius, box=box), 300, PouringNumerics(2e-4, 1e-6, 200))
     sums = hashlib.sha256(pile.position.tobytes() + pile.velocity.tobytes())
     for method in ("condensed", "reduced"):
@@ -42,9 +44,13 @@ def digest() -> str:
 
 def digest_elsewhere(threads: int) -> str:
     """The same in a process of its own, as steps of the command line run, with so many threads allowed."""
-    script = "import asphalt_nscd.cli; from asphalt_nscd.verification.determinism import digest; print(digest())"
+    script = (
+        "import asphalt_nscd.cli; from asphalt_nscd.verification.determinism import digest; print(digest())"
+    )
     environment = os.environ | {name: str(threads) for name in THREADS}
-    done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True
+    )
     return done.stdout.strip()
 
 

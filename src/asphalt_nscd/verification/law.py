@@ -51,18 +51,29 @@ def steady_modulus(law: BondLaw, steps: int, cycles: int = 40) -> complex:
 
 def chain_creep(time: float) -> float:
     """Creep compliance [1/Pa] of CHAIN, element by element."""
-    delayed = sum(-np.expm1(-time * e / n) / e for e, n in zip(CHAIN.kelvin_springs, CHAIN.kelvin_dashpots))
+    delayed = sum(
+        -np.expm1(-time * e / n) / e for e, n in zip(CHAIN.kelvin_springs, CHAIN.kelvin_dashpots, strict=True)
+    )
     return 1 / CHAIN.spring + time / CHAIN.dashpot + delayed
 
 
 @checks
 def creep_rows() -> list[Row]:
     rows = []
-    for name, law, exact in (("Burgers", LAW, float(BURGERS.creep_compliance(0.02))), ("Kelvin chain", CHAIN, chain_creep(0.02))):
+    for name, law, exact in (
+        ("Burgers", LAW, float(BURGERS.creep_compliance(0.02))),
+        ("Kelvin chain", CHAIN, chain_creep(0.02)),
+    ):
         found = [creep(law, 0.02, dt) for dt in STEPS]
         rows += [
             Row(f"{name} creep, opening after 20 ms", exact, found[-1], 2e-3, BURGERS_LAW),
-            Row(f"{name} creep, order in dt", 1.0, order([value - exact for value in found]), 0.05, "implicit Euler"),
+            Row(
+                f"{name} creep, order in dt",
+                1.0,
+                order([value - exact for value in found]),
+                0.05,
+                "implicit Euler",
+            ),
         ]
     return rows
 
@@ -73,7 +84,13 @@ def relaxation_rows() -> list[Row]:
     found = [-follow(LAW, np.ones(round(0.02 / dt)), dt)[-1] for dt in STEPS]
     return [
         Row("Burgers relaxation, stress after 20 ms", exact, found[-1], 5e-3, BURGERS_LAW),
-        Row("Burgers relaxation, order in dt", 1.0, order([value - exact for value in found]), 0.05, "implicit Euler"),
+        Row(
+            "Burgers relaxation, order in dt",
+            1.0,
+            order([value - exact for value in found]),
+            0.05,
+            "implicit Euler",
+        ),
     ]
 
 
@@ -84,8 +101,32 @@ def oscillation_rows() -> list[Row]:
     found = [steady_modulus(LAW, n) for n in (100, 200, 400)]
     scheme = LAW.discrete_modulus(omega, 1 / (400 * FREQUENCY))
     return [
-        Row("Burgers oscillation, |E*| at 400 steps a cycle", abs(exact), abs(found[-1]), 5e-3, "Eqs. (27)-(29)"),
-        Row("Burgers oscillation, order in dt", 1.0, order([abs(value - exact) for value in found]), 0.05, "implicit Euler"),
-        Row("Burgers oscillation, |E*| of the scheme", abs(scheme), abs(found[-1]), 1e-8, "i omega -> (1 - exp(-i omega dt))/dt"),
-        Row("Burgers oscillation, phase of the scheme (rad)", float(np.angle(scheme)), float(np.angle(found[-1])), 1e-8, "the same"),
+        Row(
+            "Burgers oscillation, |E*| at 400 steps a cycle",
+            abs(exact),
+            abs(found[-1]),
+            5e-3,
+            "Eqs. (27)-(29)",
+        ),
+        Row(
+            "Burgers oscillation, order in dt",
+            1.0,
+            order([abs(value - exact) for value in found]),
+            0.05,
+            "implicit Euler",
+        ),
+        Row(
+            "Burgers oscillation, |E*| of the scheme",
+            abs(scheme),
+            abs(found[-1]),
+            1e-8,
+            "i omega -> (1 - exp(-i omega dt))/dt",
+        ),
+        Row(
+            "Burgers oscillation, phase of the scheme (rad)",
+            float(np.angle(scheme)),
+            float(np.angle(found[-1])),
+            1e-8,
+            "the same",
+        ),
     ]

@@ -33,7 +33,9 @@ def beam(*shape: int) -> BondedSystem:
     return bending_system(jittered_beam(shape=shape or (3, 2, 9)), 0.35, 2.7e6, 0.7)
 
 
-def march(method: str, scheme_name: str, system: BondedSystem, law: BondLaw, steps: int, omega: float = OMEGA) -> March:
+def march(
+    method: str, scheme_name: str, system: BondedSystem, law: BondLaw, steps: int, omega: float = OMEGA
+) -> March:
     """A run from rest with so many steps in a cycle, by the method "condensed" or "reduced"."""
     dt = 2 * np.pi / omega / steps
     scheme = Scheme.named(scheme_name, omega * dt)
@@ -72,8 +74,16 @@ def stepping_against_frequency_domain() -> list[Row]:
     for method in ("condensed", "reduced"):
         found = stepped(method, "euler", 200)
         rows += [
-            Row(f"{method}, |F/z| of implicit Euler", abs(exact), abs(found), 1e-7, "(E* K - omega^2 M) u = f of the scheme"),
-            Row(f"{method}, phase of implicit Euler (rad)", np.angle(exact), np.angle(found), 1e-7, "the same"),
+            Row(
+                f"{method}, |F/z| of implicit Euler",
+                abs(exact),
+                abs(found),
+                1e-7,
+                "(E* K - omega^2 M) u = f of the scheme",
+            ),
+            Row(
+                f"{method}, phase of implicit Euler (rad)", np.angle(exact), np.angle(found), 1e-7, "the same"
+            ),
         ]
     return rows
 
@@ -85,8 +95,20 @@ def fitted_scheme() -> list[Row]:
         found = stepped(method, "fitted", 100)
         angle = np.degrees(np.angle(found / exact))
         rows += [
-            Row(f"{method}, |E*| at 100 steps a cycle, fitted scheme", 1.0, abs(found / exact), 1e-4, "exact law on the same specimen"),
-            Row(f"{method}, phase at 100 steps a cycle, fitted scheme (deg)", 0.0, angle, 0.01, "exact law on the same specimen"),
+            Row(
+                f"{method}, |E*| at 100 steps a cycle, fitted scheme",
+                1.0,
+                abs(found / exact),
+                1e-4,
+                "exact law on the same specimen",
+            ),
+            Row(
+                f"{method}, phase at 100 steps a cycle, fitted scheme (deg)",
+                0.0,
+                angle,
+                0.01,
+                "exact law on the same specimen",
+            ),
         ]
     return rows
 
@@ -105,7 +127,9 @@ def order_in_dt() -> list[Row]:
     reference = pulse(1024)
     fitted = [abs(pulse(steps) - reference) for steps in (64, 128)]
     return [
-        Row("bending, order in dt of implicit Euler", 1.0, order(euler), 0.05, "against the frequency domain"),
+        Row(
+            "bending, order in dt of implicit Euler", 1.0, order(euler), 0.05, "against the frequency domain"
+        ),
         Row("bending by a pulse, order in dt of the two-step scheme", 2.0, order(fitted), 0.3, "BDF2"),
     ]
 
@@ -125,7 +149,13 @@ def gauss_seidel() -> list[Row]:
         errors.append(np.abs(force - expected).max() / np.abs(expected).max())
     return [
         Row("Gauss-Seidel at a tolerance of 1e-9, force", 0.0, errors[-1], 1e-5, "condensed solution"),
-        Row("Gauss-Seidel, order in its tolerance", 1.0, np.log10(errors[-2] / errors[-1]) / 2, 0.3, "linear convergence"),
+        Row(
+            "Gauss-Seidel, order in its tolerance",
+            1.0,
+            np.log10(errors[-2] / errors[-1]) / 2,
+            0.3,
+            "linear convergence",
+        ),
     ]
 
 
@@ -138,9 +168,15 @@ def breaking_alike() -> list[Row]:
         sine = 8e-5 * np.sin(2 * np.pi / steps * np.arange(1, steps + 1))
         force.append(np.array([run.move_to(place) for place in np.append(np.zeros(10), sine)]))
         broken.append(list(run.stepper.state.broken))
-    same = sum(a == b for a, b in zip(*broken))
+    same = sum(a == b for a, b in zip(*broken, strict=False))
     difference = np.abs(force[0] - force[1]).max() / np.abs(force[0]).max()
     return [
-        Row("fracture, bonds that break alike and in order", len(broken[0]), same if broken[0] else np.nan, 0.0, "condensed against reduced"),
+        Row(
+            "fracture, bonds that break alike and in order",
+            len(broken[0]),
+            same if broken[0] else np.nan,
+            0.0,
+            "condensed against reduced",
+        ),
         Row("fracture, difference of the force", 0.0, difference, 1e-6, "condensed against reduced"),
     ]

@@ -14,7 +14,9 @@ G, R = 9.81, 2.0**-9  # the radius a power of two, so that spheres touch to the 
 TIGHT = PouringNumerics(time_step=1e-4, tolerance=1e-14, most_sweeps=5000, recovery_speed=0.0)
 
 
-def balls(position, radius=R, friction=0.5, restitution=0.0, gravity=(0.0, 0.0, -G), box=(1.0, 1.0, 1.0)) -> Granulate:
+def balls(
+    position, radius=R, friction=0.5, restitution=0.0, gravity=(0.0, 0.0, -G), box=(1.0, 1.0, 1.0)
+) -> Granulate:
     """Spheres of 2600 kg/m3 at rest in a box of walls."""
     position = np.atleast_2d(np.asarray(position, float))
     radius = np.broadcast_to(radius, len(position)).astype(float)
@@ -83,7 +85,10 @@ def sliding() -> list[Row]:
     friction = 2 / 7 * np.tan(0.9) * 0.7
     ball = _on_incline(0.9, friction)
     speed = G * (np.sin(0.9) - friction * np.cos(0.9)) * ball.time
-    spin, source = 2.5 * friction * G * np.cos(0.9) * ball.time, "a = g (sin - mu cos), r alpha = (5/2) mu g cos"
+    spin, source = (
+        2.5 * friction * G * np.cos(0.9) * ball.time,
+        "a = g (sin - mu cos), r alpha = (5/2) mu g cos",
+    )
     return [
         Row("sliding sphere on a slope, speed", speed, ball.velocity[0, 0], 1e-10, source),
         Row("sliding sphere on a slope, spin times radius", spin, ball.velocity[0, 4], 1e-10, source),
@@ -95,14 +100,18 @@ def backspin() -> Row:
     ball = balls([0.5, 0.5, R], friction=0.3)
     ball.velocity[0] = [0.1, 0, 0, 0, -0.4, 0]
     found = advanced(ball, 1500).velocity[0, 0]
-    return Row("sphere with backspin, final speed", -3 / 70, found, 1e-10, "(5 v0 - 2 s0)/7, s0 = 4 v0: it returns")
+    return Row(
+        "sphere with backspin, final speed", -3 / 70, found, 1e-10, "(5 v0 - 2 s0)/7, s0 = 4 v0: it returns"
+    )
 
 
 @checks
 def impact() -> list[Row]:
     rows = []
     for restitution in (0.0, 0.6):
-        pair = balls([[0.4, 0.5, 0.5], [0.4 + 4 * R + 1e-4, 0.5, 0.5]], [R, 3 * R], 0.5, restitution, (0, 0, 0))
+        pair = balls(
+            [[0.4, 0.5, 0.5], [0.4 + 4 * R + 1e-4, 0.5, 0.5]], [R, 3 * R], 0.5, restitution, (0, 0, 0)
+        )
         pair.velocity[0, 0], pair.velocity[1, 0] = 1.0, -0.5
         m1, m2 = masses(advanced(pair, 10))
         expected = (m1 - 0.5 * m2 - restitution * 1.5 * m2) / (m1 + m2)
@@ -122,7 +131,9 @@ def bounce() -> Row:
             if ball.velocity[0, 2] > 0.0:
                 highest = max(highest, ball.position[0, 2] - R)
         errors.append(highest - 0.25 * 5e-3)
-    return Row("bouncing sphere, height of the second arc", 1.25e-3, 1.25e-3 + errors[-1], 2e-2, "e^2 h, to O(dt)")
+    return Row(
+        "bouncing sphere, height of the second arc", 1.25e-3, 1.25e-3 + errors[-1], 2e-2, "e^2 h, to O(dt)"
+    )
 
 
 @checks
@@ -131,14 +142,23 @@ def oblique_impact() -> list[Row]:
     pair.velocity[0], pair.velocity[1] = [1.0, 0.3, -0.2, 0.1, 0.7, -0.4], [-0.5, -0.2, 0.4, -0.3, 0.2, 0.9]
     before = momentum(pair), angular_momentum(pair), pair.kinetic_energy()
     pair.advance(TIGHT)
-    changes = [np.abs(now - then).max() / np.abs(then).max() for now, then in zip((momentum(pair), angular_momentum(pair)), before)]
+    changes = [
+        np.abs(now - then).max() / np.abs(then).max()
+        for now, then in zip((momentum(pair), angular_momentum(pair)), before, strict=True)
+    ]
     gained = max(pair.kinetic_energy() / before[2] - 1.0, 0.0)
     source = "contact forces are internal: actio = reactio at one point"
     return [
         Row("oblique impact with spin, change of momentum", 0.0, changes[0], 1e-13, source),
         Row("oblique impact with spin, change of angular momentum", 0.0, changes[1], 1e-12, source),
         Row("oblique impact with spin, energy gained", 0.0, gained, 1e-15, "friction dissipates"),
-        Row("oblique impact with spin, normal speed after", 0.75, pair.velocity[1, 0] - pair.velocity[0, 0], 1e-12, "e times that before"),
+        Row(
+            "oblique impact with spin, normal speed after",
+            0.75,
+            pair.velocity[1, 0] - pair.velocity[0, 0],
+            1e-12,
+            "e times that before",
+        ),
     ]
 
 
@@ -148,11 +168,23 @@ def column() -> list[Row]:
     pile = advanced(balls([[0.5, 0.5, (2 * k + 1) * R] for k in range(n)]), 5)
     weight = masses(pile)[0] * G * TIGHT.time_step
     first = np.repeat(np.arange(n), np.diff(pile._start))
-    load = {(i, j): abs(r[2]) / weight for i, j, r in zip(first, pile._other, pile.impulse)}
+    load = {(i, j): abs(r[2]) / weight for i, j, r in zip(first, pile._other, pile.impulse, strict=True)}
     return [
-        Row("column of five spheres, force on the ground", n, load[(0, n + 2)], 1e-10, "weight above, m g each"),
+        Row(
+            "column of five spheres, force on the ground",
+            n,
+            load[(0, n + 2)],
+            1e-10,
+            "weight above, m g each",
+        ),
         Row("column of five spheres, force between the upper two", 1, load[(n - 2, n - 1)], 1e-10, "m g"),
-        Row("column of five spheres, speed at rest", 0.0, np.abs(pile.velocity[:n]).max(), 1e-12, "equilibrium"),
+        Row(
+            "column of five spheres, speed at rest",
+            0.0,
+            np.abs(pile.velocity[:n]).max(),
+            1e-12,
+            "equilibrium",
+        ),
     ]
 
 
@@ -162,14 +194,19 @@ def two_stacked_spheres() -> Row:
     lean, errors = 0.4, []
     for dt in (4e-5, 2e-5, 1e-5):
         radius = 10 * R
-        at = np.array([0.5, 0.5, radius]), np.array([0.5 + (radius + R) * np.sin(lean), 0.5, radius + (radius + R) * np.cos(lean)])
+        at = (
+            np.array([0.5, 0.5, radius]),
+            np.array([0.5 + (radius + R) * np.sin(lean), 0.5, radius + (radius + R) * np.cos(lean)]),
+        )
         pair = balls(np.array(at), [radius, R], friction=2.0)
         pair.inverse_mass[0] = 1e-12 * pair.inverse_mass[0]
         advanced(pair, round(4e-3 / dt), PouringNumerics(dt, 1e-14, 5000, recovery_speed=0.0))
         angle = np.arctan2(pair.position[1, 0] - 0.5, pair.position[1, 2] - radius)
         kinetic = 0.5 * 7 / 5 * (pair.velocity[1, :3] ** 2).sum()
         errors.append(kinetic / (G * (radius + R) * (np.cos(lean) - np.cos(angle))) - 1.0)
-    return Row("sphere rolling off a sphere, order in dt of its energy", 1.0, order(errors), 0.1, "(7/10) v^2 = g h")
+    return Row(
+        "sphere rolling off a sphere, order in dt of its energy", 1.0, order(errors), 0.1, "(7/10) v^2 = g h"
+    )
 
 
 @checks
@@ -188,6 +225,18 @@ def cloud() -> list[Row]:
         gained, last = max(gained, (now - last) / start), now
         deep = max(deep, -float(pile.contacts(1e-6)[1].min(initial=0.0)))
     return [
-        Row("thirty spheres fall to rest, energy gained in a step", 0.0, gained, 1e-12, "Moreau-Jean scheme, inelastic contacts: dissipative"),
-        Row("thirty spheres fall to rest, penetration over radius", 0.0, deep / radius.min(), 1e-4, "Signorini"),
+        Row(
+            "thirty spheres fall to rest, energy gained in a step",
+            0.0,
+            gained,
+            1e-12,
+            "Moreau-Jean scheme, inelastic contacts: dissipative",
+        ),
+        Row(
+            "thirty spheres fall to rest, penetration over radius",
+            0.0,
+            deep / radius.min(),
+            1e-4,
+            "Signorini",
+        ),
     ]
