@@ -16,7 +16,6 @@ from .records import Sampling, measure, reduce_record
 from .strength import Scatter
 from .test_signatures import DESIGNS, QUIET, moduli
 
-
 GENERATOR = [
     f"{name}.py" for name in "causes design generator laws outside records rig score strength".split()
 ]  # the campaign around it runs the diagnosis and may know it
