@@ -136,7 +136,12 @@ class Results:
                     )  # fmt: skip
         write_table(residuals := self.folder / "residuals.csv", pd.DataFrame(rows))
         pair = {"before": 8.0, "after": 2.0}
-        gain = {"mre_E_percent": pair, "mre_phase_percent": pair, "rms_over_scatter": pair, "by_temperature": {}}
+        gain = {
+            "mre_E_percent": pair,
+            "mre_phase_percent": pair,
+            "rms_over_scatter": pair,
+            "by_temperature": {},
+        }
         rung = {"where": None, "p_value": 1e-9, "as_good": [], "sentence": "s", "confirmed_by": "c"}
         rung["gain"] = {"in_sample": gain, "held_out": {"leave_one_frequency_out": gain}}
         spectrum = {"wlf_C1": {"value": 12.0, "std_error": None, "unit": "1"}}
