@@ -40,7 +40,7 @@ smoke: $(READY)
 	@echo "Report: $(CURDIR)/results/smoke/report.html"
 
 blind: $(READY)
-	@.venv/bin/snakemake --cores $(CORES) --configfile config/blind.yaml blind
+	@.venv/bin/snakemake blind --cores $(CORES) --configfile config/blind.yaml
 	@cat results/blind/summary.csv
 
 study: $(READY)

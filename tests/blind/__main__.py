@@ -51,7 +51,8 @@ def tables(lines: tuple[Path, ...], folder: Path) -> None:
     from . import plan, tables
 
     texts = (path.read_text(encoding="utf-8").splitlines() for path in lines)
-    cases = tables.cases(json.loads(text) for part in texts for text in part)
+    drawn = [json.loads(text) for part in texts for text in part]
+    cases = tables.cases(drawn)
     write_table(folder / "cases.csv", cases)
     for make in (
         tables.efficiency, tables.isolation, tables.false_alarms, tables.coverage, tables.gains,
@@ -59,8 +60,12 @@ def tables(lines: tuple[Path, ...], folder: Path) -> None:
     ):  # fmt: skip
         write_table(folder / f"{make.__name__}.csv", make(cases))
     write_json(
-        folder / "campaign.json", {**provenance(), "seed": plan.SEED, "mixes_of_runs": list(plan.MIXES)}
-    )
+        folder / "campaign.json",
+        {
+            **provenance(), "seed": plan.SEED, "mixes_of_runs": list(plan.MIXES), "cases": len(drawn),
+            "cases_whose_cause_has_no_limit": sum("seal" not in line for line in drawn),
+        },
+    )  # fmt: skip
 
 
 @main.command()

@@ -22,8 +22,8 @@ SEPARABLE = 5  # causes whose removal must leave their effect unexplained
 
 
 def cases(lines: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
-    """One row per hidden effect and one per empty case."""
-    lines = list(lines)
+    """One row per hidden effect and one per empty case; cases of which nothing could be drawn are left out."""
+    lines = [line for line in lines if "seal" in line]
     table = score.outcomes([(line["seal"], line["diagnosis"]) for line in lines])
     for name in PLANNED:
         table[name] = [lines[number]["case"][name] for number in table["case"]]

@@ -4,12 +4,24 @@ from __future__ import annotations
 
 import math
 import os
+import re
+import shlex
 import signal
+import subprocess
+import sys
 import time
 from pathlib import Path
 
+import pytest
+
 OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit", "published")
 FITS = ["results/smoke/laws/fitted/T0.json", "results/smoke/laws/fitted/T20.json"]
+
+
+ROOT = Path(__file__).parents[2]
+MAKE = dict(
+    re.findall(r"^(\w+): \$\(READY\)\n\t@\.venv/bin/snakemake (.*)", (ROOT / "Makefile").read_text(), re.M)
+)
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -23,6 +35,15 @@ def wait_for(path: Path, seconds: float = 60.0) -> None:
     while not path.exists():
         assert time.monotonic() < until, f"{path} did not appear"
         time.sleep(0.02)
+
+
+@pytest.mark.parametrize("target", MAKE)
+def test_make_hands_over_what_snakemake_understands(target):
+    recipe = MAKE[target].replace("$(CORES)", "all").replace("$(CONFIG)", "config/smoke.yaml")
+    recipe += " --dry-run --quiet all --nolock"
+    command = [sys.executable, "-m", "snakemake", *shlex.split(recipe)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 def test_misspelt_key_is_one_sentence(workspace):

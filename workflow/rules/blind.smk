@@ -1,11 +1,11 @@
 # Blind tests of the diagnosis: effects hidden in drawn measurements and inside NSCD runs, found or not.
 #   make blind
-#   snakemake --cores all --configfile config/blind.yaml blind
+#   snakemake blind --cores all --configfile config/blind.yaml
 
 sys.path.insert(0, str(Path(workflow.basedir, "tests")))
 from blind import plan
 
-BLIND = f"env PYTHONPATH={Path(workflow.basedir, 'tests')} OPENBLAS_NUM_THREADS=1 {sys.executable} -m blind"
+BLIND = f"env PYTHONPATH={Path(workflow.basedir, 'tests')}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m blind"
 GENERATOR = ["causes", "design", "generator", "laws", "outside", "plan", "records", "rig", "sealed", "strength"]
 CHUNKS = expand("<results>/chunks/{number}.jsonl", number=range(len(plan.chunks())))
 INSIDE = expand("<results>/inside/{mix}/{effect}.jsonl", mix=plan.MIXES, effect=["nothing", *plan.INSIDE])

@@ -170,7 +170,9 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
         square = float((((vector.T @ found.z)[kept]) ** 2 / value[kept]).sum())
         rank = int(kept.sum())
         p_value = 2.0 * float(fisher.sf(square / rank, rank, joint.noise.freedom))
-        out.append(Remaining(min(p_value, 1.0), f"each specimen at each frequency, {name}", square - rank))
+        out.append(
+            Remaining(min(p_value, 1.0), f"each specimen at each frequency, {name}", max(square - rank, 0.0))
+        )
     return out
 
 
