@@ -141,7 +141,8 @@ def read_csv(path: str | Path) -> Table:
     header = rows[0][1]
     if len(header) == 1 and re.search("[;\t]", header[0]):
         raise InputError(
-            f"{path}: columns are not separated by commas; save it with commas and decimal points."
+            f"{path}: columns are not separated by commas; save it with commas and decimal points, "
+            "or have `asphalt-nscd new-study` read it as it is."
         )
     if len(set(header)) < len(header) or "" in header:
         raise InputError(

@@ -18,6 +18,7 @@ from asphalt_nscd.plausible import LIMITS, least_modulus
 from asphalt_nscd.store import write_table
 
 ORIGINS = ("measured", "reconstructed", "synthetic")
+LABELS = ("replicate",)  # told apart, not measured
 KEYS = ("temperature_C", "frequency_Hz")
 FORMS = {"peaks": ("F0_N", "z0_m", "psi_deg"), "moduli": ("E_MPa", "phase_deg"), "records": ("record",)}
 RECORD_COLUMNS = ("time_s", "force_N", "displacement_m")
@@ -109,7 +110,7 @@ def _read_keys(table: Table, tests: Sequence[str] = KEYS) -> pd.DataFrame:
     table.require(["specimen", *KEYS])
     frame = pd.DataFrame({"specimen": table.text("specimen")})
     for name in tests:
-        frame[name] = table.numbers(name, LIMITS.get(name))
+        frame[name] = table.text(name) if name in LABELS else table.numbers(name, LIMITS.get(name))
     origin = table.text("origin") if "origin" in table.columns else ["measured"] * len(frame)
     seen: dict[tuple, int] = {}
     for row, test in enumerate(frame.itertuples(index=False, name=None)):

@@ -77,6 +77,12 @@ def read_observations(
         time_step=optional.get("time_step_s"),
         static_modulus=static_modulus,
     )  # fmt: skip
+    softest = float(observed.modulus.real.min())
+    if static_modulus is not None and static_modulus >= softest:
+        raise InputError(
+            f"{path}: the static modulus, {static_modulus * 1e-6:g} MPa, is not below the storage modulus of the "
+            f"softest test, {softest * 1e-6:.4g} MPa; give the modulus at long times, or leave it out."
+        )
     return observed, origins[0] if len(origins) == 1 else "mixed: " + ", ".join(origins)
 
 
