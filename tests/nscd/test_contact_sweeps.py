@@ -69,28 +69,57 @@ def test_projection(friction):
         np.testing.assert_allclose(found, nearest_in_cone(z, friction), rtol=0, atol=1e-14)
 
 
-@pytest.mark.parametrize("kept", [1, 2, 6])
-def test_extrapolation(kept):
-    """A ring of six in which the newest is the third: the last `kept` in order of age."""
+def extrapolated(results, changes, room=5):
+    """The kernel's, from results and changes in order; the room for more holds what must not be read."""
+    of_results, of_changes = np.full((2, room, results.shape[1]), 7.0)
+    kept = len(results) - 1
+    of_results[:kept], of_changes[:kept] = np.diff(results, axis=0), np.diff(changes, axis=0)
+    return kernels.extrapolated(
+        results[-1], changes[-1], of_results, of_changes, of_changes @ of_changes.T, kept
+    )
+
+
+@pytest.mark.parametrize("count", [1, 2, 6])
+def test_extrapolation(count):
     rng = np.random.default_rng(4)
-    results, changes = rng.normal(size=(6, 9)), rng.normal(size=(6, 9))
-    order = [3, 4, 5, 0, 1, 2][-kept:]
-    found = kernels.extrapolated(results, changes, 2, kept)
-    expected = naive_extrapolation(results[order], changes[order]) if kept > 1 else results[2]
-    np.testing.assert_allclose(found, expected, rtol=1e-11)
+    results, changes = rng.normal(size=(2, count, 9))
+    expected = naive_extrapolation(results, changes) if count > 1 else results[0]
+    np.testing.assert_allclose(extrapolated(results, changes), expected, rtol=1e-11)
 
 
 def test_extrapolation_of_a_linear_map_ends_at_its_fixed_point():
     """x -> A x + b in three dimensions: four results determine the fixed point."""
     rng = np.random.default_rng(5)
     a, b = 0.3 * rng.normal(size=(3, 3)), rng.normal(size=3)
-    x, results, changes = np.zeros(3), np.zeros((6, 3)), np.zeros((6, 3))
-    for k in range(4):
-        results[k] = a @ x + b
-        changes[k] = results[k] - x
-        x = results[k]
+    x, results, changes = np.zeros(3), [], []
+    for _ in range(4):
+        results.append(a @ x + b)
+        changes.append(results[-1] - x)
+        x = results[-1]
     fixed = np.linalg.solve(np.eye(3) - a, b)
-    np.testing.assert_allclose(kernels.extrapolated(results, changes, 3, 4), fixed, rtol=1e-6)
+    np.testing.assert_allclose(extrapolated(np.array(results), np.array(changes)), fixed, rtol=1e-6)
+
+
+@pytest.mark.parametrize("sweeps", [1, 4, 12])
+def test_accelerated_sweeps(sweeps):
+    """The same numbers as sweeps and extrapolations written out, with more of them than are kept."""
+    w, q, _ = random_problem(7, contacts=10)
+    problem = ContactProblem.of(w, q, 0.4)
+    weight = np.repeat(1 / np.sqrt(problem.length), 3)
+    r, results, changes = np.zeros(q.size), [], []
+    for _ in range(sweeps):
+        results.append(naive_sweep(w, q, 0.4, r))
+        changes.append(weight * (results[-1] - r))
+        r = results[-1]
+        if len(results) > 1:
+            r = naive_extrapolation(np.array(results[-6:]), np.array(changes[-6:]))
+    sizes = np.linalg.norm(changes, axis=1)
+    assert (sizes[1:] < 2 * sizes[:-1]).all()  # none led astray, for which there is another way
+    found, count = kernels.accelerated_sweeps(
+        problem.start, problem.other, problem.block, q, problem.friction, problem.length, 0.0, sweeps
+    )
+    assert count == sweeps
+    np.testing.assert_allclose(found, results[-1], rtol=0, atol=1e-9)
 
 
 def test_accelerated_sweeps_return_the_best_and_stop():

@@ -25,8 +25,11 @@ def accelerated_sweeps(start, other, block, q, friction, length, tolerance, most
     """
     rows = q.shape[0]
     r, swept, best = np.zeros(rows), np.zeros(rows), np.zeros(rows)
-    results, changes = np.zeros((_DEPTH + 1, rows)), np.zeros((_DEPTH + 1, rows))
-    kept, newest, last_size = 0, -1, np.inf
+    last, change, last_change = np.zeros(rows), np.zeros(rows), np.zeros(rows)
+    of_results, of_changes = np.zeros((_DEPTH, rows)), np.zeros((_DEPTH, rows))
+    normal = np.zeros((_DEPTH, _DEPTH))
+    weight = np.repeat(1.0 / np.sqrt(length), 3)
+    kept, last_size = 0, np.inf
     least = mark = np.inf
     mark_sweep = 0
     for sweep in range(1, most_sweeps + 1):
@@ -34,8 +37,9 @@ def accelerated_sweeps(start, other, block, q, friction, length, tolerance, most
         sweep_once(start, other, block, q, friction, swept)
         size = whole = 0.0
         for i in range(rows):
-            size += (swept[i] - r[i]) ** 2 / length[i // 3]
-            whole += swept[i] ** 2 / length[i // 3]
+            change[i] = weight[i] * (swept[i] - r[i])
+            size += change[i] ** 2
+            whole += (weight[i] * swept[i]) ** 2
         if sweep % _CHECK == 0 or sweep == most_sweeps or size <= tolerance**2 * whole:
             error = max(natural_map(start, other, block, q, friction, length, swept))
             if error < least:
@@ -48,48 +52,49 @@ def accelerated_sweeps(start, other, block, q, friction, length, tolerance, most
             elif sweep - mark_sweep > _PATIENCE:
                 return best, sweep
         if size > _ASTRAY * last_size:  # the extrapolation led astray: back to the last result, anew
-            r[:] = results[newest]
+            r[:] = last
             kept, last_size = 0, np.inf
             continue
-        last_size = size
-        newest = (newest + 1) % (_DEPTH + 1)
-        for i in range(rows):
-            results[newest, i] = swept[i]
-            changes[newest, i] = (swept[i] - r[i]) / np.sqrt(length[i // 3])
-        kept = min(kept + 1, _DEPTH + 1)
-        r[:] = extrapolated(results, changes, newest, kept)
+        if last_size < np.inf:
+            slot = kept % _DEPTH
+            of_results[slot] = swept - last
+            of_changes[slot] = change - last_change
+            kept += 1
+            for k in range(min(kept, _DEPTH)):
+                normal[slot, k] = normal[k, slot] = _dot(of_changes[slot], of_changes[k])
+        last[:], last_change[:], last_size = swept, change, size
+        r[:] = extrapolated(swept, change, of_results, of_changes, normal, min(kept, _DEPTH))
     return best, most_sweeps
 
 
 @compiled
-def extrapolated(results, changes, newest, kept):
-    """Combination of the last results (in a ring) whose change would be least, to first order."""
-    combined = results[newest].copy()
-    depth, (ring, rows) = kept - 1, results.shape
-    if depth < 1:
-        return combined
-    normal = np.zeros((depth, depth))
-    right = np.zeros(depth)
-    difference = np.empty(depth)
-    for i in range(rows):
-        for k in range(depth):
-            difference[k] = changes[(newest - k) % ring, i] - changes[(newest - k - 1) % ring, i]
-            right[k] += difference[k] * changes[newest, i]
-            for m in range(k + 1):
-                normal[k, m] += difference[k] * difference[m]
-    damping = 1e-10 * np.trace(normal)
+def extrapolated(result, change, of_results, of_changes, normal, kept):
+    """The result for which the change of a sweep would be least, to first order.
+
+    of_results, of_changes (>= kept, rows): differences between successive sweeps; normal: the
+    products of of_changes with each other.
+    """
+    combined = result.copy()
+    damping = 1e-10 * np.trace(normal[:kept, :kept])
     if damping <= 0.0:
         return combined
-    for k in range(depth):
-        normal[k, k] += damping
-        for m in range(k):
-            normal[m, k] = normal[k, m]
-    share = np.linalg.solve(normal, right)
-    for k in range(depth):
-        now, last = (newest - k) % ring, (newest - k - 1) % ring
-        for i in range(rows):
-            combined[i] -= share[k] * (results[now, i] - results[last, i])
+    right = np.empty(kept)
+    for k in range(kept):
+        right[k] = _dot(of_changes[k], change)
+    share = np.linalg.solve(normal[:kept, :kept] + damping * np.eye(kept), right)
+    for k in range(kept):
+        for i in range(result.shape[0]):
+            combined[i] -= share[k] * of_results[k, i]
     return combined
+
+
+@compiled
+def _dot(a, b):
+    """Product summed in one order, whatever the threads of the linear algebra."""
+    total = 0.0
+    for i in range(a.shape[0]):
+        total += a[i] * b[i]
+    return total
 
 
 @compiled
