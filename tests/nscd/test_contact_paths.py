@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import islice
+
 import numpy as np
 import pytest
 from assemblies import box_stack
@@ -65,16 +67,16 @@ def test_path_leads_to_a_solution(friction):
     """Within the reach of Newton's method; rounding ends the path."""
     for seed in range(3):
         problem, _ = random_problem(seed, friction)
-        errors = [
-            max(problem.errors(r)) for _, r in zip(range(30), interior.interior_path(problem, 3.0, 0.0))
-        ]
+        path = islice(interior.interior_path(problem, 3.0, 0.0), 30)
+        errors = [max(problem.errors(r)) for r in path]
         assert min(errors) < 1e-6
 
 
 def test_path_through_redundant_contacts():
     stack = box_stack(5, kick=1e-2)
     problem = ContactProblem.of(stack.W, stack.q, 0.5)
-    errors = [max(problem.errors(r)) for _, r in zip(range(40), interior.interior_path(problem, 3.0, 0.0))]
+    path = islice(interior.interior_path(problem, 3.0, 0.0), 40)
+    errors = [max(problem.errors(r)) for r in path]
     assert min(errors) < 1e-7
 
 
@@ -82,7 +84,7 @@ def test_scaling():
     """Nesterov and Todd's: symmetric, S x = S^-1 y."""
     rng = np.random.default_rng(2)
     x, y = cone_points(rng), cone_points(rng)
-    for s, x_one, y_one in zip(interior._scaling(y, x), x, y):
+    for s, x_one, y_one in zip(interior._scaling(y, x), x, y, strict=True):
         np.testing.assert_allclose(s, s.T, rtol=1e-14)
         np.testing.assert_allclose(s @ s @ x_one, y_one, rtol=1e-10, atol=1e-10)
 
@@ -90,7 +92,7 @@ def test_scaling():
 def test_jordan_algebra():
     rng = np.random.default_rng(3)
     x, y = cone_points(rng), rng.normal(size=(20, 3))
-    expected = [arrow(a) @ b for a, b in zip(x, y)]
+    expected = [arrow(a) @ b for a, b in zip(x, y, strict=True)]
     np.testing.assert_allclose(interior._product(x, y), expected, rtol=1e-13, atol=1e-13)
     np.testing.assert_allclose(interior._divide(x, np.array(expected)), y, rtol=1e-9, atol=1e-9)
 

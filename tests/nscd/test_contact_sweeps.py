@@ -112,7 +112,9 @@ def test_accelerated_sweeps(sweeps):
         changes.append(weight * (results[-1] - r))
         r = results[-1]
         if len(results) > 1:
-            r = naive_extrapolation(np.array(results[-6:]), np.array(changes[-6:]))
+            r = naive_extrapolation(
+                np.array(results[-kernels._DEPTH - 1 :]), np.array(changes[-kernels._DEPTH - 1 :])
+            )
     sizes = np.linalg.norm(changes, axis=1)
     assert (sizes[1:] < 2 * sizes[:-1]).all()  # none led astray, for which there is another way
     found, count = kernels.accelerated_sweeps(

@@ -16,10 +16,7 @@ from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import splu
 
-from asphalt_nscd.nscd.contact_newton import block_diagonal
 from asphalt_nscd.nscd.contact_problem import ContactProblem
 
 
@@ -34,7 +31,8 @@ def interior_path(problem: ContactProblem, start: float, balance: float) -> Iter
     own = diagonal[:, 0] + mu**2 * (diagonal[:, 1] + diagonal[:, 2])
     k = np.sqrt(3.0 / np.where(own > 0.0, own, 3.0 / problem.length))
     transform = (k[:, None] * np.column_stack([np.ones(contacts), mu, mu])).ravel()
-    w = (sparse.diags_array(transform) @ problem.matrix @ sparse.diags_array(transform)).tocsr()
+    each = transform.reshape(-1, 3)
+    w = each[problem.row][:, :, None] * problem.block * each[problem.other][:, None, :]
     q = transform * problem.free_velocity
     unit = np.linalg.norm(q)
     q = q / unit
@@ -45,7 +43,7 @@ def interior_path(problem: ContactProblem, start: float, balance: float) -> Iter
     share = 1.0
     while min(_determinant(x).min(), _determinant(y).min()) > 0.0:
         slip = np.hypot(y[:, 1], y[:, 2])
-        residual = (w @ x.ravel() + q).reshape(-1, 3) - y
+        residual = (transform * (problem.matrix @ (transform * x.ravel())) + q).reshape(-1, 3) - y
         residual[:, 0] += slip
         gap = (x * y).sum()
         scaling = _scaling(y, x)
@@ -53,9 +51,10 @@ def interior_path(problem: ContactProblem, start: float, balance: float) -> Iter
         squared = scaling @ scaling
         keep = np.tile(np.eye(3), (contacts, 1, 1))
         keep[:, 0, 1:] -= share * y[:, 1:] / np.where(slip > 0.0, slip, 1.0)[:, None]
-        try:
-            factor = splu((w + block_diagonal(keep @ squared)).tocsc())
-        except RuntimeError:  # exactly singular
+        jacobian = w.copy()
+        jacobian[problem.own] += keep @ squared
+        factor = problem.factor(jacobian)
+        if factor is None:
             return
 
         direction = partial(_direction, factor, scaling, squared, keep, centre, residual)
@@ -77,7 +76,7 @@ def interior_path(problem: ContactProblem, start: float, balance: float) -> Iter
 def _direction(factor, scaling, squared, keep, centre, residual, aim):
     """Changes of x and y that cancel the residual and make the change of x ∘ y, scaled, equal `aim`."""
     h = _times(scaling, _divide(centre, aim))
-    dx = factor.solve((_times(keep, h) - residual).ravel()).reshape(-1, 3)
+    dx = factor.solve((_times(keep, h) - residual).ravel(), "T").reshape(-1, 3)
     return dx, h - _times(squared, dx)
 
 

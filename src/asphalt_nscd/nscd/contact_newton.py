@@ -7,8 +7,6 @@ slipping. Proximal terms that shrink with F keep the Jacobian regular where W is
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import splu
 
 from asphalt_nscd.nscd.contact_problem import ContactProblem
 
@@ -85,20 +83,17 @@ def _norm(problem: ContactProblem, weight: np.ndarray, r: np.ndarray) -> float:
 
 def _newton_direction(problem, residual, by_reaction, by_velocity, proximal) -> np.ndarray | None:
     """-(D + B (W + proximal / rho))^-1 F, with the open contacts taken out; None if singular."""
-    pressed = np.repeat(np.abs(by_velocity).sum(axis=(1, 2)) > 0.0, 3)
-    own = by_reaction + by_velocity * (proximal / problem.length)[:, None, None]
-    jacobian = (block_diagonal(own) + block_diagonal(by_velocity) @ problem.matrix).tocsr()[pressed]
+    pressed = np.abs(by_velocity).sum(axis=(1, 2)) > 0.0
     direction = -residual
-    right = direction[pressed] - jacobian[:, ~pressed] @ direction[~pressed]
-    if right.size:
-        try:
-            direction[pressed] = splu(jacobian[:, pressed].tocsc()).solve(right)
-        except RuntimeError:  # exactly singular
-            return None
+    if not pressed.any():
+        return direction
+    closed = np.repeat(pressed, 3)
+    jacobian = by_velocity[problem.row] @ problem.block
+    jacobian[problem.own] += by_reaction + by_velocity * (proximal / problem.length)[:, None, None]
+    factor = problem.factor(jacobian, pressed)
+    if factor is None:
+        return None
+    opened = (problem.matrix @ np.where(closed, 0.0, direction)).reshape(-1, 3)
+    right = direction - np.einsum("aij,aj->ai", by_velocity, opened).ravel()
+    direction[closed] = factor.solve(right[closed], "T")
     return direction if np.isfinite(direction).all() else None
-
-
-def block_diagonal(blocks: np.ndarray) -> sparse.bsr_array:
-    """(c, 3, 3) as a sparse (3 c, 3 c) matrix."""
-    count = len(blocks)
-    return sparse.bsr_array((blocks, np.arange(count), np.arange(count + 1)), shape=(3 * count, 3 * count))

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse.linalg import SuperLU, splu
 
 from asphalt_nscd.nscd.contact_sweeps import natural_map
 
@@ -23,6 +24,8 @@ class ContactProblem:
     matrix: sparse.csr_array  # W (3 c, 3 c) [1/kg]
     start: np.ndarray  # (c + 1,) first block of each block row of W
     other: np.ndarray  # (blocks,) block column
+    row: np.ndarray  # (blocks,) block row
+    own: np.ndarray  # (c,) where in these lists W_aa stands
     block: np.ndarray  # (blocks, 3, 3)
     free_velocity: np.ndarray  # q (3 c,) [m/s]
     friction: np.ndarray  # mu (c,)
@@ -39,21 +42,17 @@ class ContactProblem:
             raise ValueError(f"mu {np.shape(mu)} is not one number for each of {contacts} contacts")
         friction = np.broadcast_to(np.asarray(mu, float), contacts).copy()
         matrix = sparse.csr_array(W, dtype=float)
-        blocks = sparse.bsr_array(matrix, blocksize=(3, 3))
-        blocks.sort_indices()
+        blocks, row, own = _with_own_blocks(matrix)
         if not (np.isfinite(blocks.data).all() and np.isfinite(q).all() and np.isfinite(friction).all()):
             raise ValueError("W, q and mu must be finite")
         if (friction < 0.0).any():
             raise ValueError("mu must not be negative")
-        trace = np.zeros(contacts)
-        row = np.repeat(np.arange(contacts), np.diff(blocks.indptr))
-        own = row == blocks.indices
-        trace[row[own]] = np.trace(blocks.data[own], axis1=1, axis2=2)
+        trace = np.trace(blocks.data[own], axis1=1, axis2=2)
         usual = trace.mean() if trace.any() else 1.0
         length = 3.0 / np.where(trace > 1e-14 * usual, trace, usual)
         return cls(
-            matrix, blocks.indptr.astype(np.int64), blocks.indices.astype(np.int64), blocks.data, q,
-            friction, length,
+            matrix, blocks.indptr.astype(np.int64), blocks.indices.astype(np.int64), row, own, blocks.data,
+            q, friction, length,
         )  # fmt: skip
 
     def velocity(self, r: np.ndarray) -> np.ndarray:
@@ -65,3 +64,44 @@ class ContactProblem:
         return natural_map(
             self.start, self.other, self.block, self.free_velocity, self.friction, self.length, r
         )
+
+    def factor(self, block: np.ndarray, pressed: np.ndarray | None = None) -> SuperLU | None:
+        """Factors of the matrix with other blocks in the places of W; None if it is singular.
+
+        pressed (c,): contacts whose rows and columns it has. `.solve(right, "T")` solves with it: what
+        are rows here are columns to SuperLU, which saves a transposition.
+        """
+        matrix = sparse.bsr_array((block, self.other, self.start), shape=self.matrix.shape).tocsr()
+        if pressed is not None:
+            rows = np.flatnonzero(np.repeat(pressed, 3))
+            matrix = matrix[rows][:, rows]
+        transposed = sparse.csc_array((matrix.data, matrix.indices, matrix.indptr), shape=matrix.shape)
+        try:
+            return splu(
+                transposed, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.1, options={"SymmetricMode": True}
+            )  # the pattern is symmetric, the diagonal strong
+        except RuntimeError:  # exactly singular
+            return None
+
+
+def _with_own_blocks(matrix: sparse.csr_array) -> tuple[sparse.bsr_array, np.ndarray, np.ndarray]:
+    """As 3 x 3 blocks in order, W_aa among them even where it is zero; their rows; where the W_aa stand."""
+    blocks = sparse.bsr_array(matrix, blocksize=(3, 3))
+    contacts = blocks.shape[0] // 3
+    row, own = _places(blocks)
+    if own.size < contacts:
+        missing = np.setdiff1d(np.arange(contacts), row[own])
+        row, column = np.r_[row, missing], np.r_[blocks.indices, missing]
+        order = np.argsort(row, kind="stable")
+        data = np.concatenate([blocks.data, np.zeros((missing.size, 3, 3))])[order]
+        start = np.r_[0, np.cumsum(np.bincount(row, minlength=contacts))]
+        blocks = sparse.bsr_array((data, column[order], start), shape=blocks.shape)
+    if not blocks.has_sorted_indices or own.size < contacts:
+        blocks.sort_indices()
+        row, own = _places(blocks)
+    return blocks, row, own
+
+
+def _places(blocks: sparse.bsr_array) -> tuple[np.ndarray, np.ndarray]:
+    row = np.repeat(np.arange(blocks.shape[0] // 3), np.diff(blocks.indptr))
+    return row, np.flatnonzero(row == blocks.indices)

@@ -10,7 +10,7 @@ import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled
 
-_DEPTH = 5  # sweeps that an extrapolation looks back on; ten save little
+_DEPTH = 4  # sweeps that an extrapolation looks back on; more save nothing
 _CHECK = 10  # sweeps between two computations of the error
 _ASTRAY = 4.0  # growth of the square of a sweep's change that is not forgiven
 _ROUNDING = 2.0**-52
@@ -99,20 +99,21 @@ def _dot(a, b):
 
 @compiled
 def sweep_once(start, other, block, q, friction, r):
-    """Solve each contact in turn with all others held; r (3 c,) changes in place."""
-    empty = np.zeros((3, 3))
+    """Solve each contact in turn with all others held; r (3 c,) changes in place. W_aa must stand in W."""
+    each, free = r.reshape(-1, 3), q.reshape(-1, 3)
     for a in range(friction.shape[0]):
-        u0, u1, u2 = q[3 * a], q[3 * a + 1], q[3 * a + 2]
-        own = empty
+        u0, u1, u2 = free[a, 0], free[a, 1], free[a, 2]
+        own = a
         for k in range(start[a], start[a + 1]):
-            b = 3 * other[k]
-            if b == 3 * a:
-                own = block[k]
+            b = other[k]
+            if b == a:
+                own = k
             else:
-                u0 += block[k, 0, 0] * r[b] + block[k, 0, 1] * r[b + 1] + block[k, 0, 2] * r[b + 2]
-                u1 += block[k, 1, 0] * r[b] + block[k, 1, 1] * r[b + 1] + block[k, 1, 2] * r[b + 2]
-                u2 += block[k, 2, 0] * r[b] + block[k, 2, 1] * r[b + 1] + block[k, 2, 2] * r[b + 2]
-        r[3 * a], r[3 * a + 1], r[3 * a + 2] = one_contact(own, u0, u1, u2, friction[a])
+                w, n, t, s = block[k], each[b, 0], each[b, 1], each[b, 2]
+                u0 += w[0, 0] * n + w[0, 1] * t + w[0, 2] * s
+                u1 += w[1, 0] * n + w[1, 1] * t + w[1, 2] * s
+                u2 += w[2, 0] * n + w[2, 1] * t + w[2, 2] * s
+        each[a, 0], each[a, 1], each[a, 2] = one_contact(block[own], u0, u1, u2, friction[a])
 
 
 @compiled

@@ -15,7 +15,7 @@ from asphalt_nscd.nscd.contact_newton import refine
 from asphalt_nscd.nscd.contact_problem import ContactProblem
 from asphalt_nscd.nscd.contact_sweeps import accelerated_sweeps
 
-PATHS = ((3.0, 0.0), (100.0, 0.3), (1000.0, 0.0))
+PATHS = ((3.0, 0.0), (10.0, 0.3), (100.0, 0.3), (1000.0, 0.0))
 """Start and balance of the paths, tried in turn: no single choice leads through every rock pile."""
 
 FIRST_REFINEMENT = 1e-3  # error from which Newton's method may see the right statuses
@@ -50,7 +50,7 @@ class ContactSolution:
         return self
 
 
-def solve_contacts(W, q, mu, tolerance: float = 1e-8, most_sweeps: int = 3000, most_steps: int = 100):
+def solve_contacts(W, q, mu, tolerance: float = 1e-8, most_sweeps: int = 3000, most_steps: int = 200):
     """Reactions r with u = W r + q, opening u_n >= 0, r_n >= 0, complementary, and Coulomb friction.
 
     W (3 c, 3 c) [1/kg] positive semidefinite, sparse of any storage or dense; q (3 c,) [m/s]; mu, one
