@@ -4,6 +4,7 @@ import pytest
 
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.measurements import reduce_table
 
 ROWS = ["A,a,0,1,9000,20", "A,b,0,1,9100,20.1", "A,a,0,10,12000,16", "A,b,0,10,12100,16.1"]
 
@@ -35,3 +36,22 @@ def test_static_modulus_above_the_softest_test_is_refused(tmp_path):
     ):
         read_observations(path, PAPER_GEOMETRY, static_modulus=9e9)
     assert read_observations(path, PAPER_GEOMETRY, static_modulus=1e7)[0].static_modulus == 1e7
+
+
+@pytest.mark.parametrize(
+    ("header", "rows", "amplitude", "by_force"),
+    [
+        ("E_MPa,phase_deg", ["9000,20", "12000,16"], None, False),
+        ("F0_N,z0_m,psi_deg", ["60,6.3e-5,20", "80,6.3e-5,16"], 6.3e-5, True),
+    ],
+)
+def test_what_was_reduced_is_read_as_it_was_measured(tmp_path, header, rows, amplitude, by_force):
+    """The workflow diagnoses its reduced table, in which the peaks of ready moduli are empty."""
+    tests = [f"A,0,{frequency},{row}" for frequency, row in zip([1, 10], rows)]
+    path = table(tmp_path, f"specimen,temperature_C,frequency_Hz,{header}", tests)
+    reduced = tmp_path / "reduced.csv"
+    reduce_table(path, PAPER_GEOMETRY, reduced)
+    for given in (path, reduced):
+        observed, _ = read_observations(given, PAPER_GEOMETRY)
+        assert (observed.inertia > 0).all() == (observed.inertia > 0).any() == by_force
+        assert observed.amplitude is amplitude or set(observed.amplitude) == {amplitude}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ OPTIONAL = {
     "time_step_s": Limits(1e-9, 10.0, "give the time step of the simulation in s"),
     "cycles": Limits(0, 1e12, "give the load cycles borne before the test"),
 }
+PEAKS = FORMS["peaks"] + REDUCED_COLUMNS[-2:]
 MOST_ROWS = 3000  # the chance level takes matrices of twice the rows
 PAPER_GEOMETRY = {
     "b_mm": 25.0,
@@ -43,6 +44,9 @@ def read_observations(
     `reduce`; optional amplitude_m, order, cycles, and replicate beside specimen. static_modulus [Pa].
     """
     table = _renamed(read_csv(path))
+    reduced = set(REDUCED_COLUMNS) <= set(table.columns)  # before: peaks stand beside the moduli
+    if reduced:
+        table = _without(table, (name for name in PEAKS if not any(table.columns[name])))
     if len(table.lines) > MOST_ROWS:
         raise InputError(
             f"{path}: {len(table.lines)} rows; give at most {MOST_ROWS}, for example one mix at a time."
@@ -56,9 +60,8 @@ def read_observations(
         name for name in ("replicate", "amplitude_m", "order", "cycles") if name in table.columns
     ]
     by_force = bool({"F0_N", "record"} & set(table.columns))
-    if set(REDUCED_COLUMNS) <= set(table.columns):  # reduced before: peaks stand beside the moduli
-        peaks = FORMS["peaks"] + REDUCED_COLUMNS[-2:]
-        table = replace(table, columns={k: v for k, v in table.columns.items() if k not in peaks})
+    if reduced:
+        table = _without(table, PEAKS)
     frame = reduced_frame(table, geometry, tests=(*KEYS, *distinguishing))
     names, specimen = np.unique(frame["specimen"], return_inverse=True)
     geometries = read_geometry(geometry, names)
@@ -97,6 +100,11 @@ def _rounded(amplitude: np.ndarray | None) -> np.ndarray | None:
     set_to = np.empty_like(amplitude)
     set_to[order] = means[group]
     return set_to
+
+
+def _without(table: Table, names: Iterable[str]) -> Table:
+    left_out = set(names)
+    return replace(table, columns={k: v for k, v in table.columns.items() if k not in left_out})
 
 
 def _renamed(table: Table) -> Table:
