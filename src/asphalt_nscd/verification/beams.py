@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.integrate import quad
 
+from asphalt_nscd.nscd.bonds import opening_operator
 from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.harmonic import actuator_stiffness, driving_force
 from asphalt_nscd.nscd.head import HeadDevices
@@ -24,6 +25,33 @@ SPECIMEN = Geometry(b=25e-3, B=56e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0
 PRISM = Geometry(b=40e-3, B=40e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
 RIGID_IN_SHEAR = 1e4
 MODULUS = 1e10  # Pa
+
+
+@checks
+def rigid_motion() -> list[Row]:
+    """All bodies turn and drift as one: bonds between them stay shut, and no reaction does any net work."""
+    specimen = jittered_beam()
+    network, rng = specimen.network, np.random.default_rng(3)
+    position = np.concatenate([specimen.position, [[0.0, 0.0, specimen.geometry.h]]])
+    operator = opening_operator(network.first, network.second, network.frame, network.point, position)
+    drift, spin = rng.normal(size=(2, 3))
+    velocity = np.hstack([drift + np.cross(spin, position), np.tile(spin, (len(position), 1))])
+    between = np.repeat(np.maximum(network.first, network.second) < len(position), 3)  # not to the ground
+    opening = operator[between] @ velocity.ravel()
+    forces = (operator[between].T @ rng.normal(size=opening.size)).reshape(-1, 6)
+    torque = (forces[:, 3:] + np.cross(position, forces[:, :3])).sum(axis=0)
+    source = "rigid-body kinematics; actio = reactio"
+    return [
+        Row("rigid motion of a bonded beam, largest opening", 0.0, np.abs(opening).max(), 1e-13, source),
+        Row(
+            "reactions of a bonded beam, sum of forces",
+            0.0,
+            np.abs(forces[:, :3].sum(axis=0)).max(),
+            1e-12,
+            source,
+        ),
+        Row("reactions of a bonded beam, sum of torques", 0.0, np.abs(torque).max(), 1e-12, source),
+    ]
 
 
 @checks
