@@ -27,6 +27,9 @@ Doubled at every further violation, since each costs a projection of the whole s
 MOST_ENRICHMENTS = 30
 """After these the basis has some 500 vectors, and full steps are cheaper in time and memory."""
 
+FAR = 16.0
+"""Growth of the envelope as long as no bond comes near yield within it."""
+
 _DONE, _OUTSIDE_ENVELOPE, _YIELD, _CLOSED_GAP, _RESIDUAL = range(5)
 
 
@@ -99,7 +102,10 @@ class ReducedStepper:
             if code == _DONE:
                 return force, velocity
             if code == _OUTSIDE_ENVELOPE:
-                self._watch(2.0 * np.abs(self._trial[1]), 2.0 * np.abs(self._trial[2]))
+                for growth in (FAR, 2.0):
+                    self._watch(growth * np.abs(self._trial[1]), growth * np.abs(self._trial[2]))
+                    if not self._may_yield.size + self._may_close.size:
+                        break
                 continue
             if code == _CLOSED_GAP:
                 raise FullSystemNeeded("a gap closes", force[:done], velocity[:done])
