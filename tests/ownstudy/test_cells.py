@@ -44,6 +44,16 @@ def test_comments_blank_lines_and_the_separator_line_of_excel_are_passed_over(tm
     assert [line for line, _ in read.rows] == [5, 6]
 
 
+@pytest.mark.parametrize("title", ["Results; 5 May, 2026", "Results", "Results, second run;;"])
+def test_title_above_the_names_is_passed_over_and_said(tmp_path, title):
+    (tmp_path / "t.csv").write_text(f"{title}\n\n" + text(TABLE, "\t"))
+    read = read_cells(tmp_path / "t.csv")
+    assert read.header == TABLE[0] and [line for line, _ in read.rows] == [4, 5]
+    assert read.notes[-1] == f"line 1 taken for a title: {title!r}"
+    (tmp_path / "t.csv").write_text("T (°C)\n-10\n15\n")
+    assert read_cells(tmp_path / "t.csv").header == ["T (°C)"]
+
+
 def test_quoted_decimal_commas_between_commas(tmp_path):
     (tmp_path / "t.csv").write_text('T (°C),E (GPa)\n-10,"27,5"\n')
     assert read_cells(tmp_path / "t.csv").rows == [(2, ["-10", "27,5"])]

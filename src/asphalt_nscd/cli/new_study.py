@@ -6,6 +6,7 @@ from typing import Any
 import click
 
 from asphalt_nscd.cli import _options
+from asphalt_nscd.ownstudy.quantities import MEASURED, SIEVES, spellings
 
 
 class Choice(click.ParamType):
@@ -20,7 +21,17 @@ class Choice(click.ParamType):
         return quantity.strip(), column.strip()
 
 
-@click.command()
+@click.command(
+    epilog=f"""Names of columns, whatever their case, blanks and dashes, with the unit behind, as in `|E*| [GPa]` or delta_rad:
+
+\b
+{spellings(MEASURED)}
+
+Of a sieve table:
+
+\b
+{spellings(SIEVES)}"""
+)
 @click.argument("name")
 @click.option(
     "--measurements", required=True, type=_options.File, help="CSV, TSV or XLSX, a row for each test."

@@ -57,6 +57,9 @@ def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
         raise InputError(
             f"{path}: more than {MOST_ROWS} rows or {MOST_COLUMNS} columns; give the table of results alone."
         )
+    while len(rows) > 2 and len(rows[0][1]) == 1 < len(rows[1][1]):
+        notes.append(f"line {rows[0][0]} taken for a title: {rows[0][1][0]!r}")
+        rows.pop(0)
     # A column without a name is called by its number.
     header = [name or f"column {place}" for place, name in enumerate(rows[0][1], start=1)]
     return Cells(path, header, _fitted(path, header, rows[1:]), notes)
@@ -89,10 +92,14 @@ def _text(path: Path) -> tuple[list[Row], list[str]]:
     lines = io.StringIO(text, newline="").readlines()
     # Comments and Excel's `sep=;` become blank lines, so that line numbers stay those of the file.
     lines = ["\n" if re.match(r"\s*#|sep=.\s*$", line, re.IGNORECASE) else line for line in lines]
-    header = next((line for line in lines if line.strip()), "")
-    unquoted = re.sub(r'"[^"]*"', "", header)
+    unquoted = [re.sub(r'"[^"]*"', "", line) for line in lines if line.strip()]
+    # Above the names there may be a title, in which anything stands.
     separator, name = next(
-        ((mark, name) for mark, name in (("\t", "tabs"), (";", "semicolons")) if mark in unquoted),
+        (
+            (mark, name)
+            for mark, name in (("\t", "tabs"), (";", "semicolons"))
+            if unquoted and (mark in unquoted[0] or all(mark in line for line in unquoted[1:]))
+        ),
         (",", "commas"),
     )
     reader = csv.reader(lines, delimiter=separator, strict=True)

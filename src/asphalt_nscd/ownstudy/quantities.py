@@ -25,13 +25,17 @@ _PERCENT = {"%": (1.0, 0.0), "percent": (1.0, 0.0)}
 
 # Column of our tables: names that people give it, and units. Names of one letter differ by case.
 MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
-    "specimen": ("specimen sample specimenid sampleid specimenno sampleno eprouvette éprouvette prüfkörper", {}),
+    "specimen": ("specimen sample specimenid sampleid specimenno sampleno eprouvette éprouvette prüfkörper probekörper probe", {}),
     "replicate": ("replicate rep repeat", {}),
     "origin": ("origin", {}),
-    "temperature_C": ("T temp temperature testtemperature testtemp température temperatur θ", _CELSIUS),
-    "frequency_Hz": ("f freq frequency loadingfrequency testfrequency fréquence frequenz omega ω", _HERTZ),
-    "E_MPa": ("E Estar modulus dynamicmodulus complexmodulus stiffness stiffnessmodulus norm module", _MEGAPASCAL),
-    "phase_deg": ("phi φ ϕ delta δ phase phaseangle phaselag", _DEGREE),
+    "temperature_C": ("T temp temperature testtemperature testtemp température temperatur prüftemperatur θ", _CELSIUS),
+    "frequency_Hz": ("f freq frequency loadingfrequency testfrequency fréquence frequenz prüffrequenz omega ω", _HERTZ),
+    "E_MPa": (
+        "E Estar modulus dynamicmodulus complexmodulus stiffness stiffnessmodulus norm module modulecomplexe "
+        "steifigkeit steifigkeitsmodul",
+        _MEGAPASCAL,
+    ),
+    "phase_deg": ("phi φ ϕ delta δ phase phaseangle phaselag angledephase déphasage phasenwinkel", _DEGREE),
     "F0_N": ("F F0 force forceamplitude", _NEWTON),
     "z0_m": ("z z0 displacement displacementamplitude deflection amplitude", _METRE),
     "psi_deg": ("psi ψ", _DEGREE),
@@ -76,6 +80,14 @@ def recognise(header: str, known: dict = MEASURED) -> Column | None:
         allowed = ", ".join(known[quantity][1])
         raise InputError(f"column {header!r}: {unit!r} is no unit of it; give one of {allowed}.")
     return None
+
+
+def spellings(known: dict = MEASURED) -> str:
+    """A line for each column: its name, those that people give it, and the units understood."""
+    return "\n".join(
+        f"{quantity}: {', '.join(names.split())}" + (f" [{', '.join(units)}]" if units else "")
+        for quantity, (names, units) in known.items()
+    )
 
 
 def is_unit(cell: str) -> bool:
