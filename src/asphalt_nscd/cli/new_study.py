@@ -22,7 +22,8 @@ class Choice(click.ParamType):
 
 
 @click.command(
-    epilog=f"""Names of columns, whatever their case, blanks and dashes, with the unit behind, as in `|E*| [GPa]` or delta_rad:
+    epilog=f"""Names of columns, whatever their case, blanks and dashes, with the unit behind, as
+in `|E*| [GPa]` or delta_rad:
 
 \b
 {spellings(MEASURED)}

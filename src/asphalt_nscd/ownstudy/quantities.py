@@ -25,7 +25,10 @@ _PERCENT = {"%": (1.0, 0.0), "percent": (1.0, 0.0)}
 
 # Column of our tables: names that people give it, and units. Names of one letter differ by case.
 MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
-    "specimen": ("specimen sample specimenid sampleid specimenno sampleno eprouvette éprouvette prüfkörper probekörper probe", {}),
+    "specimen": (
+        "specimen sample specimenid sampleid specimenno sampleno eprouvette éprouvette prüfkörper probekörper probe",
+        {},
+    ),
     "replicate": ("replicate rep repeat", {}),
     "origin": ("origin", {}),
     "temperature_C": ("T temp temperature testtemperature testtemp température temperatur prüftemperatur θ", _CELSIUS),
