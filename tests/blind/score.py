@@ -19,6 +19,7 @@ Diagnosis = Mapping[str, Any]
 
 TRUE_OF_ALL = "relaxation_spectrum"
 NOTHING, UNEXPLAINED, ELSEWHERE = "nothing", "unexplained_structure", "right cause, wrong place"
+REFUSED = "refused"  # by the reader, before any diagnosis
 GAUSSIAN_95 = 1.959964  # standard errors
 
 
@@ -43,7 +44,7 @@ def outcomes(cases: Iterable[tuple[Seal, Diagnosis]]) -> pd.DataFrame:
 
     suite: empty, single, pair or outside; ratio: amplitude over detection limit (`ratio` of the effect in
     the seal, else from the diagnosis's own limits); outcome: the true cause if named, else the first
-    wrong name, else UNEXPLAINED or NOTHING; named: rightly, in the right place or in a group that cannot be
+    wrong name, else UNEXPLAINED, REFUSED or NOTHING; named: rightly, in the right place or in a group that cannot be
     told apart; wrong: names that are true of no hidden effect; covered, gained: NaN unless named by itself.
     """
     rows = []
@@ -83,7 +84,9 @@ def _row(effect: Mapping[str, Any] | None, wrong: list, diagnosis: Diagnosis) ->
         misplaced = effect is not None and wrong[0]["cause"] == effect["cause"]
         row |= {"outcome": ELSEWHERE if misplaced else wrong[0]["cause"]}
     else:
-        row |= {"outcome": UNEXPLAINED if diagnosis["verdict"] == UNEXPLAINED else NOTHING}
+        row |= {
+            "outcome": diagnosis["verdict"] if diagnosis["verdict"] in (UNEXPLAINED, REFUSED) else NOTHING
+        }
     row["found"] = row["outcome"] != NOTHING
     if effect is not None:
         row |= {"where": effect["where"], "amplitude": effect["amplitude"], "strength": effect["strength"]}

@@ -18,8 +18,9 @@ from asphalt_nscd.diagnosis import reading, report
 from asphalt_nscd.diagnosis.causes import CATALOGUE as NAMEABLE
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.errors import InputError
 
-from . import generator
+from . import generator, score
 from .causes import CATALOGUE
 from .generator import Hidden
 from .plan import AT_LIMIT, Case, design_of
@@ -28,9 +29,11 @@ KEPT = (
     "verdict", "ladder", "withdrawn", "indistinguishable", "detection_limits", "lack_of_fit_p_value",
     "largest_pattern_left", "scatter", "notes",
 )  # fmt: skip
+# Some records of a wrong frequency are refused before any diagnosis.
+REFUSED = {"verdict": score.REFUSED, "ladder": [], "detection_limits": {}, "indistinguishable": []}
 # What is physical: an isotherm is not further off, and no more mass is missing than there is.
 LARGEST = {"temperature_bias": 8.0, "specimen_geometry": 0.7}
-LIGHTEST = -0.3  # kg
+LARGEST_NEGATIVE = {"moving_mass": 0.3, "specimen_geometry": 0.7}
 
 Limits = Mapping[str, Mapping[str, Any]]
 
@@ -53,6 +56,10 @@ def run(cases: list[Case]) -> Iterator[dict[str, Any]]:
             found = open_case(
                 drawn.table, drawn.geometry, drawn.records, removed=case.removed, static_modulus=static
             )
+        except InputError as error:
+            if case.suite != "outside":
+                raise
+            found = REFUSED | {"notes": [str(error)]}
         except Exception as error:
             raise RuntimeError(f"the diagnosis failed on {case}") from error
         if case.suite == "limits":
@@ -94,8 +101,8 @@ def at_limit(
         value = limit["places"][name]
         where = name if effect.confined == "specimen" else float(name)
     amplitude = ratio * value / equivalents[unit]
-    too_light = cause == "moving_mass" and -amplitude < LIGHTEST
-    return Hidden(cause, amplitude=amplitude, where=where, sign=1 if too_light else None)
+    one_sign = amplitude > LARGEST_NEGATIVE.get(cause, np.inf)
+    return Hidden(cause, amplitude=amplitude, where=where, sign=1 if one_sign else None)
 
 
 def open_case(

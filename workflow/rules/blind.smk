@@ -6,7 +6,7 @@ sys.path.insert(0, str(Path(workflow.basedir, "tests")))
 from blind import plan
 
 BLIND = f"env PYTHONPATH={Path(workflow.basedir, 'tests')}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m blind"
-GENERATOR = ["causes", "design", "generator", "laws", "outside", "plan", "records", "rig", "sealed", "strength"]
+GENERATOR = ["causes", "design", "generator", "laws", "outside", "plan", "records", "rig", "score", "sealed", "strength"]
 CHUNKS = expand("<results>/chunks/{number}.jsonl", number=range(len(plan.chunks())))
 INSIDE = expand("<results>/inside/{mix}/{effect}.jsonl", mix=plan.MIXES, effect=["nothing", *plan.INSIDE])
 RATES = "cases efficiency isolation false_alarms coverage gains outside removal inside_runs summary".split()

@@ -45,6 +45,9 @@ class FlexibleSpectrum:
     roughness: float
     static_modulus: float | None = None
 
+    # Slower than the tests, a bump acts as a larger static modulus; where that is known, the end is straight.
+    SLOWEST = 5  # elements
+    STRAIGHT = 0.02  # standard deviation of their second differences
     DEPARTURE = 0.1  # standard deviation of ln(a_T) off WLF one span away from the reference
 
     @property
@@ -78,6 +81,8 @@ class FlexibleSpectrum:
         m = self.times.size
         rows = np.zeros((m + 2, self.parameters))
         rows[: m - 2, :m] = np.diff(np.eye(m), 2, axis=0) / self.roughness
+        if self.static_modulus:
+            rows[m - 2 - self.SLOWEST : m - 2, :m] *= max(self.roughness / self.STRAIGHT, 1.0)
         offset = np.zeros(m + 2)
         # Broad: the static modulus anywhere from 1e-5 to 0.1 of the glassy one; WLF constants of bitumens.
         level = float(np.log(np.exp(x[:m]).sum()))

@@ -85,7 +85,9 @@ def candidate_directions(joint: Joint, fitted: Fitted, candidates: list[Candidat
     """(n, k) derivatives of ln E* with respect to the amplitudes, in typical units."""
     active = fitted.active
     return (
-        np.column_stack([joint.direction(fitted.law, (*active, c), len(active), 0) for c in candidates])
+        np.column_stack(
+            [joint.direction(fitted.law, fitted.scales, (*active, c), len(active), 0) for c in candidates]
+        )
         if candidates
         else np.zeros((joint.observed.size, 0), complex)
     )

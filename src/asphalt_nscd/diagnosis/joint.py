@@ -94,8 +94,10 @@ class Joint:
         self.observed, self.base, self.noise = observed, base, noise
         self.membership = np.eye(len(observed.names))[observed.specimen]
 
-    def apparent(self, law: Vector, active: tuple[Candidate, ...]) -> tuple[Complex, Complex]:
-        """Apparent E* (n,) and its derivative (n, p) with respect to the parameters of the law."""
+    def apparent(
+        self, law: Vector, active: tuple[Candidate, ...], scales: Vector | None = None
+    ) -> tuple[Complex, Complex]:
+        """Apparent E* (n,), and its derivatives (n, p + S) with respect to the law and the scales (none: 0)."""
         observed = self.observed
         temperature = observed.temperature
         for candidate in active:
@@ -103,6 +105,10 @@ class Joint:
             rise = candidate.cause.temperature_rise(np.array(candidate.values), observed)
             temperature = temperature + np.where(rows, rise, 0.0)
         modulus, slope = self.base.modulus(law, observed.omega, temperature)
+        # The scale belongs to the specimen: what the head adds, a mass say, is not scaled with it.
+        factor = 1.0 if scales is None else np.exp(scales)[observed.specimen]
+        slope = np.column_stack([slope, self.membership * modulus[:, None]])
+        modulus, slope = factor * modulus, np.reshape(factor, (-1, 1)) * slope
         for candidate in sorted(active, key=lambda c: c.cause.stage):
             rows = candidate.cause.rows(observed, candidate.place)
             values = np.array(candidate.values)
@@ -113,7 +119,9 @@ class Joint:
             slope = np.where(rows, gain, 1.0)[:, None] * slope
         return modulus, slope
 
-    def direction(self, law: Vector, active: tuple[Candidate, ...], index: int, parameter: int) -> Complex:
+    def direction(
+        self, law: Vector, scales: Vector, active: tuple[Candidate, ...], index: int, parameter: int
+    ) -> Complex:
         """Derivative (n,) of ln E* with respect to one parameter of active[index], in typical units."""
         typical = active[index].typical
         low_high = []
@@ -121,20 +129,19 @@ class Joint:
             values = np.array(active[index].values)
             values[parameter] += sign * 1e-3 * typical[parameter]
             moved = active[:index] + (active[index].with_values(values),) + active[index + 1 :]
-            low_high.append(self.apparent(law, moved)[0])
+            low_high.append(self.apparent(law, moved, scales)[0])
         return np.log(low_high[1] / low_high[0]) / 2e-3
 
     def linearise(self, law: Vector, scales: Vector, active: tuple[Candidate, ...]) -> Fitted:
         """Objective and derivatives where the parameters stand."""
-        modulus, slope = self.apparent(law, active)
-        modelled = np.log(np.abs(modulus)) + 1j * np.angle(modulus) + scales[self.observed.specimen]
+        modulus, slope = self.apparent(law, active, scales)
+        modelled = np.log(np.abs(modulus)) + 1j * np.angle(modulus)
         causes = [
-            self.direction(law, active, k, j)
+            self.direction(law, scales, active, k, j)
             for k, candidate in enumerate(active)
             for j in range(len(candidate.values))
         ]
-        columns = [slope / modulus[:, None], self.membership.astype(complex)]
-        jacobian = self.noise.whiten(np.column_stack([*columns, *causes]))
+        jacobian = self.noise.whiten(np.column_stack([slope / modulus[:, None], *causes]))
         residual = self.noise.whiten(self.observed.logarithm - modelled)
         prior, prior_slope = self.base.prior(law)
         p, s, total = law.size, scales.size, jacobian.shape[1]
@@ -152,8 +159,8 @@ class Joint:
 
     def predict(self, fitted: Fitted) -> Complex:
         """ln E* (n,) of these observations from a fit to others of the same specimens."""
-        modulus = self.apparent(fitted.law, fitted.active)[0]
-        return np.log(np.abs(modulus)) + 1j * np.angle(modulus) + fitted.scales[self.observed.specimen]
+        modulus = self.apparent(fitted.law, fitted.active, fitted.scales)[0]
+        return np.log(np.abs(modulus)) + 1j * np.angle(modulus)
 
     def without(self, rows: NDArray[np.int64], fitted: Fitted) -> Fitted:
         """The fit repeated without some rows; a cause that reaches no other row is absent from it."""

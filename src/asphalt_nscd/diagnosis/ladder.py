@@ -1,4 +1,4 @@
-"""The ladder: at each rung the cause that predicts best what it has not seen, if it beats chance."""
+"""The ladder: at each rung the cause that gains most when fitted jointly with the law, if it beats chance."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import numpy as np
 from scipy.stats import f as fisher
 from scipy.stats import norm
 
-from asphalt_nscd.diagnosis import chance
+from asphalt_nscd.diagnosis import chance, limits
+from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
-from asphalt_nscd.diagnosis.heldout import log_density
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.start import fit_spectrum, marginal_likelihood
 
 CHANCE = 0.005  # of naming anything at one rung of an empty table, over the whole catalogue
 RUNGS = 4
 SHORTLIST = 0.4  # candidates whose score gain is above this share of the best are refitted
 MOST_REFITS = 8
-BY_SCORE = False
 AS_GOOD = 6.0  # gains of the objective closer than this are a likelihood ratio of 20: not told apart
 AS_MUCH = 0.97  # of the gain of the best nameless pattern, which may be the cause's own
 EXCESS = 4.0  # standard deviations of the misfit above which it is structure
@@ -80,14 +80,22 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
         by_chance = chance.largest_by_chance(found, one_sided, joint.noise.freedom, draws, random)
         ladder.remaining = _remaining(joint, fitted, draws, random)
         if not ladder.rungs:
-            ladder.limits, ladder.unseen = _limits(candidates, found, by_chance)
-            ladder.alike = _alike(candidates, found)
+            threshold = float(np.quantile(by_chance, 1.0 - CHANCE)) + chance.POWER
+            ladder.limits, ladder.unseen = limits.detection_limits(
+                joint, fitted, candidates, found, threshold
+            )
+            ladder.alike = limits.alike(candidates, found, AS_GOOD)
         if not gains.size or len(ladder.rungs) == RUNGS:
             break
-        p_value = _tail(by_chance, float(np.sqrt(gains.max())))
+        begun = None if ladder.rungs else _begun_with(joint, fitted, candidates, gains.max())
+        p_value = _tail(by_chance, float(np.sqrt(begun[0] if begun else gains.max())))
         if p_value > CHANCE:
             break
-        rung = _best(joint, fitted, candidates, gains, p_value, np.quantile(by_chance, 1.0 - CHANCE) ** 2)
+        if begun:
+            joint, rung = begun[1], replace(begun[2], p_value=p_value)
+            ladder.joint, ladder.start = joint, rung.before
+        else:
+            rung = _best(joint, fitted, candidates, gains, p_value, np.quantile(by_chance, 1.0 - CHANCE) ** 2)
         if not _stands_out(rung, ladder.remaining):
             break
         ladder.rungs.append(rung)
@@ -122,7 +130,7 @@ def _tail(by_chance: np.ndarray, z: float) -> float:
 
 
 def _best(joint, fitted, candidates, gains, p_value, least) -> Rung:
-    """The candidate of best held-out score among those that come near the best gain."""
+    """The candidate of largest gain when refitted jointly, among those that come near it by their score."""
     order = np.argsort(-gains)
     shortlist: dict[tuple, Candidate] = {}
     for k in order:
@@ -131,12 +139,31 @@ def _best(joint, fitted, candidates, gains, p_value, least) -> Rung:
     refits = [joint.fit(fitted.law, fitted.scales, (*fitted.active, c)) for c in shortlist.values()]
     gained = np.array([fitted.objective - refit.objective for refit in refits])
     gained -= [2.0 * (len(c.values) - 1) for c in shortlist.values()]
-    score = np.array([log_density(joint, refit) for refit in refits])
-    best = int(np.argmax(score if BY_SCORE else gained))
+    best = int(np.argmax(gained))
     rivals = tuple(
         refits[k].active[-1] for k in range(len(refits)) if k != best and gained[best] - gained[k] < AS_GOOD
     )
     return Rung(refits[best].active[-1], p_value, fitted, refits[best], rivals)
+
+
+def _begun_with(
+    joint: Joint, fitted: Fitted, candidates: list[Candidate], least: float
+) -> tuple[float, Joint, Rung] | None:
+    """The best of the causes that a law follows far, fitted from the start, if it gains more than `least`."""
+    best = None
+    for candidate in candidates:
+        if candidate.cause.like_a_law and isinstance(joint.base, FlexibleSpectrum):
+            present = candidate.with_values(np.array([candidate.typical[0], *candidate.values[1:]]))
+            smooth, after = fit_spectrum(joint.observed, joint.noise, (present,))
+            gain = 2.0 * (marginal_likelihood(smooth, after) - marginal_likelihood(joint, fitted))
+            if gain > least:
+                least = gain
+                best = (
+                    gain,
+                    smooth,
+                    Rung(after.active[0], 1.0, smooth.fit(after.law, after.scales), after, ()),
+                )
+    return best
 
 
 def _remaining(joint: Joint, fitted: Fitted, draws: int, random: np.random.Generator) -> Remaining:
@@ -174,39 +201,6 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
             Remaining(min(p_value, 1.0), f"each specimen at each frequency, {name}", max(square - rank, 0.0))
         )
     return out
-
-
-def _limits(candidates, found, by_chance) -> tuple[dict, list[Candidate]]:
-    """Amplitude found with 95 % probability, for each cause and place; and those never seen.
-
-    Of a cause that comes in several shapes, the median over those that can be seen.
-    """
-    threshold = float(np.quantile(by_chance, 1.0 - CHANCE)) + chance.POWER
-    sizes: dict[tuple, list[float]] = {}
-    unseen = {}
-    for candidate, information, seen in zip(candidates, found.information, found.seen, strict=True):
-        if not seen:
-            unseen.setdefault(candidate.key, candidate)
-            continue
-        size = threshold / np.sqrt(information) * candidate.typical[0]
-        sizes.setdefault(candidate.key, []).append(size)
-    limits = {key: float(np.median(values)) for key, values in sizes.items()}
-    return limits, [candidate for key, candidate in unseen.items() if key not in limits]
-
-
-def _alike(candidates, found) -> list[tuple[Candidate, Candidate]]:
-    """Pairs that even three times the detection limit does not tell apart in this design."""
-    strongest = 3.0 * (3.7 + chance.POWER)
-    correlation = found.roots.T @ found.roots
-    out = {}
-    for i, one in enumerate(candidates):
-        for k in range(i):
-            other = candidates[k]
-            if one.cause.name == other.cause.name or not (found.seen[i] and found.seen[k]):
-                continue
-            if strongest**2 * (1.0 - correlation[i, k] ** 2) < AS_GOOD:
-                out.setdefault((other.key, one.key), (other, one))
-    return list(out.values())
 
 
 def _drop_needless(ladder: Ladder, draws: int, random: np.random.Generator) -> None:

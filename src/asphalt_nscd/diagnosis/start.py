@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from asphalt_nscd.diagnosis.bases import BurgersAtEach, FlexibleSpectrum
-from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
+from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
@@ -21,14 +21,16 @@ UNSEEN = np.exp(-14.0)  # relative compliance that no measured phase tells from 
 WLF_STARTS = ((12.0, 60.0), (12.0, 100.0), (20.0, 200.0), (30.0, 280.0))  # C1, C2 [K] at mid temperature
 
 
-def fit_spectrum(observed: Observations, noise: Noise) -> tuple[Joint, Fitted]:
-    """The flexible spectrum with the roughness of largest marginal likelihood (Laplace)."""
+def fit_spectrum(
+    observed: Observations, noise: Noise, active: tuple[Candidate, ...] = ()
+) -> tuple[Joint, Fitted]:
+    """The flexible spectrum, with any causes active, of the roughness of largest marginal likelihood (Laplace)."""
     best: tuple[float, Joint, Fitted] | None = None
     for c1, c2 in WLF_STARTS:
         base = _spectrum(observed, c1, c2)
         joint = Joint(observed, base, noise)
         law = _first_law(observed, base, c1, c2)
-        fitted = joint.fit(law, np.zeros(len(observed.names)))
+        fitted = joint.fit(law, np.zeros(len(observed.names)), active)
         if best is None or fitted.objective < best[0] - 1e-3:
             best = fitted.objective, joint, fitted
     assert best is not None
@@ -36,7 +38,7 @@ def fit_spectrum(observed: Observations, noise: Noise) -> tuple[Joint, Fitted]:
     scored = []
     for roughness in ROUGHNESS:
         smooth = Joint(observed, replace(joint.base, roughness=roughness), noise)
-        fitted = smooth.fit(fitted.law, fitted.scales)
+        fitted = smooth.fit(fitted.law, fitted.scales, fitted.active)
         scored.append((marginal_likelihood(smooth, fitted), smooth, fitted))
     return max(scored, key=lambda item: item[0])[1:]
 

@@ -35,6 +35,7 @@ class Cause(ABC):
     """One physical cause. The first parameter is its amplitude: at zero the cause is absent.
 
     confirmed_by: the measurement that would confirm it. needs: what the table must have for it to show.
+    like_a_law: a rougher law follows it far, so that it is also looked for by fits that begin with it.
     """
 
     name: ClassVar[str]
@@ -43,6 +44,7 @@ class Cause(ABC):
     sentence: ClassVar[str]  # what is wrong, for a reader of the report
     confirmed_by: ClassVar[str]
     needs: ClassVar[str] = ""
+    like_a_law: ClassVar[bool] = False
 
     def places(self, observed: Observations) -> Sequence[Place]:
         """Where the cause may sit; empty if the table cannot show it."""

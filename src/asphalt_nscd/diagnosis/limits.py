@@ -1,0 +1,75 @@
+"""What a table could have shown: the detection limit of each cause, and causes that look alike in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from asphalt_nscd.diagnosis import chance
+from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
+from asphalt_nscd.diagnosis.chance import Scores
+from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.start import fit_spectrum
+
+CLOSE = 0.05  # share of a direction left by the law, below which the law is refitted to see what it follows
+AT_LEAST = 0.5  # share of the strength that must survive the refit
+MOST = 0.9  # of the shapes of a cause
+STRONGEST = 3.0 * (3.7 + chance.POWER)  # three times a usual limit
+
+
+def detection_limits(
+    joint: Joint, fitted: Fitted, candidates: Sequence[Candidate], found: Scores, threshold: float
+) -> tuple[dict[tuple, float], list[Candidate]]:
+    """Amplitude found with 95 % probability, for each cause and place; and those never seen.
+
+    Of a cause that comes in several shapes, what is enough for most of those that can be seen.
+    """
+    sizes: dict[tuple, list[float]] = {}
+    unseen = {}
+    directions = joint.noise.whiten(chance.candidate_directions(joint, fitted, list(candidates)))
+    share = found.information / np.maximum((directions**2).sum(axis=0), 1e-300)
+    for k, candidate in enumerate(candidates):
+        if found.seen[k]:
+            size = threshold / np.sqrt(found.information[k]) * candidate.typical[0]
+            size *= _by_refit(joint, fitted, candidate, size, threshold) if share[k] < CLOSE else 1.0
+            if np.isfinite(size):
+                sizes.setdefault(candidate.key, []).append(size)
+                continue
+        unseen.setdefault(candidate.key, candidate)
+    limits = {key: float(np.quantile(values, MOST)) for key, values in sizes.items()}
+    return limits, [candidate for key, candidate in unseen.items() if key not in limits]
+
+
+def _by_refit(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, threshold: float) -> float:
+    """By how much the limit grows when the law may follow the effect as far as it can; infinite if it does.
+
+    The fitted model with the effect at its limit stands for the table, without scatter; what the law without
+    the effect leaves of it is the strength that is seen.
+    """
+    if isinstance(candidate.place, str) or not isinstance(joint.base, FlexibleSpectrum):
+        return 1.0
+    present = (*fitted.active, candidate.with_values(np.array([size, *candidate.values[1:]])))
+    modulus = joint.apparent(fitted.law, present, fitted.scales)[0]
+    shown = Joint(replace(joint.observed, modulus=modulus), joint.base, joint.noise)
+    truth = shown.linearise(fitted.law, fitted.scales, present).objective
+    left = fit_spectrum(shown.observed, joint.noise)[1].objective - truth
+    strength = float(np.sqrt(max(left, 0.0)))
+    return max(threshold / strength, 1.0) if strength > AT_LEAST * threshold else np.inf
+
+
+def alike(
+    candidates: Sequence[Candidate], found: Scores, as_good: float
+) -> list[tuple[Candidate, Candidate]]:
+    """Pairs that even three times the detection limit does not tell apart; as_good: gain they may differ by."""
+    correlation = found.roots.T @ found.roots
+    out = {}
+    for i, one in enumerate(candidates):
+        for k in range(i):
+            other = candidates[k]
+            if one.cause.name == other.cause.name or not (found.seen[i] and found.seen[k]):
+                continue
+            if STRONGEST**2 * (1.0 - correlation[i, k] ** 2) < as_good:
+                out.setdefault((other.key, one.key), (other, one))
+    return list(out.values())
