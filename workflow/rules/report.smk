@@ -25,6 +25,8 @@ for name, (category, data) in FIGURES.items():
             f"<results>/logs/{name}.log",
         benchmark:
             f"<results>/benchmarks/{name}.tsv"
+        group:
+            "figures"
         message:
             f"Draw {name}"
         shell:
@@ -47,6 +49,8 @@ for name, data in TABLES.items():
             f"<results>/logs/{name}.log",
         benchmark:
             f"<results>/benchmarks/{name}.tsv"
+        group:
+            "tables"
         message:
             f"Make {name}"
         shell:
@@ -74,6 +78,8 @@ for name, category in PAGES.items():
             f"<results>/logs/page/{name}.log",
         benchmark:
             f"<results>/benchmarks/page/{name}.tsv"
+        group:
+            "pages"
         message:
             f"Show {name} as a page"
         shell:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-SECONDS_PER_SPHERE = 983 / (4 * 14160)  # CPU time of pouring
-SECONDS_PER_STEP = 373 / (122 * 14300)  # CPU time of a test on 14160 spheres, in proportion to them
-SECONDS_PER_TEST = 1.5  # start of a job
+# CPU times. Those of a test are in reduced coordinates, whose number does not go with that of the spheres.
+SECONDS_PER_SPHERE = 974 / (4 * 14160)  # pouring
+SECONDS_PER_STEP = 4e-6  # between 3500 and 76000 steps
+SECONDS_PER_TEST = 1.7  # start of a job
+SECONDS_APART = 240  # compilation, figures, report
 CYCLES, REST_STEPS = 5, 1000
-SPHERES = 14160
 CHANGED_LAWS = 8  # four parameters, each lowered and raised
 CORES = 2
 
@@ -23,8 +24,8 @@ def duration(
     """
     isotherms = 2 * temperatures + CHANGED_LAWS
     steps = sum(CYCLES / (frequency * time_step) + REST_STEPS for frequency in frequencies)
-    testing = steps * SECONDS_PER_STEP * spheres / SPHERES + SECONDS_PER_TEST * len(frequencies)
-    seconds = samples * (spheres * SECONDS_PER_SPHERE + isotherms * testing) / CORES + 120
+    testing = steps * SECONDS_PER_STEP + SECONDS_PER_TEST * len(frequencies)
+    seconds = (samples * (spheres * SECONDS_PER_SPHERE + isotherms * testing) + SECONDS_APART) / CORES
     if seconds < 5400:
         return f"about {max(1, round(seconds / 60))} minutes"
     return f"about {seconds / 3600:.1f} hours"
