@@ -65,7 +65,9 @@ def slurm() -> Iterator[Path]:
 
     def start(*command: str) -> None:
         with (folder / f"{command[0]}.out").open("wb") as out:
-            daemons.append(subprocess.Popen(command, stdout=out, stderr=out, env=os.environ | {"PATH": _path()}))
+            daemons.append(
+                subprocess.Popen(command, stdout=out, stderr=out, env=os.environ | {"PATH": _path()})
+            )
 
     key = folder / "munge.key"
     key.write_bytes(os.urandom(1024))
