@@ -1,0 +1,164 @@
+"""A beam bent with growing amplitude until a hundred bonds broke: reduced and full, break by break.
+
+The reduced model is enriched at each break, or hands over to the full system where it must; the energy
+account is kept all the way, and two of its terms are summed apart from it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cache
+
+import numpy as np
+
+from asphalt_nscd.nscd.bonds import BondedSystem
+from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.energy import Energies
+from asphalt_nscd.nscd.marching import March
+from asphalt_nscd.nscd.reduced import ritz_basis, shifted_factor
+from asphalt_nscd.nscd.reduced_stepping import FullSystemNeeded, ReducedStepper
+from asphalt_nscd.nscd.scheme import History, Scheme
+from asphalt_nscd.nscd.standby import StandBy
+from asphalt_nscd.verification.methods import beam
+from asphalt_nscd.verification.row import Checks, Row
+from asphalt_nscd.verification.specimens import QUICK_LAW
+
+checks = Checks()
+
+BREAKS = 100
+DT, PERIOD = 5e-5, 20  # s; steps in a cycle
+GROWTH = 1e-5  # m of amplitude in a cycle
+LIMIT = 200  # steps: without fracture by then, something is wrong
+NO_LIMIT = 10 * BREAKS  # enrichments, so that the full system is never needed
+ALIKE, FORCE, CLOSES = 0.0, 1e-6, 1e-9  # asked for: the same bonds, 1e-4 and 1e-6
+
+
+@dataclass
+class Run:
+    """Of one method: what it was asked and what it found."""
+
+    force: list[float] = field(default_factory=list)  # N
+    broken: list[int] = field(default_factory=list)
+    full_steps: int = 0
+    error: float = 0.0  # J, the largest of the account after any step
+    energies: Energies | None = None
+    fracture: float = 0.0  # J, summed here, bond by bond
+    numerical: float = 0.0  # J, summed here from the changes in each step; of implicit Euler
+
+
+def specimen() -> BondedSystem:
+    """Stocky, so that its sections have bonds enough."""
+    return beam(10, 9, 8)
+
+
+def place(step: int) -> float:
+    """Displacement [m] of the actuator at the end of a step."""
+    return GROWTH * step / PERIOD * np.sin(2 * np.pi * step / PERIOD)
+
+
+def stepper_of(method: str, scheme: Scheme, most_enrichments: int) -> CondensedStepper | ReducedStepper:
+    """At rest."""
+    system, dt = specimen(), DT / scheme.a
+    if method == "full":
+        return CondensedStepper(system, QUICK_LAW, dt, CondensedState.at_rest(system, QUICK_LAW))
+    shifted = shifted_factor(system)
+    basis = ritz_basis(system, 12, shifted)
+    stand_by = StandBy.of(system, basis, shifted)
+    return ReducedStepper(
+        stand_by.model(system, basis, []), QUICK_LAW, dt, 1e-6, most_enrichments, stand_by=stand_by
+    )
+
+
+@cache
+def fractured(method: str, name: str, most_enrichments: int = 30) -> Run:
+    """The run by "full" or "reduced" up to the step in which the hundredth bond breaks."""
+    scheme, run = Scheme.named(name, 2 * np.pi / PERIOD), Run()
+    march = March(stepper_of(method, scheme, most_enrichments), scheme, QUICK_LAW, DT)
+    while len(run.broken) < BREAKS and len(run.force) < LIMIT:
+        before, reached = march.now, len(run.broken)
+        at = place(len(run.force) + 1)
+        try:
+            run.force.append(march.move_to(at))
+        except FullSystemNeeded:
+            state = march.stepper.full_state()
+            march.go_on_with(CondensedStepper(specimen(), QUICK_LAW, DT / scheme.a, state))
+            before = march.now
+            run.force.append(march.move_to(at))
+        run.broken = list(march.stepper.state.broken)
+        run.full_steps += isinstance(march.stepper, CondensedStepper)
+        run.error = max(run.error, abs(march.account.sums.error))
+        if method == "full":
+            sum_apart(run, march, before, run.broken[reached:])
+    run.energies = march.account.sums
+    return run
+
+
+def sum_apart(run: Run, march: March, before: History, new: list[int]) -> None:
+    """What new breaks release at the beginning of the step, and half the squares of all changes in it."""
+    then, now = before.values, march.now.values
+    rows = (3 * np.array(new, int)[:, None] + np.arange(3)).ravel()
+    springs, weight = [(1.0 / QUICK_LAW.spring, "sigma", ...)], specimen().weight
+    springs += [(modulus, "kelvin", e) for e, modulus in enumerate(QUICK_LAW.kelvin_springs)]
+    left = weight.copy()
+    left[3 * np.array(run.broken, int)[:, None] + np.arange(3)] = 0.0
+    for modulus, variable, part in springs:
+        run.fracture += 0.5 * modulus * float(weight[rows] @ then[variable][part][rows] ** 2)
+        change = now[variable][part] - then[variable][part]
+        run.numerical += 0.5 * modulus * float(left @ change**2)
+    run.numerical += 0.5 * float(specimen().mass @ (now["velocity"] - then["velocity"]) ** 2)
+
+
+@checks
+def reduced_against_full() -> list[Row]:
+    rows = []
+    for what, name, most in (
+        ("reduced all the way", "euler", NO_LIMIT),
+        ("reduced, then full", "euler", 30),
+        ("reduced, then full, fitted scheme", "fitted", 30),
+    ):
+        full, reduced = fractured("full", name), fractured("reduced", name, most)
+        alike = 0
+        for one, other in zip(full.broken[:BREAKS], reduced.broken[:BREAKS], strict=False):
+            if one != other:
+                break
+            alike += 1
+        steps = min(len(full.force), len(reduced.force))
+        difference = np.abs(np.subtract(full.force[:steps], reduced.force[:steps])).max()
+        source = "full system, bonds condensed"
+        rows += [
+            Row(f"{what}: first breaks alike and in order", BREAKS, alike, ALIKE, source),
+            Row(
+                f"{what}: reaction over its largest",
+                0.0,
+                difference / np.abs(full.force).max(),
+                FORCE,
+                source,
+            ),
+        ]
+    all_the_way = fractured("reduced", "euler", NO_LIMIT).full_steps
+    rows.append(Row("reduced all the way: steps of the full system", 0, all_the_way, 0.0, "none needed"))
+    return rows
+
+
+@checks
+def energy() -> list[Row]:
+    rows = []
+    for method, name, most in (
+        ("full", "euler", 30), ("reduced", "euler", NO_LIMIT), ("full", "fitted", 30), ("reduced", "fitted", 30),
+    ):  # fmt: skip
+        run = fractured(method, name, most)
+        rows.append(
+            Row(
+                f"energy account of the fracture, {method}, {name}", 0.0, run.error / run.energies.actuator,
+                CLOSES, "dt F z' = stores + dissipation, see nscd.energy",
+            )
+        )  # fmt: skip
+    run = fractured("full", "euler")
+    sums, work = run.energies, run.energies.actuator
+    return [
+        *rows,
+        Row("energy released by fracture over the work", run.fracture / work, sums.fracture / work, 1e-9,
+            "stores of each bond before it broke"),
+        Row("numerical dissipation over the work", run.numerical / work, sums.numerical / work, 1e-9,
+            "half the squares of the changes in each step"),
+    ]  # fmt: skip
