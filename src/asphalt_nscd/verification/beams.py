@@ -97,6 +97,18 @@ def hanging_chain() -> Row:
 
 
 @checks
+def held_chain() -> Row:
+    """Between two supports, each body loaded alike: the head bears its own load and half of the others."""
+    n, load, law = 6, 3.0, elastic(MODULUS)
+    system = chain(n, 2e-3, 1e-9, load)
+    stepper = CondensedStepper(system, law, 1e-2, CondensedState.at_rest(system, law))
+    force = [stepper.advance(0.0) for _ in range(3)][-1]
+    return Row(
+        "chain between two supports, force of the head (N)", -load * (n + 1) / 2, force, 1e-9, "symmetry"
+    )
+
+
+@checks
 def oscillator() -> list[Row]:
     """A mass on an elastic bond, let go: amplitude and phase after four periods; second order and first."""
     errors = {"euler": [], "fitted": []}
@@ -208,6 +220,7 @@ def rig_devices() -> list[Row]:
         ("guide spring", HeadDevices(0.0, 1e5)),
         ("moving mass", HeadDevices(0.0, 0.0, 0.0, 2.0)),
         ("clamp", HeadDevices(2e-6)),
+        ("clamp and guide spring", HeadDevices(2e-6, 1e5)),
     ):
         head = driving_force(system, QUICK_LAW.discrete_modulus(omega, 0.0), omega)
         clamp, spring, _, mass = devices.of_head

@@ -23,7 +23,7 @@ MUTANTS = [
     ("memory of the spring", "law", "nscd/law.py", "memory=1.0 / (dt * self.spring)", "memory=-1.0 / (dt * self.spring)"),
     ("lever arm of a bond", "beams", "nscd/bonds.py", "arm[k1] * frame[b, c, k2] - arm", "arm[k1] * frame[b, c, k2] + arm"),
     ("history of the bonds in the condensed equations", "beams", "nscd/condensed.py", "impulse += scale *", "impulse -= scale *"),
-    ("load in the force of the head", "accounts", "nscd/condensed.py", "inertia - system.load", "inertia + system.load"),
+    ("load in the force of the head", "beams", "nscd/condensed.py", "inertia - system.load", "inertia + system.load"),
     ("guide spring at the head", "beams", "nscd/head.py", "/ dt + spring * x)", "/ dt - spring * x)"),
     ("inertia in the frequency domain", "beams", "nscd/harmonic.py", "-(omega**2)", "+(omega**2)"),
     ("form factor of the trapezoid", "beams", "twopoint.py", "(-np.log1p(-x) - x", "(-np.log1p(-x) + x"),
