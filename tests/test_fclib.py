@@ -6,12 +6,12 @@ import h5py
 import numpy as np
 import pandas as pd
 import pytest
-from assemblies import block_on_slope, box_stack
 from scipy import sparse
 
 from asphalt_nscd import cli
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.fclib import read_problem
+from asphalt_nscd.verification.assemblies import block_on_slope, box_stack
 
 
 def stored(W, storage):

@@ -6,12 +6,12 @@ from itertools import islice
 
 import numpy as np
 import pytest
-from assemblies import box_stack
 from naive.friction import nearest_in_cone
 
 from asphalt_nscd.nscd import contact_interior as interior
 from asphalt_nscd.nscd.contact_newton import linearised, refine
 from asphalt_nscd.nscd.contact_problem import ContactProblem
+from asphalt_nscd.verification.assemblies import box_stack
 
 
 def random_problem(seed, friction=0.5, contacts=8):

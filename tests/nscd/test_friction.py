@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from assemblies import GRAVITY_STEP, arch, block_on_slope, box_stack, spheres_in_a_box
 from naive.friction import naive_contacts, naive_natural_map
 from scipy import sparse
 
 from asphalt_nscd.nscd import solve_contacts
 from asphalt_nscd.nscd.contact_problem import ContactProblem
 from asphalt_nscd.nscd.contact_sweeps import sweep_once
+from asphalt_nscd.verification.assemblies import (
+    GRAVITY_STEP,
+    arch,
+    block_on_slope,
+    box_stack,
+    spheres_in_a_box,
+)
 
 MASSES = np.diag([2.0, 7.0, 7.0])  # 1/kg, a ball of 0.5 kg on a plane
 

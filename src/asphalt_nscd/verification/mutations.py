@@ -31,6 +31,7 @@ MUTANTS = [
     ("opening in a sweep over bonds", "methods", "nscd/sweeping.py", "miss[c] -= data", "miss[c] += data"),
     ("extrapolation of the two-step scheme", "methods", "nscd/scheme.py", "v + share * (v - earlier", "v - share * (v - earlier"),
     ("dissipation of the dashpots", "accounts", "nscd/energy.py", "sums.dashpots += dt * strain", "sums.dashpots -= dt * strain"),
+    ("slip in the natural map", "coupled", "nscd/contact_sweeps.py", "shifted = u0 + friction", "shifted = u0 - friction"),
     ("gravity of a sphere", "spheres", "nscd/granular.py", "+= dt * gravity[k]", "-= dt * gravity[k]"),
     ("moment of a contact on a sphere", "spheres", "nscd/granular.py", "velocity[j, 3] -= wj * tx", "velocity[j, 3] += wj * tx"),
     ("spin in the slip of two spheres", "spheres", "nscd/granular.py", "- (sy * nz - sz * ny)", "+ (sy * nz - sz * ny)"),

@@ -11,7 +11,7 @@ import pandas as pd
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.verification.row import FAILED, Row
 
-THEMES = ("spheres", "contacts", "law", "beams", "methods", "accounts", "fracture", "determinism")
+THEMES = ("spheres", "contacts", "coupled", "law", "beams", "methods", "accounts", "fracture", "determinism")
 MUTATIONS = "mutations"  # a theme too, but one that takes many times as long
 COLUMNS = ["theme", "name", "expected", "found", "error", "tolerance", "verdict", "source"]
 

@@ -1,4 +1,4 @@
-"""Contact problems of rigid bodies for the tests: blocks stacked, an arch, a slope, spheres."""
+"""Contact problems of rigid bodies: blocks stacked, an arch, a slope, spheres in a box."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Assembly:
         shape = (3 * len(contacts), 6 * len(mass))
         self.jacobian = sparse.csr_array((values, (rows, columns)), shape=shape)
         self.inverse_mass = np.concatenate(
-            [np.r_[[1 / m] * 3, 1 / np.asarray(i)] for m, i in zip(mass, inertia)]
+            [np.r_[[1 / m] * 3, 1 / np.asarray(i)] for m, i in zip(mass, inertia, strict=True)]
         )
         self.W = (self.jacobian @ sparse.diags_array(self.inverse_mass) @ self.jacobian.T).tocsr()
         self.q = self.jacobian @ self.velocity.ravel()
@@ -93,10 +93,14 @@ def block_on_slope(slope, spin=0.0):
     return Assembly([mass], [inertia], [np.array([0.0, 0.0, 0.1])], contacts, velocity)
 
 
-def spheres_in_a_box(cells, seed=0):
-    """Spheres of a cubic lattice, jittered, each in contact with the neighbours and walls within reach."""
+def spheres_in_a_box(*cells, seed=0):
+    """Spheres of a cubic lattice, jittered, each in contact with the neighbours and walls within reach.
+
+    cells: of the lattice along each axis, or one number for all three.
+    """
     rng = np.random.default_rng(seed)
-    centre = np.stack(np.meshgrid(*[np.arange(cells)] * 3), axis=-1).reshape(-1, 3) + 0.5
+    shape = cells * 3 if len(cells) == 1 else cells
+    centre = np.stack(np.meshgrid(*map(np.arange, shape), indexing="ij"), axis=-1).reshape(-1, 3) + 0.5
     centre += rng.uniform(-0.12, 0.12, centre.shape)
     radius = 0.5 * np.ones(len(centre))
     contacts = []
@@ -106,10 +110,10 @@ def spheres_in_a_box(cells, seed=0):
     for i, position in enumerate(centre):
         for axis in range(3):
             for side in (1.0, -1.0):
-                depth = position[axis] if side > 0 else cells - position[axis]
+                depth = position[axis] if side > 0 else shape[axis] - position[axis]
                 if depth < 0.54 and not (axis == 2 and side < 0):
                     normal = side * np.eye(3)[axis]
                     contacts.append((i, -1, position - 0.5 * normal, normal))
     mass = 2600.0 * 4 / 3 * np.pi * radius**3
-    inertia = [np.full(3, 0.4 * m * r * r) for m, r in zip(mass, radius)]
+    inertia = [np.full(3, 0.4 * m * r * r) for m, r in zip(mass, radius, strict=True)]
     return Assembly(mass, inertia, centre, contacts, falling(len(mass)))

@@ -1,0 +1,164 @@
+"""Coupled contacts: walls, stacks, arches, spheres in a box, FCLIB's files; and what is no solution."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from asphalt_nscd import fclib
+from asphalt_nscd.nscd import solve_contacts
+from asphalt_nscd.nscd.bonds import opening_operator
+from asphalt_nscd.verification import assemblies
+from asphalt_nscd.verification.contacts import UPRIGHT, G
+from asphalt_nscd.verification.row import Checks, Row
+
+checks = Checks()
+
+TOLERANCE = 1e-8
+APART = "de Saxce's form, computed apart"
+
+
+def wall(rows: int, across: int) -> tuple[np.ndarray, np.ndarray]:
+    """(W, q) of a wall of bricks in running bond on the ground, under its weight in a step of 1 ms.
+
+    Each brick rests on two lower ones by four corners each: highly hyperstatic, W far from full rank.
+    """
+    length, depth, height, mass, dt = 0.2, 0.1, 0.06, 2.0, 1e-3
+    centres = np.array(
+        [[(k + 0.5 * (r % 2)) * length, 0.0, (r + 0.5) * height] for r in range(rows) for k in range(across)]
+    )
+    bodies = len(centres)
+    first, second, point = [], [], []
+    for n, centre in enumerate(centres):
+        for m in [bodies] if n < across else range(bodies):
+            if m < bodies:
+                lower = centres[m]
+                left, right = (
+                    np.maximum(centre[0], lower[0]) - length / 2,
+                    np.minimum(centre[0], lower[0]) + length / 2,
+                )
+                if abs(centre[2] - lower[2] - height) > 1e-9 or right - left < 1e-9:
+                    continue
+            else:
+                left, right = centre[0] - length / 2, centre[0] + length / 2
+            for x in (left, right):
+                for y in (-depth / 2, depth / 2):
+                    first.append(m)
+                    second.append(n)
+                    point.append([x, y, centre[2] - height / 2])
+    contacts = len(first)
+    operator = opening_operator(
+        np.array(first), np.array(second), np.tile(UPRIGHT, (contacts, 1, 1)), np.array(point), centres
+    )
+    inertia = mass / 12 * np.array([depth**2 + height**2, length**2 + height**2, length**2 + depth**2])
+    inverse = np.tile(np.concatenate([np.full(3, 1 / mass), 1 / inertia]), bodies)
+    fall = np.zeros(6 * bodies)
+    fall[2::6] = -G * dt
+    dense = operator.toarray()
+    return (dense * inverse) @ dense.T, dense @ fall
+
+
+def natural_map(w: np.ndarray, q: np.ndarray, mu: float, r: np.ndarray) -> float:
+    """|r - P_K(r - rho (u + mu |u_T| n))| in units of energy over |q|, written from the definition."""
+    u = (w @ r + q).reshape(-1, 3)
+    r, misses, sizes = r.reshape(-1, 3), [], []
+    for ua, ra, block in zip(u, r, range(len(r)), strict=True):
+        rho = 3.0 / np.trace(w[3 * block : 3 * block + 3, 3 * block : 3 * block + 3])
+        x = ra - rho * (ua + [mu * np.hypot(ua[1], ua[2]), 0.0, 0.0])
+        force = np.hypot(x[1], x[2])
+        if force <= mu * x[0]:
+            projected = x
+        elif mu * force <= -x[0]:
+            projected = np.zeros(3)
+        else:
+            height = (x[0] + mu * force) / (1 + mu * mu)
+            projected = np.array([height, *(mu * height / force * x[1:])])
+        misses.append(np.linalg.norm(ra - projected) / np.sqrt(rho))
+        sizes.append(np.linalg.norm(q[3 * block : 3 * block + 3]) * np.sqrt(rho))
+    return float(np.linalg.norm(misses) / np.linalg.norm(sizes))
+
+
+@checks
+def stacks() -> list[Row]:
+    rows = []
+    for name, shape, across in (("a wall of four rows of bricks", 4, 4), ("a tower of ten bricks", 10, 1)):
+        w, q = wall(shape, across)
+        solution = solve_contacts(w, q, 0.6, tolerance=1e-8)
+        rows.append(
+            Row(
+                f"{name}, error of the natural map",
+                0.0,
+                natural_map(w, q, 0.6, solution.reactions),
+                TOLERANCE,
+                APART,
+            )
+        )
+        ground = solution.reactions[::3][: 4 * across].sum() / (shape * across * 2.0 * G * 1e-3)
+        rows.append(Row(f"{name}, force on the ground over its weight", 1.0, ground, 1e-6, "equilibrium"))
+    return rows
+
+
+@checks
+def generated() -> Row:
+    """Twenty coupled contacts of random masses: the worst of ten problems."""
+    worst = 0.0
+    for seed in range(10):
+        rng = np.random.default_rng(seed)
+        jacobian = rng.normal(size=(60, 66))
+        q = rng.normal(size=60)
+        q[::3] -= 0.5
+        w = jacobian @ jacobian.T / 66 + 0.2 * np.eye(60)
+        worst = max(worst, natural_map(w, q, 0.7, solve_contacts(w, q, 0.7, tolerance=1e-10).reactions))
+    return Row(
+        "twenty coupled contacts, error of the natural map",
+        0.0,
+        worst,
+        1e-9,
+        APART,
+    )
+
+
+@checks
+def hyperstatic() -> list[Row]:
+    """More contacts than the bodies need: plain Gauss-Seidel stalls on all of these."""
+    rows = []
+    for name, pile, mu in (
+        ("twenty boxes with nine contacts at each face", assemblies.box_stack(20, kick=1e-2), 0.5),
+        ("twenty slender boxes", assemblies.box_stack(20, 2, size=(0.3, 0.3, 2.0)), 0.3),
+        ("an arch of 41 stones", assemblies.arch(41), 0.4),
+        ("252 spheres in a box", assemblies.spheres_in_a_box(7, 6, 6), 0.3),
+        ("252 spheres in a box, rough", assemblies.spheres_in_a_box(7, 6, 6), 0.5),
+    ):
+        solution = solve_contacts(pile.W, pile.q, mu, tolerance=TOLERANCE)
+        error = natural_map(pile.W.toarray(), pile.q, mu, solution.reactions)
+        rows.append(Row(f"{name}, error of the natural map", 0.0, error, TOLERANCE, APART))
+    return rows
+
+
+@checks
+def unsolved() -> list[Row]:
+    """What is no solution must not be called one."""
+    pile = assemblies.box_stack(8, kick=1e-2)
+    stopped = solve_contacts(pile.W, pile.q, 0.5, TOLERANCE, most_sweeps=3, most_steps=0)
+    immovable = solve_contacts(np.zeros((3, 3)), [-1.0, 0.0, 0.0], 0.5, TOLERANCE)
+    return [
+        Row("stopped after three sweeps, called converged", 0.0, float(stopped.converged), 0.0, APART),
+        Row("a problem without solution, called converged", 0.0, float(immovable.converged), 0.0, "u_n < 0"),
+    ]
+
+
+@checks
+def files() -> list[Row]:
+    """FCLIB problems, which are not part of the repository, where they stand."""
+    folder = Path(os.environ.get("ASPHALT_NSCD_FCLIB", "../shared/data/fclib"))
+    rows = []
+    for file in sorted(folder.glob("*.hdf5")):
+        problem = fclib.read_problem(file)
+        solution = solve_contacts(problem.W, problem.q, problem.mu, TOLERANCE)
+        error = max(solution.error, solution.scaled_error)
+        rows.append(
+            Row(f"FCLIB {file.stem}, error of the natural map", 0.0, error, TOLERANCE, "as Siconos's")
+        )
+    return rows
