@@ -46,4 +46,6 @@ def fill_blocks(document: Path, blocks: Mapping[str, Path]) -> None:
 def _markdown(source: Path) -> str:
     if source.suffix == ".md":
         return source.read_text(encoding="utf-8")
-    return pd.read_csv(source).to_markdown(index=False, floatfmt=".4g") + "\n"
+    table = pd.read_csv(source)
+    shown = table.astype(object).where(table.notna(), None)
+    return shown.to_markdown(index=False, floatfmt=".4g", missingval="") + "\n"

@@ -61,7 +61,8 @@ def isolation(table: pd.DataFrame) -> Figure:
     axes.imshow(share, cmap="Greys", vmin=0.0, vmax=140.0, aspect="auto")
     for (i, j), value in np.ndenumerate(share):
         if value > 0.0:
-            axes.text(j, i, f"{value:.0f}", ha="center", va="center", fontsize=6.0)
+            color = "white" if value > 50.0 else style.INK
+            axes.text(j, i, f"{value:.0f}", ha="center", va="center", fontsize=6.0, color=color)
     axes.set_xticks(
         range(len(columns)), [name.replace("_", " ") for name in columns], rotation=60, ha="right"
     )
