@@ -12,7 +12,7 @@ from asphalt_nscd.sources import PACKAGE
 from asphalt_nscd.store import write_table
 from asphalt_nscd.verification.mutations import MUTANTS, mutate
 from asphalt_nscd.verification.row import FAILED, PASSED, Checks, Row, order
-from asphalt_nscd.verification.study import COLUMNS, THEMES, joined, require_passed, table, verify
+from asphalt_nscd.verification.study import COLUMNS, THEMES, joined, require_passed, summarised, table, verify
 
 
 @pytest.mark.parametrize("theme", ["law", "accounts", "methods"])
@@ -73,3 +73,11 @@ def test_a_mutant_is_noticed():
 def test_a_mutant_that_changes_nothing_is_not():
     what, theme, file, right, _ = MUTANTS[0]
     assert mutate(what, theme, file, right, right + "0.0 +").verdict == FAILED
+
+
+def test_summary():
+    rows = [Row("x", 1.0, 1.05, 0.1, ""), Row("y", 1.0, 3.0, 0.5, ""), Row("z", 0.0, 0.0, 0.0, "")]
+    found = summarised(pd.concat([table("one", rows), table("two", rows[2:])]))
+    assert found["theme"].tolist() == ["one", "two"]
+    assert found["rows"].tolist() == [3, 1] and found["passed"].tolist() == [2, 1]
+    assert found["largest_error_over_tolerance"].tolist()[0] == 4.0

@@ -62,3 +62,53 @@ rule mutations:
         "Judge the mutants"
     shell:
         "asphalt-nscd verdict {input} > {log} 2>&1"
+
+
+rule verification_summary:
+    # One row for each theme, the mutants among them.
+    input:
+        tables=["results/verification/verification.csv", f"results/verification/themes/{MUTATIONS}.csv"],
+        code=code("verdict"),
+    output:
+        "results/verification/summary.csv",
+    log:
+        "results/verification/logs/summary.log",
+    benchmark:
+        "results/verification/benchmarks/summary.tsv"
+    message:
+        "Count the rows of the verification"
+    shell:
+        "asphalt-nscd verdict {input.tables} --summary --output {output} > {log} 2>&1"
+
+
+rule verification_provenance:
+    input:
+        "results/verification/summary.csv",
+        code=code("provenance"),
+    output:
+        "results/verification/provenance.json",
+    log:
+        "results/verification/logs/provenance.log",
+    benchmark:
+        "results/verification/benchmarks/provenance.tsv"
+    message:
+        "Write down what was verified"
+    shell:
+        "asphalt-nscd provenance --output {output} > {log} 2>&1"
+
+
+rule publish_verification:
+    # What is committed of the verification. Only on request:
+    #   snakemake --cores 1 publish_verification
+    input:
+        summary="results/verification/summary.csv",
+        files=[
+            "results/verification/verification.csv",
+            f"results/verification/themes/{MUTATIONS}.csv",
+            "results/verification/provenance.json",
+        ],
+        code=code("publish"),
+    message:
+        "Copy what is committed of the verification, and fill its table in the README"
+    shell:
+        "asphalt-nscd publish {input.files} --root results/verification --output results/published/verification --document README.md --block verification={input.summary}"

@@ -8,10 +8,10 @@ from asphalt_nscd.cli import _options
 
 
 @click.command()
-@click.argument("study", type=_options.File)
+@click.argument("study", required=False, type=_options.File)
 @_options.output
-def command(study: Path, output: Path) -> None:
-    """Write down what made the results: study, commit, versions."""
+def command(study: Path | None, output: Path) -> None:
+    """Write down what made the results: STUDY, where there is one, commit, versions."""
     from asphalt_nscd.store import provenance, read_json, write_json
 
-    write_json(output, {**provenance(), "study": read_json(study)})
+    write_json(output, provenance() | ({} if study is None else {"study": read_json(study)}))

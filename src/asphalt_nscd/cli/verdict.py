@@ -12,12 +12,14 @@ from asphalt_nscd.cli import _options
 @click.option(
     "--output", default=None, type=_options.File, help="Write all rows here instead of judging them."
 )
-def command(tables: tuple[Path, ...], output: Path | None) -> None:
+@click.option("--summary", is_flag=True, help="Write one row for each theme.")
+def command(tables: tuple[Path, ...], output: Path | None, summary: bool) -> None:
     """Judge TABLES of the verification: exit status 2, naming them, if any row has failed."""
     from asphalt_nscd.store import write_table
-    from asphalt_nscd.verification.study import joined, require_passed
+    from asphalt_nscd.verification.study import joined, require_passed, summarised
 
     if output is None:
         require_passed(tables)
     else:
-        write_table(output, joined(tables))
+        rows = joined(tables)
+        write_table(output, summarised(rows) if summary else rows)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.verification.row import FAILED, Row
+from asphalt_nscd.verification.row import FAILED, PASSED, Row
 
 THEMES = ("spheres", "contacts", "coupled", "law", "beams", "methods", "accounts", "fracture", "determinism")
 MUTATIONS = "mutations"  # a theme too, but one that takes many times as long
@@ -38,6 +38,16 @@ def table(theme: str, rows: Iterable[Row]) -> pd.DataFrame:
 def joined(paths: Iterable[str | Path]) -> pd.DataFrame:
     """Tables of several themes as one."""
     return pd.concat([pd.read_csv(path) for path in paths], ignore_index=True)
+
+
+def summarised(rows: pd.DataFrame) -> pd.DataFrame:
+    """For each theme: rows, how many passed, and the largest error over its tolerance where that is not zero."""
+    share = (rows["error"] / rows["tolerance"]).where(rows["tolerance"] > 0.0)
+    counted = rows.assign(share=share, passed=rows["verdict"] == PASSED)
+    groups = counted.groupby("theme", sort=False)
+    return groups.agg(
+        rows=("passed", "size"), passed=("passed", "sum"), largest_error_over_tolerance=("share", "max")
+    ).reset_index()  # fmt: skip
 
 
 def require_passed(paths: Iterable[str | Path]) -> None:
