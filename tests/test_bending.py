@@ -242,6 +242,30 @@ def test_result_file(folder, model):
     assert arrays["broken"].size == 0
 
 
+def test_a_stopped_test_goes_on(folder):
+    """Killed while it runs, and the same call again: the same file; the checkpoint is gone then."""
+    common = folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 8e-5, 1.0, DT, 10
+
+    def stop(done, total):
+        if done == 150:
+            raise KeyboardInterrupt
+
+    kept = folder / "kept.h5"
+    with pytest.raises(KeyboardInterrupt):
+        simulate(*common, folder / "a.h5", progress=stop, checkpoint_file=kept, checkpoint_every=40)
+    assert not (folder / "a.h5").exists() and load(kept, "checkpoint").arrays["force"].size == 120
+    with pytest.raises(InputError, match="of another run"):
+        simulate(*common, folder / "a.h5", method="condensed", checkpoint_file=kept)
+    simulate(*common, folder / "a.h5", checkpoint_file=kept, checkpoint_every=40)
+    assert not kept.exists()
+    simulate(*common, folder / "b.h5", energy=True)
+    one, whole = (load(folder / name, "test") for name in ("a.h5", "b.h5"))
+    for name, array in whole.arrays.items():
+        assert one.arrays[name].tobytes() == array.tobytes()
+    del one.attributes["cpu_s"], whole.attributes["cpu_s"]
+    assert one.attributes == whole.attributes and whole.attributes["broken_bonds"] > 0
+
+
 def test_velocity_profile(folder, model, beam):
     """Mean velocities of layers against those of the spheres in the full system."""
     simulate(

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from scipy import sparse
 
+from asphalt_nscd.checkpoint import Checkpoint, digest
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.layers import Layers
 from asphalt_nscd.nscd import harmonic
@@ -128,7 +129,7 @@ def run_test(
     model: Model, law: BondLaw, frequency: float, amplitude: float, cycles: float, time_step: float,
     rest_steps: int, method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
     progress: Progress = lambda done, total: None, rig: Rig = Rig(), scheme: str = "euler",
-    energy: bool = False,
+    energy: bool = False, checkpoint: Checkpoint | None = None,
 ) -> Record:  # fmt: skip
     """Gravity for rest_steps, then z = A sin(2 pi f t) at the actuator for the given number of cycles.
 
@@ -136,7 +137,8 @@ def run_test(
     "harmonic" gives the steady oscillation of the unbroken system, without gravity or transient.
     scheme: one of nscd.scheme.SCHEMES, for "reduced" and "condensed"; energy: keep the energy account
     of a reduced run too, whose steps are then made one by one, as those of other schemes than "euler".
-    The actuator is the head itself but for the rig; the record is that of the rig's channel.
+    checkpoint: from where the run, step by step then, goes on, and where it is kept; "reduced" and
+    "condensed". The actuator is the head itself but for the rig; the record is that of the rig's channel.
     """
     if method == "harmonic" and rig.guide_friction:
         raise InputError("rig: a slider has no steady harmonic oscillation; choose the method reduced.")
@@ -144,6 +146,8 @@ def run_test(
         raise InputError(
             f"method {method} knows no scheme {scheme!r}; choose the method reduced or condensed."
         )
+    if checkpoint is not None and method not in ("reduced", "condensed"):
+        raise InputError(f"method {method} keeps no checkpoint; choose the method reduced or condensed.")
     if method == "sweeps" and not rig.is_rigid:
         raise InputError(
             "rig: Gauss-Seidel on bonds knows no devices at the head; choose the method reduced."
@@ -165,7 +169,7 @@ def run_test(
         force, velocity = _march(stepper, driven, 0.0, time_step, model.layers, progress)
         broken, residual = state.broken, stepper.largest_change
         details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most_sweeps}
-    elif method == "reduced" and scheme == "euler" and not energy:
+    elif method == "reduced" and scheme == "euler" and not energy and checkpoint is None:
         force, velocity, broken, residual, details = _run_reduced(
             model, law, time_step, driven, rig, progress
         )
@@ -173,12 +177,15 @@ def run_test(
         coefficients = Scheme.named(scheme, omega * time_step)
         if method == "condensed":
             steps = condensed_steps(
-                model.system, law, coefficients, time_step, driven, rig, model.layers, progress
-            )
+                model.system, law, coefficients, time_step, driven, rig, model.layers, progress,
+                checkpoint,
+            )  # fmt: skip
             residual, details = np.nan, {}
         else:
             stepper = _reduced_stepper(model, law, time_step / coefficients.a, rig)
-            steps = reduced_steps(stepper, law, coefficients, time_step, driven, model.layers, progress)
+            steps = reduced_steps(
+                stepper, law, coefficients, time_step, driven, model.layers, progress, checkpoint
+            )
             residual, details = _certified(stepper, steps.full_steps)
         force, velocity, broken = steps.force, steps.velocity, steps.broken
         details |= steps.energies.columns()
@@ -248,7 +255,7 @@ def simulate(
     cycles: float, time_step: float, rest_steps: int, output: str | Path, law_source: str = "",
     method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
     progress: Progress = lambda done, total: None, rig_file: str | Path | None = None, scheme: str = "euler",
-    energy: bool = False,
+    energy: bool = False, checkpoint_file: str | Path | None = None, checkpoint_every: int = 100,
 ) -> None:  # fmt: skip
     """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking."""
     if cycles < 1.0:
@@ -257,11 +264,19 @@ def simulate(
     law = read_bond_law(law_file)
     rig = Rig() if rig_file is None else read_rig(rig_file)
     model = read_model(model_file)
+    checkpoint = None
+    if checkpoint_file is not None:
+        run = {
+            "model": digest(model_file), "law": digest(law_file), "frequency_Hz": frequency,
+            "amplitude_m": amplitude, "cycles": cycles, "time_step_s": time_step, "rest_steps": rest_steps,
+            "method": method, "scheme": scheme, "rig": "" if rig_file is None else digest(rig_file),
+        }  # fmt: skip
+        checkpoint = Checkpoint(Path(checkpoint_file), checkpoint_every, run)
     began = time.process_time()
     try:
         record = run_test(
             model, bond_law(law), frequency, amplitude, cycles, time_step, rest_steps, method, tolerance,
-            most_sweeps, progress, rig, scheme, energy,
+            most_sweeps, progress, rig, scheme, energy, checkpoint,
         )  # fmt: skip
     except ArithmeticError as error:
         raise InputError(
@@ -294,6 +309,8 @@ def simulate(
         "broken": np.asarray(record.broken, np.int64), **_velocity_profile(model.layers, record, frequency),
     }  # fmt: skip
     save(output, "test", arrays, columns)
+    if checkpoint is not None:
+        checkpoint.drop()
 
 
 def _modulus(geometry: Geometry, frequency: float, response) -> complex:

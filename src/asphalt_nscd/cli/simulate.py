@@ -54,11 +54,21 @@ from asphalt_nscd.cli import _options, _progress
 @click.option(
     "--energy", is_flag=True, help="Keep the energy account of a reduced run too; condensed ones always do."
 )
+@click.option(
+    "--checkpoint",
+    default=None,
+    type=_options.File,
+    help="Go on from this file if it stands, and keep the run in it; removed once the result is written.",
+)
+@click.option(
+    "--checkpoint-every", default=100, type=click.IntRange(1), help="Steps between two checkpoints."
+)
 @_options.output
 def command(
     model: Path, law: Path, law_source: str, temperature_c: float, frequency_hz: float, amplitude_m: float,
     cycles: float, time_step_s: float, rest_steps: int, method: str, tolerance: float, most_sweeps: int,
-    rig: Path | None, scheme: str, energy: bool, output: Path,
+    rig: Path | None, scheme: str, energy: bool, checkpoint: Path | None, checkpoint_every: int,
+    output: Path,
 ) -> None:  # fmt: skip
     """One complex modulus test at one temperature and frequency."""
     from asphalt_nscd.bending import simulate
@@ -67,5 +77,5 @@ def command(
         simulate(
             model, law, temperature_c, frequency_hz, amplitude_m, cycles, time_step_s, rest_steps, output,
             law_source, method, tolerance, most_sweeps, lambda done, total: report("testing", done, total),
-            rig, scheme, energy,
+            rig, scheme, energy, checkpoint, checkpoint_every,
         )  # fmt: skip

@@ -64,6 +64,10 @@ class EnergyAccount:
         self.law, self.sums = law, Energies()
         self._broken = 0
 
+    def resume(self, sums: Energies, broken: int) -> None:
+        """Go on from these sums, so many bonds having broken."""
+        self.sums, self._broken = sums, broken
+
     def count(
         self, stepper: Any, dt: float, force: float, before: History, base: History, after: History
     ) -> None:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import astuple
+
+import numpy as np
+
 from asphalt_nscd.nscd.condensed import CondensedStepper
-from asphalt_nscd.nscd.energy import EnergyAccount
+from asphalt_nscd.nscd.energy import Energies, EnergyAccount
 from asphalt_nscd.nscd.law import BondLaw
 from asphalt_nscd.nscd.reduced_stepping import ReducedStepper
-from asphalt_nscd.nscd.scheme import History, Scheme
+from asphalt_nscd.nscd.scheme import VARIABLES, History, Scheme
 
 Stepper = CondensedStepper | ReducedStepper
 
@@ -50,6 +54,23 @@ class March:
 
         self.earlier, self.now = lifted(self.earlier), lifted(self.now)
         self.stepper = full
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Present, step before and account, by name, for a checkpoint."""
+        found = {"broken": np.array(self.stepper.state.broken, np.int64)}
+        for when in ("now", "earlier"):
+            history = getattr(self, when)
+            found |= {f"{when}/{name}": value for name, value in history.values.items()}
+            found[f"{when}/actuator"] = np.asarray(history.actuator)
+        return found | {"energies": np.array([float(value) for value in astuple(self.account.sums)])}
+
+    def put(self, arrays: dict[str, np.ndarray]) -> None:
+        """Go on where another one stood that gave these `arrays`; `stepper` is that of the time."""
+        for when in ("now", "earlier"):
+            values = {name: arrays[f"{when}/{name}"] for name in VARIABLES}
+            setattr(self, when, History(values, arrays[f"{when}/actuator"].item()))
+        self.now.put(self.stepper.state)
+        self.account.resume(Energies(*arrays["energies"].tolist()), arrays["broken"].size)
 
     def _widen(self) -> None:
         state = self.stepper.state

@@ -15,7 +15,7 @@ from asphalt_nscd.nscd.compiled import compiled
 from asphalt_nscd.nscd.condensed import CLOSED, CondensedState, CondensedStepper
 from asphalt_nscd.nscd.head import RIGID, HeadDevices, actuator_force, follow_actuator
 from asphalt_nscd.nscd.law import BondLaw
-from asphalt_nscd.nscd.projection import rows_of
+from asphalt_nscd.nscd.projection import Projection, rows_of
 from asphalt_nscd.nscd.reduced import ReducedModel, append_columns
 from asphalt_nscd.nscd.shifted import ShiftedOperator
 from asphalt_nscd.nscd.standby import StandBy
@@ -29,6 +29,11 @@ MOST_ENRICHMENTS = 30
 
 FAR = 16.0
 """Growth of the envelope as long as no bond comes near yield within it."""
+
+_PROJECTED = ("mass", "stiffness", "load", "residual_factor", "head_norm", "load_norm")
+_REACHED = (
+    "maxima", "may_yield", "may_close", "reached_sigma", "reached_motion", "sigma_envelope", "motion_envelope",
+)  # fmt: skip
 
 _DONE, _OUTSIDE_ENVELOPE, _YIELD, _CLOSED_GAP, _RESIDUAL = range(5)
 
@@ -127,6 +132,32 @@ class ReducedStepper:
             sigma=opening @ state.sigma, kelvin=state.kelvin @ opening.T, broken=list(state.broken),
         )  # fmt: skip
 
+    def arrays(self) -> dict[str, np.ndarray]:
+        """All that it has become since it was made, by name, for a checkpoint."""
+        found = {name: getattr(self.model, name) for name in ("basis", *_PROJECTED)}
+        found |= {name: getattr(self.state, name) for name in ("displacement", "velocity", "sigma", "kelvin")}
+        found |= {name: getattr(self, "_" + name) for name in _REACHED}
+        found |= {"broken": np.array(self.state.broken, np.int64), "enrichments": self.enrichments}
+        found |= {"smallest_gap": self._smallest_gap, "stands_by": self._stand_by is not None}
+        return {name: np.asarray(value) for name, value in found.items()}
+
+    def put(self, arrays: dict[str, np.ndarray]) -> None:
+        """Make a new stepper what another one was that gave these `arrays`."""
+        broken = arrays["broken"].tolist()
+        small = {name: arrays[name] for name in _PROJECTED}
+        small |= {name: small[name].item() for name in ("head_norm", "load_norm")}
+        nothing = {"opening": np.empty((0, small["load"].size)), "weight": np.empty(0)}
+        self.model = ReducedModel(self.model.system, arrays["basis"], broken, Projection(**small, **nothing))
+        self.state = ReducedState(
+            *(arrays[name] for name in ("displacement", "velocity", "sigma", "kelvin")), broken
+        )
+        for name in _REACHED:
+            setattr(self, "_" + name, arrays[name])
+        self.enrichments, self._smallest_gap = arrays["enrichments"].item(), arrays["smallest_gap"].item()
+        if not arrays["stands_by"]:
+            self._stand_by = None
+        self._look_at()
+
     def certify(self, full: CondensedStepper) -> None:
         """Count the last step of the full system, which went on from `full_state`, in the certificate."""
         model, system = self.model, self.model.system
@@ -190,6 +221,10 @@ class ReducedStepper:
         # of what the others have borne so far, only the bound is known
         borne = np.delete(self.model.utilisation_bound(self._reached_sigma), watched)
         self._maxima[2] = max(self._maxima[2], borne.max(initial=0.0))
+        self._look_at()
+
+    def _look_at(self) -> None:
+        """What of the model shows whether the bonds watched yield or close."""
         self._reaction = self.model.reaction_of(self._may_yield)
         self._beyond_head = self.model.beyond_head(self._may_yield, self._sigma_envelope)
         self._closing = self.model.closing_of(self._may_close)

@@ -29,15 +29,20 @@ class ShiftedOperator:
         self._factorise()
 
     def remove(self, broken: list[int]) -> None:
-        """Make `broken`, which may only grow, the bonds that are absent."""
-        new = broken[len(self._broken) :]
-        if not new:
-            return
-        self._broken = list(broken)
-        if len(broken) - self._factored > self.most_updates:
+        """Make `broken`, which may only grow, the bonds that are absent.
+
+        One by one: what results depends on the list alone, to the bit, not on how it came to be.
+        """
+        last = len(broken) // (self.most_updates + 1) * (self.most_updates + 1)
+        if last > self._factored:
+            self._broken = list(broken[:last])
             self._factorise()
-            return
-        rows = (3 * np.asarray(new)[:, None] + np.arange(3)).ravel()
+        for bond in broken[len(self._broken) :]:
+            self._broken.append(bond)
+            self._take_away(bond)
+
+    def _take_away(self, bond: int) -> None:
+        rows = 3 * bond + np.arange(3)
         taken = self._system.operator[rows][:, self._system.free].toarray().T
         self._taken = np.column_stack([self._taken, taken])
         self._response = np.column_stack([self._response, self._factor.solve(taken)])

@@ -1,4 +1,4 @@
-"""Equal bits: across two runs, and with one thread allowed and two.
+"""Equal bits: across two runs, with one thread allowed and two, and from a checkpoint.
 
 Every step of the command line is one thread, whatever is allowed: BLAS on two sums in another order.
 """
@@ -9,10 +9,19 @@ import hashlib
 import os
 import subprocess
 import sys
+import tempfile
+from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 
+from asphalt_nscd.bending import Model, run_test
+from asphalt_nscd.checkpoint import Checkpoint
+from asphalt_nscd.nscd.reduced import ritz_basis, shifted_factor
+from asphalt_nscd.nscd.standby import StandBy
+from asphalt_nscd.verification.methods import beam
 from asphalt_nscd.verification.row import Checks, Row
+from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam
 
 checks = Checks()
 
@@ -20,11 +29,13 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 
 
 def digest() -> str:
-    """Of the states of a pile in motion, of a condensed run with breaking bonds and of a reduced one."""
+    """Of the states of a pile in motion, of a condensed run with breaking bonds, a reduced one, and contacts."""
+    from asphalt_nscd.nscd import solve_contacts
     from asphalt_nscd.nscd.scheme import VARIABLES
     from asphalt_nscd.specimen.deposit import PouringNumerics
     from asphalt_nscd.specimen.lattice import random_lattice
-    from asphalt_nscd.verification.methods import QUICK_LAW, beam, march
+    from asphalt_nscd.verification.assemblies import box_stack
+    from asphalt_nscd.verification.methods import march
     from asphalt_nscd.verification.spheres import advanced, balls
 
     box = (0.017, 0.016, 0.05)
@@ -39,6 +50,8 @@ def digest() -> str:
         sums.update(np.array(force).tobytes())
         for name in VARIABLES:
             sums.update(run.now.values[name].tobytes())
+    stack = box_stack(12, kick=1e-2)
+    sums.update(solve_contacts(stack.W, stack.q, 0.5).reactions.tobytes())
     return sums.hexdigest()
 
 
@@ -62,3 +75,42 @@ def bits() -> list[Row]:
         Row("two runs, results that differ", 0.0, float(one != again), 0.0, source),
         Row("one thread allowed and two, results that differ", 0.0, float(one != two), 0.0, source),
     ]
+
+
+class _Stopped(Exception):
+    pass
+
+
+def tested(method: str, scheme: str, checkpoint: Checkpoint | None = None, stop_after: int = -1) -> bytes:
+    """All that a bending test with breaking bonds gives, if it is not stopped; reduced, then full."""
+    specimen, system = jittered_beam(shape=(10, 9, 8)), beam(10, 9, 8)
+    height = specimen.position[:, 2]
+    basis = ritz_basis(system, 12)
+    stand_by = StandBy.of(system, basis, shifted_factor(system))
+    model = Model(system, basis, specimen.geometry, height, "beam", "free", stand_by)
+
+    def progress(done: int, total: int) -> None:
+        if done == stop_after:
+            raise _Stopped
+
+    record = run_test(
+        model, QUICK_LAW, 400.0, 2.5e-5, 1.0, 5e-5, 5, method, progress=progress, scheme=scheme,
+        energy=True, checkpoint=checkpoint,
+    )  # fmt: skip
+    broken, account = np.array(record.broken), np.array(list(record.details.values()))
+    return b"".join(array.tobytes() for array in (record.force, record.velocity, broken, account))
+
+
+@checks
+def restart() -> list[Row]:
+    rows = []
+    for method, scheme in (("condensed", "fitted"), ("reduced", "euler")):
+        with tempfile.TemporaryDirectory() as folder:
+            checkpoint = Checkpoint(Path(folder, "run.h5"), 4, {})
+            for stop_after in (11, 30):
+                with suppress(_Stopped):
+                    tested(method, scheme, checkpoint, stop_after)
+            differs = tested(method, scheme, checkpoint) != tested(method, scheme)
+        what = f"{method}, {scheme}, stopped twice and continued, results that differ"
+        rows.append(Row(what, 0.0, float(differs), 0.0, "the run without a stop"))
+    return rows
