@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 import pytest
 from tiny_results import LAWS, modulus
 
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.figures import fig_packing, fig_ratio, fig_readings
+from asphalt_nscd.figures import fig_forces, fig_packing, fig_ratio, fig_readings
+from asphalt_nscd.store import load
 
 
 def test_ratio_and_phase_difference_of_every_test(results):
@@ -84,3 +86,23 @@ def test_readings_without_their_specimen_are_refused(results):
         fig_readings.draw(
             readings=readings(results), simulations=results.simulations(samples=("s9",), law_source="fitted")
         )
+
+
+def test_stretched_bonds_pull_and_the_head_moves_by_one(results):
+    speed, force = fig_forces.slow_deflection(load(results.model()[0], "model"))
+    assert speed == pytest.approx([0.5, 0.75, 0.0, 0.0, 1.0])
+    # 4 x (0.75 - 0.5), 2 x (0 - 0.5), 2 x (1 - 0.5), whose mean size is one.
+    assert force == pytest.approx([1.0, -1.0, 1.0])
+
+
+def test_chains_leave_out_plates_and_what_lies_off_the_middle(results):
+    pulled, pushed, *_ = fig_forces.draw(model=results.model(), specimen=results.specimen()).axes
+    (chains,) = pulled.collections
+    assert np.asarray(chains.get_segments()) == pytest.approx(np.array([[[0.0, 30.0], [3.0, 30.0]]]))
+    (chains,) = pushed.collections
+    assert np.asarray(chains.get_segments()) == pytest.approx(np.array([[[0.0, 30.0], [0.0, 30.0]]]))
+
+
+def test_model_of_another_specimen_is_refused(results):
+    with pytest.raises(InputError, match="is of another specimen"):
+        fig_forces.draw(model=results.model("s2"), specimen=results.specimen())

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from scipy.sparse import csr_matrix
 
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import write_law
@@ -108,9 +109,25 @@ class Results:
         arrays = {
             "position": position, "radius": radius,
             "network/first": np.array([0, 0, 0]), "network/second": np.array([1, 2, 4]),
+            "network/point": np.array([[0.0015, 0.0002, 0.03], [0.0, 0.001, 0.03], [0.0, 0.0, 0.0]]),
         }  # fmt: skip
         shape = {"b": 0.01, "B": 0.02, "e": 0.01, "h": 0.06, "mass": 0.021, "mobile_mass": 0.008}
         save(path := self.folder / "specimen.h5", "specimen", arrays, shape | {"volume_reduction": 0.1})
+        return [path]
+
+    def model(self, name: str = "specimen") -> list[Path]:
+        """Of the specimen: spheres 0 and 1 move by 0.5 and 0.75 along x, the head by one; normals along x."""
+        deflection = np.zeros((5, 6))
+        deflection[:, 0] = 0.5, 0.75, 0.0, 0.0, 1.0
+        operator = np.zeros((9, 30))
+        for row, (first, second) in zip((0, 3, 6), ((0, 1), (0, 2), (0, 4)), strict=True):
+            operator[row, 6 * first], operator[row, 6 * second] = -1.0, 1.0
+        sparse = csr_matrix(operator)
+        arrays = {
+            "basis": deflection.reshape(-1, 1), "mass": np.ones(30), "weight": np.repeat([4.0, 2.0, 2.0], 3),
+            **{f"operator/{part}": getattr(sparse, part) for part in ("data", "indices", "indptr")},
+        }  # fmt: skip
+        save(path := self.folder / "model.h5", "model", arrays, {"name": name})
         return [path]
 
     def diagnosis(self, **changes: object) -> dict[str, list[Path]]:

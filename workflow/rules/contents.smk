@@ -34,6 +34,10 @@ FIGURES = {
     ),
     "fig09": ("3 Bending tests", {"simulations": SIMULATIONS, "measured": MEASURED, "laws": USED_LAWS}),
     "fig10": ("3 Bending tests", {"simulations": SIMULATIONS, "measured": MEASURED, "laws": USED_LAWS}),
+    "fig_forces": (
+        "3 Bending tests",
+        {"model": [f"<results>/models/{HEAD}/{FIRST}.h5"], "specimen": [f"<results>/specimens/{FIRST}.h5"]},
+    ),
     "fig_ratio": ("3 Bending tests", {"simulations": SIMULATIONS}),
 }
 DEPOSITS = expand("<results>/deposits/{sample}.h5", sample=SAMPLES)
