@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from naive.granular import naive_step
 
+from asphalt_nscd.nscd.granular_sweeps import BLOCK, HANDS, place
 from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics, settle
 from asphalt_nscd.specimen.lattice import random_lattice
 
@@ -327,3 +328,13 @@ def test_naive_twin(restitution, recovery_speed):
             np.testing.assert_allclose(found, expected, rtol=0, atol=1e-11 * mass(pile).max())
             touched += expected.any()
     assert touched > 100
+
+
+@pytest.mark.parametrize("contacts", [0, 7, BLOCK, 3 * BLOCK + 11])
+def test_every_contact_is_visited_once(contacts):
+    """Dealt out so that neighbours in the list, which share spheres, are visited far apart."""
+    visits = np.array([place(c, contacts) for c in range(contacts)], int)
+    np.testing.assert_array_equal(np.sort(visits), np.arange(contacts))
+    if contacts >= BLOCK:
+        assert np.abs(np.diff(visits[:BLOCK])).min() >= HANDS
+    np.testing.assert_array_equal(visits // BLOCK, np.arange(contacts) // BLOCK)  # not far from where it was

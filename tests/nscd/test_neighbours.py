@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from naive.granular import all_pairs
 
-from asphalt_nscd.nscd.neighbours import carry_reactions, find_pairs
+from asphalt_nscd.nscd.neighbours import carry_reactions, closing_speeds, find_pairs, find_pairs_within
 
 NO_PLANES = np.empty((0, 3))
 
@@ -71,3 +71,35 @@ def test_reactions_follow_their_pairs():
         np.testing.assert_array_equal(value, kept.get(pair, np.zeros(3)))
     came, stayed = len(set(pairs) - set(kept)), len(set(pairs) & set(kept))
     assert came > 50 and stayed > 200 and len(kept) > stayed + 50
+
+
+def test_each_sphere_with_a_reach_of_its_own():
+    """The reach of the larger sphere of a pair counts; planes have one for all."""
+    rng = np.random.default_rng(6)
+    position, radius = cloud(rng, 150, 2e-2, 4.0)
+    point, normal = np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])
+    reach = rng.uniform(0.0, 4e-3, 150)
+    found = set(listed(*find_pairs_within(position, radius, point, normal, reach, 1e-3)))
+    far = all_pairs(position, radius, point, normal, 4e-3)
+
+    def gap(i, j):
+        if j == 150:
+            return position[i, 2] - radius[i]
+        return np.linalg.norm(position[j] - position[i]) - radius[i] - radius[j]
+
+    expected = {(i, j) for i, j in far if gap(i, j) < (1e-3 if j == 150 else reach[i])}
+    assert found == expected
+    assert 100 < len(expected) < 0.8 * len(far)
+
+
+def test_no_sphere_closes_in_faster_than_the_bound():
+    """Grains that rain fast onto slow ones: the bound holds for every pair, and is small far from the slow."""
+    rng = np.random.default_rng(7)
+    position, radius = cloud(rng, 200, (1e-2, 1e-2, 0.1), 3.0)
+    velocity = rng.normal(0.0, 0.01, (200, 3))
+    velocity[position[:, 2] > 0.05, 2] -= 5.0
+    bound = closing_speeds(position, radius, velocity, 4e-3)
+    for i, j in all_pairs(position, radius, NO_PLANES, NO_PLANES, 4e-3):
+        assert np.linalg.norm(velocity[j] - velocity[i]) <= bound[i] * (1 + 1e-14)
+    assert (bound > 4.9).sum() > 20
+    assert (bound < 0.1).sum() > 100

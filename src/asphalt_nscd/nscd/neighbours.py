@@ -14,7 +14,15 @@ from asphalt_nscd.nscd.compiled import compiled
 
 @compiled
 def find_pairs(position, radius, plane_point, plane_normal, reach):
-    """Pairs whose gap is below `reach` [m].
+    """Pairs whose gap is below `reach` [m]; see find_pairs_within."""
+    return find_pairs_within(
+        position, radius, plane_point, plane_normal, np.full(position.shape[0], reach), reach
+    )
+
+
+@compiled
+def find_pairs_within(position, radius, plane_point, plane_normal, reach, plane_reach):
+    """Pairs whose gap is below reach[i] (n,) [m] of their larger sphere, or below plane_reach [m].
 
     position (n, 3) [m], radius (n,) [m]; planes by point (p, 3) [m] and unit normal (p, 3) that
     points to the spheres. Returns (start, other): sphere i is paired with bodies
@@ -22,23 +30,69 @@ def find_pairs(position, radius, plane_point, plane_normal, reach):
     its larger sphere (under the lower index when equal).
     """
     n = position.shape[0]
-    planes = plane_point.shape[0]
     cell, low, shape = _grid(position, radius, reach)
-    first, members = _fill_cells(position, cell, low, shape)
-    counts = np.zeros(n + 1, np.int64)
-    empty = np.empty(0, np.int64)
+    first, members, sorted_sphere = _fill_cells(position, radius, cell, low, shape)
+    start = np.zeros(n + 1, np.int64)
+    other = np.empty(16 * n + 64, np.int64)
     for i in range(n):
-        counts[i + 1] = _candidates(
-            i, position, radius, reach, cell, low, shape, first, members, empty, 0
-        ) + _planes_near(i, position, radius, plane_point, plane_normal, reach, empty, 0)
-    start = np.cumsum(counts)
-    other = np.empty(start[n], np.int64)
+        while True:
+            found = _candidates(
+                i,
+                position,
+                radius,
+                reach[i],
+                cell,
+                low,
+                shape,
+                first,
+                members,
+                sorted_sphere,
+                other,
+                start[i],
+            )
+            end = start[i] + found + plane_point.shape[0]
+            if end <= other.shape[0]:
+                break
+            other = np.concatenate((other, np.empty(max(end, other.shape[0]), np.int64)))
+        _sort(other, start[i], start[i] + found)
+        found += _planes_near(
+            i, position, radius, plane_point, plane_normal, plane_reach, other, start[i] + found
+        )
+        start[i + 1] = start[i] + found
+    return start, other[: start[n]].copy()
+
+
+@compiled
+def closing_speeds(position, radius, velocity, reach):
+    """Bounds (n,) [m/s] of the speed of any sphere with a gap below `reach` [m] relative to a sphere.
+
+    Only spheres that are not larger count, as in find_pairs. velocity (n, 3) [m/s] is bounded within
+    thin horizontal slabs: grains that rain at the same speed, or rest together, do not close in.
+    """
+    n = position.shape[0]
+    thickness = 2.0 * radius.min()
+    bottom = position[:, 2].min()
+    slabs = int((position[:, 2].max() - bottom) / thickness) + 1
+    least = np.full((slabs, 3), np.inf)
+    most = np.full((slabs, 3), -np.inf)
     for i in range(n):
-        found = _candidates(i, position, radius, reach, cell, low, shape, first, members, other, start[i])
-        other[start[i] : start[i] + found].sort()
-        if planes:
-            _planes_near(i, position, radius, plane_point, plane_normal, reach, other, start[i] + found)
-    return start, other
+        s = int((position[i, 2] - bottom) / thickness)
+        for k in range(3):
+            least[s, k] = min(least[s, k], velocity[i, k])
+            most[s, k] = max(most[s, k], velocity[i, k])
+    bound = np.empty(n)
+    for i in range(n):
+        away = 2.0 * radius[i] + reach
+        first = max(0, int(np.floor((position[i, 2] - away - bottom) / thickness)))
+        last = min(slabs - 1, int(np.floor((position[i, 2] + away - bottom) / thickness)))
+        square = 0.0
+        for k in range(3):
+            difference = 0.0
+            for s in range(first, last + 1):
+                difference = max(difference, velocity[i, k] - least[s, k], most[s, k] - velocity[i, k])
+            square += difference * difference
+        bound[i] = np.sqrt(square)
+    return bound
 
 
 @compiled
@@ -57,7 +111,7 @@ def carry_reactions(old_start, old_other, old_reaction, start, other):
 
 @compiled
 def _grid(position, radius, reach):
-    cell = 2.0 * radius.min() + reach
+    cell = 2.0 * radius.min() + reach.min()
     low = np.empty(3)
     shape = np.empty(3, np.int64)
     for k in range(3):
@@ -67,7 +121,8 @@ def _grid(position, radius, reach):
 
 
 @compiled
-def _fill_cells(position, cell, low, shape):
+def _fill_cells(position, radius, cell, low, shape):
+    """(first, members, sphere): cell k holds members[first[k]:first[k + 1]], spheres x, y, z, radius."""
     n = position.shape[0]
     index = np.empty(n, np.int64)
     first = np.zeros(shape[0] * shape[1] * shape[2] + 1, np.int64)
@@ -79,50 +134,67 @@ def _fill_cells(position, cell, low, shape):
         first[index[i] + 1] += 1
     first = np.cumsum(first)
     members = np.empty(n, np.int64)
+    sphere = np.empty((n, 4))  # in the order of the cells: read in one stream
     cursor = first.copy()
     for i in range(n):
-        members[cursor[index[i]]] = i
+        at = cursor[index[i]]
+        members[at] = i
+        sphere[at, :3] = position[i]
+        sphere[at, 3] = radius[i]
         cursor[index[i]] += 1
-    return first, members
+    return first, members, sphere
 
 
 @compiled
-def _candidates(i, position, radius, reach, cell, low, shape, first, members, out, offset):
-    """Count the partners of sphere i; write them from `offset` on when `out` has room."""
-    spread = 2.0 * radius[i] + reach
-    lo = np.empty(3, np.int64)
-    hi = np.empty(3, np.int64)
-    for k in range(3):
-        lo[k] = max(0, int(np.floor((position[i, k] - spread - low[k]) / cell)))
-        hi[k] = min(shape[k] - 1, int(np.floor((position[i, k] + spread - low[k]) / cell)))
+def _cells_between(start, end, cell, cells):
+    return max(0, int(np.floor(start / cell))), min(cells - 1, int(np.floor(end / cell)))
+
+
+@compiled
+def _candidates(i, position, radius, reach, cell, low, shape, first, members, sphere, out, offset):
+    """Count the partners of sphere i; write them from `offset` on as far as `out` has room."""
+    x, y, z, size = position[i, 0], position[i, 1], position[i, 2], radius[i]
+    spread = 2.0 * size + reach
+    x_first, x_last = _cells_between(x - spread - low[0], x + spread - low[0], cell, shape[0])
+    y_first, y_last = _cells_between(y - spread - low[1], y + spread - low[1], cell, shape[1])
+    z_first, z_last = _cells_between(z - spread - low[2], z + spread - low[2], cell, shape[2])
     found = 0
-    for cz in range(lo[2], hi[2] + 1):
-        for cy in range(lo[1], hi[1] + 1):
+    for cz in range(z_first, z_last + 1):
+        for cy in range(y_first, y_last + 1):
             row = (cz * shape[1] + cy) * shape[0]
-            for m in range(first[row + lo[0]], first[row + hi[0] + 1]):
-                j = members[m]
-                if radius[j] > radius[i] or (radius[j] == radius[i] and j <= i):
-                    continue
-                dx = position[j, 0] - position[i, 0]
-                dy = position[j, 1] - position[i, 1]
-                dz = position[j, 2] - position[i, 2]
-                limit = radius[i] + radius[j] + reach
+            for m in range(first[row + x_first], first[row + x_last + 1]):
+                dx, dy, dz = sphere[m, 0] - x, sphere[m, 1] - y, sphere[m, 2] - z
+                limit = size + sphere[m, 3] + reach
                 if dx * dx + dy * dy + dz * dz < limit * limit:
-                    if out.shape[0]:
-                        out[offset + found] = j
+                    if sphere[m, 3] > size or (sphere[m, 3] == size and members[m] <= i):
+                        continue
+                    if offset + found < out.shape[0]:
+                        out[offset + found] = members[m]
                     found += 1
     return found
 
 
 @compiled
+def _sort(numbers, begin, end):
+    """By insertion, which is fastest for the few partners of a sphere."""
+    for k in range(begin + 1, end):
+        number = numbers[k]
+        m = k
+        while m > begin and numbers[m - 1] > number:
+            numbers[m] = numbers[m - 1]
+            m -= 1
+        numbers[m] = number
+
+
+@compiled
 def _planes_near(i, position, radius, plane_point, plane_normal, reach, out, offset):
+    """Count the planes near sphere i and write them from `offset` on."""
     found = 0
     for k in range(plane_point.shape[0]):
         height = 0.0
         for d in range(3):
             height += (position[i, d] - plane_point[k, d]) * plane_normal[k, d]
         if height - radius[i] < reach:
-            if out.shape[0]:
-                out[offset + found] = position.shape[0] + k
+            out[offset + found] = position.shape[0] + k
             found += 1
     return found

@@ -98,9 +98,16 @@ class Granulate:
             moved = max(moved, np.abs(self.plane_point - self._planes_at).max())
             if 2.0 * (moved + dt * fastest) + margin < self._reach:
                 return
-        self._reach = numerics.skin + margin + 2.0 * dt * fastest
-        start, other = neighbours.find_pairs(
-            self.position, self.radius, self.plane_point, self.plane_normal, self._reach
+        furthest = margin + 2.0 * dt * fastest
+        if furthest > 2.0 * numerics.skin:  # a rain of grains: a list for this step alone, but a short one
+            self._reach = 0.0
+            closing = neighbours.closing_speeds(self.position, self.radius, self.velocity[:n, :3], furthest)
+            reach, plane_reach = margin + dt * closing, furthest
+        else:
+            self._reach = numerics.skin + furthest
+            reach, plane_reach = np.full(n, self._reach), self._reach
+        start, other = neighbours.find_pairs_within(
+            self.position, self.radius, self.plane_point, self.plane_normal, reach, plane_reach
         )
         if self._start is None:
             self.impulse = np.zeros((other.size, 3))

@@ -33,8 +33,8 @@ MUTANTS = [
     ("dissipation of the dashpots", "accounts", "nscd/energy.py", "sums.dashpots += dt * strain", "sums.dashpots -= dt * strain"),
     ("slip in the natural map", "coupled", "nscd/contact_sweeps.py", "shifted = u0 + friction", "shifted = u0 - friction"),
     ("gravity of a sphere", "spheres", "nscd/granular.py", "+= dt * gravity[k]", "-= dt * gravity[k]"),
-    ("moment of a contact on a sphere", "spheres", "nscd/granular.py", "velocity[j, 3] -= wj * tx", "velocity[j, 3] += wj * tx"),
-    ("spin in the slip of two spheres", "spheres", "nscd/granular.py", "- (sy * nz - sz * ny)", "+ (sy * nz - sz * ny)"),
+    ("moment of a contact on a sphere", "spheres", "nscd/granular_sweeps.py", "motion[j, 4] -= wj * tx", "motion[j, 4] += wj * tx"),
+    ("spin in the slip of two spheres", "spheres", "nscd/granular_sweeps.py", "(vx - (sy * nz - sz * ny))", "(vx + (sy * nz - sz * ny))"),
     ("restitution of an impact", "spheres", "nscd/granular.py", "= -restitution * opening", "= restitution * opening"),
 ]  # fmt: skip
 

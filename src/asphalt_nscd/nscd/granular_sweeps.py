@@ -1,0 +1,153 @@
+"""Gauss-Seidel sweeps over the contacts of rigid spheres, laid out for the speed of the processor.
+
+What a contact needs fills one cache line, and so does what a body needs. Contacts that follow one
+another in the list share spheres, so each would wait for the result of the one before; they are
+dealt out so that neighbours in the list are visited far apart.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asphalt_nscd.nscd.compiled import compiled
+
+BLOCK = 1024  # contacts dealt out among themselves
+HANDS = 8
+
+
+@compiled
+def place(c, contacts):
+    """Where in the order of visits contact c of so many stands."""
+    start = c // BLOCK * BLOCK
+    if start + BLOCK > contacts:
+        return c
+    hand, card = (c - start) // (BLOCK // HANDS), (c - start) % (BLOCK // HANDS)
+    return start + card * HANDS + hand
+
+
+@compiled
+def pack_motion(velocity, inverse_mass):
+    """(bodies, 8): velocity [m/s], 1/mass [1/kg], spin as surface velocity [m/s], nothing."""
+    motion = np.zeros((velocity.shape[0], 8))
+    motion[:, :3] = velocity[:, :3]
+    motion[:, 3] = inverse_mass
+    motion[:, 4:7] = velocity[:, 3:]
+    return motion
+
+
+@compiled
+def pack_contacts(pair, first, second, normal, target, impulse, inverse_mass):
+    """In the order of visits: bodies (c, 2), and (c, 8) normal, impulse [N s], target [m/s], mass [kg].
+
+    The mass is what an impulse along the normal has to move, 1 / (1/m_i + 1/m_j).
+    """
+    contacts = pair.shape[0]
+    bodies = np.empty((contacts, 2), np.int32)
+    packed = np.empty((contacts, 8))
+    for c in range(contacts):
+        i, j = first[c], second[c]
+        at = place(c, contacts)
+        bodies[at, 0], bodies[at, 1] = i, j
+        packed[at, :3] = normal[c]
+        packed[at, 3:6] = impulse[pair[c]]
+        packed[at, 6] = target[c]
+        packed[at, 7] = 1.0 / (inverse_mass[i] + inverse_mass[j])
+    return bodies, packed
+
+
+@compiled
+def apply_impulse(i, j, nx, ny, nz, px, py, pz, motion):
+    """Give impulse p [N s] to body j and its opposite to body i at their point of contact."""
+    wi, wj = motion[i, 3], motion[j, 3]
+    tx = 2.5 * (ny * pz - nz * py)
+    ty = 2.5 * (nz * px - nx * pz)
+    tz = 2.5 * (nx * py - ny * px)
+    motion[i, 0] -= wi * px
+    motion[i, 1] -= wi * py
+    motion[i, 2] -= wi * pz
+    motion[i, 4] -= wi * tx
+    motion[i, 5] -= wi * ty
+    motion[i, 6] -= wi * tz
+    motion[j, 0] += wj * px
+    motion[j, 1] += wj * py
+    motion[j, 2] += wj * pz
+    motion[j, 4] -= wj * tx
+    motion[j, 5] -= wj * ty
+    motion[j, 6] -= wj * tz
+
+
+@compiled
+def sweep_contacts(bodies, packed, motion, friction, begin, end, stride):
+    """One Gauss-Seidel sweep over contacts begin, begin + stride, ...; updates impulses and motion.
+
+    Signorini on velocities: opening >= target, impulse >= 0, complementary; Coulomb with `friction`.
+    The local Delassus operator is diagonal: normal 1/m_i + 1/m_j, tangential 7/2 of it.
+    Returns the sums of squares of the change of impulse and of the impulse.
+    """
+    changed = 0.0
+    size = 0.0
+    for c in range(begin, end, stride):
+        i, j = bodies[c, 0], bodies[c, 1]
+        nx, ny, nz = packed[c, 0], packed[c, 1], packed[c, 2]
+        px, py, pz = packed[c, 3], packed[c, 4], packed[c, 5]
+        mass = packed[c, 7]
+        vx = motion[j, 0] - motion[i, 0]
+        vy = motion[j, 1] - motion[i, 1]
+        vz = motion[j, 2] - motion[i, 2]
+        opening = vx * nx + vy * ny + vz * nz
+        old_normal = px * nx + py * ny + pz * nz
+        new_normal = old_normal - (opening - packed[c, 6]) * mass
+        if new_normal <= 0.0:
+            if px == 0.0 and py == 0.0 and pz == 0.0:
+                continue  # open and stays open
+            qx = qy = qz = 0.0
+        else:
+            sx = motion[j, 4] + motion[i, 4]
+            sy = motion[j, 5] + motion[i, 5]
+            sz = motion[j, 6] + motion[i, 6]
+            softness = mass / 3.5
+            along = old_normal - softness * opening
+            qx = px - softness * (vx - (sy * nz - sz * ny)) - along * nx
+            qy = py - softness * (vy - (sz * nx - sx * nz)) - along * ny
+            qz = pz - softness * (vz - (sx * ny - sy * nx)) - along * nz
+            square = qx * qx + qy * qy + qz * qz
+            limit = friction * new_normal
+            if square > limit * limit:
+                share = limit / np.sqrt(square)
+                qx *= share
+                qy *= share
+                qz *= share
+            qx += new_normal * nx
+            qy += new_normal * ny
+            qz += new_normal * nz
+        dx, dy, dz = qx - px, qy - py, qz - pz
+        apply_impulse(i, j, nx, ny, nz, dx, dy, dz, motion)
+        packed[c, 3], packed[c, 4], packed[c, 5] = qx, qy, qz
+        changed += dx * dx + dy * dy + dz * dz
+        size += qx * qx + qy * qy + qz * qz
+    return changed, size
+
+
+@compiled
+def sweep_until(bodies, packed, motion, friction, tolerance, most_sweeps):
+    """Gauss-Seidel from the given impulses until their relative change in a sweep is below tolerance.
+
+    Sweeps run alternately up and down the list, which carries weight through a pile in one pass.
+    Returns (sweeps, relative change of the last sweep).
+    """
+    contacts = packed.shape[0]
+    change = 0.0
+    for c in range(contacts):
+        apply_impulse(
+            bodies[c, 0], bodies[c, 1], packed[c, 0], packed[c, 1], packed[c, 2],
+            packed[c, 3], packed[c, 4], packed[c, 5], motion,
+        )  # fmt: skip
+    for sweep in range(most_sweeps):
+        if sweep % 2 == 0:
+            changed, size = sweep_contacts(bodies, packed, motion, friction, 0, contacts, 1)
+        else:
+            changed, size = sweep_contacts(bodies, packed, motion, friction, contacts - 1, -1, -1)
+        change = np.sqrt(changed / size) if size > 0.0 else 0.0
+        if change < tolerance:
+            return sweep + 1, change
+    return most_sweeps, change
