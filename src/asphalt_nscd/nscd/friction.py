@@ -15,7 +15,7 @@ from asphalt_nscd.nscd.contact_newton import refine
 from asphalt_nscd.nscd.contact_problem import ContactProblem
 from asphalt_nscd.nscd.contact_sweeps import accelerated_sweeps
 
-PATHS = ((3.0, 0.0), (10.0, 0.3), (100.0, 0.3), (1000.0, 0.0))
+PATHS = ((3.0, 0.0), (10.0, 0.3), (10.0, 1.0), (100.0, 0.3), (1000.0, 0.0))
 """Start and balance of the paths, tried in turn: no single choice leads through every rock pile."""
 
 FIRST_REFINEMENT = 1e-3  # error from which Newton's method may see the right statuses
@@ -88,9 +88,9 @@ def _follow(problem, path, tolerance, most_steps):
         candidates = [(error, r)]
         if tolerance < error < 0.1 * refined or (error < refined and step - refined_step >= AGAIN):
             refined, refined_step = error, step
-            r, taken = refine(problem, r, tolerance)
+            sharper, r, taken = _sharpened(problem, r, error, tolerance)
             steps += taken
-            candidates.append((max(problem.errors(r)), r))
+            candidates.append((sharper, r))
         for candidate, reactions in candidates:
             if candidate < least:
                 best, least = reactions, candidate
@@ -101,3 +101,17 @@ def _follow(problem, path, tolerance, most_steps):
         elif step - mark_step > PATIENCE:
             break
     return best, least, steps
+
+
+def _sharpened(problem, r, error, tolerance):
+    """(error, reactions, steps) of Newton's method from r, begun anew as long as it halves the error."""
+    steps = 0
+    while True:
+        trial, taken = refine(problem, r, tolerance)
+        found, steps = max(problem.errors(trial)), steps + taken
+        if found >= error:
+            return error, r, steps
+        enough = found <= tolerance or found > 0.5 * error
+        r, error = trial, found
+        if enough:
+            return error, r, steps
