@@ -22,6 +22,7 @@ rule all:
     default_target: True
     input:
         "<results>/report.html",
+        "<results>/workflow.html",
 
 
 include: "workflow/rules/data.smk"  # Section 2: tests and their reduction

@@ -61,6 +61,11 @@ def test_unknown_step_is_refused():
             "error: output file: no space left on device; free some space and run the same command again.\n",
         ),
         (KeyboardInterrupt(), 130, "error: interrupted; nothing half-written is left.\n"),
+        (
+            MemoryError(),
+            2,
+            "error: the memory is used up; end other programs, or run fewer jobs at a time (--cores 1).\n",
+        ),
     ],
 )
 def test_trouble_is_one_sentence(capsys, error, status, sentence):

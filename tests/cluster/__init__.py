@@ -1,1 +1,1 @@
-"""The smoke study on a real Slurm of one node: `python -m tests.cluster`."""
+"""The smoke study on a real Slurm of one node: `PYTHONPATH=tests python -m cluster`, or `make cluster`."""

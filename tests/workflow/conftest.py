@@ -1,68 +1,7 @@
 from __future__ import annotations
 
-import os
-import shutil
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
-import yaml
-
-ROOT = Path(__file__).parents[2]
-
-
-class Workspace:
-    """A folder of its own in which the repository's Snakefile runs."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        for name in ("config", "data", "profiles"):
-            shutil.copytree(ROOT / name, folder / name)
-
-    def configure(self, **changes: object) -> Path:
-        """The smoke study with changes, as `study.yaml`; a change to None takes the key away."""
-        study = yaml.safe_load((ROOT / "config/smoke.yaml").read_text()) | changes
-        path = self.folder / "study.yaml"
-        path.write_text(yaml.safe_dump({key: value for key, value in study.items() if value is not None}))
-        return path
-
-    def measure(self) -> dict[str, str]:
-        """Measurements of one's own for the smoke study, in `mine.csv`."""
-        rows = [f"1,{temperature},{frequency},9000,20" for temperature in (0, 20) for frequency in (3, 10)]
-        header = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg"
-        (self.folder / "mine.csv").write_text("\n".join([header, *rows]) + "\n")
-        return {"table": "mine.csv"}
-
-    def command(self, *arguments: str) -> list[str]:
-        snakemake = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
-        return [*snakemake, *arguments, "--configfile", "study.yaml"]
-
-    def run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            self.command(*arguments), cwd=self.folder, capture_output=True, text=True, env=self.environment
-        )
-
-    def start(self, *arguments: str) -> subprocess.Popen[str]:
-        return subprocess.Popen(
-            self.command(*arguments), cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-            text=True, env=self.environment,
-        )  # fmt: skip
-
-    def planned(self, *arguments: str) -> dict[str, int]:
-        """Number of jobs of each rule that a dry run announces."""
-        done = self.run(*arguments, "--dry-run", "--quiet", "rules")
-        assert done.returncode == 0, done.stderr
-        lines = (done.stdout + done.stderr).splitlines()
-        if "Job stats:" not in lines:
-            return {}
-        table = lines[lines.index("Job stats:") + 3 :]
-        rows = (line.split() for line in table[: next(i for i, line in enumerate(table) if "total" in line)])
-        return {rule: int(count) for rule, count in rows}
-
-    @property
-    def environment(self) -> dict[str, str]:
-        return {name: value for name, value in os.environ.items() if not name.startswith("SNAKEMAKE")}
+from workspace import Workspace
 
 
 @pytest.fixture

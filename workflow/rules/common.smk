@@ -6,6 +6,7 @@ import re
 import sys
 from pathlib import Path
 
+from asphalt_nscd.clock import mistrust_future
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.failures import failures
 from asphalt_nscd.feasible import require_feasible
@@ -33,6 +34,7 @@ try:
     )
     if workflow.is_main_process:
         require_feasible(STUDY, _source)
+        mistrust_future(f"results/{STUDY['study']}")
 except InputError as error:
     sys.exit(f"error: {error}")
 

@@ -38,3 +38,19 @@ if STUDY["study"] == "paper":
             "Put the reduced specimen into the package"
         shell:
             "cp {input} src/asphalt_nscd/diagnosis/specimen.h5"
+
+
+rule first_page:
+    # The report's first page as a picture for the README; needs Chromium. Only on request, like the above:
+    #   snakemake --cores 1 first_page
+    input:
+        "<results>/report.html",
+    output:
+        f"results/published/{STUDY['study']}/first_page.png",
+    params:
+        tests=os.path.relpath(Path(workflow.basedir, "tests")),
+        python=sys.executable,
+    message:
+        "Take a picture of the report's first page"
+    shell:
+        "env PYTHONPATH={params.tests} {params.python} -m browser {input} --picture {output}"

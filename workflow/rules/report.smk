@@ -1,5 +1,8 @@
 # One rule for each figure, table and page; then the report that holds them all.
 
+# Part of the report by the name of figure or page.
+PARTS = {"diagnosis": "0 Diagnosis"} | {name: part for name, (part, _) in FIGURES.items()} | PAGES
+
 
 for name, (category, data) in FIGURES.items():
 
@@ -88,6 +91,7 @@ for name, category in PAGES.items():
 
 rule study:
     # The study in full, defaults included.
+    localrule: True
     output:
         "<results>/study.json",
     params:
@@ -111,6 +115,7 @@ def benchmarks(wildcards, input):
 
 rule timings:
     # Where the time goes, from the benchmark files of all that was computed.
+    localrule: True  # a job on a cluster knows its own part of the plan alone
     input:
         COMPUTED,
         code=code("timings"),
@@ -160,19 +165,57 @@ rule results:
 
 
 rule report:
-    # Snakemake's own report, from the results and the records of how they were made.
+    # One file with everything, that opens with what was measured, simulated, wrong, why, and gained.
     input:
-        RESULTS,
-        study="<results>/study.json",
+        figures=[f"<results>/figures/{name}.png" for name in FIGURES],
+        pages=[f"<results>/pages/{name}.html" for name in ("diagnosis", *PAGES)],
+        captions=[
+            os.path.relpath(Path(workflow.basedir, f"workflow/report/{name}.rst"))
+            for name in ("diagnosis", *FIGURES, *PAGES)
+        ],
+        data=["<results>/measured.csv", "<results>/simulations.csv", "<results>/samples.csv"],
+        diagnosis=DIAGNOSED[0],
+        map="<results>/figures/fig_residual_map.png",
+        code=code("report"),
+        template=os.path.relpath(PACKAGE / "report/report.html"),
     output:
         "<results>/report.html",
     params:
-        snakefile=os.path.relpath(workflow.main_snakefile),
+        study=STUDY["study"],
+        data=lambda wildcards, input: [
+            *(f"{Path(path).stem}={path}" for path in input.data),
+            f"diagnosis={input.diagnosis}",
+            f"map={input.map}",
+        ],
+        entries=lambda wildcards, input: [
+            f"--entry={PARTS[Path(path).stem]}={path}" for path in [*input.pages, *input.figures]
+        ],
+        captions=lambda wildcards, input: os.path.dirname(input.captions[0]),
     log:
         "<results>/logs/report.log",
     benchmark:
         "<results>/benchmarks/report.tsv"
     message:
-        "Put figures, tables and audit into one report: {output}"
+        "Put figures and tables into one report: {output}"
+    shell:
+        "asphalt-nscd report {params.data:q} --study {params.study} {params.entries:q} --captions {params.captions} --output {output} > {log} 2>&1"
+
+
+rule workflow_report:
+    # Snakemake's own report, from the records of how each file was made.
+    localrule: True
+    input:
+        RESULTS,
+        study="<results>/study.json",
+    output:
+        "<results>/workflow.html",
+    params:
+        snakefile=os.path.relpath(workflow.main_snakefile),
+    log:
+        "<results>/logs/workflow_report.log",
+    benchmark:
+        "<results>/benchmarks/workflow_report.tsv"
+    message:
+        "Put down how each file was made: {output}"
     shell:
         "snakemake results --snakefile {params.snakefile} --configfile {input.study} --report {output} > {log} 2>&1"

@@ -77,6 +77,8 @@ def _status(step: Callable[[], object]) -> int:
         return _say(str(error), 2)
     except (KeyboardInterrupt, click.Abort):
         return _say("interrupted; nothing half-written is left.", 130)
+    except MemoryError:
+        return _say("the memory is used up; end other programs, or run fewer jobs at a time (--cores 1).", 2)
     except (OSError, RuntimeError) as error:
         sentence = _file_trouble(error)
         if sentence is None:

@@ -1,0 +1,50 @@
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from asphalt_nscd.cli import _data, _options
+
+
+class Part(click.ParamType):
+    """`0 Diagnosis=results/paper/figures/fig_master.png` as (part, path)."""
+
+    name = "part=path"
+
+    def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
+        part, equals, path = value.partition("=")
+        if not equals or not part or not path:
+            self.fail(f"{value!r} is not of the form part=path.", param, context)
+        return part, Path(path)
+
+
+@click.command()
+@click.argument("data", nargs=-1, type=_data.Data())
+@click.option("--study", required=True, help="Name of the study.")
+@click.option(
+    "--entry",
+    "entries",
+    multiple=True,
+    type=Part(),
+    help="A figure (PNG) or page (HTML), and the part it is in.",
+)
+@click.option(
+    "--captions", required=True, type=_options.File, help="Folder of captions, an .rst file for each entry."
+)
+@_options.output
+def command(
+    data: tuple[tuple[str, Path], ...], study: str, entries: tuple[tuple[str, Path], ...], captions: Path,
+    output: Path,
+) -> None:  # fmt: skip
+    """Put all results of a study into one HTML file, behind a first page made from measured=CSV
+    simulations=CSV samples=CSV diagnosis=JSON map=PNG."""
+    from asphalt_nscd.report.assemble import Entry, assemble
+    from asphalt_nscd.report.first_page import first_page
+    from asphalt_nscd.store import atomic_path
+
+    page = _data.made_from(data, first_page)
+    content = assemble(study, page, [Entry(part, path) for part, path in entries], captions)
+    with atomic_path(output) as path:
+        path.write_text(content, encoding="utf-8")

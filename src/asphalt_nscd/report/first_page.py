@@ -1,0 +1,124 @@
+"""What the report opens with: what was measured, what simulated, what is wrong, why, and what was gained."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from asphalt_nscd.csvinput import read_csv
+from asphalt_nscd.diagnosis.page import sections
+from asphalt_nscd.diagnosis.written import three_digits
+from asphalt_nscd.results import the_only
+
+
+def first_page(
+    measured: Sequence[Path], simulations: Sequence[Path], samples: Sequence[Path], diagnosis: list[Path],
+    map: list[Path],
+) -> dict[str, Any]:  # fmt: skip
+    """Sentences of each part, and rows of the gain.
+
+    measured, simulations, samples: one CSV table each, as the workflow makes them; diagnosis: diagnosis.json;
+    map: PNG picture of the residuals.
+    """
+    found = sections(diagnosis, map)
+    ladder = found["diagnosis"]["ladder"]
+    return {
+        "measured": _measured(_frame(measured, "measured"), found),
+        "simulated": _simulated(_frame(simulations, "simulations"), _frame(samples, "samples")),
+        "wrong": _wrong(found["diagnosis"]),
+        "verdict": found["verdict"],
+        "causes": found["ladder"],
+        "gained": _gained(ladder),
+        "held_out": _held_out(ladder),
+        "map": found["map"],
+    }
+
+
+def _frame(paths: Sequence[Path], name: str) -> pd.DataFrame:
+    table = read_csv(the_only(paths, name))
+    numbers = ("temperature_C", "frequency_Hz", "E_MPa", "phase_deg", "spheres", "bonds", "E_over_law")
+    return pd.DataFrame(
+        {name: table.numbers(name) if name in numbers else values for name, values in table.columns.items()}
+    )
+
+
+def _measured(frame: pd.DataFrame, found: dict[str, Any]) -> list[str]:
+    scatter = found["diagnosis"]["scatter"]
+    names = ("temperature_C", "frequency_Hz", "E_MPa", "phase_deg")
+    temperature, frequency, modulus, phase = (_range(frame[name]) for name in names)
+    return [
+        f"{len(frame)} complex moduli of {_many(frame['specimen'].nunique(), 'specimen')}, {temperature} °C, "
+        f"{frequency} Hz: |E*| {modulus} MPa, phase {phase}°.",
+        *found["origin"],
+        f"From test to test they scatter by {scatter['modulus_percent']:.2g} % and {scatter['phase_deg']:.2g}°.",
+    ]  # fmt: skip
+
+
+def _simulated(tests: pd.DataFrame, samples: pd.DataFrame) -> list[str]:
+    conditions = tests[["temperature_C", "frequency_Hz"]].drop_duplicates()
+    return [
+        f"{_many(len(samples), 'sample')} of {_range(samples['spheres'])} bonded spheres, poured one by one from the "
+        f"grading, in two-point bending at {_many(len(conditions), 'condition')}: {_many(len(tests), 'test')}.",
+        f"They return the law of their bonds, |E*| times {_range(samples['E_over_law'])} by their packing.",
+    ]  # fmt: skip
+
+
+def _wrong(diagnosis: dict[str, Any]) -> list[str]:
+    modulus, phase = diagnosis["baseline"]["mre_E_percent"], diagnosis["baseline"]["mre_phase_percent"]
+    return [
+        "With one Burgers law for each temperature, as in the paper, and the packing taken out, the simulation misses "
+        f"|E*| by {_mean(modulus)} % in the mean, most at {_worst(modulus)} °C, and the phase by "
+        f"{_mean(phase)} %, most at {_worst(phase)} °C."
+    ]
+
+
+def _gained(ladder: list[dict[str, Any]]) -> list[tuple[str, str, str]]:
+    """Quantity, before all causes and after all of them."""
+    if not ladder:
+        return []
+    names = {
+        "mre_E_percent": "error of |E*|, %", "mre_phase_percent": "error of the phase, %",
+        "rms_over_scatter": "residual over scatter",
+    }  # fmt: skip
+    first, last = ladder[0]["gain"]["in_sample"], ladder[-1]["gain"]["in_sample"]
+    return [
+        (words, three_digits(first[name]["before"]), three_digits(last[name]["after"]))
+        for name, words in names.items()
+    ]
+
+
+def _held_out(ladder: list[dict[str, Any]]) -> str | None:
+    """Errors of temperatures that took no part in the fit, where there are enough to leave one out."""
+    predicted = ladder[-1]["gain"]["held_out"].get("leave_one_isotherm_out") if ladder else None
+    if predicted is None:
+        return None
+    modulus, phase = (
+        three_digits(predicted[name]["after"]) for name in ("mre_E_percent", "mre_phase_percent")
+    )
+    return f"Each temperature predicted from the others alone: |E*| to {modulus} %, the phase to {phase} %."
+
+
+def _mean(by_temperature: dict[str, float]) -> str:
+    return three_digits(sum(by_temperature.values()) / len(by_temperature))
+
+
+def _worst(by_temperature: dict[str, float]) -> str:
+    return _number(float(max(by_temperature, key=by_temperature.__getitem__)))
+
+
+def _range(values: pd.Series) -> str:
+    low, high = (_number(value) for value in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"
+
+
+def _number(value: float) -> str:
+    """Four digits, or all before the point."""
+    text = f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def _many(count: int, name: str) -> str:
+    return f"{count} {name}" + ("" if count == 1 else "s")
