@@ -57,8 +57,9 @@ def accelerated_sweeps(start, other, block, q, friction, length, tolerance, most
             continue
         if last_size < np.inf:
             slot = kept % _DEPTH
-            of_results[slot] = swept - last
-            of_changes[slot] = change - last_change
+            for i in range(rows):
+                of_results[slot, i] = swept[i] - last[i]
+                of_changes[slot, i] = change[i] - last_change[i]
             kept += 1
             for k in range(min(kept, _DEPTH)):
                 normal[slot, k] = normal[k, slot] = _dot(of_changes[slot], of_changes[k])
@@ -175,22 +176,22 @@ def natural_map(start, other, block, q, friction, length, r):
     the variables r / sqrt(rho) and u sqrt(rho), both square roots of energies, with the step
     lengths rho_a = `length` (c,), is relative to |q| alone, and at least the rounding of r.
     """
-    plain = np.zeros(4)
-    distance = pressing = available = 0.0
+    plain = frees = forces = speeds = distance = pressing = available = 0.0
+    each, velocity = r.reshape(-1, 3), q.reshape(-1, 3)
     for a in range(friction.shape[0]):
-        u0, u1, u2 = q[3 * a], q[3 * a + 1], q[3 * a + 2]
+        u0, u1, u2 = velocity[a, 0], velocity[a, 1], velocity[a, 2]
+        free = u0 * u0 + u1 * u1 + u2 * u2
         for k in range(start[a], start[a + 1]):
-            b = 3 * other[k]
-            u0 += block[k, 0, 0] * r[b] + block[k, 0, 1] * r[b + 1] + block[k, 0, 2] * r[b + 2]
-            u1 += block[k, 1, 0] * r[b] + block[k, 1, 1] * r[b + 1] + block[k, 1, 2] * r[b + 2]
-            u2 += block[k, 2, 0] * r[b] + block[k, 2, 1] * r[b + 1] + block[k, 2, 2] * r[b + 2]
-        r0, r1, r2 = r[3 * a], r[3 * a + 1], r[3 * a + 2]
+            w, n, t, s = block[k], each[other[k], 0], each[other[k], 1], each[other[k], 2]
+            u0 += w[0, 0] * n + w[0, 1] * t + w[0, 2] * s
+            u1 += w[1, 0] * n + w[1, 1] * t + w[1, 2] * s
+            u2 += w[2, 0] * n + w[2, 1] * t + w[2, 2] * s
+        r0, r1, r2 = each[a, 0], each[a, 1], each[a, 2]
         shifted = u0 + friction[a] * np.sqrt(u1 * u1 + u2 * u2)
         force = r0 * r0 + r1 * r1 + r2 * r2
-        free = q[3 * a] ** 2 + q[3 * a + 1] ** 2 + q[3 * a + 2] ** 2
-        speed = u0 * u0 + u1 * u1 + u2 * u2
+        frees, forces, speeds = frees + free, forces + force, speeds + u0 * u0 + u1 * u1 + u2 * u2
         p0, p1, p2 = project_on_cone(r0 - shifted, r1 - u1, r2 - u2, friction[a])
-        plain += np.array([(r0 - p0) ** 2 + (r1 - p1) ** 2 + (r2 - p2) ** 2, free, force, speed])
+        plain += (r0 - p0) ** 2 + (r1 - p1) ** 2 + (r2 - p2) ** 2
         h = length[a]
         p0, p1, p2 = project_on_cone(r0 - h * shifted, r1 - h * u1, r2 - h * u2, friction[a])
         distance += ((r0 - p0) ** 2 + (r1 - p1) ** 2 + (r2 - p2) ** 2) / h
@@ -198,7 +199,7 @@ def natural_map(start, other, block, q, friction, length, r):
         available += free * h
     tiny = 1e-300  # no motion and no force is no error
     return (
-        np.sqrt(plain[0] / max(plain[1:].max(), tiny)),
+        np.sqrt(plain / max(frees, forces, speeds, tiny)),
         np.sqrt(max(distance, _ROUNDING**2 * pressing) / max(available, tiny)),
     )
 
