@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, replace
 
+import click
 import numpy as np
 import pytest
 
@@ -15,6 +16,7 @@ from asphalt_nscd.bending import (
     run_test,
     simulate,
 )
+from asphalt_nscd.cli import group
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.layers import LAYERS
 from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
@@ -325,3 +327,34 @@ def test_tests_that_cannot_be_reduced(folder, cycles, time_step, message):
             folder / "no.h5",
         )
     assert not (folder / "no.h5").exists()
+
+
+def test_tests_of_one_command_are_those_made_one_by_one(folder):
+    """Same numbers to the last bit, one law for all or one for each; what does not pair is refused."""
+    write_law(folder / "soft.json", Burgers(2e9, 4e8, 5e9, 8e7), source="fitted", temperature=15.0)
+    laws, frequencies = [folder / "law.json", folder / "soft.json"], [FREQUENCY, 2 * FREQUENCY]
+    fixed = ["simulate", str(folder / "free.h5"), "--temperature-c", "15", "--amplitude-m", "1e-6"]
+    fixed += ["--cycles", "1", "--time-step-s", str(DT), "--rest-steps", "10"]
+
+    def command(frequencies, laws, outputs):
+        words = {"--frequency-hz": frequencies, "--law": laws, "--output": outputs}
+        return [
+            *fixed,
+            *(str(word) for name, values in words.items() for value in values for word in (name, value)),
+        ]
+
+    def forces(outputs):
+        return [load(path, "test").arrays["force_N"].tobytes() for path in outputs]
+
+    together, alone = ([folder / f"{name}{n}.h5" for n in (0, 1)] for name in ("together", "alone"))
+    group.main(command(frequencies, laws, together), standalone_mode=False)
+    for test in zip(frequencies, laws, alone, strict=True):
+        group.main(command(*([value] for value in test)), standalone_mode=False)
+    assert forces(together) == forces(alone)
+    group.main(command(frequencies, laws[:1], together), standalone_mode=False)
+    assert forces(together)[0] == forces(alone)[0] and forces(together)[1] != forces(alone)[1]
+    for wrong in (command(frequencies, laws, together[:1]), command(frequencies[:1], laws, together[:1])):
+        with pytest.raises(click.UsageError, match="give an --output for each frequency"):
+            group.main(wrong, standalone_mode=False)
+    with pytest.raises(click.UsageError, match="--checkpoint keeps one test"):
+        group.main([*command(frequencies, laws, together), "--checkpoint", "c.h5"], standalone_mode=False)

@@ -256,14 +256,18 @@ def simulate(
     method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
     progress: Progress = lambda done, total: None, rig_file: str | Path | None = None, scheme: str = "euler",
     energy: bool = False, checkpoint_file: str | Path | None = None, checkpoint_every: int = 100,
+    model: Model | None = None,
 ) -> None:  # fmt: skip
-    """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking."""
+    """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking.
+
+    model: what `model_file` holds, where it has been read already.
+    """
     if cycles < 1.0:
         raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
     require_steps(time_step, frequency)
     law = read_bond_law(law_file)
     rig = Rig() if rig_file is None else read_rig(rig_file)
-    model = read_model(model_file)
+    model = read_model(model_file) if model is None else model
     checkpoint = None
     if checkpoint_file is not None:
         run = {

@@ -13,12 +13,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 
 from asphalt_nscd.errors import DamagedFile, InputError
+
+if TYPE_CHECKING:
+    import pandas as pd  # a quarter of the time in which a step starts
 
 FORMAT_VERSION = 1
 _PACKAGES = ("asphalt-nscd", "numpy", "scipy", "numba", "pandas", "h5py", "matplotlib", "snakemake")

@@ -3,6 +3,7 @@
 AUDIT = STUDY.get("audit", {"seed": 0, "temperature_C": 0})
 PACKING = STUDY.get("packing_study", {"frictions": [], "seed": 0, "temperature_C": 0, "frequency_Hz": 0})
 PACKED = [f"s{PACKING['seed']}", *(f"s{PACKING['seed']}-friction{label(value)}" for value in PACKING["frictions"])]
+PACKED_TEST = "<results>/packing/{sample}/T{temperature}/f{frequency}.h5"
 AUDITED = expand(
     "<results>/{{reading}}/s{seed}/T{temperature}/f{frequency}.h5",
     seed=AUDIT["seed"],
@@ -33,17 +34,18 @@ use rule simulate as simulate_pascal with:
         law="<results>/laws/pascal/T{temperature}.json",
         code=code("simulate"),
     output:
-        "<results>/pascal/{sample}/T{temperature}/f{frequency}.h5",
+        expand("<results>/pascal/{sample}/T{temperature}/f{frequency}.h5", frequency=FREQUENCIES, allow_missing=True),
     params:
         source="pascal",
+        tests=tests,
         # steady oscillation: waves from the start do not die out in so soft a specimen
         test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s") + " --method harmonic",
     log:
-        "<results>/logs/simulate_pascal/{sample}/T{temperature}/f{frequency}.log",
+        "<results>/logs/simulate_pascal/{sample}/T{temperature}.log",
     benchmark:
-        "<results>/benchmarks/simulate_pascal/{sample}/T{temperature}/f{frequency}.tsv"
+        "<results>/benchmarks/simulate_pascal/{sample}/T{temperature}.tsv"
     message:
-        "Test with Table 3 in Pa at {wildcards.frequency} Hz"
+        "Test with Table 3 in Pa"
 
 
 use rule simulate as simulate_blocked with:
@@ -55,16 +57,17 @@ use rule simulate as simulate_blocked with:
         code=code("simulate"),
     params:
         source=LAWS,
+        tests=tests,
         # steady oscillation: a head that cannot rotate overloads bonds, which would hide its own effect
         test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s") + " --method harmonic",
     output:
-        "<results>/blocked/{sample}/T{temperature}/f{frequency}.h5",
+        expand("<results>/blocked/{sample}/T{temperature}/f{frequency}.h5", frequency=FREQUENCIES, allow_missing=True),
     log:
-        "<results>/logs/simulate_blocked/{sample}/T{temperature}/f{frequency}.log",
+        "<results>/logs/simulate_blocked/{sample}/T{temperature}.log",
     benchmark:
-        "<results>/benchmarks/simulate_blocked/{sample}/T{temperature}/f{frequency}.tsv"
+        "<results>/benchmarks/simulate_blocked/{sample}/T{temperature}.tsv"
     message:
-        "Test with the head's rotation blocked at {wildcards.frequency} Hz"
+        "Test with the head's rotation blocked"
 
 
 use rule simulations as readings with:
@@ -82,11 +85,23 @@ use rule simulations as readings with:
         "Collect the tests under other readings"
 
 
+use rule simulate as simulate_packed with:
+    # One test on a sample poured with more friction, and on one poured as the others.
+    output:
+        PACKED_TEST,
+    log:
+        "<results>/logs/simulate_packed/{sample}/T{temperature}/f{frequency}.log",
+    benchmark:
+        "<results>/benchmarks/simulate_packed/{sample}/T{temperature}/f{frequency}.tsv"
+    message:
+        "Test sample {wildcards.sample} for its packing"
+
+
 rule packing:
     # The same test on samples poured with more friction.
     input:
         tests=expand(
-            TESTS,
+            PACKED_TEST,
             sample=PACKED,
             temperature=label(PACKING["temperature_C"]),
             frequency=label(PACKING["frequency_Hz"]),

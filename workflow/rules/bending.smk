@@ -5,28 +5,39 @@ LAWS = STUDY["laws"]["simulate"]
 TESTS = "<results>/tests/{sample}/T{temperature}/f{frequency}.h5"
 
 
+def tests(wildcards, input, output):
+    """One test for each file: its frequency, the law of all or its own, and the file."""
+    frequencies = [wildcards.frequency] if "frequency" in wildcards.keys() else FREQUENCIES
+    laws = [input.law] * len(frequencies) if isinstance(input.law, str) else input.law
+    return " ".join(
+        f"--frequency-hz {frequency} --law {law} --output {path}"
+        for frequency, law, path in zip(frequencies, laws, output, strict=True)
+    )
+
+
 rule simulate:
-    # One test: one sample, one temperature, one frequency.
+    # The tests of one sample at one temperature, a file for each frequency.
     input:
         compiled="<results>/compiled/simulate",
         model=f"<results>/models/{HEAD}/{{sample}}.h5",
         law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
         code=code("simulate"),
     output:
-        TESTS,
+        expand(TESTS, frequency=FREQUENCIES, allow_missing=True),
     params:
         source=LAWS,
+        tests=tests,
         test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s", "rest_steps"),
     resources:
         mem_mb=1200,
     log:
-        "<results>/logs/simulate/{sample}/T{temperature}/f{frequency}.log",
+        "<results>/logs/simulate/{sample}/T{temperature}.log",
     benchmark:
-        "<results>/benchmarks/simulate/{sample}/T{temperature}/f{frequency}.tsv"
+        "<results>/benchmarks/simulate/{sample}/T{temperature}.tsv"
     message:
-        "Test sample {wildcards.sample} at {wildcards.temperature} degC, {wildcards.frequency} Hz"
+        "Test sample {wildcards.sample} at {wildcards.temperature} degC"
     shell:
-        "asphalt-nscd simulate {input.model} --law {input.law} --law-source {params.source} --temperature-c {wildcards.temperature} --frequency-hz {wildcards.frequency} {params.test} --output {output} > {log} 2>&1"
+        "asphalt-nscd simulate {input.model} --law-source {params.source} --temperature-c {wildcards.temperature} {params.test} {params.tests} > {log} 2>&1"
 
 
 rule simulations:

@@ -23,23 +23,24 @@ rule scale_law:
 
 
 use rule simulate as simulate_scaled with:
-    # The same test with the changed law.
+    # The same tests with the changed law.
     input:
         compiled="<results>/compiled/simulate",
         model=f"<results>/models/{HEAD}/{{sample}}.h5",
         law=SCALED_LAW,
         code=code("simulate"),
     output:
-        SCALED_TESTS,
+        expand(SCALED_TESTS, frequency=FREQUENCIES, allow_missing=True),
     params:
         source="{parameter}:{factor}",
+        tests=tests,
         test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s", "rest_steps"),
     log:
-        "<results>/logs/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}/f{frequency}.log",
+        "<results>/logs/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}.log",
     benchmark:
-        "<results>/benchmarks/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}/f{frequency}.tsv"
+        "<results>/benchmarks/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}.tsv"
     message:
-        "Test sample {wildcards.sample} with {wildcards.parameter} times {wildcards.factor}, {wildcards.frequency} Hz"
+        "Test sample {wildcards.sample} with {wildcards.parameter} times {wildcards.factor}"
 
 
 use rule simulations as sensitivity with:

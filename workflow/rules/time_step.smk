@@ -22,6 +22,7 @@ use rule simulate as simulate_step with:
         "<results>/time_step/reduced/{sample}/T{temperature}/f{frequency}/dt{time_step}.h5",
     params:
         source=LAWS,
+        tests=tests,
         test=options(STUDY["test"], "amplitude_m", "rest_steps") + " --cycles 1 --time-step-s {time_step}",
     log:
         "<results>/logs/simulate_step/{sample}/T{temperature}/f{frequency}/dt{time_step}.log",
@@ -37,6 +38,7 @@ use rule simulate as simulate_sweeps with:
         "<results>/time_step/sweeps/{sample}/T{temperature}/f{frequency}/dt{time_step}.h5",
     params:
         source=LAWS,
+        tests=tests,
         test=options(STUDY["test"], "amplitude_m")
         + " --cycles 1 --time-step-s {time_step} --rest-steps 0"
         + f" --method sweeps --most-sweeps {STEPPING['sweeps']} --tolerance 0",

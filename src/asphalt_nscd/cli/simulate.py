@@ -9,7 +9,14 @@ from asphalt_nscd.cli import _options, _progress
 
 @click.command()
 @click.argument("model", type=_options.File)
-@click.option("--law", required=True, type=_options.File, help="Law of the bonds, JSON.")
+@click.option(
+    "--law",
+    "laws",
+    required=True,
+    multiple=True,
+    type=_options.File,
+    help="Law of the bonds, JSON; one for all tests or one for each.",
+)
 @click.option("--law-source", default="", help="Where the law comes from; kept with the result.")
 @click.option(
     "--temperature-c",
@@ -17,7 +24,14 @@ from asphalt_nscd.cli import _options, _progress
     type=_options.Number(above=-273.15),
     help="Temperature of the law, degrees Celsius.",
 )
-@click.option("--frequency-hz", required=True, type=_options.POSITIVE, help="Frequency of the head, Hz.")
+@click.option(
+    "--frequency-hz",
+    "frequencies",
+    required=True,
+    multiple=True,
+    type=_options.POSITIVE,
+    help="Frequency of the head, Hz; given again, with an --output of its own, for each further test.",
+)
 @click.option("--amplitude-m", default=63e-6, type=_options.POSITIVE, help="Amplitude of the head, m.")
 @click.option("--cycles", default=5.0, type=_options.Number(low=1.0), help="Number of cycles.")
 @click.option("--time-step-s", default=5e-5, type=_options.POSITIVE, help="Time step, s.")
@@ -63,19 +77,31 @@ from asphalt_nscd.cli import _options, _progress
 @click.option(
     "--checkpoint-every", default=100, type=click.IntRange(1), help="Steps between two checkpoints."
 )
-@_options.output
+@_options.outputs
 def command(
-    model: Path, law: Path, law_source: str, temperature_c: float, frequency_hz: float, amplitude_m: float,
+    model: Path, laws: tuple[Path, ...], law_source: str, temperature_c: float,
+    frequencies: tuple[float, ...], amplitude_m: float,
     cycles: float, time_step_s: float, rest_steps: int, method: str, tolerance: float, most_sweeps: int,
     rig: Path | None, scheme: str, energy: bool, checkpoint: Path | None, checkpoint_every: int,
-    output: Path,
+    outputs: tuple[Path, ...],
 ) -> None:  # fmt: skip
-    """One complex modulus test at one temperature and frequency."""
-    from asphalt_nscd.bending import simulate
+    """Complex modulus tests at one temperature: for each frequency a file."""
+    tests = len(frequencies)
+    if len(outputs) != tests or len(laws) not in (1, tests):
+        raise click.UsageError(
+            f"{tests} x --frequency-hz, {len(laws)} x --law and {len(outputs)} x --output; give an --output "
+            "for each frequency, and one --law or one for each."
+        )
+    if checkpoint is not None and tests > 1:
+        raise click.UsageError("--checkpoint keeps one test; give one --frequency-hz.")
+    from asphalt_nscd.bending import read_model, simulate
 
-    with _progress.bars("steps") as report:
-        simulate(
-            model, law, temperature_c, frequency_hz, amplitude_m, cycles, time_step_s, rest_steps, output,
-            law_source, method, tolerance, most_sweeps, lambda done, total: report("testing", done, total),
-            rig, scheme, energy, checkpoint, checkpoint_every,
-        )  # fmt: skip
+    specimen = read_model(model)
+    for law, frequency, output in zip(laws * (tests // len(laws)), frequencies, outputs, strict=True):
+        with _progress.bars("steps") as report:
+            simulate(
+                model, law, temperature_c, frequency, amplitude_m, cycles, time_step_s, rest_steps, output,
+                law_source, method, tolerance, most_sweeps,
+                lambda done, total: report(f"testing at {frequency:g} Hz", done, total),  # noqa: B023
+                rig, scheme, energy, checkpoint, checkpoint_every, specimen,
+            )  # fmt: skip

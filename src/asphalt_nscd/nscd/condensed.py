@@ -13,7 +13,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.optimize import brentq
 
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.friction import solve_contacts
@@ -163,6 +162,8 @@ class CondensedStepper:
         resisted, slider = follow(contact_force)
         excess = resisted - velocity
         if excess:  # contacts resist motion, so the answer lies between
+            from scipy.optimize import brentq  # takes as long to import as a test to run
+
             velocity = brentq(yields, velocity, velocity + excess, xtol=1e-14 * abs(excess))
             velocity, slider = follow(self._move(impulse, velocity)[1])
             motion, contact_force = self._move(impulse, velocity)
