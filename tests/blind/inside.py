@@ -50,7 +50,8 @@ def run(effect: str, models: Sequence[Path], empty: Mapping[str, Any] | None, se
     if effect != NOTHING:
         random = np.random.default_rng([seed, number])
         effects.append(_placed(effect, empty["diagnosis"]["detection_limits"], design, geometry, random))
-    law, scatter = draw_law(np.random.default_rng(seed), "havriliak_negami"), Scatter()
+    # The packings themselves make the samples differ.
+    law, scatter = draw_law(np.random.default_rng(seed), "havriliak_negami"), Scatter(specimen=0.0)
     histories = [
         _history(specimens[row.specimen], row, law, effects) for row in design.itertuples(index=False)
     ]
@@ -58,10 +59,20 @@ def run(effect: str, models: Sequence[Path], empty: Mapping[str, Any] | None, se
     table = measure(tests, histories, geometry, seed + number, scatter)
     seal = {
         "seed": seed, "law": asdict(law), "scatter": asdict(scatter), "form": "nscd", "tests": len(tests),
-        "effects": effects,
+        "effects": effects, "packing_ratio": _packing_ratios(specimens),
     }  # fmt: skip
     case = Case(seed, "nscd", tuple(e["cause"] for e in effects), RATIO, form="nscd", shape=law.shape)
     return {"case": asdict(case), "seal": seal, "diagnosis": open_case(table, geometry)}
+
+
+def _packing_ratios(models: Mapping[str, Model]) -> dict[str, float]:
+    """Static stiffness of each sample under one law, over that of the median sample: small packings differ."""
+    stiffness = {
+        name: float((model.system.weight * (model.system.operator @ model.basis[:, 0]) ** 2).sum())
+        for name, model in models.items()
+    }
+    middle = float(np.median(list(stiffness.values())))
+    return {name: value / middle for name, value in stiffness.items()}
 
 
 def _placed(

@@ -20,6 +20,7 @@ Diagnosis = Mapping[str, Any]
 TRUE_OF_ALL = "relaxation_spectrum"
 NOTHING, UNEXPLAINED, ELSEWHERE = "nothing", "unexplained_structure", "right cause, wrong place"
 REFUSED = "refused"  # by the reader, before any diagnosis
+PACKING = 0.1  # how well a sample's own stiffness over that of the median sample is to be met
 GAUSSIAN_95 = 1.959964  # standard errors
 
 
@@ -57,7 +58,9 @@ def outcomes(cases: Iterable[tuple[Seal, Diagnosis]]) -> pd.DataFrame:
         }
         effects = seal["effects"]
         wrong = [
-            entry for entry in _named(diagnosis) if not any(_tells(entry, e, diagnosis) for e in effects)
+            entry
+            for entry in _named(diagnosis)
+            if not any(_tells(entry, e, diagnosis) for e in effects) and not _of_packing(entry, seal)
         ]
         for effect in effects or [None]:
             rows.append(common | {"wrong": len(wrong)} | _row(effect, wrong, diagnosis))
@@ -87,7 +90,7 @@ def _row(effect: Mapping[str, Any] | None, wrong: list, diagnosis: Diagnosis) ->
         row |= {
             "outcome": diagnosis["verdict"] if diagnosis["verdict"] in (UNEXPLAINED, REFUSED) else NOTHING
         }
-    row["found"] = row["outcome"] != NOTHING
+    row["found"] = row["outcome"] not in (NOTHING, REFUSED)
     if effect is not None:
         row |= {"where": effect["where"], "amplitude": effect["amplitude"], "strength": effect["strength"]}
         row |= {"ratio": _ratio(effect, diagnosis)}
@@ -96,6 +99,15 @@ def _row(effect: Mapping[str, Any] | None, wrong: list, diagnosis: Diagnosis) ->
         gain = held_out_gain(itself[0])
         row |= _recovered(effect, itself[0]) | {"gained": None if gain is None else gain > 0.0}
     return row
+
+
+def _of_packing(entry: Mapping[str, Any], seal: Seal) -> bool:
+    """Whether an entry says of a numerical sample what its packing is: stiffer or softer than the others."""
+    ratio = seal.get("packing_ratio", {}).get(entry.get("where"))
+    if ratio is None or entry["cause"] != "specimen_geometry":
+        return False
+    said = next(iter(entry["parameters"].values()))["value"]
+    return abs(said - (ratio - 1.0)) < PACKING
 
 
 def _same(entry: Mapping[str, Any], effect: Mapping[str, Any]) -> bool:

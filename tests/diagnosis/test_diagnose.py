@@ -1,8 +1,11 @@
 """Effects hidden in drawn measurements are found, named and sized; empty tables stay unnamed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from asphalt_nscd.diagnosis import scatter
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.rheology.shift import WLF
@@ -69,3 +72,41 @@ def test_an_effect_outside_the_catalogue_gets_no_name():
     diagnosis = diagnose(table(5, lambda e, s, t, w: np.where(np.abs(w - 50 * np.pi) < 1, 1.03 * e, e)))
     assert diagnosis.ladder.rungs == [] and diagnosis.verdict == "unexplained_structure"
     assert diagnosis.ladder.remaining.pattern == "25 Hz, modulus"
+
+
+@pytest.mark.parametrize("static", [0.0, 1e6])
+def test_a_true_static_modulus_makes_no_misfit_where_the_tests_stay_far_from_it(static):
+    diagnosis = diagnose(replace(table(3), static_modulus=static))
+    assert diagnosis.verdict == "explained" and not diagnosis.ladder.rungs
+    assert ("guide_stiffness", None) not in diagnosis.ladder.limits
+
+
+def test_three_good_specimens_lose_no_test():
+    lost = 0
+    for seed in range(40):
+        three = table(seed).subset(np.arange(90))
+        lost += scatter.outliers(three).size > 0
+    assert lost <= 3
+
+
+def test_one_bad_test_of_three_specimens_is_set_aside():
+    three = table(3).subset(np.arange(90))
+    modulus = three.modulus.copy()
+    modulus[17] *= 1.6
+    assert list(scatter.outliers(replace(three, modulus=modulus))) == [17]
+
+
+def test_replicates_closer_than_tests_can_be_are_given_a_floor():
+    exact = table(3)
+    same = LAW.complex_modulus(exact.omega, exact.temperature) * (1.0 + 1e-3 * exact.specimen)
+    diagnosis = diagnose(replace(exact, modulus=same))
+    assert diagnosis.noise.sigma == pytest.approx((scatter.FLOOR, scatter.FLOOR))
+    assert any("Check that they are separate tests" in note for note in diagnosis.notes)
+
+
+def test_what_the_head_adds_is_not_scaled_with_a_specimen():
+    """Specimens of 0.8 to 1.2 times the mix on a rig with a spring's worth of 300 MPa loss: nothing is left."""
+    observed = table(5, lambda e, s, t, w: e * np.array([0.8, 0.95, 1.05, 1.2])[s] + 3e8j)
+    diagnosis = diagnose(observed)
+    assert [rung.candidate.key[0] for rung in diagnosis.ladder.rungs][0] == "guide_friction"
+    assert diagnosis.verdict == "explained"

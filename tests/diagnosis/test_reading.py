@@ -55,3 +55,18 @@ def test_what_was_reduced_is_read_as_it_was_measured(tmp_path, header, rows, amp
         observed, _ = read_observations(given, PAPER_GEOMETRY)
         assert (observed.inertia > 0).all() == (observed.inertia > 0).any() == by_force
         assert observed.amplitude is amplitude or set(observed.amplitude) == {amplitude}
+
+
+GRID = [f"{s},{t},{f},9000,20" for s in "AB" for t in (0, 10) for f in (1, 10)]
+
+
+def test_frequencies_that_scatter_by_a_per_cent_are_one(tmp_path):
+    rows = [row.replace(",10,9000", ",10.1,9000") if row[0] == "B" else row for row in GRID]
+    path = table(tmp_path, "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg", rows)
+    assert read_observations(path, PAPER_GEOMETRY)[0].frequencies == pytest.approx([1.0, 10.05])
+
+
+def test_fine_sweeps_keep_their_frequencies(tmp_path):
+    rows = [row.replace(",1,9000", ",10.1,9000") for row in GRID]
+    path = table(tmp_path, "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg", rows)
+    assert read_observations(path, PAPER_GEOMETRY)[0].frequencies == pytest.approx([10.0, 10.1])

@@ -35,7 +35,8 @@ class FlexibleSpectrum:
     times (m,): relaxation times [s] at the reference temperature [degC], ascending; roughness: standard
     deviation of the second differences of ln(strength); least_c2 [K]: the shift is singular at C2 below
     the coldest test; span [K]: scale of the departure from WLF; static_modulus [Pa]: known from
-    elsewhere, or None. Parameters: ln strength (m), ln static modulus, ln C1, ln(C2 - least_c2), departure.
+    elsewhere, or None; ends_straight: the tests come near it. Parameters: ln strength (m), ln static
+    modulus, ln C1, ln(C2 - least_c2), departure.
     """
 
     times: Vector
@@ -44,8 +45,9 @@ class FlexibleSpectrum:
     span: float
     roughness: float
     static_modulus: float | None = None
+    ends_straight: bool = False
 
-    # Slower than the tests, a bump acts as a larger static modulus; where that is known, the end is straight.
+    # Slower than the tests, a bump acts as a larger static modulus. Where that is known and near, there is none.
     SLOWEST = 5  # elements
     STRAIGHT = 0.02  # standard deviation of their second differences
     DEPARTURE = 0.1  # standard deviation of ln(a_T) off WLF one span away from the reference
@@ -69,11 +71,12 @@ class FlexibleSpectrum:
         z = 1j * (omega * np.exp(shift))[:, None] * self.times
         strength = np.exp(x[:m])
         terms = z / (1.0 + z) * strength
-        static = self.static_modulus or float(np.exp(x[m]))
+        known = self.static_modulus is not None
+        static = self.static_modulus if known else float(np.exp(x[m]))
         along = (terms / (1.0 + z)).sum(axis=1)  # derivative with respect to ln(reduced frequency)
         slope = np.empty((omega.size, self.parameters), complex)
         slope[:, :m] = terms
-        slope[:, m] = 0.0 if self.static_modulus else static
+        slope[:, m] = 0.0 if known else static
         slope[:, m + 1 :] = along[:, None] * shift_slopes
         return static + terms.sum(axis=1), slope
 
@@ -81,7 +84,7 @@ class FlexibleSpectrum:
         m = self.times.size
         rows = np.zeros((m + 2, self.parameters))
         rows[: m - 2, :m] = np.diff(np.eye(m), 2, axis=0) / self.roughness
-        if self.static_modulus:
+        if self.ends_straight:
             rows[m - 2 - self.SLOWEST : m - 2, :m] *= max(self.roughness / self.STRAIGHT, 1.0)
         offset = np.zeros(m + 2)
         # Broad: the static modulus anywhere from 1e-5 to 0.1 of the glassy one; WLF constants of bitumens.

@@ -51,6 +51,11 @@ def diagnose(
     aside = scatter.outliers(observed)
     whole, observed = observed, observed.subset(np.setdiff1d(np.arange(observed.size), aside))
     noise, replicated = _noise(observed, scatter_stated, catalogue, notes)
+    if scatter_stated is None and min(noise.sigma) <= 1.01 * scatter.FLOOR:
+        notes.append(
+            "Repeated tests agree better than tests can be repeated; taken as a scatter of "
+            f"{100.0 * scatter.FLOOR:g} % and {np.degrees(scatter.FLOOR):.2g} deg. Check that they are separate tests."
+        )
     joint, fitted = start.fit_spectrum(observed, noise)
     baseline_joint, baseline = start.fit_burgers_at_each(observed, noise)
     baseline_p = misfit_p_value(baseline, noise)

@@ -69,15 +69,16 @@ def read_observations(
     gamma = np.array([form_factor(geometries[name]) for name in names])
     # Ready moduli may come from any test; only peaks and records went through Eq. (1).
     mass = np.array([mass_factor(geometries[name]) if by_force else 0.0 for name in names])
+    temperature, frequency = frame["temperature_C"].to_numpy(float), frame["frequency_Hz"].to_numpy(float)
     origins = sorted(set(frame["origin"]))
     observed = Observations(
         specimen=specimen, names=tuple(str(name) for name in names),
-        temperature=frame["temperature_C"].to_numpy(float),
-        frequency=frame["frequency_Hz"].to_numpy(float),
+        temperature=temperature, frequency=_as_set(frequency, specimen, temperature),
         modulus=frame["E_MPa"].to_numpy(float) * 1e6 * np.exp(1j * np.radians(frame["phase_deg"].to_numpy(float))),
         form_factor=gamma[specimen],
         inertia=(gamma * mass)[specimen],
-        amplitude=_rounded(optional.get("amplitude_m")), order=optional.get("order"), cycles=optional.get("cycles"),
+        amplitude=_grouped(optional.get("amplitude_m"), 0.05),
+        order=optional.get("order"), cycles=optional.get("cycles"),
         time_step=optional.get("time_step_s"),
         static_modulus=static_modulus,
     )  # fmt: skip
@@ -90,15 +91,24 @@ def read_observations(
     return observed, origins[0] if len(origins) == 1 else "mixed: " + ", ".join(origins)
 
 
-def _rounded(amplitude: np.ndarray | None) -> np.ndarray | None:
-    """Amplitudes as set: measured ones scatter by less than 5 % about the value set."""
-    if amplitude is None:
+def _as_set(frequency: np.ndarray, specimen: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+    """Frequencies of a grid as set: measured ones scatter by a per cent; a fine sweep is left as it is."""
+    grouped = _grouped(frequency, 0.015)
+    tests = np.column_stack([specimen, temperature, frequency])
+    as_grouped = np.column_stack([specimen, temperature, grouped])
+    fewer = len(np.unique(as_grouped, axis=0)) < len(np.unique(tests, axis=0))
+    return frequency if fewer else grouped
+
+
+def _grouped(values: np.ndarray | None, apart: float) -> np.ndarray | None:
+    """Means of values whose logarithms follow one another by less than `apart`."""
+    if values is None:
         return None
-    order = np.argsort(amplitude)
-    jumps = np.diff(np.log(amplitude[order])) > 0.05
+    order = np.argsort(values)
+    jumps = np.diff(np.log(values[order])) > apart
     group = np.concatenate([[0], np.cumsum(jumps)])
-    means = np.array([amplitude[order][group == g].mean() for g in range(group[-1] + 1)])
-    set_to = np.empty_like(amplitude)
+    means = np.array([values[order][group == g].mean() for g in range(group[-1] + 1)])
+    set_to = np.empty_like(values)
     set_to[order] = means[group]
     return set_to
 

@@ -251,7 +251,7 @@ def _indistinguishable(diagnosis: Diagnosis) -> list[list[str]]:
     ]
     out += [[_name(one), _name(other)] for one, other in diagnosis.ladder.alike]
     out.append(["loose_clamp of all specimens", "relaxation_spectrum"])
-    if diagnosis.observed.static_modulus is None:
+    if not any(name == "guide_stiffness" for name, _ in diagnosis.ladder.limits):
         out.append(["guide_stiffness", "static modulus of relaxation_spectrum"])
     out.append(["specimen_geometry of all specimens", "glassy modulus of relaxation_spectrum"])
     out.append(["temperature_bias of all isotherms", "shift constants of relaxation_spectrum"])
@@ -265,7 +265,7 @@ def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
         for cause in CATALOGUE if not cause.places(observed)
     ]  # fmt: skip
     out += [
-        {"cause": _name(candidate), "needs": "a design in which a smooth law cannot follow it"}
+        {"cause": _name(candidate), "needs": candidate.cause.shows_in}
         for candidate in diagnosis.ladder.unseen
     ]
     if not diagnosis.relaxation_spectrum and observed.frequencies.size < 3:

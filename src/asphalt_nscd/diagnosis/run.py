@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +21,12 @@ from asphalt_nscd.store import provenance, write_json, write_table
 
 VERDICTS = {
     "explained": "explained: what is left is replicate scatter.",
-    "unexplained_structure": "unexplained structure: something is left that no cause of the catalogue explains.",
+    "unexplained_structure": "unexplained structure: something is left that no single cause of the catalogue explains.",
     "nothing_to_explain": "nothing to explain: the Burgers laws miss the measurements by no more than scatter.",
+}
+HELD_OUT = {
+    "isotherms held out / scatter": "leave_one_isotherm_out",
+    "frequencies held out / scatter": "leave_one_frequency_out",
 }
 UNJUDGED = "nothing found, but these data cannot judge the Burgers laws themselves."
 
@@ -49,8 +54,13 @@ def run(
     content["provenance"] = {
         **provenance(),
         "measurements": Path(measurements).name,
+        "sha256": sha256(Path(measurements).read_bytes()).hexdigest(),
         "draws": draws,
         "seed": seed,
+        "geometry": dict(geometry) if isinstance(geometry, Mapping) else Path(geometry).name,
+        "specimen": None if specimen is None else Path(specimen).name,
+        "static_modulus_Pa": static_modulus,
+        "scatter_stated": None if scatter is None else list(scatter),
     }
     folder = Path(folder)
     write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical))
@@ -70,21 +80,33 @@ def _write_law(path: Path, diagnosis: Diagnosis, origin: str) -> None:
     )  # fmt: skip
 
 
+def _size(parameters: dict[str, Any]) -> str:
+    """The first parameter, which is the amplitude, with its standard error."""
+    name, amplitude = next(iter(parameters.items()))
+    if name == "reference_temperature":  # of a law whose shift these tests do not determine
+        return ""
+    error = amplitude["std_error"]
+    return (
+        f"{name} {amplitude['value']:.3g}"
+        + ("" if error is None else f" +- {error:.1g}")
+        + f" {amplitude['unit']}"
+    )
+
+
 def summary(content: dict[str, Any]) -> str:
     """The ladder as a table, with verdict, limits and notes."""
     rows = []
     for rung in content["ladder"]:
-        amplitude_name, amplitude = next(iter(rung["parameters"].items()))
-        error = amplitude["std_error"]
-        size = f"{amplitude['value']:.3g}" + ("" if error is None else f" +- {error:.1g}")
-        inside = rung["gain"]["in_sample"]
-        held = rung["gain"]["held_out"].get("leave_one_frequency_out")
+        inside, held = rung["gain"]["in_sample"], rung["gain"]["held_out"]
         rows.append([
             rung["cause"], "" if rung["where"] is None else rung["where"],
-            f"{amplitude_name} {size} {amplitude['unit']}",
+            _size(rung["parameters"]),
             f"{rung['p_value']:.1g}" if rung["p_value"] > 1e-6 else "< 1e-6",
             *(f"{inside[k]['before']:.2f} -> {inside[k]['after']:.2f}" for k in ("mre_E_percent", "mre_phase_percent")),
-            "" if held is None else "{before:.2f} -> {after:.2f}".format(**held["rms_over_scatter"]),
+            *(
+                "{before:.2f} -> {after:.2f}".format(**held[way]["rms_over_scatter"]) if way in held else ""
+                for way in HELD_OUT.values()
+            ),
         ])  # fmt: skip
     headers = [
         "cause",
@@ -93,13 +115,13 @@ def summary(content: dict[str, Any]) -> str:
         "p",
         "error |E*| %",
         "error phase %",
-        "frequencies held out, over scatter",
+        *HELD_OUT,
     ]
     scatter = content["scatter"]
     judged = content["verdict"] != "nothing_to_explain" or content["tested"]
     lines = [
-        f"{content['tests']} tests, scatter {scatter['modulus_percent']:.2g} % in |E*|, "
-        f"{scatter['phase_deg']:.2g} deg in phase.",
+        f"{content['tests']} tests, scatter {scatter['modulus_percent']:.3g} % in |E*|, "
+        f"{scatter['phase_deg']:.3g} deg in phase.",
         "",
         tabulate(rows, headers) if rows else "No cause beats chance.",
         "",

@@ -35,6 +35,7 @@ class Cause(ABC):
     """One physical cause. The first parameter is its amplitude: at zero the cause is absent.
 
     confirmed_by: the measurement that would confirm it. needs: what the table must have for it to show.
+    shows_in: a design in which it shows, where one that could have shown it does not.
     like_a_law: a rougher law follows it far, so that it is also looked for by fits that begin with it.
     """
 
@@ -44,6 +45,7 @@ class Cause(ABC):
     sentence: ClassVar[str]  # what is wrong, for a reader of the report
     confirmed_by: ClassVar[str]
     needs: ClassVar[str] = ""
+    shows_in: ClassVar[str] = "a design in which a smooth law cannot follow it"
     like_a_law: ClassVar[bool] = False
 
     def places(self, observed: Observations) -> Sequence[Place]:

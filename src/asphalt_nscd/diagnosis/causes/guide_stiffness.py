@@ -7,6 +7,9 @@ class GuideStiffness(Cause):
     name = "guide_stiffness"
     stage = HEAD
     like_a_law = True
+    shows_in = (
+        "tests so warm that the mix comes near its static modulus, or a test of the rig without a specimen"
+    )
     parameters = (Parameter("modulus", "Pa", 0.0, 5e9, 2e7),)
     sentence = "a guide or cable acts as a spring in parallel with the specimen"
     confirmed_by = "a test of the rig without a specimen, or the modulus of the mix at long times"
