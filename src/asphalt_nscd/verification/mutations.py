@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from asphalt_nscd.sources import PACKAGE
@@ -42,7 +42,7 @@ checks = Checks()
 
 
 def mutate(what: str, theme: str, file: str, right: str, wrong: str) -> Row:
-    """A row that passes when rows of `theme` fail once `right` is replaced by `wrong` in `file`."""
+    """A row that passes when rows of `theme`, green before, are red once `right` is `wrong` in `file`."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder, PACKAGE.name)
         shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
@@ -50,21 +50,41 @@ def mutate(what: str, theme: str, file: str, right: str, wrong: str) -> Row:
         if right not in text:
             raise ValueError(f"{file} no longer holds {right!r}; adapt this mutant.")
         (copy / file).write_text(text.replace(right, wrong), encoding="utf-8")
-        script = (
-            f"import resource; resource.setrlimit(resource.RLIMIT_CPU, ({LONGEST}, {LONGEST + 9}))\n"
-            "from asphalt_nscd.verification.study import verify\n"
-            f"print((verify({theme!r}).verdict == 'failed').sum())"
-        )
-        environment = os.environ | {"PYTHONPATH": folder, "ASPHALT_NSCD_CACHE": str(Path(folder, "cache"))}
-        done = subprocess.run(
-            [sys.executable, "-c", script], env=environment, cwd=folder, capture_output=True, text=True
-        )
-    if done.returncode == -signal.SIGXCPU:
+        failed = red_rows(theme, folder)
+    if failed is None:
         red, seen = 1, f"{theme} does not end"
     else:
-        done.check_returncode()
-        red, seen = int(done.stdout), f"{int(done.stdout)} rows of {theme} fail"
+        red = len(failed - (red_rows_before(theme) or set()))
+        seen = f"{red} rows of {theme} fail"
     return Row(f"noticed: {what}", 1.0, float(min(red, 1)), 0.0, f"{right} -> {wrong} in {file}: {seen}")
+
+
+def red_rows(theme: str, folder: str) -> set[str] | None:
+    """Names of the rows of `theme` that fail with the sources in `folder`; None if it does not end.
+
+    A check that raises is a row of its own name.
+    """
+    script = (
+        f"import resource; resource.setrlimit(resource.RLIMIT_CPU, ({LONGEST}, {LONGEST + 9}))\n"
+        "from asphalt_nscd.verification.study import verify\n"
+        f"rows = verify({theme!r}); print(*rows.name[rows.verdict == 'failed'], sep='\\n')"
+    )
+    environment = os.environ | {"PYTHONPATH": folder, "ASPHALT_NSCD_CACHE": str(Path(folder, "cache"))}
+    done = subprocess.run(
+        [sys.executable, "-c", script], env=environment, cwd=folder, capture_output=True, text=True
+    )
+    if done.returncode == -signal.SIGXCPU:
+        return None
+    done.check_returncode()
+    return set(done.stdout.splitlines()) - {""}
+
+
+@cache
+def red_rows_before(theme: str) -> set[str] | None:
+    """The same of the sources as they are: a row that fails anyway notices nothing."""
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(PACKAGE, Path(folder, PACKAGE.name), ignore=shutil.ignore_patterns("__pycache__"))
+        return red_rows(theme, folder)
 
 
 for _mutant in MUTANTS:

@@ -144,7 +144,7 @@ def oblique_impact() -> list[Row]:
     pair.advance(TIGHT)
     changes = [
         np.abs(now - then).max() / np.abs(then).max()
-        for now, then in zip((momentum(pair), angular_momentum(pair)), before, strict=True)
+        for now, then in zip((momentum(pair), angular_momentum(pair)), before[:2], strict=True)
     ]
     gained = max(pair.kinetic_energy() / before[2] - 1.0, 0.0)
     source = "contact forces are internal: actio = reactio at one point"
