@@ -74,7 +74,8 @@ def condense(
     arrays = {
         "basis": basis, "operator/indptr": g.indptr, "operator/indices": g.indices,
         "operator/data": g.data, "weight": system.weight, "mass": system.mass, "load": system.load,
-        "gap": system.gap, "strength": system.strength, "sphere_height": specimen.position[:, 2],
+        "gap": system.gap, "strength": system.strength, "position": system.position,
+        "sphere_height": specimen.position[:, 2],
         **{f"stand_by/{name}": value for name, value in StandBy.of(system, basis, shifted).arrays().items()},
     }  # fmt: skip
     attributes = {
@@ -94,6 +95,7 @@ def read_model(path: str | Path) -> Model:
         ),
         weight=arrays["weight"], mass=arrays["mass"], load=arrays["load"], driven=attributes["driven"],
         gap=arrays["gap"], strength=arrays["strength"], friction=attributes["friction"],
+        position=arrays["position"],
     )  # fmt: skip
     geometry = Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__})
     prefix = "stand_by/"

@@ -32,6 +32,7 @@ class BondedSystem:
     gap: np.ndarray  # (b,) m
     strength: np.ndarray  # (b,) N, yield force in tension and in shear
     friction: float
+    position: np.ndarray | None = None  # (n, 3) m of the bodies, which systems of many need
 
     @cached_property
     def free(self) -> np.ndarray:
@@ -42,6 +43,13 @@ class BondedSystem:
     def stiffness_diagonal(self) -> np.ndarray:
         """Diagonal (d,) of K [m] of the unbroken system."""
         return self.operator.power(2).T @ self.weight
+
+    def rigid_motions(self) -> np.ndarray:
+        """The six motions (d, 6) of all bodies as one: three translations, three rotations."""
+        motion = np.zeros((len(self.position), 6, 6))
+        motion[:, :3, :3] = motion[:, 3:, 3:] = np.eye(3)
+        motion[:, :3, 3:] = np.cross(np.eye(3), self.position[:, None]).transpose(0, 2, 1)
+        return motion.reshape(-1, 6)[: self.mass.size]
 
     def stiffness(self, weight: np.ndarray | None = None) -> sparse.csc_matrix:
         """K = G^T w G [m]; w may be given with zeros for broken bonds."""

@@ -27,7 +27,8 @@ SHIFT = 1e-2
 def shifted_factor(system: BondedSystem) -> SuperLU:
     """Factors of K + SHIFT M on the free degrees of freedom."""
     free = system.free
-    return factorise((system.stiffness() + SHIFT * sparse.diags_array(system.mass)).tocsc()[free][:, free])
+    matrix = (system.stiffness() + SHIFT * sparse.diags_array(system.mass)).tocsc()[free][:, free]
+    return factorise(matrix, system)
 
 
 def ritz_basis(system: BondedSystem, iterations: int, shifted: SuperLU | None = None) -> np.ndarray:

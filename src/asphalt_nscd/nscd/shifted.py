@@ -7,10 +7,18 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from asphalt_nscd.nscd.bonds import BondedSystem
+from asphalt_nscd.nscd.multigrid import Multigrid
+
+LARGEST_FACTORED = 250_000  # unknowns; factors take 2 GB for 60 000 and grow with the power 4/3
 
 
-def factorise(matrix: sparse.csc_matrix):
-    """Factors of a symmetric positive definite matrix; `.solve` takes one or many columns."""
+def factorise(matrix: sparse.csc_matrix, system: BondedSystem):
+    """What solves a positive definite matrix on the free degrees of freedom of a system, by `.solve`.
+
+    Factors, or multigrid where they would not fit; takes one column or many.
+    """
+    if matrix.shape[0] > LARGEST_FACTORED and system.position is not None:
+        return Multigrid(matrix, system.rigid_motions()[system.free])
     return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
@@ -71,6 +79,6 @@ class ShiftedOperator:
             self.weight[3 * bond : 3 * bond + 3] = 0.0
         matrix = (sparse.diags_array(system.mass) + self._scale * system.stiffness(self.weight)).tocsc()
         self._matrix = matrix[system.free][:, system.free]
-        self._factor, self._factored = factorise(self._matrix), len(self._broken)
+        self._factor, self._factored = factorise(self._matrix, system), len(self._broken)
         self._taken = self._response = np.empty((system.free.size, 0))
         self._strength, self._capacitance = np.empty(0), np.empty((0, 0))

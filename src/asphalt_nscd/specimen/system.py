@@ -30,10 +30,8 @@ def bending_system(
     load = np.zeros((n + 1, 6))
     load[:, 2] = -gravity * mass[:, 2]
     head_position = np.array([[0.0, 0.0, geometry.h]])
-    operator = opening_operator(
-        network.first, network.second, network.frame, network.point,
-        np.concatenate([specimen.position, head_position]),
-    )  # fmt: skip
+    position = np.concatenate([specimen.position, head_position])
+    operator = opening_operator(network.first, network.second, network.frame, network.point, position)
     kept = np.arange(6 * (n + 1))
     if head == "blocked":
         kept = kept[:-3]
@@ -43,5 +41,5 @@ def bending_system(
     return BondedSystem(
         operator=operator[:, kept], weight=(network.form[:, None] * share).ravel(),
         mass=mass.ravel()[kept], load=load.ravel()[kept], driven=6 * n,
-        gap=network.gap, strength=strength, friction=friction,
+        gap=network.gap, strength=strength, friction=friction, position=position,
     )  # fmt: skip
