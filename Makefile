@@ -6,6 +6,10 @@
 #   make lint       ruff and mypy
 #   make blind      blind tests of the diagnosis: hidden effects, found or not
 #   make verify     the core against theory: results/verification/verification.csv
+#   make check      published results made again where that is cheap, and compared: minutes
+#   make faults     what must not lose or falsify a result: results/faults/faults.csv, half an hour
+#   make fuzz       a hundred thousand inputs to everything that reads a file
+#   make cluster    the smoke study through a Slurm started here, where Debian's is installed
 #   make study CONFIG=my.yaml     any other study
 #
 # CORES=1 limits the cores; PYTHON=/path/to/python3.12 chooses the Python.
@@ -29,7 +33,7 @@ ifeq ($(filter study,$(MAKECMDGOALS))$(shell test -f "$(CONFIG)" && echo found),
 $(error $(CONFIG): no such file; give a study with CONFIG=my.yaml)
 endif
 
-.PHONY: paper smoke blind study test lint verify
+.PHONY: paper smoke blind study test lint verify check faults fuzz cluster
 
 paper: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
@@ -52,6 +56,18 @@ verify: $(READY)
 
 test: $(READY)
 	.venv/bin/python -m pytest
+
+check: $(READY)
+	@.venv/bin/python tools/check.py
+
+faults: $(READY)
+	@PYTHONPATH=tests .venv/bin/python -m faults
+
+fuzz: $(READY)
+	@PYTHONPATH=tests .venv/bin/python -m fuzz
+
+cluster: $(READY)
+	@PYTHONPATH=tests .venv/bin/python -m cluster
 
 lint: $(READY)
 	.venv/bin/ruff check .

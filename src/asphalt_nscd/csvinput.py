@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.paths import require_readable
 
 _CONVERSIONS = {
     ("GPa", "MPa"): "multiply by 1000",
@@ -126,8 +127,7 @@ class Table:
 def read_csv(path: str | Path) -> Table:
     """Read a CSV file with one header line; blank lines and lines that begin with # are passed over."""
     path = Path(path)
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; check the path.")
+    require_readable(path, "check the path")
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             # A comment line becomes a blank one, so that line numbers stay those of the file.

@@ -14,6 +14,7 @@ from asphalt_nscd import signals, twopoint
 from asphalt_nscd.csvinput import Table, read_csv
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.geometry_input import read_geometry
+from asphalt_nscd.paths import inside
 from asphalt_nscd.plausible import LIMITS, least_modulus
 from asphalt_nscd.store import write_table
 
@@ -156,8 +157,8 @@ def _reduce_records(
     reduced = []
     for row, name in enumerate(table.text("record")):
         specimen, frequency = frame.at[row, "specimen"], frame.at[row, "frequency_Hz"]
-        path = table.path.parent / name
         try:
+            path = inside(table.path.parent, name)
             record = read_csv(path)
             record.require(RECORD_COLUMNS)
             samples = [record.numbers(column) for column in RECORD_COLUMNS]

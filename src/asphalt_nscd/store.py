@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asphalt_nscd.errors import DamagedFile, InputError
+from asphalt_nscd.paths import require_readable
 
 if TYPE_CHECKING:
     import pandas as pd  # a quarter of the time in which a step starts
@@ -66,11 +67,10 @@ def write_json(path: str | Path, content: Any) -> None:
 
 def read_json(path: str | Path) -> Any:
     """Read JSON, naming the file when it cannot be parsed."""
+    require_readable(path, "make it with its rule or check the path")
     try:
         return json.loads(Path(path).read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file; make it with its rule or check the path.") from None
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:  # no JSON, no UTF-8, a number or nesting without end
         raise InputError(f"{path}: not valid JSON ({error}); delete it and make it again.") from None
 
 

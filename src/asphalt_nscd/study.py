@@ -15,6 +15,7 @@ from jsonschema import Draft202012Validator
 from jsonschema.exceptions import ValidationError, best_match
 
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.paths import is_file, require_readable
 
 # YAML 1.1 reads 5e-5 as text, because it has no decimal point; the author meant a number.
 _SCIENTIFIC = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
@@ -45,22 +46,36 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
 
 
 def refuse_repeated_keys(path: str | Path) -> None:
-    """Refuse a study in which a key stands twice, of which YAML silently takes the last."""
+    """Refuse a study in which a key stands twice, of which YAML silently takes the last.
+
+    Anchors are refused too: a few lines of them can stand for more than any memory holds.
+    """
 
     class Strict(yaml.SafeLoader):
+        def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+            if self.check_event(yaml.AliasEvent):
+                line = self.peek_event().start_mark.line + 1
+                raise InputError(f"{path}, line {line}: refers to an anchor; write out what it stands for.")
+            return super().compose_node(parent, index)
+
         def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
             seen = set()
             for name, _ in node.value:
+                line = name.start_mark.line + 1
+                if not isinstance(name, yaml.ScalarNode):
+                    raise InputError(f"{path}, line {line}: a key is no word; give the name of a key.")
                 if name.value in seen:
-                    line = name.start_mark.line + 1
                     raise InputError(
                         f"{path}, line {line}: key {name.value!r} stands twice; keep one of the two."
                     )
                 seen.add(name.value)
             return super().construct_mapping(node, deep)
 
-    with Path(path).open(encoding="utf-8") as file:
-        yaml.load(file, Strict)
+    require_readable(path, "check the path")
+    try:
+        yaml.load(Path(path).read_text(encoding="utf-8"), Strict)
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        raise InputError(f"{path}: not valid YAML ({error}); compare it with config/paper.yaml.") from None
 
 
 def label(value: float) -> str:
@@ -172,7 +187,7 @@ def _check(study: dict[str, Any], source: str) -> None:
         "specimens.counts_table": study["specimens"]["counts_table"],
         **{f"published.{key}": path for key, path in study.get("published", {}).items()},
     }.items():
-        if path is not None and not Path(path).is_file():
+        if path is not None and not is_file(path):
             raise InputError(f"{source}: {where} is {path!r}, but there is no such file; check the path.")
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from comparison import differences
 
-from faults.study import Missed, Study
+from faults.study import RESULTS, Missed, Study
 from faults.table import Fault, Unable, last_line
 
 
@@ -23,6 +23,7 @@ class Judged:
 def judge(fault: Fault, finished: Study, folder: Path) -> Judged:
     for attempt in range(3):
         study = finished.copy(folder)
+        study.targets = (f"{RESULTS}/{fault.target}",)
         try:
             met = fault.disturb(study)
             return Judged(fault.name, _wrong(fault, met, study, finished) or "passed", _shown(met, study))

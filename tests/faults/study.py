@@ -27,9 +27,16 @@ class Study(Workspace):
     def copy(self, folder: Path) -> Study:
         """As it stands, with all times and records of Snakemake."""
         shutil.copytree(self.folder, folder, symlinks=True)
-        other = object.__new__(type(self))
-        other.folder, other.targets = folder, self.targets
+        other = self.at(folder)
+        other.targets = self.targets
         return other
+
+    @classmethod
+    def at(cls, folder: Path) -> Study:
+        """What stands in a folder already."""
+        study = object.__new__(cls)
+        study.folder = folder
+        return study
 
     @property
     def results(self) -> Path:
@@ -49,7 +56,7 @@ class Study(Workspace):
         process = self.start("--cores", "2", *self.targets)
         victim = None
         while process.poll() is None and victim is None:
-            victim = self._job(output)
+            victim = self.job(output)
             time.sleep(0.005)
         if victim is not None:
             time.sleep(delay)
@@ -62,7 +69,7 @@ class Study(Workspace):
             raise Missed(f"the job that writes {output} ended before it was killed")
         return subprocess.CompletedProcess(process.args, process.returncode, "", said)
 
-    def _job(self, output: str) -> int | None:
+    def job(self, output: str) -> int | None:
         """Process that works on `output` in this folder, itself and not a shell around it."""
         for entry in Path("/proc").iterdir():
             if not entry.name.isdigit():

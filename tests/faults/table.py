@@ -17,6 +17,7 @@ from faults.study import RESULTS, Study, least_memory, smallest_files
 
 Run = subprocess.CompletedProcess
 DEPOSIT, MODEL, TEST = "deposits/s1.h5", "models/free/s1.h5", "tests/s1/T20/f10.h5"
+ALL = "report.html"
 # A file of results, and one that is made from it.
 READ = {
     DEPOSIT: "specimens/s1.h5",
@@ -32,11 +33,12 @@ READ = {
 @dataclass(frozen=True)
 class Fault:
     """disturb: does it, and returns the run that met it; said: what that run's last line must match, None where
-    the run has to succeed in spite of it."""
+    the run has to succeed in spite of it; target: the file of results that both runs are to make."""
 
     name: str
     disturb: Callable[[Study], Run]
     said: str | None
+    target: str = ALL
 
 
 def killed(rule: str, output: str) -> Fault:
@@ -44,9 +46,8 @@ def killed(rule: str, output: str) -> Fault:
         (study.folder / output).unlink()
         return study.killed(output)
 
-    return Fault(
-        f"SIGKILL in {rule}", disturb, r"error: the job was killed, or the memory was used up; run the same"
-    )
+    said = "error: the job was killed, or the memory was used up; run the same"
+    return Fault(f"SIGKILL in {rule}", disturb, said, str(Path(output).relative_to(RESULTS)))
 
 
 def signalled(name: str, signum: int, said: str) -> Fault:
@@ -54,7 +55,7 @@ def signalled(name: str, signum: int, said: str) -> Fault:
         (study.results / DEPOSIT).unlink()
         return study.killed(f"{RESULTS}/{DEPOSIT}", signum)
 
-    return Fault(f"{name} in deposit", disturb, said)
+    return Fault(f"{name} in deposit", disturb, said, DEPOSIT)
 
 
 def workflow_signalled(name: str, signum: int, output: str) -> Fault:
@@ -63,7 +64,7 @@ def workflow_signalled(name: str, signum: int, output: str) -> Fault:
     def disturb(study: Study) -> Run:
         (study.results / output).unlink()
         process = study.start("--cores", "2", *study.targets)
-        while process.poll() is None and study._job(f"{RESULTS}/{output}") is None:
+        while process.poll() is None and study.job(f"{RESULTS}/{output}") is None:
             time.sleep(0.01)
         time.sleep(0.3)
         process.send_signal(signum)
@@ -74,7 +75,7 @@ def workflow_signalled(name: str, signum: int, output: str) -> Fault:
             _, said = process.communicate()
         return Run(process.args, process.returncode or 1, "", said)
 
-    return Fault(f"{name} to Snakemake while it makes {output}", disturb, "")
+    return Fault(f"{name} to Snakemake while it makes {output}", disturb, "", output)
 
 
 def cut(path: Path) -> None:
@@ -106,7 +107,7 @@ def damaged(name: str, how: Callable[[Path], None], said: str) -> Fault:
         (study.results / READ[name]).unlink()
         return study.finish()
 
-    return Fault(f"{name} {how.__name__.replace('_', ' ')}", disturb, said)
+    return Fault(f"{name} {how.__name__.replace('_', ' ')}", disturb, said, READ[name])
 
 
 def full_disk(study: Study) -> Run:
@@ -157,7 +158,7 @@ def little_memory(study: Study) -> Run:
 def two_at_once(study: Study) -> Run:
     (study.results / DEPOSIT).unlink()
     first = study.start("--cores", "1", *study.targets)
-    while first.poll() is None and study._job(f"{RESULTS}/{DEPOSIT}") is None:
+    while first.poll() is None and study.job(f"{RESULTS}/{DEPOSIT}") is None:
         time.sleep(0.01)
     second = study.finish()
     first.kill()
@@ -310,25 +311,25 @@ def standing() -> list[Fault]:
         damaged("measured.csv", cut, NAMED),
         damaged("simulations.csv", cut, NAMED),
         damaged("simulations.csv", emptied, NAMED),
-        Fault("disk full", full_disk, "error: .*s1.h5: no space left on device; free some space"),
-        Fault("results read-only", read_only, "error: .*read-only file system"),
-        Fault("file size limited", no_larger_files, "error: .*file too large; raise the limit"),
-        Fault("memory limited", little_memory, "error: .*memory"),
-        Fault("two Snakemakes at once", two_at_once, "cannot be locked"),
+        Fault("disk full", full_disk, "error: .*s1.h5: no space left on device; free some space", DEPOSIT),
+        Fault("results read-only", read_only, "error: .*read-only file system", DEPOSIT),
+        Fault("file size limited", no_larger_files, "error: .*file too large; raise the limit", DEPOSIT),
+        Fault("memory limited", little_memory, "error: .*memory", DEPOSIT),
+        Fault("two Snakemakes at once", two_at_once, "cannot be locked", DEPOSIT),
         Fault("clock set back by a day", clock_set_back, None),
         Fault("input dated tomorrow", clock_ahead, None),
-        Fault("records of Snakemake lost", records_lost, None),
-        Fault("records of Snakemake damaged", records_damaged, None),
+        Fault("records of Snakemake lost", records_lost, None, TEST),
+        Fault("records of Snakemake damaged", records_damaged, None, TEST),
         Fault("stamps of the code lost", stamps_lost, None),
-        Fault("half-written file left", half_written, None),
-        Fault("folder in place of a table", output_is_a_folder, "error: .*samples.csv"),
+        Fault("half-written file left", half_written, None, DEPOSIT),
+        Fault("folder in place of a table", output_is_a_folder, "error: .*samples.csv", "samples.csv"),
         Fault("file in place of the results", results_is_a_file, "error: .*results/smoke"),
         Fault("input table gone", table_gone, "error: .*smoke_counts.csv"),
         Fault("input table cut", table_in_half, "error: .*table3_burgers.csv"),
         Fault("configuration cut", configuration_in_half, "error: .*study.yaml"),
-        Fault("compiled core damaged", with_environment("ASPHALT_NSCD_CACHE", _damaged_cache), None),
-        Fault("compiled core has no place", with_environment("ASPHALT_NSCD_CACHE", _no_cache), "error: .*cache"),
-        Fault("locale without Unicode", with_environment("LC_ALL", lambda study: "C"), None),
+        Fault("compiled core damaged", with_environment("ASPHALT_NSCD_CACHE", _damaged_cache), None, TEST),
+        Fault("compiled core has no place", with_environment("ASPHALT_NSCD_CACHE", _no_cache), None, TEST),
+        Fault("locale without Unicode", with_environment("LC_ALL", lambda study: "C"), None, TEST),
     ]  # fmt: skip
 
 
