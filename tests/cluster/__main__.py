@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -31,6 +32,7 @@ DISTURBANCES = {"rule_deposit_": ("scancel",), "rule_tests_": ("scontrol", "requ
 
 
 def main() -> int:
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that what was started is stopped
     if reason := why_not():
         print(f"skipped: {reason}.")
         return 0
