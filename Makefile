@@ -10,6 +10,7 @@
 #   make faults     what must not lose or falsify a result: results/faults/faults.csv, half an hour
 #   make fuzz       a hundred thousand inputs to everything that reads a file
 #   make cluster    the smoke study through a Slurm started here, where Debian's is installed
+#   make benchmark  how fast it is beside its peers: results/benchmark/benchmark.csv
 #   make study CONFIG=my.yaml     any other study
 #
 # CORES=1 limits the cores; PYTHON=/path/to/python3.12 chooses the Python.
@@ -33,7 +34,7 @@ ifeq ($(filter study,$(MAKECMDGOALS))$(shell test -f "$(CONFIG)" && echo found),
 $(error $(CONFIG): no such file; give a study with CONFIG=my.yaml)
 endif
 
-.PHONY: paper smoke blind study test lint verify check faults fuzz cluster
+.PHONY: paper smoke blind study test lint verify check faults fuzz cluster benchmark
 
 paper: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
@@ -53,6 +54,10 @@ study: $(READY)
 verify: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) verify
 	@echo "Table: $(CURDIR)/results/verification/verification.csv"
+
+benchmark: $(READY)
+	@.venv/bin/snakemake --cores 1 --configfile config/paper.yaml benchmark
+	@echo "Tables: $(CURDIR)/results/benchmark/benchmark.csv, growth.csv"
 
 test: $(READY)
 	.venv/bin/python -m pytest

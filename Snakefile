@@ -38,6 +38,7 @@ include: "workflow/rules/contents.smk"  # figures and tables, and their data
 include: "workflow/rules/report.smk"  # figures, tables, report
 include: "workflow/rules/publish.smk"  # what is committed
 include: "workflow/rules/verification.smk"  # is the core right
+include: "workflow/rules/benchmark.smk"  # how fast is it beside its peers
 
 if STUDY["study"] == "blind":
 

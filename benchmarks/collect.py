@@ -1,0 +1,44 @@
+"""All rows in one table, and how fast each stage grows: cpu ~ spheres^exponent, between all sizes.
+
+python benchmarks/collect.py ROWS.csv... --output TABLE.csv --growth GROWTH.csv
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from rows import COLUMNS
+
+from asphalt_nscd.store import write_table
+
+
+def exponents(table: pd.DataFrame) -> pd.DataFrame:
+    """One row for each stage: least squares of log cost and log memory against log size."""
+    rows = []
+    for case, group in table[table.topic == "growth"].groupby("case", sort=False):
+        size = np.log(group.spheres.to_numpy(float))
+        row = {"stage": case, "from": int(group.spheres.min()), "to": int(group.spheres.max())}
+        for column, name in (("cpu_s", "exponent_of_time"), ("memory_MB", "exponent_of_memory")):
+            several = size.size > 1
+            row[name] = np.polyfit(size, np.log(group[column].to_numpy(float)), 1)[0] if several else np.nan
+        largest = group.loc[group.spheres.idxmax()]
+        rows.append(row | {"cpu_s_of_largest": largest.cpu_s, "memory_MB_of_largest": largest.memory_MB})
+    return pd.DataFrame(rows)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("rows", nargs="+", type=Path)
+    parser.add_argument("--output", type=Path, required=True)
+    parser.add_argument("--growth", type=Path, required=True)
+    told = parser.parse_args()
+    table = pd.concat([pd.read_csv(path) for path in told.rows], ignore_index=True)[COLUMNS]
+    write_table(told.output, table)
+    write_table(told.growth, exponents(table))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,131 @@
+# How fast is it beside its peers, and how does that grow? On the paper's sample 1: `make benchmark`.
+#   make benchmark FCLIB="problems/*.hdf5" SIZES="1000 3000 10000 30000"
+# CPU times are compared side by side: run it alone, on one core. A peer that is not installed is said to be absent.
+
+import glob
+
+SIZES = os.environ.get("SIZES", "1000 3000 10000").split()
+PROBLEMS = sorted(glob.glob(os.environ.get("FCLIB", "")))
+METHODS = ["sweeps", "condensed", "reduced", "chain", "yade"]
+MEASURE = f"env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 {sys.executable} benchmarks"
+PEERS = ["liggghts", "yade"]
+
+
+rule benchmark_pouring:
+    # The paper's spheres poured and settled by NSCD; leaves the positions at rest for peers.
+    input:
+        compiled="<results>/compiled/deposit",
+        counts=STUDY["specimens"]["counts_table"],
+        code=["benchmarks/pouring.py", code("deposit")],
+    output:
+        row="results/benchmark/rows/pouring-nscd.csv",
+        rest="results/benchmark/rest.npy",
+    log:
+        "results/benchmark/logs/pouring-nscd.log",
+    message:
+        "Pour 14 160 spheres"
+    shell:
+        MEASURE + "/pouring.py nscd {input.counts} --rest {output.rest} --output {output.row} > {log} 2>&1"
+
+
+rule benchmark_pouring_peer:
+    # The same lattice and physical time by another code.
+    input:
+        counts=STUDY["specimens"]["counts_table"],
+        rest="results/benchmark/rest.npy",
+        code=["benchmarks/pouring.py", "benchmarks/pour.liggghts", "benchmarks/yade_pour.py"],
+    output:
+        "results/benchmark/rows/pouring-{peer}.csv",
+    wildcard_constraints:
+        peer="|".join(PEERS),
+    log:
+        "results/benchmark/logs/pouring-{peer}.log",
+    message:
+        "Pour 14 160 spheres by {wildcards.peer}"
+    shell:
+        MEASURE + "/pouring.py {wildcards.peer} {input.counts} --rest {input.rest} --output {output} > {log} 2>&1"
+
+
+rule benchmark_cycle:
+    # One cycle of bending by one method.
+    input:
+        compiled="<results>/compiled/simulate",
+        model=f"<results>/models/{HEAD}/{SAMPLES[0]}.h5",
+        specimen=f"<results>/specimens/{SAMPLES[0]}.h5",
+        law=f"<results>/laws/{LAWS}/T{label(AUDIT['temperature_C'])}.json",
+        code=["benchmarks/cycle.py", "benchmarks/yade_bonds.py", code("simulate")],
+    output:
+        "results/benchmark/rows/cycle-{method}.csv",
+    log:
+        "results/benchmark/logs/cycle-{method}.log",
+    message:
+        "One cycle of bending: {wildcards.method}"
+    shell:
+        MEASURE + "/cycle.py {wildcards.method} {input.model} {input.law} --specimen {input.specimen} --output {output} > {log} 2>&1"
+
+
+rule benchmark_growth:
+    # Preparation and tests of so many spheres.
+    input:
+        compiled=["<results>/compiled/deposit", "<results>/compiled/simulate"],
+        counts=STUDY["specimens"]["counts_table"],
+        law=f"<results>/laws/{LAWS}/T{label(AUDIT['temperature_C'])}.json",
+        code=["benchmarks/growth.py", code("deposit"), code("simulate")],
+    output:
+        "results/benchmark/rows/growth-{size}.csv",
+    log:
+        "results/benchmark/logs/growth-{size}.log",
+    message:
+        "Prepare and test {wildcards.size} spheres"
+    shell:
+        MEASURE + "/growth.py {wildcards.size} {input.law} {input.counts} --output {output} > {log} 2>&1"
+
+
+rule benchmark_fclib:
+    # Frictional contact problems of others.
+    input:
+        problems=PROBLEMS,
+        code=["benchmarks/fclib.py", code("fclib")],
+    output:
+        "results/benchmark/rows/fclib.csv",
+    log:
+        "results/benchmark/logs/fclib.log",
+    message:
+        "Solve problems in FCLIB's format"
+    shell:
+        MEASURE + "/fclib.py {input.problems} --output {output} > {log} 2>&1"
+
+
+rule benchmark:
+    # One table, and how each stage grows.
+    input:
+        rows=[
+            "results/benchmark/rows/pouring-nscd.csv",
+            *expand("results/benchmark/rows/pouring-{peer}.csv", peer=PEERS),
+            *expand("results/benchmark/rows/cycle-{method}.csv", method=METHODS),
+            *expand("results/benchmark/rows/growth-{size}.csv", size=SIZES),
+            "results/benchmark/rows/fclib.csv",
+        ],
+        code="benchmarks/collect.py",
+    output:
+        table="results/benchmark/benchmark.csv",
+        growth="results/benchmark/growth.csv",
+    log:
+        "results/benchmark/logs/collect.log",
+    message:
+        "Collect the benchmarks"
+    shell:
+        MEASURE + "/collect.py {input.rows} --output {output.table} --growth {output.growth} > {log} 2>&1"
+
+
+rule publish_benchmark:
+    # What is committed of them, and their tables in the README. Only on request:
+    #   snakemake --cores 1 publish_benchmark
+    input:
+        table="results/benchmark/benchmark.csv",
+        growth="results/benchmark/growth.csv",
+        code=code("publish"),
+    message:
+        "Copy the benchmarks, and fill their tables in the README"
+    shell:
+        "asphalt-nscd publish {input.table} {input.growth} --root results/benchmark --output results/published/benchmark --document README.md --block benchmark={input.table} --block growth={input.growth}"
