@@ -56,7 +56,7 @@ verify: $(READY)
 	@echo "Table: $(CURDIR)/results/verification/verification.csv"
 
 benchmark: $(READY)
-	@.venv/bin/snakemake --cores 1 --configfile config/paper.yaml benchmark
+	@.venv/bin/snakemake benchmark --cores 1 --configfile config/paper.yaml
 	@echo "Tables: $(CURDIR)/results/benchmark/benchmark.csv, growth.csv"
 
 test: $(READY)
