@@ -151,10 +151,10 @@ def unsolved() -> list[Row]:
 
 @checks
 def files() -> list[Row]:
-    """FCLIB problems, which are not part of the repository, where they stand."""
-    folder = Path(os.environ.get("ASPHALT_NSCD_FCLIB", "../shared/data/fclib"))
+    """FCLIB problems, which are not part of the repository: those in the folder $ASPHALT_NSCD_FCLIB."""
+    folder = os.environ.get("ASPHALT_NSCD_FCLIB")
     rows = []
-    for file in sorted(folder.glob("*.hdf5")):
+    for file in sorted(Path(folder).glob("*.hdf5")) if folder else []:
         problem = fclib.read_problem(file)
         solution = solve_contacts(problem.W, problem.q, problem.mu, TOLERANCE)
         error = max(solution.error, solution.scaled_error)
