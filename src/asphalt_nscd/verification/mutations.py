@@ -28,7 +28,7 @@ MUTANTS = [
     ("inertia in the frequency domain", "beams", "nscd/harmonic.py", "-(omega**2)", "+(omega**2)"),
     ("form factor of the trapezoid", "beams", "twopoint.py", "(-np.log1p(-x) - x", "(-np.log1p(-x) + x"),
     ("stress of the reduced model", "methods", "nscd/reduced_stepping.py", "(explicit[a] - new_v[a])", "(explicit[a] + new_v[a])"),
-    ("opening in a sweep over bonds", "methods", "nscd/sweeping.py", "miss[c] -= data", "miss[c] += data"),
+    ("opening in a sweep over bonds", "methods", "nscd/bond_sweeps.py", "mx -= motion[j, 0]", "mx += motion[j, 0]"),
     ("extrapolation of the two-step scheme", "methods", "nscd/scheme.py", "v + share * (v - earlier", "v - share * (v - earlier"),
     ("dissipation of the dashpots", "accounts", "nscd/energy.py", "sums.dashpots += dt * strain", "sums.dashpots -= dt * strain"),
     ("slip in the natural map", "coupled", "nscd/contact_sweeps.py", "shifted = u0 + friction", "shifted = u0 - friction"),
