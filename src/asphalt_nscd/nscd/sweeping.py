@@ -8,8 +8,6 @@ solution is reached, so a criterion on that change stops far from it.
 
 from __future__ import annotations
 
-import numpy as np
-
 from asphalt_nscd.nscd.bond_sweeps import PackedBonds
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.condensed import CondensedState
