@@ -176,19 +176,32 @@ def _recovered(effect: Mapping[str, Any], entry: Mapping[str, Any]) -> dict[str,
     )
 
 
-MRE = ("mre_E_percent", "mre_phase_percent")  # of averages over specimens, as in the paper
+MRE = ("mre_E_percent", "mre_phase_percent")
 
 
-def held_out_gain(entry: Mapping[str, Any], errors: tuple[str, ...] = MRE) -> float | None:
+def held_out_gain(
+    entry: Mapping[str, Any], errors: tuple[str, ...] = MRE, averages: bool = False
+) -> float | None:
     """ln of the error before over after, mean of the errors and of all ways to hold out.
 
+    Errors of single tests, or of `averages` over specimens, the mean over temperatures, as in Table 4.
     Above zero is a gain; None where nothing could be held out.
     """
     held_out = entry["gain"]["held_out"]
     if not held_out:
         return None
-    parts = [way[name] for way in held_out.values() for name in errors]
+    parts = [
+        _over_temperatures(way["averages_by_temperature"], name) if averages else way[name]
+        for way in held_out.values()
+        for name in errors
+    ]
     return float(np.mean([np.log(part["before"] / part["after"]) for part in parts]))
+
+
+def _over_temperatures(errors: Mapping[str, Mapping[str, Any]], name: str) -> dict[str, float]:
+    return {
+        when: float(np.mean([row[name][when] for row in errors.values()])) for when in ("before", "after")
+    }
 
 
 def efficiency(table: pd.DataFrame, ratios: tuple[float, ...] = (1.0, 2.0, 3.0, 5.0)) -> pd.DataFrame:

@@ -118,7 +118,4 @@ def open_case(
         observed, _ = reading.read_observations(path, dict(geometry), static_modulus)
     catalogue = tuple(cause for cause in NAMEABLE if cause.name != removed)
     content = report.as_json(diagnose(observed, catalogue=catalogue), read_specimen())
-    for rung in content["ladder"]:
-        for held in (rung["gain"]["in_sample"], *rung["gain"]["held_out"].values()):
-            held.pop("by_temperature", None)
     return {name: content[name] for name in KEPT}

@@ -51,9 +51,13 @@ def line(suite, hidden, named, verdict, ratio=JUDGED, kind="catalogue", covered=
     ]  # fmt: skip
     error = {
         "mre_E_percent": {"before": 2.0, "after": 1.0},
-        "mre_phase_percent": {"before": 1.0, "after": 4.0},
+        "mre_phase_percent": {"before": 1.0, "after": 1.5},
         "rms_over_scatter": {"before": 2.0, "after": 1.0},
-    }
+        "averages_by_temperature": {
+            t: {"mre_E_percent": {"before": 1.0, "after": 1.0}, "mre_phase_percent": {"before": 1.0, "after": size}}
+            for t, size in (("0", 0.5), ("10", 2.5))
+        },
+    }  # fmt: skip
     ladder = [
         {
             "cause": cause, "where": None, "gain": {"in_sample": error, "held_out": {"frequency": error}},

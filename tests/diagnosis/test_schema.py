@@ -96,6 +96,21 @@ def test_each_table_reaches_its_part_of_the_schema(diagnosed):
     assert REACHED[change](content_of(folder))
 
 
+def test_gains_are_errors_of_single_tests_and_of_averages_over_specimens(diagnosed):
+    ladder, table = content_of(diagnosed[1])["ladder"], pd.read_csv(diagnosed[1] / "residuals.csv")
+    if not ladder:
+        return
+    gain = ladder[-1]["gain"]["in_sample"]
+    single = 100.0 * (table["E_after_MPa"] / table["E_MPa"] - 1.0).abs().mean()
+    assert gain["mre_E_percent"]["after"] == pytest.approx(single, rel=1e-6)
+    single = 100.0 * (table["phase_after_deg"] / table["phase_deg"] - 1.0).abs().mean()
+    assert gain["mre_phase_percent"]["after"] == pytest.approx(single, rel=1e-6)
+    at = table[table["temperature_C"] == 15.0].groupby("frequency_Hz")[["E_after_MPa", "E_MPa"]].mean()
+    average = 100.0 * (at["E_after_MPa"] / at["E_MPa"] - 1.0).abs().mean()
+    found = gain["averages_by_temperature"]["15"]["mre_E_percent"]["after"]
+    assert found == pytest.approx(average, rel=1e-6)
+
+
 def test_residuals_are_logarithms_of_measured_over_simulated(diagnosed):
     table = pd.read_csv(diagnosed[1] / "residuals.csv")
     for when in ("before", "after"):

@@ -140,8 +140,8 @@ def test_before_and_after_share_their_axes(results):
 
 
 def test_diagnosis_of_another_version_is_refused(results):
-    with pytest.raises(InputError, match="not a diagnosis of version 1; make it with `diagnose`"):
-        fig_limits.draw(diagnosis=results.diagnosis(schema_version=2)["diagnosis"])
+    with pytest.raises(InputError, match="not a diagnosis of version 2; make it with `diagnose`"):
+        fig_limits.draw(diagnosis=results.diagnosis(schema_version=1)["diagnosis"])
 
 
 @pytest.mark.parametrize("draw", [fig_residual_map.draw, fig_black.draw, fig_master.draw])

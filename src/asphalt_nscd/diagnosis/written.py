@@ -14,7 +14,7 @@ from asphalt_nscd.errors import InputError
 from asphalt_nscd.results import averages, the_only
 from asphalt_nscd.store import read_json
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
 CONFIDENCE = 1.96  # standard errors to either side of an estimate: 95 %
 BEFORE_AFTER = ("before", "after")

@@ -33,7 +33,8 @@ def make(
         at = [f"{t:g}" for t in table["temperature_C"]]
         table[_name(error, "refitted")] = [baseline[error].get(t, np.nan) for t in at]
         table[_name(error, "left_out")] = [
-            left_out.get("by_temperature", {}).get(t, {}).get(error, {}).get("after", np.nan) for t in at
+            left_out.get("averages_by_temperature", {}).get(t, {}).get(error, {}).get("after", np.nan)
+            for t in at
         ]
     table["scatter_E_percent"] = content["scatter"]["modulus_percent"]
     table["scatter_phase_percent"] = [
