@@ -35,7 +35,7 @@ MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
     "frequency_Hz": ("f freq frequency loadingfrequency testfrequency fréquence frequenz prüffrequenz omega ω", _HERTZ),
     "E_MPa": (
         "E Estar modulus dynamicmodulus complexmodulus stiffness stiffnessmodulus norm module modulecomplexe "
-        "steifigkeit steifigkeitsmodul",
+        "steifigkeit steifigkeitsmodul modul komplexermodul dynamischermodul",
         _MEGAPASCAL,
     ),
     "phase_deg": ("phi φ ϕ delta δ phase phaseangle phaselag angledephase déphasage phasenwinkel", _DEGREE),
@@ -106,6 +106,7 @@ def _splits(header: str) -> Iterator[tuple[str, str]]:
         return
     parted = re.fullmatch(r"(.*\S)\s*/\s*(\S+)", header)
     for match in (
+        re.fullmatch(r"(.+?)\s+in\s+(\S+)", header),
         re.fullmatch(r"(.+?)\s*[\s_]\s*(\S+)", header),
         re.fullmatch(r"(.*\S)\s*([°º]\s*[CF])", header),
         parted,
@@ -132,6 +133,15 @@ def _spelled(unit: str) -> str:
 
 def _quantity(stem: str, known: dict, qualified: bool) -> str | None:
     """qualified: a temperature may carry a further word, as in `T set` beside `T core`."""
+    name, _, symbol = stem.strip().rpartition(" ")
+    alone = _named(stem, known, qualified)
+    if alone or not name:
+        return alone
+    both = {_named(part, known, qualified) for part in (name, symbol)}  # as in `Dynamic modulus |E*|`
+    return both.pop() if len(both) == 1 else None
+
+
+def _named(stem: str, known: dict, qualified: bool) -> str | None:
     plain = re.sub(r"[|*.\s_-]", "", stem)
     words = re.split(r"[\s_.-]+", stem)
     for quantity, (names, _) in known.items():
