@@ -164,7 +164,7 @@ TEXTS = [
     Reader(
         "diagnosis",
         lambda path: read_diagnosis([path]),
-        ((ROOT / "results/published/paper/diagnosis/diagnosis.json").read_bytes()[:3000],),
+        ((ROOT / "results/published/paper/diagnosis/diagnosis.json").read_bytes(),),
         ".json",
     ),
     Reader(
