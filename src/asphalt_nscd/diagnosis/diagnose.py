@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 from scipy.stats import f as fisher
 
-from asphalt_nscd.diagnosis import chance, scatter, start
+from asphalt_nscd.diagnosis import causality, chance, scatter, start
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
@@ -82,6 +82,8 @@ def diagnose(
         joint is not baseline_joint and baseline_p <= CHANCE and spectrum_better, ladder, notes=notes,
     )  # fmt: skip
     diagnosis.verdict = _verdict(diagnosis)
+    if diagnosis.verdict == "unexplained_structure":
+        diagnosis.notes += causality.told(causality.contradictions(observed, ladder.fitted, noise))
     return diagnosis
 
 

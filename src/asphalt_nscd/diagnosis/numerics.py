@@ -6,17 +6,32 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
+from asphalt_nscd.errors import InputError
 from asphalt_nscd.results import read_tests
 
+Vector = NDArray[np.float64]
+# A study simulates the nominal conditions of what was measured.
+NEAR_DEGREES = 1.0
+NEAR_FREQUENCY = 0.1  # relative
 
-def of_campaign(simulations: str | Path) -> dict[str, float | int]:
+
+def of_campaign(simulations: str | Path, temperatures: Vector, frequencies: Vector) -> dict[str, float | int]:
     """Largest departures of |E*| (percent) and phase (degrees) of simulated tests from what is no numerics.
 
     time_stepping: from the law of the bonds times the specimen's own ratio, tests without broken bonds;
     broken_bonds: the same in the others; peak_picking: of the paper's reduction from the harmonic fit.
+    temperatures [degC], frequencies [Hz]: of each measured test, at one of which at least one was simulated.
     """
     tests = read_tests([simulations], ["broken_bonds", "E_peak_MPa", "phase_peak_deg"])
+    near = np.abs(tests["temperature_C"].to_numpy()[:, None] - temperatures) <= NEAR_DEGREES
+    near &= np.abs(np.log(tests["frequency_Hz"].to_numpy()[:, None] / frequencies)) <= NEAR_FREQUENCY
+    if not near.any():
+        raise InputError(
+            f"{simulations}: no test at a temperature and frequency that was measured; "
+            "give the simulations of these measurements."
+        )
     whole = tests["broken_bonds"] == 0
     relative = np.log(tests["E_MPa"] / tests["E_law_MPa"])
     relative -= tests["specimen"].map(relative[whole].groupby(tests["specimen"]).median())

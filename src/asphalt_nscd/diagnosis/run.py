@@ -49,7 +49,7 @@ def run(
         raise InputError(f"{measurements}: {error}") from None
     content = report.as_json(diagnosis, numerical)
     if simulations is not None:
-        content["numerics"]["campaign"] = of_campaign(simulations)
+        content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
     content["origin"] = origin
     content["provenance"] = {
         **provenance(),

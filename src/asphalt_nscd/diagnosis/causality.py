@@ -1,0 +1,83 @@
+"""Where modulus and phase contradict each other, whatever the law of the mix.
+
+A linear material answers to forces only after they act, so its phase is the slope of ln|E*| over the
+frequency: phase = pi/2 d ln|E*| / d ln omega for a smooth law (the local Kramers-Kronig relation, exact for a
+power law). Departures from a fitted law obey it too; what does not is no relaxation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import norm
+
+from asphalt_nscd.diagnosis.joint import Fitted, Noise
+from asphalt_nscd.diagnosis.observations import Observations
+
+CHANCE = 0.01  # that any pair of frequencies is reported where nothing is wrong
+AGREES = 0.6  # share of the larger departure: even a single relaxation time keeps slope and phase nearer
+
+
+@dataclass(frozen=True)
+class Contradiction:
+    """Neighbouring frequencies [Hz] of an isotherm [degC]: phase measured, and phase that the slope asks for [rad]."""
+
+    temperature: float
+    low: float
+    high: float
+    measured: float
+    asked: float
+    z: float  # in standard deviations
+
+
+def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list[Contradiction]:
+    """Pairs of neighbouring frequencies where modulus and phase contradict each other, the worst first."""
+    left = observed.logarithm - fitted.modelled
+    found, tried = [], 0
+    for temperature in observed.isotherms:
+        at = observed.temperature == temperature
+        frequencies = np.unique(observed.frequency[at])
+        for low, high in zip(frequencies[:-1], frequencies[1:], strict=True):
+            first, second = (_mean(left, at & (observed.frequency == f)) for f in (low, high))
+            tried += 1
+            quarter = 0.5 * np.pi / np.log(high / low)
+            by_slope, by_phase = quarter * (second.real - first.real), 0.5 * (second.imag + first.imag)
+            count = min(np.count_nonzero(at & (observed.frequency == f)) for f in (low, high))
+            sigma = np.hypot(quarter * np.sqrt(2.0) * noise.sigma[0], np.sqrt(0.5) * noise.sigma[1])
+            z = abs(by_slope - by_phase) / sigma * np.sqrt(count)
+            if abs(by_slope - by_phase) < AGREES * max(abs(by_slope), abs(by_phase)):
+                continue
+            rows = at & np.isin(observed.frequency, (low, high))
+            modelled = float(fitted.modelled.imag[rows].mean())
+            found.append(
+                Contradiction(
+                    float(temperature),
+                    float(low),
+                    float(high),
+                    modelled + by_phase,
+                    modelled + by_slope,
+                    float(z),
+                )
+            )
+    least = norm.isf(0.5 * CHANCE / max(tried, 1))
+    return sorted((one for one in found if one.z > least), key=lambda one: -one.z)
+
+
+def told(found: list[Contradiction]) -> list[str]:
+    """One sentence of all contradictions, none without any."""
+    if not found:
+        return []
+    worst, others = found[0], found[1:]
+    also = ", ".join(f"{one.low:g} - {one.high:g} Hz at {one.temperature:g} degC" for one in others)
+    return [
+        f"At {worst.temperature:g} degC, from {worst.low:g} to {worst.high:g} Hz, |E*| rises as a phase of "
+        f"{np.degrees(worst.asked):.1f} deg would, and {np.degrees(worst.measured):.1f} deg were measured "
+        f"({worst.z:.1f} standard deviations{f'; likewise {also}' if also else ''}). No linear law "
+        "of the mix does that: look for a gain or a resonance of the machine there, or for a response not linear."
+    ]
+
+
+def _mean(left: NDArray[np.complex128], rows: NDArray[np.bool_]) -> complex:
+    return complex(left[rows].mean())
