@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from asphalt_nscd.nscd.granular_sweeps import ROUND
+
 
 def all_pairs(position, radius, plane_point, plane_normal, reach):
     """[(i, j)] of every pair with a gap below reach, by looking at all of them.
@@ -69,9 +71,15 @@ def naive_step(
     for (i, j, _, on_first, on_second, *_), r in zip(contacts, local):
         new[i] += inverse[i] * (on_first.T @ r)
         new[j] += inverse[j] * (on_second.T @ r)
+    lively, size = [], 0.0
     for sweep in range(most_sweeps):
-        order = range(len(contacts)) if sweep % 2 == 0 else reversed(range(len(contacts)))
-        changed = size = 0.0
+        round_, turn = divmod(sweep, ROUND)
+        quiet = tolerance**2 * size / max(len(contacts), 1)
+        if turn == 0:  # all, up the list and down by turns
+            order = range(len(contacts))[:: -1 if round_ % 2 else 1]
+            lively, changed, size = [], 0.0, 0.0
+        else:  # those whose impulse changed then
+            order = lively[:: -1 if turn % 2 else 1]
         for c in order:
             i, j, _, on_first, on_second, delassus, target = contacts[c]
             opening = on_first @ new[i] + on_second @ new[j] - [target, 0, 0]
@@ -79,8 +87,11 @@ def naive_step(
             delta, local[c] = r - local[c], r
             new[i] += inverse[i] * (on_first.T @ delta)
             new[j] += inverse[j] * (on_second.T @ delta)
-            changed, size = changed + delta @ delta, size + r @ r
-        if size == 0 or np.sqrt(changed / size) < tolerance:
+            if turn == 0:
+                changed, size = changed + delta @ delta, size + r @ r
+                if delta @ delta > quiet:
+                    lively.append(c)
+        if turn == 0 and (size == 0 or np.sqrt(changed / size) < tolerance):
             break
     carried = {(i, j): frame.T @ r for (i, j, frame, *_), r in zip(contacts, local)}
     return position + dt * new[:n, :3], new, carried

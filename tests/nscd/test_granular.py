@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 from naive.granular import naive_step
 
-from asphalt_nscd.nscd.granular_sweeps import BLOCK, HANDS, place
+from asphalt_nscd.nscd.granular import active_contacts
+from asphalt_nscd.nscd.granular_sweeps import (
+    BLOCK,
+    HANDS,
+    ROUND,
+    pack_contacts,
+    pack_motion,
+    place,
+    sweep_contacts,
+    sweep_until,
+)
 from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics, settle
 from asphalt_nscd.specimen.lattice import random_lattice
 
@@ -222,6 +232,34 @@ def test_a_bouncing_pile_with_friction_comes_to_rest():
         pile.advance(settings)
         assert energy(pile) - before < 0.05 * moving
     assert pile.kinetic_energy() < 2e-2 * start
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
+def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
+    """Grains thrown together: where it ends, one more sweep over all changes no more than the last one;
+    rounds cut short leave the change above the tolerance."""
+    pile = cloud(3, 0.0, 0.5)
+    for _ in range(150):
+        pile.advance(numerics(tolerance=1e-3, most_sweeps=60))
+    pile.impulse[:] = 0.0
+    pair, first, second, normal, gap = active_contacts(
+        pile.position, pile.radius, pile.velocity, pile.plane_point, pile.plane_normal, pile._start,
+        pile._other, 1e-4, 3e-4,
+    )  # fmt: skip
+    everyone, lively = np.arange(gap.size), np.empty(gap.size, np.int64)
+    for most_sweeps in (2 * ROUND - 1, 100 * ROUND):
+        motion = pack_motion(pile.velocity, pile.inverse_mass)
+        bodies, packed = pack_contacts(
+            pair, first, second, normal, np.zeros(gap.size), pile.impulse, pile.inverse_mass
+        )
+        sweeps, change = sweep_until(bodies, packed, motion, 0.5, tolerance, most_sweeps)
+        if most_sweeps < 2 * ROUND:
+            assert sweeps == most_sweeps
+            assert change > tolerance
+    assert sweeps % ROUND == 1
+    assert change < tolerance
+    changed, size, _ = sweep_contacts(bodies, packed, motion, 0.5, everyone, False, 0.0, lively)
+    assert 0.0 < np.sqrt(changed / size) < tolerance
 
 
 def test_penetration_under_the_numerics_of_the_preparation():
