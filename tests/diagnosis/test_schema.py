@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -109,6 +110,18 @@ def test_gains_are_errors_of_single_tests_and_of_averages_over_specimens(diagnos
     average = 100.0 * (at["E_after_MPa"] / at["E_MPa"] - 1.0).abs().mean()
     found = gain["averages_by_temperature"]["15"]["mre_E_percent"]["after"]
     assert found == pytest.approx(average, rel=1e-6)
+
+
+def test_an_isotherm_at_an_end_is_no_part_of_the_held_out_error(monkeypatch):
+    temperature = np.repeat([0.0, 10.0, 20.0], 2)
+    observed = SimpleNamespace(logarithm=np.log(1e9) + 0.2j + np.zeros(6), temperature=temperature)
+    diagnosis = SimpleNamespace(observed=observed, noise=SimpleNamespace(sigma=(0.01, 0.01)))
+    monkeypatch.setattr(report, "_errors", lambda *_: {"mre_E_percent": {}, "mre_phase_percent": {}})
+    before = observed.logarithm + np.where(temperature == 10.0, 0.02, 0.5)
+    after = observed.logarithm + np.where(temperature == 10.0, 0.01, 5.0)
+    error = report._pair(diagnosis, before, after, inner=True)["mre_E_percent"]
+    assert error == {"before": pytest.approx(2.02, abs=0.01), "after": pytest.approx(1.005, abs=0.001)}
+    assert report._pair(diagnosis, before, after)["mre_E_percent"]["after"] > 1000.0
 
 
 def test_residuals_are_logarithms_of_measured_over_simulated(diagnosed):

@@ -26,7 +26,7 @@ from asphalt_nscd.results import the_only
 TEMPLATE = "page.html"
 LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
 HELD_OUT = {
-    "leave_one_isotherm_out": "each temperature predicted from the others",
+    "leave_one_isotherm_out": "each inner temperature predicted from the rest",
     "leave_one_frequency_out": "each frequency predicted from the others",
 }
 ORIGINS = {

@@ -117,13 +117,13 @@ def _errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str
     }
 
 
-def _misses(diagnosis: Diagnosis, logarithm: Logarithm) -> dict[str, float]:
-    """Mean relative errors of single tests, and the error over the scatter (root mean square).
+def _misses(diagnosis: Diagnosis, logarithm: Logarithm, rows: NDArray[np.bool_]) -> dict[str, float]:
+    """Mean relative errors of single tests, and the error over the scatter (root mean square), of some rows.
 
     Not of averages over specimens, as in Table 4: these hide what is wrong with one specimen.
     """
-    observed = diagnosis.observed.logarithm
-    left = observed - logarithm
+    observed = diagnosis.observed.logarithm[rows]
+    left = observed - logarithm[rows]
     sigma = diagnosis.noise.sigma
     squares = np.concatenate([(left.real / sigma[0]) ** 2, (left.imag / sigma[1]) ** 2])
     return {
@@ -135,9 +135,17 @@ def _misses(diagnosis: Diagnosis, logarithm: Logarithm) -> dict[str, float]:
     }
 
 
-def _pair(diagnosis: Diagnosis, before: Logarithm, after: Logarithm) -> dict[str, Any]:
-    """Errors before and after: of single tests, and of averages over specimens at each temperature."""
-    first, second = _misses(diagnosis, before), _misses(diagnosis, after)
+def _pair(diagnosis: Diagnosis, before: Logarithm, after: Logarithm, inner: bool = False) -> dict[str, Any]:
+    """Errors before and after: of single tests, and of averages over specimens at each temperature.
+
+    inner: single tests at the temperatures between others only; an isotherm at an end, left out, is
+    extrapolated, which tells of the law's end and of no cause.
+    """
+    temperature = diagnosis.observed.temperature
+    rows = np.full(temperature.size, True)
+    if inner:
+        rows = (temperature > temperature.min()) & (temperature < temperature.max())
+    first, second = _misses(diagnosis, before, rows), _misses(diagnosis, after, rows)
     pair: dict[str, Any] = {name: {"before": first[name], "after": second[name]} for name in first}
     errors = [_errors(diagnosis, logarithm) for logarithm in (before, after)]
     pair["averages_by_temperature"] = {
@@ -158,7 +166,7 @@ def _rung(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen) -> dict
     ):
         if np.unique(label).size > 2:
             predicted = [heldout.predictions(joint, fitted, label) for fitted in (rung.before, rung.after)]
-            held_out[name] = _pair(diagnosis, *predicted)
+            held_out[name] = _pair(diagnosis, *predicted, inner=name == "leave_one_isotherm_out")
     gain["held_out"] = held_out
     final = _final(diagnosis, rung.candidate)
     return {
@@ -200,7 +208,7 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
     if observed.isotherms.size > 2:
         # A Burgers law says nothing of another temperature: before is its fit, which has seen the data.
         predicted = heldout.predictions(ladder.joint, ladder.start, observed.temperature)
-        held_out["leave_one_isotherm_out"] = _pair(diagnosis, before, predicted)
+        held_out["leave_one_isotherm_out"] = _pair(diagnosis, before, predicted, inner=True)
     if observed.frequencies.size > 2:
         label = observed.frequency
         held_out["leave_one_frequency_out"] = _pair(
