@@ -98,7 +98,9 @@ def _held_out(ladder: list[dict[str, Any]]) -> str | None:
     modulus, phase = (
         three_digits(predicted[name]["after"]) for name in ("mre_E_percent", "mre_phase_percent")
     )
-    return f"Each inner temperature predicted from the rest alone: |E*| to {modulus} %, the phase to {phase} %."
+    return (
+        f"Each inner temperature predicted from the rest alone: |E*| to {modulus} %, the phase to {phase} %."
+    )
 
 
 def _mean(by_temperature: dict[str, float]) -> str:
