@@ -63,7 +63,7 @@ def tables(lines: tuple[Path, ...], folder: Path) -> None:
         folder / "campaign.json",
         {
             **provenance(), "seed": plan.SEED, "mixes_of_runs": list(plan.MIXES), "cases": len(drawn),
-            "cases_whose_cause_has_no_limit": sum("seal" not in line for line in drawn),
+            "cases_that_cannot_be_drawn": sum("seal" not in line for line in drawn),
         },
     )  # fmt: skip
 

@@ -23,6 +23,8 @@ def opened(cause: str, seed: int, ratio: float, suite: str = "single", removed: 
     cases = [Case(seed, "limits", design=design, shape=shape)] if cause in CATALOGUE else []
     cases.append(Case(seed, suite, (cause,), ratio, design=design, removed=removed, shape=shape))
     lines = list(sealed.run(cases))
+    if "seal" not in lines[-1]:
+        pytest.skip(f"{cause} cannot be drawn at {ratio:g} times the limit with seed {seed}")
     return score.outcomes([(line["seal"], line["diagnosis"]) for line in lines])
 
 
@@ -38,6 +40,17 @@ def test_a_hidden_cause_is_named_rightly_and_its_empty_case_not_at_all(cause):
 def test_an_effect_outside_the_catalogue_stays_without_a_name(effect):
     row = opened(effect, SEED, JUDGED, suite="outside").iloc[-1]
     assert row["outcome"] == score.UNEXPLAINED, row
+
+
+def test_an_effect_that_cannot_be_as_visible_as_planned_is_counted_and_stops_nothing(monkeypatch):
+    def never(*_, **__):
+        raise ArithmeticError
+
+    monkeypatch.setattr(sealed.generator, "draw", never)
+    cases = [
+        Case(SEED, "outside", ("gain_at_frequency",), ratio, shape="huet_sayegh") for ratio in (3.0, 5.0)
+    ]
+    assert ["seal" in line for line in sealed.run(cases)] == [False, False]
 
 
 def test_a_cause_missing_from_the_catalogue_is_replaced_by_no_other():
