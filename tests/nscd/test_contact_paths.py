@@ -11,7 +11,8 @@ from naive.friction import nearest_in_cone
 from asphalt_nscd.nscd import contact_interior as interior
 from asphalt_nscd.nscd.contact_newton import linearised, refine
 from asphalt_nscd.nscd.contact_problem import ContactProblem
-from asphalt_nscd.verification.assemblies import box_stack
+from asphalt_nscd.nscd.contact_proximal import _softened, proximal_points
+from asphalt_nscd.verification.assemblies import box_stack, spheres_in_a_box
 
 
 def random_problem(seed, friction=0.5, contacts=8):
@@ -108,3 +109,26 @@ def test_reach():
             distance = end[:, 0] - np.hypot(end[:, 1], end[:, 2])
             assert abs(distance.min()) < 1e-8
     assert interior._reach(np.array([[1.0, 0.0, 0.0]]), np.array([[1.0, 0.5, 0.0]])) == np.inf
+
+
+def test_softened_problem_has_the_solution_of_the_problem_where_it_stays():
+    problem, rng = random_problem(4)
+    r, x = rng.normal(size=24), rng.normal(size=24)
+    soft = _softened(problem, 0.3, r)
+    damped = 0.3 / np.repeat(problem.length, 3)
+    np.testing.assert_allclose(soft.velocity(x), problem.velocity(x) + damped * (x - r), atol=1e-12)
+    np.testing.assert_allclose(soft.velocity(r), problem.velocity(r), atol=1e-12)
+    # The blocks that sweeps see are those of the matrix.
+    own = soft.matrix.toarray()[6:9, 6:9]
+    np.testing.assert_allclose(soft.block[soft.own[2]], own, atol=1e-14)
+
+
+@pytest.mark.parametrize("cells, seed, friction", [(3, 10, 0.9), (4, 10, 0.9)])
+def test_rough_spheres_that_no_interior_path_solves(cells, seed, friction):
+    """Reactions of a pile held between walls, by proximal points alone."""
+    pile = spheres_in_a_box(cells, seed=seed)
+    problem = ContactProblem.of(pile.W, pile.q, friction)
+    found, sweeps, _ = proximal_points(problem, np.zeros_like(problem.free_velocity), 1e-8, 400)
+    assert max(problem.errors(found)) <= 1e-8 and sweeps > 500
+    few, _, _ = proximal_points(problem, np.zeros_like(problem.free_velocity), 1e-8, 2)
+    assert 1e-8 < max(problem.errors(few)) < max(problem.errors(np.zeros_like(few)))

@@ -118,8 +118,9 @@ def test_accelerated_sweeps(sweeps):
     sizes = np.linalg.norm(changes, axis=1)
     assert (sizes[1:] < 2 * sizes[:-1]).all()  # none led astray, for which there is another way
     found, count = kernels.accelerated_sweeps(
-        problem.start, problem.other, problem.block, q, problem.friction, problem.length, 0.0, sweeps
-    )
+        problem.start, problem.other, problem.block, q, problem.friction, problem.length, 0.0, sweeps,
+        np.zeros(q.size),
+    )  # fmt: skip
     assert count == sweeps
     np.testing.assert_allclose(found, results[-1], rtol=0, atol=1e-9)
 
@@ -128,9 +129,13 @@ def test_accelerated_sweeps_return_the_best_and_stop():
     w, q, _ = random_problem(7)
     problem = ContactProblem.of(w, q, 0.4)
     arguments = (problem.start, problem.other, problem.block, q, problem.friction, problem.length)
-    r, sweeps = kernels.accelerated_sweeps(*arguments, 1e-10, 500)
+    nothing = np.zeros(q.size)
+    r, sweeps = kernels.accelerated_sweeps(*arguments, 1e-10, 500, nothing)
     assert sweeps < 100 and max(problem.errors(r)) <= 1e-10
-    r, sweeps = kernels.accelerated_sweeps(*arguments, 1e-10, 2)
+    r, sweeps = kernels.accelerated_sweeps(*arguments, 1e-10, 2, nothing)
     assert sweeps == 2 and 1e-10 < max(problem.errors(r)) < max(problem.errors(np.zeros_like(r)))
-    _, sweeps = kernels.accelerated_sweeps(*arguments, 0.0, 10_000)
+    solved, _ = kernels.accelerated_sweeps(*arguments, 1e-10, 500, nothing)
+    r, sweeps = kernels.accelerated_sweeps(*arguments, 1e-10, 500, solved)
+    assert sweeps == 1 and max(problem.errors(r)) <= 1e-10
+    _, sweeps = kernels.accelerated_sweeps(*arguments, 0.0, 10_000, nothing)
     assert sweeps < 1000  # rounding is reached: no progress, no end

@@ -18,13 +18,13 @@ _PATIENCE = 300  # sweeps that may pass without the error falling to a tenth
 
 
 @compiled
-def accelerated_sweeps(start, other, block, q, friction, length, tolerance, most_sweeps):
-    """Sweeps from r = 0 until both errors are below tolerance, or progress ends.
+def accelerated_sweeps(start, other, block, q, friction, length, tolerance, most_sweeps, first):
+    """Sweeps from r = `first` (3 c,) until both errors are below tolerance, or progress ends.
 
     Returns (r of the least error, sweeps).
     """
     rows = q.shape[0]
-    r, swept, best = np.zeros(rows), np.zeros(rows), np.zeros(rows)
+    r, swept, best = first.copy(), np.zeros(rows), first.copy()
     last, change, last_change = np.zeros(rows), np.zeros(rows), np.zeros(rows)
     of_results, of_changes = np.zeros((_DEPTH, rows)), np.zeros((_DEPTH, rows))
     normal = np.zeros((_DEPTH, _DEPTH))

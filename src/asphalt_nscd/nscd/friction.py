@@ -1,7 +1,8 @@
 """Signorini-Coulomb contacts coupled through a Delassus operator: the solver for all of them.
 
 Sweeps are cheap and end most problems. Those on which they stall are led to a solution along an
-interior path, with Newton's method trying to finish whenever the error has fallen to a tenth.
+interior path, with Newton's method trying to finish whenever the error has fallen to a tenth; where
+all paths end, proximal points go on.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 from asphalt_nscd.nscd.contact_interior import interior_path
 from asphalt_nscd.nscd.contact_newton import refine
 from asphalt_nscd.nscd.contact_problem import ContactProblem
+from asphalt_nscd.nscd.contact_proximal import proximal_points
 from asphalt_nscd.nscd.contact_sweeps import accelerated_sweeps
 
 PATHS = ((3.0, 0.0), (10.0, 0.3), (10.0, 1.0), (100.0, 0.3), (1000.0, 0.0))
@@ -54,14 +56,14 @@ def solve_contacts(W, q, mu, tolerance: float = 1e-8, most_sweeps: int = 3000, m
     """Reactions r with u = W r + q, opening u_n >= 0, r_n >= 0, complementary, and Coulomb friction.
 
     W (3 c, 3 c) [1/kg] positive semidefinite, sparse of any storage or dense; q (3 c,) [m/s]; mu, one
-    for all contacts or (c,); normal first. most_steps: of each interior path. Returns a
-    ContactSolution whose error is that of the natural map (see `natural_map`), relative; it is
-    for the caller to look at `converged`. Raises ValueError for input that is no such problem.
+    for all contacts or (c,); normal first. most_steps: of each interior path; there may be twice as many
+    proximal points. Returns a ContactSolution whose error is that of the natural map (see `natural_map`),
+    relative; it is for the caller to look at `converged`. Raises ValueError for input that is no such problem.
     """
     problem = ContactProblem.of(W, q, mu)
     best, sweeps = accelerated_sweeps(
         problem.start, problem.other, problem.block, problem.free_velocity, problem.friction, problem.length,
-        tolerance, most_sweeps,
+        tolerance, most_sweeps, np.zeros(problem.free_velocity.size),
     )  # fmt: skip
     least, steps = max(problem.errors(best)), 0
     for start, balance in PATHS:
@@ -73,6 +75,10 @@ def solve_contacts(W, q, mu, tolerance: float = 1e-8, most_sweeps: int = 3000, m
         steps += taken
         if error < least:
             best, least = found, error
+    if least > tolerance:
+        with np.errstate(over="ignore", invalid="ignore"):
+            best, swept, taken = proximal_points(problem, best, tolerance, 2 * most_steps)
+        sweeps, steps, least = sweeps + swept, steps + taken, max(problem.errors(best))
     error, scaled = problem.errors(best)
     return ContactSolution(
         best, problem.velocity(best), error, scaled, sweeps, steps, bool(least <= tolerance)
