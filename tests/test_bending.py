@@ -19,6 +19,7 @@ from asphalt_nscd.bending import (
 from asphalt_nscd.cli import group
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.layers import LAYERS
+from asphalt_nscd.nscd import shifted
 from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.harmonic import driving_force
 from asphalt_nscd.rheology.burgers import Burgers
@@ -54,6 +55,23 @@ def model(folder) -> Model:
 
 def run(model, method="reduced", amplitude=1e-6, cycles=2.0, rest=20, **changes):
     return run_test(model, bond_law(LAW), FREQUENCY, amplitude, cycles, DT, rest, method, **changes)
+
+
+def test_a_specimen_too_large_for_factors(folder, model, monkeypatch, tmp_path):
+    """No directions are kept for breaks; the test is the same, broken bonds included."""
+    monkeypatch.setattr(shifted, "LARGEST_FACTORED", 100)
+    condense(folder / "beam.h5", "free", 0.35, 2.7e6, 0.7, tmp_path / "large.h5")
+    large = read_model(tmp_path / "large.h5")
+    assert model.stand_by is not None and large.stand_by is None
+    for amplitude, breaks in ((1e-6, False), (4e-5, True)):
+        expected, found = (
+            run(model, amplitude=amplitude, cycles=1.0),
+            run(large, amplitude=amplitude, cycles=1.0),
+        )
+        assert found.broken == expected.broken and bool(found.broken) == breaks
+        np.testing.assert_allclose(
+            found.force, expected.force, rtol=0, atol=1e-6 * np.abs(expected.force).max()
+        )
 
 
 def test_a_model_file_holds_the_system_of_its_specimen(folder, beam, model):

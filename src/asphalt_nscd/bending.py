@@ -18,6 +18,7 @@ from asphalt_nscd.nscd import harmonic
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.multigrid import Multigrid
 from asphalt_nscd.nscd.reduced import ReducedModel, ritz_basis, shifted_factor
 from asphalt_nscd.nscd.reduced_stepping import FullSystemNeeded, ReducedStepper
 from asphalt_nscd.nscd.scheme import Scheme
@@ -76,8 +77,10 @@ def condense(
         "operator/data": g.data, "weight": system.weight, "mass": system.mass, "load": system.load,
         "gap": system.gap, "strength": system.strength, "position": system.position,
         "sphere_height": specimen.position[:, 2],
-        **{f"stand_by/{name}": value for name, value in StandBy.of(system, basis, shifted).arrays().items()},
     }  # fmt: skip
+    if not isinstance(shifted, Multigrid):  # by which they cost more than the few breaks they may save
+        stand_by = StandBy.of(system, basis, shifted).arrays()
+        arrays |= {f"stand_by/{name}": value for name, value in stand_by.items()}
     attributes = {
         "name": Path(specimen_file).stem, "head": head, "driven": system.driven, "friction": friction,
         **{name: getattr(specimen.geometry, name) for name in Geometry.__dataclass_fields__},
@@ -102,7 +105,7 @@ def read_model(path: str | Path) -> Model:
     own = {name.removeprefix(prefix): value for name, value in arrays.items() if name.startswith(prefix)}
     return Model(
         system, arrays["basis"], geometry, arrays["sphere_height"], attributes["name"], attributes["head"],
-        StandBy.from_arrays(own),
+        StandBy.from_arrays(own) if own else None,
     )  # fmt: skip
 
 

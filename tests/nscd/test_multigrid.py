@@ -44,6 +44,31 @@ def test_the_solutions_of_factors(system):
     np.testing.assert_array_equal(multigrid.solve(force[:, 0]), multigrid.solve(force)[:, 0])
 
 
+def test_the_same_to_the_bit_whatever_has_been_drawn_before(system):
+    """Spectral radii are estimated from random vectors; the generator of the caller is left as it was."""
+    free = system.free
+    matrix = (system.stiffness() + SHIFT * sparse.diags_array(system.mass)).tocsc()[free][:, free]
+    force, found = np.sqrt(matrix.diagonal()), []
+    for seed in (1, 2):
+        np.random.seed(seed)
+        found.append(Multigrid(matrix, system.rigid_motions()[free]).solve(force))
+        assert np.random.rand() == np.random.RandomState(seed).rand()
+    np.testing.assert_array_equal(*found)
+
+
+def test_static_solutions_are_no_iteration_within_another(system, monkeypatch):
+    """Solved once for each Krylov vector; for static ones, cycles precondition."""
+    monkeypatch.setattr(shifted, "LARGEST_FACTORED", system.free.size - 1)
+    solved = []
+    solve = Multigrid.solve
+    monkeypatch.setattr(
+        Multigrid, "solve", lambda self, force: solved.append(force.shape) or solve(self, force)
+    )
+    ritz_basis(system, 2)
+    assert [shape for shape in solved if len(shape) == 2] == [(system.free.size, 2)] * 2
+    assert len(solved) == 2 + 4
+
+
 def test_a_test_without_factors(system, monkeypatch):
     """Steps of the full system and the reduced basis, the same to 1e-8 where factors are too large."""
 

@@ -16,6 +16,7 @@ from scipy.sparse.linalg import LinearOperator, SuperLU, cg
 
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.compiled import compiled
+from asphalt_nscd.nscd.multigrid import Multigrid
 from asphalt_nscd.nscd.projection import Projection, rows_of
 from asphalt_nscd.nscd.shifted import factorise
 
@@ -24,26 +25,29 @@ SHIFT = 1e-2
 """m/kg, S/dt of a typical law: for it, the first step from rest or after a break is exact."""
 
 
-def shifted_factor(system: BondedSystem) -> SuperLU:
-    """Factors of K + SHIFT M on the free degrees of freedom."""
+def shifted_factor(system: BondedSystem) -> SuperLU | Multigrid:
+    """What solves K + SHIFT M on the free degrees of freedom."""
     free = system.free
     matrix = (system.stiffness() + SHIFT * sparse.diags_array(system.mass)).tocsc()[free][:, free]
     return factorise(matrix, system)
 
 
-def ritz_basis(system: BondedSystem, iterations: int, shifted: SuperLU | None = None) -> np.ndarray:
+def ritz_basis(
+    system: BondedSystem, iterations: int, shifted: SuperLU | Multigrid | None = None
+) -> np.ndarray:
     """Phi (d, 2 + 2 iterations): the static response to the driven motion, then Krylov vectors.
 
     Column 0 has unit motion of the driven degree of freedom; the others leave it at rest. They
     come from the inertia of column 0 and from the constant load by repeated (K + SHIFT M)^-1 M;
-    `shifted`, where it stands already, is the factor of that.
+    `shifted`, where it stands already, is what solves that.
     """
     free, k = system.free, system.stiffness()
     mass = system.mass[free]
     stiffness = k[free][:, free]
     coupling = k[free][:, [system.driven]].toarray()[:, 0]
     shifted = shifted_factor(system) if shifted is None else shifted
-    near = LinearOperator(stiffness.shape, matvec=shifted.solve)
+    close = shifted.cycle if isinstance(shifted, Multigrid) else shifted.solve
+    near = LinearOperator(stiffness.shape, matvec=close)
 
     def static(force: np.ndarray) -> np.ndarray:
         motion = cg(stiffness, force, rtol=1e-13, atol=0.0, M=near, maxiter=500)[0]

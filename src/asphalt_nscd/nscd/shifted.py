@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import SuperLU, splu
 
 from asphalt_nscd.nscd.bonds import BondedSystem
 from asphalt_nscd.nscd.multigrid import Multigrid
 
-LARGEST_FACTORED = 250_000  # unknowns; factors take 2 GB for 60 000 and grow with the power 4/3
+LARGEST_FACTORED = 150_000  # unknowns; factors take 2 GB for 60 000 and beyond 16 for 210 000
 
 
-def factorise(matrix: sparse.csc_matrix, system: BondedSystem):
+def factorise(matrix: sparse.csc_matrix, system: BondedSystem) -> SuperLU | Multigrid:
     """What solves a positive definite matrix on the free degrees of freedom of a system, by `.solve`.
 
     Factors, or multigrid where they would not fit; takes one column or many.
