@@ -1,4 +1,4 @@
-"""All rows in one table, and how fast each stage grows: cpu ~ spheres^exponent, between all sizes.
+"""All rows in one table, and how fast each stage grows: cpu ~ spheres^exponent, over all sizes done.
 
 python benchmarks/collect.py ROWS.csv... --output TABLE.csv --growth GROWTH.csv
 """
@@ -18,7 +18,8 @@ from asphalt_nscd.store import write_table
 def exponents(table: pd.DataFrame) -> pd.DataFrame:
     """One row for each stage: least squares of log cost and log memory against log size."""
     rows = []
-    for case, group in table[table.topic == "growth"].groupby("case", sort=False):
+    done = table[(table.topic == "growth") & table.cpu_s.notna()]
+    for case, group in done.groupby("case", sort=False):
         size = np.log(group.spheres.to_numpy(float))
         row = {"stage": case, "from": int(group.spheres.min()), "to": int(group.spheres.max())}
         for column, name in (("cpu_s", "exponent_of_time"), ("memory_MB", "exponent_of_memory")):

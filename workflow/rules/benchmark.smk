@@ -1,5 +1,5 @@
 # How fast is it beside its peers, and how does that grow? On the paper's sample 1: `make benchmark`.
-#   make benchmark FCLIB="problems/*.hdf5" SIZES="1000 3000 10000 30000"
+#   make benchmark FCLIB="problems/*.hdf5" SIZES="1000 3000 10000 30000 200000"
 # CPU times are compared side by side: run it alone, on one core. A peer that is not installed is said to be absent.
 
 import glob
@@ -64,21 +64,38 @@ rule benchmark_cycle:
         MEASURE + "/cycle.py {wildcards.method} {input.model} {input.law} --specimen {input.specimen} --output {output} > {log} 2>&1"
 
 
-rule benchmark_growth:
-    # Preparation and tests of so many spheres.
+rule benchmark_preparation:
+    # So many spheres poured, vibrated, trimmed and bonded.
     input:
-        compiled=["<results>/compiled/deposit", "<results>/compiled/simulate"],
+        compiled="<results>/compiled/deposit",
         counts=STUDY["specimens"]["counts_table"],
+        code=["benchmarks/growth.py", code("deposit"), code("trim")],
+    output:
+        row="results/benchmark/rows/preparation-{size}.csv",
+        specimen="results/benchmark/specimens/{size}.h5",
+    log:
+        "results/benchmark/logs/preparation-{size}.log",
+    message:
+        "Pour and bond {wildcards.size} spheres"
+    shell:
+        MEASURE + "/growth.py prepare {wildcards.size} {input.counts} --specimen {output.specimen} --output {output.row} > {log} 2>&1"
+
+
+rule benchmark_growth:
+    # A test on them: condensed, reduced.
+    input:
+        compiled="<results>/compiled/simulate",
+        specimen="results/benchmark/specimens/{size}.h5",
         law=f"<results>/laws/{LAWS}/T{label(AUDIT['temperature_C'])}.json",
-        code=["benchmarks/growth.py", code("deposit"), code("simulate")],
+        code=["benchmarks/growth.py", code("condense"), code("simulate")],
     output:
         "results/benchmark/rows/growth-{size}.csv",
     log:
         "results/benchmark/logs/growth-{size}.log",
     message:
-        "Prepare and test {wildcards.size} spheres"
+        "Test a specimen of {wildcards.size} spheres poured"
     shell:
-        MEASURE + "/growth.py {wildcards.size} {input.law} {input.counts} --output {output} > {log} 2>&1"
+        MEASURE + "/growth.py test {wildcards.size} {input.specimen} {input.law} --output {output} > {log} 2>&1"
 
 
 rule benchmark_fclib:
@@ -103,7 +120,7 @@ rule benchmark:
             "results/benchmark/rows/pouring-nscd.csv",
             *expand("results/benchmark/rows/pouring-{peer}.csv", peer=PEERS),
             *expand("results/benchmark/rows/cycle-{method}.csv", method=METHODS),
-            *expand("results/benchmark/rows/growth-{size}.csv", size=SIZES),
+            *expand("results/benchmark/rows/{part}-{size}.csv", part=["preparation", "growth"], size=SIZES),
             "results/benchmark/rows/fclib.csv",
         ],
         code="benchmarks/collect.py",
