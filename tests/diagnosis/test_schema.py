@@ -11,9 +11,10 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from asphalt_nscd.diagnosis import report, run
+from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA
 
 ROOT = Path(__file__).parents[2]
-SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/diagnosis.schema.yaml").read_text(encoding="utf-8"))
+SCHEMA = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8"))
 GEOMETRY = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.235}
 COLUMNS = ["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
 

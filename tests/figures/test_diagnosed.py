@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 import pytest
@@ -13,11 +11,10 @@ from matplotlib.container import ErrorbarContainer
 from matplotlib.patches import Rectangle
 from tiny_results import LAWS, modulus
 
+from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.figures import fig10_extended, fig_black, fig_limits, fig_master, fig_residual_map
 from asphalt_nscd.store import read_json, write_table
-
-ROOT = Path(__file__).parents[2]
 
 
 def texts_of(figure):
@@ -32,7 +29,7 @@ def outlined(axes):
 
 
 def test_tiny_diagnosis_is_what_the_schema_says(results):
-    schema = yaml.safe_load((ROOT / "workflow/schemas/diagnosis.schema.yaml").read_text())
+    schema = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text())
     (path,) = results.diagnosis()["diagnosis"]
     assert not list(Draft202012Validator(schema).iter_errors(read_json(path)))
 
@@ -137,6 +134,11 @@ def test_before_and_after_share_their_axes(results):
     for before, later in zip(*filled, strict=True):
         assert later - before == pytest.approx(5.0)
     assert {"reconstructed", "simulated", "law of the bonds"} <= set(texts_of(figure))
+
+
+def test_damaged_diagnosis_is_refused(results):
+    with pytest.raises(InputError, match="scatter is damaged, not as the schema says; delete it"):
+        fig_limits.draw(diagnosis=results.diagnosis(scatter={"modulus_percent": 1.0})["diagnosis"])
 
 
 def test_diagnosis_of_another_version_is_refused(results):

@@ -104,9 +104,12 @@ def test_rivals_and_text_from_the_table_are_shown_as_text(page):
     assert "loose clamp (specimen &lt;b&gt;)" in html and "<td>0.004</td>" in html
 
 
-GAIN = dict.fromkeys(
-    ("mre_E_percent", "mre_phase_percent", "rms_over_scatter"), {"before": 2.0, "after": 1.0}
-)
+GAIN = {
+    **dict.fromkeys(
+        ("mre_E_percent", "mre_phase_percent", "rms_over_scatter"), {"before": 2.0, "after": 1.0}
+    ),
+    "averages_by_temperature": {},
+}
 
 
 def test_without_a_cause_nothing_is_explained(page):

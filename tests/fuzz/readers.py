@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 import openpyxl
 import yaml
+from figures.tiny_results import Results
 
 from asphalt_nscd import fclib
 from asphalt_nscd.counts import read_counts
@@ -117,6 +118,11 @@ def _contact_problem(path: Path) -> None:
         group.create_dataset("vectors/mu", data=[0.5])
 
 
+def _diagnosis() -> bytes:
+    with tempfile.TemporaryDirectory() as folder:
+        return Results(Path(folder)).diagnosis()["diagnosis"][0].read_bytes()
+
+
 LAW = {"law": "burgers", "Em_Pa": 2e10, "eta_m_Pa_s": 1e9, "Ek_Pa": 3e10, "eta_k_Pa_s": 1e8}
 CHAIN = _written(
     lambda path: write_chain(
@@ -164,7 +170,7 @@ TEXTS = [
     Reader(
         "diagnosis",
         lambda path: read_diagnosis([path]),
-        ((ROOT / "results/published/paper/diagnosis/diagnosis.json").read_bytes(),),
+        (_diagnosis(),),
         ".json",
     ),
     Reader(

@@ -23,7 +23,7 @@ Logarithm = NDArray[np.complex128]  # ln E* (n,)
 
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
-    """Content of `diagnosis.json` (schema: workflow/schemas/diagnosis.schema.yaml)."""
+    """Content of `diagnosis.json` (schema: diagnosis.schema.yaml beside this file)."""
     ladder = []
     if diagnosis.relaxation_spectrum:
         ladder.append(_law_rung(diagnosis, specimen))

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
+import yaml
+from jsonschema import Draft202012Validator
+from jsonschema.exceptions import best_match
 
 from asphalt_nscd.csvinput import read_csv
 from asphalt_nscd.errors import InputError
@@ -15,6 +19,7 @@ from asphalt_nscd.results import averages, the_only
 from asphalt_nscd.store import read_json
 
 SCHEMA_VERSION = 2
+DIAGNOSIS_SCHEMA = Path(__file__).with_name("diagnosis.schema.yaml")
 NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
 CONFIDENCE = 1.96  # standard errors to either side of an estimate: 95 %
 BEFORE_AFTER = ("before", "after")
@@ -32,13 +37,24 @@ _SHOWN = {
 
 
 def read_diagnosis(paths: Sequence[Path]) -> dict[str, Any]:
-    """Content of the one diagnosis.json (schema: workflow/schemas/diagnosis.schema.yaml)."""
+    """Content of the one diagnosis.json, which is what `DIAGNOSIS_SCHEMA` says."""
     path = the_only(paths, "diagnosis")
     content = read_json(path)
     version = content.get("schema_version") if isinstance(content, dict) else None
     if version != SCHEMA_VERSION:
         raise InputError(f"{path}: not a diagnosis of version {SCHEMA_VERSION}; make it with `diagnose`.")
+    wrong = best_match(_schema().iter_errors(content))
+    if wrong is not None:
+        where = "/".join(map(str, wrong.absolute_path)) or "the file"
+        raise InputError(
+            f"{path}: {where} is damaged, not as the schema says; delete it and run `diagnose` again."
+        )
     return content
+
+
+@cache
+def _schema() -> Draft202012Validator:
+    return Draft202012Validator(yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8")))
 
 
 def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
