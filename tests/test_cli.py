@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import errno
 import os
+import pickle
 import re
 import resource
 import signal
@@ -61,10 +62,13 @@ def test_unknown_step_is_refused():
             "error: output file: no space left on device; free some space and run the same command again.\n",
         ),
         (KeyboardInterrupt(), 130, "error: interrupted; nothing half-written is left.\n"),
-        (
-            MemoryError(),
-            2,
-            "error: the memory is used up; end other programs, or run fewer jobs at a time (--cores 1).\n",
+        *(
+            (
+                error,
+                2,
+                "error: the memory is used up; end other programs, or run fewer jobs at a time (--cores 1).\n",
+            )
+            for error in (MemoryError(), ImportError("x.so: failed to map segment from shared object"))
         ),
     ],
 )
@@ -76,7 +80,21 @@ def test_trouble_is_one_sentence(capsys, error, status, sentence):
     assert capsys.readouterr().err == sentence
 
 
-@pytest.mark.parametrize("error", [RuntimeError("a mistake of ours"), ValueError("and another")])
+@pytest.mark.parametrize("error", [pickle.UnpicklingError("pickle data was truncated"), EOFError()])
+def test_damaged_compiled_core_is_removed(capsys, monkeypatch, tmp_path, error):
+    (core := tmp_path / "core").mkdir()
+    (core / "kernel.nbi").write_bytes(b"half")
+    monkeypatch.setattr("numba.config.CACHE_DIR", str(core))
+
+    def step():
+        raise error
+
+    assert cli._status(step) == 2
+    assert capsys.readouterr().err.startswith(f"error: {core}: the compiled core was damaged; it was removed")
+    assert not core.exists()
+
+
+@pytest.mark.parametrize("error", [RuntimeError("ours"), ValueError("too"), ImportError("no module")])
 def test_mistakes_in_the_program_keep_their_traceback(error):
     def step():
         raise error
@@ -121,7 +139,7 @@ def write_large(path, kind):
         "    from matplotlib.figure import Figure\n"
         "    (figure := Figure()).subplots().scatter(*numpy.random.default_rng(1).random((2, 5000)))\n"
         "    return figure\n"
-        "steps = {'h5': lambda p: store.save(p, 'test', {'x': numpy.arange(100000)}, {}),\n"
+        "steps = {'h5': lambda p: store.save(p, 'test', {f'x{n}': numpy.arange(300) for n in range(9)}, {}),\n"
         "         'pdf': lambda p: save_figure(drawing(), p.removesuffix('.pdf')),\n"
         "         'csv': lambda p: store.write_table(p, pandas.DataFrame({'x': range(100000)}))}\n"
         f"sys.exit(cli._status(lambda: steps[{kind!r}]({str(path)!r})))"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from asphalt_nscd.errors import InputError
@@ -23,6 +24,17 @@ def require_readable(path: str | Path, mend: str) -> None:
         raise InputError(f"{path}: no such file; {mend}.")
     if Path(path).stat().st_size > MOST_BYTES:
         raise InputError(f"{path}: larger than {MOST_BYTES // 10**6} MB; give a smaller one.")
+
+
+def require_writable(folder: str | Path) -> None:
+    """Refuse a folder of results with a file in its place, or with a part into which nothing can be written."""
+    folder = Path(folder)
+    standing = next(place for place in (folder, *folder.parents) if place.exists())
+    if not standing.is_dir():
+        raise InputError(f"{standing}: is a file, where the results should go; move it away.")
+    for place in (standing, *(folder.rglob("*/") if standing == folder else ())):
+        if not os.access(place, os.W_OK | os.X_OK):
+            raise InputError(f"{place}: cannot be written to; make the folder and its file system writable.")
 
 
 def inside(folder: Path, name: str) -> Path:

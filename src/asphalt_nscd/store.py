@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import json
 import os
 import platform
@@ -97,16 +98,18 @@ def save(
     import h5py
 
     arrays = {name: np.ascontiguousarray(value) for name, value in arrays.items()}
+    content = io.BytesIO()  # HDF5 prints tracebacks of its own where a disk is full
+    with h5py.File(content, "w") as file:
+        for name, value in arrays.items():
+            file.create_dataset(name, data=value)
+        for name, attribute in attributes.items():
+            file.attrs[name] = attribute
+        file.attrs["kind"] = kind
+        file.attrs["format_version"] = FORMAT_VERSION
+        file.attrs["digest"] = _digest(kind, arrays, attributes)
+        file.attrs["provenance"] = json.dumps(provenance())
     with atomic_path(path) as temporary:
-        with h5py.File(temporary, "w") as file:
-            for name, value in arrays.items():
-                file.create_dataset(name, data=value)
-            for name, attribute in attributes.items():
-                file.attrs[name] = attribute
-            file.attrs["kind"] = kind
-            file.attrs["format_version"] = FORMAT_VERSION
-            file.attrs["digest"] = _digest(kind, arrays, attributes)
-            file.attrs["provenance"] = json.dumps(provenance())
+        temporary.write_bytes(content.getbuffer())
 
 
 def load(path: str | Path, kind: str) -> Record:
@@ -149,11 +152,11 @@ def provenance() -> dict[str, Any]:
 
 def _digest(kind: str, arrays: Mapping[str, np.ndarray], attributes: Mapping[str, Any]) -> str:
     digest = hashlib.sha256(kind.encode())
-    for name in sorted(arrays):
+    for name in sorted(arrays, key=str):  # of a damaged file, some may be bytes
         value = np.ascontiguousarray(arrays[name])
         digest.update(f"{name}{value.dtype.str}{value.shape}".encode())
         digest.update(value.tobytes())
-    for name in sorted(attributes):
+    for name in sorted(attributes, key=str):
         digest.update(f"{name}={_plain(attributes[name])!r}".encode())
     return digest.hexdigest()
 

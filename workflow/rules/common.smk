@@ -11,6 +11,7 @@ from asphalt_nscd.errors import InputError
 from asphalt_nscd.failures import failures
 from asphalt_nscd.feasible import require_feasible
 from asphalt_nscd.lock import release_stale_locks
+from asphalt_nscd.paths import require_writable
 from asphalt_nscd.sources import PACKAGE, modules_of, source_files, stamp
 from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
 
@@ -34,7 +35,9 @@ try:
     )
     if workflow.is_main_process:
         require_feasible(STUDY, _source)
+        require_writable(f"results/{STUDY['study']}")
         mistrust_future(f"results/{STUDY['study']}")
+        mistrust_future(".snakemake/code")
 except InputError as error:
     sys.exit(f"error: {error}")
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import ctypes
 import errno
 import os
+import pickle
 import pkgutil
 import re
+import shutil
 import signal
 import sys
 from collections.abc import Callable
@@ -36,6 +38,7 @@ _MENDS = {
     errno.ENOTDIR: "check the path",
     errno.EISDIR: "give a file, not a folder",
 }
+_NO_MEMORY = "the memory is used up; end other programs, or run fewer jobs at a time (--cores 1)."
 
 
 class _Steps(click.Group):
@@ -78,7 +81,13 @@ def _status(step: Callable[[], object]) -> int:
     except (KeyboardInterrupt, click.Abort):
         return _say("interrupted; nothing half-written is left.", 130)
     except MemoryError:
-        return _say("the memory is used up; end other programs, or run fewer jobs at a time (--cores 1).", 2)
+        return _say(_NO_MEMORY, 2)
+    except ImportError as error:
+        if "failed to map segment" not in str(error):
+            raise
+        return _say(_NO_MEMORY, 2)
+    except (pickle.UnpicklingError, EOFError):  # only the compiler's cache is pickled
+        return _say(_forget_core(), 2)
     except (OSError, RuntimeError) as error:
         sentence = _file_trouble(error)
         if sentence is None:
@@ -93,6 +102,13 @@ def _heal(error: DamagedFile) -> str:
         return str(error)
     error.path.unlink(missing_ok=True)
     return f"{error.path}: {error.problem}; it was removed, run the workflow again to make it anew."
+
+
+def _forget_core() -> str:
+    import numba
+
+    shutil.rmtree(numba.config.CACHE_DIR, ignore_errors=True)
+    return f"{numba.config.CACHE_DIR}: the compiled core was damaged; it was removed, run the same command again."
 
 
 def _file_trouble(error: OSError | RuntimeError) -> str | None:
