@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import h5py
@@ -11,6 +12,7 @@ VOLATILE = (
     "logs", "benchmarks", "compiled", "report.html", "workflow.html", "provenance.json", "timings.csv", "timings.md",
 )  # fmt: skip
 
+_COMMIT = re.compile(rb"\b[0-9a-f]{40}(-dirty)?\b")  # of the code; a file edited meanwhile makes it dirty
 CPU = "cpu_s"  # column and attribute
 
 
@@ -52,7 +54,7 @@ def _content(path: Path) -> object:
     if path.suffix == ".csv" and _timed(path):
         return pd.read_csv(path, dtype=str).drop(columns=CPU)
     if path.suffix != ".h5":
-        return path.read_bytes()
+        return _COMMIT.sub(b"", path.read_bytes())
     content: dict[str, object] = {}
     with h5py.File(path) as file:
         content |= {

@@ -16,12 +16,15 @@ import time
 from datetime import datetime
 from pathlib import Path
 
+import pandas as pd
 from comparison import differences
 
+from asphalt_nscd.store import provenance, write_json, write_table
 from cluster.node import slurm, why_not
 
 ROOT = Path(__file__).parents[2]
 RESULTS = Path("results/smoke")
+OUTPUT = Path("results/cluster")
 # squeue, for there is no accounting; and looked at more often than a real cluster would like.
 ON_ONE_NODE = (
     "--profile", "profiles/slurm", "--slurm-no-account", "--slurm-status-command", "squeue",
@@ -39,15 +42,17 @@ def main() -> int:
     folder = Path(tempfile.mkdtemp(prefix="cluster-"))
     try:
         here, there = (_workspace(folder / name) for name in ("here", "there"))
-        began = time.monotonic()
-        subprocess.run(_snakemake("--cores", "2"), cwd=here, check=True, stdout=subprocess.DEVNULL)
-        print(f"here: {time.monotonic() - began:.0f} s")
+        if subprocess.run(_snakemake("--cores", "2"), cwd=here, stdout=subprocess.DEVNULL).returncode:
+            return 1
         with slurm():
-            began = time.monotonic()
             done = _disturbed(there)
-            print(f"through Slurm: {time.monotonic() - began:.0f} s, {done} jobs disturbed")
-            _cost(there)
+            rows = _cost(there)
         different = differences(here / RESULTS, there / RESULTS)
+        rows |= {"disturbed in mid-run": done, "files of results that differ from a run here": len(different)}
+        table = pd.DataFrame(rows.items(), columns=["what", "number"])
+        write_table(OUTPUT / "cluster.csv", table)
+        write_json(OUTPUT / "provenance.json", provenance())
+        print(table.to_string(index=False))
         print("\n".join(different) or "All results are equal bit for bit.")
         return 1 if different or done < len(DISTURBANCES) else 0
     finally:
@@ -98,7 +103,7 @@ def _running() -> list[tuple[str, str]]:
     return [(line.split()[0], line.partition(" ")[2]) for line in listed.stdout.splitlines()]
 
 
-def _cost(folder: Path) -> None:
+def _cost(folder: Path) -> dict[str, float]:
     """What Slurm took for itself: time in jobs beside that of the steps in them."""
     said = subprocess.run(["scontrol", "show", "job"], capture_output=True, text=True, check=True).stdout
     fields = [dict(re.findall(r"(\w+)=(\S+)", block)) for block in said.split("\n\n") if "JobId" in block]
@@ -112,14 +117,16 @@ def _cost(folder: Path) -> None:
         (datetime.fromisoformat(job["StartTime"]) - datetime.fromisoformat(job["SubmitTime"])).total_seconds()
         for job in whole
     )
-    steps = sum(
-        float(path.read_text().splitlines()[-1].split("\t")[0])
-        for path in (folder / RESULTS / "benchmarks").rglob("*.tsv")
-    )
-    print(
-        f"{len(whole)} Slurm jobs held cores for {spent:.0f} s, of which the steps in them took {steps:.0f} s; "
-        f"{(spent - steps) / len(whole):.1f} s for each job, beside {waited / len(whole):.1f} s in the queue."
-    )
+    benchmarks = list((folder / RESULTS / "benchmarks").rglob("*.tsv"))
+    steps = sum(float(path.read_text().splitlines()[-1].split("\t")[0]) for path in benchmarks)
+    return {
+        "Slurm jobs": len(whole),
+        "steps in them": len(benchmarks),
+        "core seconds held by the jobs": round(spent),
+        "seconds of the steps in them": round(steps),
+        "seconds in the queue, a job": round(waited / len(whole), 1),
+        "seconds of its own, a job": round((spent - steps) / len(whole), 1),
+    }
 
 
 if __name__ == "__main__":

@@ -4,44 +4,54 @@ from __future__ import annotations
 
 import re
 import shutil
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from comparison import differences
 
-from faults.study import RESULTS, Missed, Study
-from faults.table import Fault, Unable, last_line
+from faults.fault import Fault, Unable, last_line
+from faults.study import RESULTS, Missed, Run, Study
+
+PASSED, IMPOSSIBLE = "passed", "not possible here"
 
 
 @dataclass(frozen=True)
 class Judged:
+    kind: str
     fault: str
     verdict: str  # passed, not possible here, or what is wrong
     sentence: str
 
+    def spoilt(self, wrong: str) -> Judged:
+        """The same with something wrong that showed later."""
+        return replace(self, verdict=wrong if self.verdict == PASSED else f"{self.verdict}; {wrong}")
 
-def judge(fault: Fault, finished: Study, folder: Path) -> Judged:
+
+def judge(kind: str, fault: Fault, finished: Study, folder: Path) -> Judged:
     for attempt in range(3):
         study = finished.copy(folder)
         study.targets = (f"{RESULTS}/{fault.target}",)
         try:
             met = fault.disturb(study)
-            return Judged(fault.name, _wrong(fault, met, study, finished) or "passed", _shown(met, study))
+            verdict = _wrong(fault, met, study, finished) or PASSED
+            return Judged(kind, fault.name, verdict, _shown(fault, met, study))
         except Unable as error:
-            return Judged(fault.name, "not possible here", str(error))
+            return Judged(kind, fault.name, IMPOSSIBLE, str(error))
         except Missed as error:
             if attempt == 2:
-                return Judged(fault.name, str(error), "")
+                return Judged(kind, fault.name, str(error), "")
         finally:
             shutil.rmtree(folder, ignore_errors=True)
     raise AssertionError
 
 
-def _shown(met, study: Study) -> str:
-    return last_line(met).replace(str(study.folder), ".")[-300:] if met.returncode else ""
+def _shown(fault: Fault, met: Run, study: Study) -> str:
+    """The line in which the user reads of it, if there is one."""
+    lines = [line for line in last_line(met).splitlines() if fault.said and re.search(fault.said, line)]
+    return lines[-1].replace(str(study.folder), ".")[:300] if lines else ""
 
 
-def _wrong(fault: Fault, met, study: Study, finished: Study) -> str | None:
+def _wrong(fault: Fault, met: Run, study: Study, finished: Study) -> str | None:
     """What is wrong, None if nothing."""
     if "Traceback" in met.stderr + met.stdout:
         return "a traceback was printed"

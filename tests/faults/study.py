@@ -7,6 +7,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -14,6 +15,7 @@ from pathlib import Path
 from workspace import Workspace
 
 RESULTS = Path("results/smoke")
+Run = subprocess.CompletedProcess[str]
 
 
 class Study(Workspace):
@@ -21,7 +23,7 @@ class Study(Workspace):
 
     targets: tuple[str, ...] = ()
 
-    def finish(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+    def finish(self, *arguments: str) -> Run:
         return self.run("--cores", "2", *arguments, *self.targets)
 
     def copy(self, folder: Path) -> Study:
@@ -42,48 +44,82 @@ class Study(Workspace):
     def results(self) -> Path:
         return self.folder / RESULTS
 
-    def under(self, limit: Callable[[], None], *arguments: str) -> subprocess.CompletedProcess[str]:
+    def under(self, limit: Callable[[], None], *arguments: str) -> Run:
         """A run whose processes have a limit (of `resource`)."""
         return subprocess.run(
             self.command("--cores", "2", *arguments, *self.targets), cwd=self.folder, capture_output=True, text=True,
             env=self.environment, preexec_fn=limit,
         )  # fmt: skip
 
-    def killed(
-        self, output: str, signum: int = signal.SIGKILL, delay: float = 0.2
-    ) -> subprocess.CompletedProcess[str]:
-        """A run in which the job that writes `output` gets a signal shortly after it began."""
-        process = self.start("--cores", "2", *self.targets)
-        victim = None
-        while process.poll() is None and victim is None:
-            victim = self.job(output)
-            time.sleep(0.005)
-        if victim is not None:
-            time.sleep(delay)
+    def watched(self, look: Callable[[dict[str, int]], None], *arguments: str) -> Run:
+        """A run; `look` is shown the processes of its jobs again and again, as `jobs` gives them."""
+        with tempfile.TemporaryFile("w+") as said:
+            process = subprocess.Popen(
+                self.command("--cores", "2", *arguments, *self.targets), cwd=self.folder, env=self.environment,
+                stdout=subprocess.DEVNULL, stderr=said,
+            )  # fmt: skip
             try:
-                os.kill(victim, signum)
-            except ProcessLookupError:
-                victim = None
-        _, said = process.communicate()
-        if victim is None:
-            raise Missed(f"the job that writes {output} ended before it was killed")
-        return subprocess.CompletedProcess(process.args, process.returncode, "", said)
+                while process.poll() is None:
+                    look(self.jobs())
+                    time.sleep(0.02)
+            finally:
+                process.kill()
+            said.seek(0)
+            return Run(process.args, process.returncode, "", said.read())
 
-    def job(self, output: str) -> int | None:
-        """Process that works on `output` in this folder, itself and not a shell around it."""
+    def killed(self, log: str, signum: int = signal.SIGKILL, delay: float = 0.2) -> Run:
+        """A run in which the job that writes `log` gets a signal shortly after it began."""
+        victims = Victims({log: log}, lambda log: delay, signum)
+        met = self.watched(victims.look)
+        if not victims.killed:
+            raise Missed(f"the job that writes {log} ended before it was killed")
+        return met
+
+    def jobs(self) -> dict[str, int]:
+        """Jobs that run in this folder: the log, below `logs`, that a process writes, and its number."""
+        found: dict[str, int] = {}
         for entry in Path("/proc").iterdir():
             if not entry.name.isdigit():
                 continue
             try:
-                words = (entry / "cmdline").read_bytes().split(b"\0")
-                if os.readlink(entry / "cwd") != str(self.folder):
-                    continue
+                log = Path(os.readlink(entry / "fd/1"))
             except OSError:
                 continue
-            told = any(word.endswith((b"asphalt-nscd", b"snakemake")) for word in words[:3])
-            if told and output.encode() in b" ".join(words) and b"--cores" not in words:
-                return int(entry.name)
-        return None
+            if log.is_relative_to(self.results / "logs"):
+                name, number = str(log.relative_to(self.results / "logs")), int(entry.name)
+                found[name] = min(number, found.get(name, number))  # the job, not what it started
+        return found
+
+
+class Victims:
+    """One job of each rule gets a signal, once, `delay(log)` seconds after it was seen first.
+
+    rules: of each log the rule that writes it; killed: of each rule whose job was met, the log of that job."""
+
+    def __init__(
+        self, rules: dict[str, str], delay: Callable[[str], float], signum: int = signal.SIGKILL
+    ) -> None:
+        self.rules, self.delay, self.signum = rules, delay, signum
+        self.killed: dict[str, str] = {}
+        self._chosen: dict[str, tuple[str, float]] = {}  # of each rule the log, and when
+
+    def look(self, jobs: dict[str, int]) -> None:
+        for log, number in jobs.items():
+            rule = self.rules.get(log)
+            if rule is None or rule in self.killed:
+                continue
+            if rule not in self._chosen:
+                self._chosen[rule] = log, time.monotonic() + self.delay(log)
+            chosen, when = self._chosen[rule]
+            if chosen == log and time.monotonic() >= when:
+                try:
+                    os.kill(number, self.signum)
+                except ProcessLookupError:
+                    continue
+                self.killed[rule] = log
+        for rule, (log, _) in list(self._chosen.items()):
+            if log not in jobs and rule not in self.killed:
+                del self._chosen[rule]  # it was too quick; another job of this rule may come
 
 
 class Missed(Exception):

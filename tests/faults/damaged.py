@@ -1,0 +1,43 @@
+"""Files of results that a disk or an editor damaged."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+from faults.fault import MODEL, READ, Fault
+from faults.study import Run, Study
+
+
+def cut(path: Path) -> None:
+    with path.open("r+b") as file:
+        file.truncate(path.stat().st_size // 2)
+
+
+def emptied(path: Path) -> None:
+    path.write_bytes(b"")
+
+
+def flipped(path: Path) -> None:
+    """One bit, in the middle of what the file holds."""
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 0x10
+    path.write_bytes(data)
+
+
+def other_kind(path: Path) -> None:
+    shutil.copy(path.parents[len(path.parts) - path.parts.index("smoke") - 2] / MODEL, path)
+
+
+def damaged(name: str, how: Callable[[Path], None], said: str) -> Fault:
+    def disturb(study: Study) -> Run:
+        path = study.results / name
+        times = path.stat()
+        how(path)
+        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))  # as damage to a disk leaves it
+        (study.results / READ[name]).unlink()
+        return study.finish()
+
+    return Fault(f"{name} {how.__name__.replace('_', ' ')}", disturb, said, READ[name])

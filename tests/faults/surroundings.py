@@ -1,0 +1,107 @@
+"""Clocks, records of Snakemake, inputs and environment that are not as they should be."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from faults.damaged import cut
+from faults.fault import TEST
+from faults.study import Run, Study
+
+
+def clock_set_back(study: Study) -> Run:
+    """Results were made while the clock went a day ahead; then an input is changed, and changed again."""
+    tomorrow = time.time() + 86400
+    for path in (*study.results.rglob("*"), *study.folder.glob(".snakemake/**/*")):
+        if path.is_file():
+            os.utime(path, (tomorrow, tomorrow))
+    table = study.folder / "data/paper/table3_burgers.csv"
+    right = table.read_text()
+    table.write_text(right.replace("3.55e7", "3.56e7"))
+    before = (study.results / "simulations.csv").read_bytes()
+    done = study.finish()
+    if done.returncode == 0 and (study.results / "simulations.csv").read_bytes() == before:
+        return Run([], 1, "", "error: the changed table was not noticed.")
+    table.write_text(right)
+    return done
+
+
+def clock_ahead(study: Study) -> Run:
+    """One of the inputs was saved by a machine whose clock goes ahead."""
+    os.utime(study.folder / "config/smoke_counts.csv", (time.time() + 86400,) * 2)
+    return study.finish()
+
+
+def records_lost(study: Study) -> Run:
+    shutil.rmtree(study.folder / ".snakemake")
+    (study.results / TEST).unlink()
+    return study.finish()
+
+
+def records_damaged(study: Study) -> Run:
+    for path in (study.folder / ".snakemake/metadata").rglob("*"):
+        if path.is_file():
+            cut(path)
+    (study.results / TEST).unlink()
+    return study.finish()
+
+
+def stamps_lost(study: Study) -> Run:
+    shutil.rmtree(study.folder / ".snakemake/code")
+    return study.finish()
+
+
+def table_gone(study: Study) -> Run:
+    path = study.folder / "config/smoke_counts.csv"
+    aside = path.rename(path.with_suffix(".aside"))
+    done = study.finish()
+    aside.rename(path)
+    return done
+
+
+def table_in_half(study: Study) -> Run:
+    path = study.folder / "data/paper/table3_burgers.csv"
+    whole = path.read_text()
+    path.write_text(whole[: int(0.6 * len(whole))])
+    done = study.finish()
+    path.write_text(whole)
+    return done
+
+
+def configuration_in_half(study: Study) -> Run:
+    path = study.folder / "study.yaml"
+    whole = path.read_text()
+    path.write_text(whole[: len(whole) // 2])
+    done = study.finish()
+    path.write_text(whole)
+    return done
+
+
+def with_environment(name: str, value: Callable[[Study], str]) -> Callable[[Study], Run]:
+    def disturb(study: Study) -> Run:
+        (study.results / TEST).unlink()
+        return subprocess.run(
+            study.command("--cores", "2", *study.targets), cwd=study.folder, capture_output=True, text=True,
+            env=study.environment | {name: value(study)}, errors="replace",
+        )  # fmt: skip
+
+    return disturb
+
+
+def damaged_cache(study: Study) -> str:
+    folder = study.folder / "numba"
+    source = Path(os.environ.get("ASPHALT_NSCD_CACHE") or Path.home() / ".cache/asphalt-nscd")
+    shutil.copytree(source, folder)
+    for path in folder.rglob("*.nb?"):
+        cut(path)
+    return str(folder)
+
+
+def no_cache(study: Study) -> str:
+    (study.folder / "cache").write_text("a file, where a folder should be\n")
+    return str(study.folder / "cache")
