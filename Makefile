@@ -10,6 +10,7 @@
 #   make faults     what must not lose or falsify a result: results/faults/faults.csv, half an hour
 #   make fuzz       a hundred thousand inputs to everything that reads a file
 #   make cluster    the smoke study through a Slurm started here, where Debian's is installed
+#   make api        reference of all modules, from their docstrings: docs/api
 #   make benchmark  how fast it is beside its peers: results/benchmark/benchmark.csv
 #   make study CONFIG=my.yaml     any other study
 #
@@ -34,7 +35,7 @@ ifeq ($(filter study,$(MAKECMDGOALS))$(shell test -f "$(CONFIG)" && echo found),
 $(error $(CONFIG): no such file; give a study with CONFIG=my.yaml)
 endif
 
-.PHONY: paper smoke blind study test lint verify check faults fuzz cluster benchmark
+.PHONY: paper smoke blind study test lint verify check faults fuzz cluster benchmark api
 
 paper: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
@@ -73,6 +74,10 @@ fuzz: $(READY)
 
 cluster: $(READY)
 	@PYTHONPATH=tests .venv/bin/python -m cluster
+
+api: $(READY)
+	@.venv/bin/pdoc --output-directory docs/api asphalt_nscd '!asphalt_nscd.cli'
+	@echo "Reference: $(CURDIR)/docs/api/index.html"
 
 lint: $(READY)
 	.venv/bin/ruff check .
