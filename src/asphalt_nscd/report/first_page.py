@@ -70,7 +70,7 @@ def _wrong(diagnosis: dict[str, Any]) -> list[str]:
     modulus, phase = diagnosis["baseline"]["mre_E_percent"], diagnosis["baseline"]["mre_phase_percent"]
     return [
         "With one Burgers law for each temperature, as in the paper, and the packing taken out, the simulation misses "
-        f"|E*| by {_mean(modulus)} % in the mean, most at {_worst(modulus)} °C, and the phase by "
+        f"averages over specimens of |E*| by {_mean(modulus)} %, most at {_worst(modulus)} °C, and of the phase by "
         f"{_mean(phase)} %, most at {_worst(phase)} °C."
     ]
 
