@@ -1,10 +1,12 @@
 from __future__ import annotations
 
+import os
+
 import pandas as pd
 import pytest
 
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.timings import as_markdown, by_rule
+from asphalt_nscd.timings import as_markdown, by_rule, elapsed
 
 HEADER = "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"
 
@@ -42,6 +44,19 @@ def test_job_too_short_to_be_measured_counts_as_none(tmp_path):
     assert by_rule(files(tmp_path), tmp_path).loc[0, ["cpu_s", "memory_MB"]].tolist() == [0.2, 50.0]
 
 
+def test_time_elapsed_counts_jobs_side_by_side_once_and_no_pause(tmp_path):
+    for name, seconds, end in (
+        ("a", 10.0, 1010.0),
+        ("b", 4.0, 1008.0),
+        ("c", 6.0, 1014.0),
+        ("d", 5.0, 2000.0),
+    ):
+        benchmark(tmp_path / f"{name}.tsv", seconds, 100.0, 1.0)
+        os.utime(tmp_path / f"{name}.tsv", (end, end))
+    # 1000 to 1014 and 1995 to 2000
+    assert elapsed([*files(tmp_path), tmp_path / "never_timed.tsv"]) == pytest.approx(19.0)
+
+
 def test_no_benchmarks(tmp_path):
     with pytest.raises(InputError, match="no benchmark files; run the workflow first"):
         by_rule([tmp_path / "fit.tsv"], tmp_path)
@@ -50,9 +65,11 @@ def test_no_benchmarks(tmp_path):
 def test_markdown_sums_what_is_short(tmp_path):
     for name, seconds in {"deposit": 900.0, "a": 5.0, "b": 3.0}.items():
         benchmark(tmp_path / f"{name}.tsv", seconds, 100.0, seconds / 2)
-    lines = as_markdown(by_rule(files(tmp_path), tmp_path)).splitlines()
+    lines = as_markdown(by_rule(files(tmp_path), tmp_path), 750.0).splitlines()
     assert lines[2:] == [
         "| deposit | 1 | 900 | 450 | 900 | 100 | 99 |",
         "| all others | 2 | 8 | 4 | 5 | 100 | 1 |",
         "| sum | 3 | 908 | 454 | 900 | 100 | 100 |",
+        "",
+        "Jobs ran side by side, so that all this took 12.5 minutes.",
     ]

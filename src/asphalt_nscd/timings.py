@@ -35,8 +35,22 @@ def by_rule(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataFram
     return table.sort_values("wall_s", ascending=False, ignore_index=True)
 
 
-def as_markdown(table: pd.DataFrame) -> str:
-    """The rules that take a hundredth of the time or more, the others in one line, and the sum."""
+def elapsed(benchmarks: Iterable[str | Path]) -> float:
+    """Seconds in which at least one of the jobs ran: a job ends when its file is written. Pauses do not count."""
+    spans = sorted(
+        (path.stat().st_mtime - float(pd.read_csv(path, sep="\t").loc[0, "s"]), path.stat().st_mtime)
+        for path in map(Path, benchmarks)
+        if path.exists()
+    )
+    total, end = 0.0, -float("inf")
+    for first, last in spans:
+        total += max(last - max(first, end), 0.0)
+        end = max(end, last)
+    return total
+
+
+def as_markdown(table: pd.DataFrame, elapsed_s: float) -> str:
+    """The rules that take a hundredth of the time or more, the others in one line, the sum, and how long it took."""
     long = table["share_percent"] >= 1.0
     lines = [
         "| rule | jobs | wall time, s | CPU time, s | longest job, s | memory, MB | share, % |",
@@ -44,6 +58,8 @@ def as_markdown(table: pd.DataFrame) -> str:
         *(_line(rule, table[table["rule"] == rule]) for rule in table.loc[long, "rule"]),
         _line("all others", table[~long]),
         _line("sum", table),
+        "",
+        f"Jobs ran side by side, so that all this took {elapsed_s / 60.0:.1f} minutes.",
     ]
     return "\n".join(lines) + "\n"
 

@@ -15,9 +15,9 @@ from asphalt_nscd.cli import _options
 def command(benchmarks: tuple[Path, ...], folder: Path, markdown: Path, output: Path) -> None:
     """Sum BENCHMARKS, files of Snakemake, by rule: where the time goes."""
     from asphalt_nscd.store import atomic_path, write_table
-    from asphalt_nscd.timings import as_markdown, by_rule
+    from asphalt_nscd.timings import as_markdown, by_rule, elapsed
 
     table = by_rule(benchmarks, folder)
     write_table(output, table)
     with atomic_path(markdown) as path:
-        path.write_text(as_markdown(table), encoding="utf-8")
+        path.write_text(as_markdown(table, elapsed(benchmarks)), encoding="utf-8")
