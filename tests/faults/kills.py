@@ -36,7 +36,7 @@ def kill_each_rule(finished: Study, folder: Path) -> list[Judged]:
         judged = {rule: row.spoilt("; ".join(different)) for rule, row in judged.items()}
     for log, (rule, output) in jobs.items():
         if rule not in judged:
-            judged[rule] = judge(KIND, killed(rule, output, log), finished, folder / rule)
+            judged[rule] = judge(KIND, killed(rule, output, log), finished, folder / "alone")
     return list(judged.values())
 
 

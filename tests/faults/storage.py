@@ -13,7 +13,9 @@ from faults.study import Run, Study, least_memory, smallest_files
 
 
 def full_disk(study: Study) -> Run:
-    with mounted(study.results / "deposits", "size=4k"):
+    with mounted(study.results / "deposits", "size=8k"):
+        # Snakemake removes empty folders, and cannot remove what is mounted.
+        (study.results / "deposits/held").write_text("x")
         return study.finish()
 
 
@@ -57,6 +59,7 @@ def output_is_a_folder(study: Study) -> Run:
     path = study.results / "samples.csv"
     path.unlink()
     (path / "mine").mkdir(parents=True)
+    (study.results / "pages/samples.html").unlink()
     done = study.finish()
     shutil.rmtree(path)
     return done

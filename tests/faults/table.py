@@ -60,7 +60,7 @@ def standing() -> dict[str, list[Fault]]:
             Fault("results read-only", read_only, "error: results/smoke/deposits: cannot be written to", DEPOSIT),
             Fault("file size limited", no_larger_files, "error: .*file too large; raise the limit", DEPOSIT),
             Fault("memory limited", little_memory, "error: .*memory", DEPOSIT),
-            Fault("folder in place of a table", output_is_a_folder, "error: .*samples.csv", "samples.csv"),
+            Fault("folder in place of a table", output_is_a_folder, "error: .*samples.csv", "pages/samples.html"),
             Fault("file in place of the results", results_is_a_file, "error: .*results/smoke"),
         ],
         "clocks and records": [
