@@ -54,3 +54,16 @@ rule first_page:
         "Take a picture of the report's first page"
     shell:
         "env PYTHONPATH={params.tests} {params.python} -m browser {input} --picture {output}"
+
+
+rule publish_faults:
+    # After `make faults`, whose tables these are. Only on request:
+    #   snakemake --cores 1 publish_faults
+    input:
+        summary="results/faults/summary.csv",
+        files=["results/faults/faults.csv", "results/faults/provenance.json"],
+        code=code("publish"),
+    message:
+        "Copy the table of faults, and fill its summary into the README"
+    shell:
+        "asphalt-nscd publish {input.files} --root results/faults --output results/published/faults --document README.md --block faults={input.summary}"
