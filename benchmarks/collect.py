@@ -1,6 +1,6 @@
-"""All rows in one table, and how fast each stage grows: cpu ~ spheres^exponent, over all sizes done.
+"""All rows in one table, those beside peers, and how each stage grows: cpu ~ spheres^exponent, over all sizes done.
 
-python benchmarks/collect.py ROWS.csv... --output TABLE.csv --growth GROWTH.csv
+python benchmarks/collect.py ROWS.csv... --output TABLE.csv --beside BESIDE.csv --growth GROWTH.csv
 """
 
 from __future__ import annotations
@@ -34,10 +34,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("rows", nargs="+", type=Path)
     parser.add_argument("--output", type=Path, required=True)
+    parser.add_argument("--beside", type=Path, required=True)
     parser.add_argument("--growth", type=Path, required=True)
     told = parser.parse_args()
     table = pd.concat([pd.read_csv(path) for path in told.rows], ignore_index=True)[COLUMNS]
     write_table(told.output, table)
+    write_table(told.beside, table[table.topic != "growth"])
     write_table(told.growth, exponents(table))
 
 

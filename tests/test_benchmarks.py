@@ -36,8 +36,19 @@ def test_exponents_are_those_of_the_powers(tmp_path):
     for k, row in enumerate([*rows, {"topic": "pouring", "case": "yade", "remark": "absent"}]):
         write_table(tmp_path / f"{k}.csv", pd.DataFrame([row], columns=columns))
     files = sorted(tmp_path.glob("*.csv"))
-    run(tmp_path, "collect.py", *files, "--output", "table.csv", "--growth", "growth.csv")
+    run(
+        tmp_path,
+        "collect.py",
+        *files,
+        "--output",
+        "table.csv",
+        "--beside",
+        "beside.csv",
+        "--growth",
+        "growth.csv",
+    )
     assert pd.read_csv(tmp_path / "table.csv").topic.tolist() == ["growth"] * 5 + ["pouring"]
+    assert pd.read_csv(tmp_path / "beside.csv").topic.tolist() == ["pouring"]
     growth = pd.read_csv(tmp_path / "growth.csv").set_index("stage")
     assert growth.exponent_of_time["pour"] == pytest.approx(1.5)
     assert growth.exponent_of_memory["pour"] == pytest.approx(1.0)

@@ -114,7 +114,7 @@ rule benchmark_fclib:
 
 
 rule benchmark:
-    # One table, and how each stage grows.
+    # One table, the part of it that stands beside peers, and how each stage grows.
     input:
         rows=[
             "results/benchmark/rows/pouring-nscd.csv",
@@ -126,13 +126,14 @@ rule benchmark:
         code="benchmarks/collect.py",
     output:
         table="results/benchmark/benchmark.csv",
+        beside="results/benchmark/beside.csv",
         growth="results/benchmark/growth.csv",
     log:
         "results/benchmark/logs/collect.log",
     message:
         "Collect the benchmarks"
     shell:
-        MEASURE + "/collect.py {input.rows} --output {output.table} --growth {output.growth} > {log} 2>&1"
+        MEASURE + "/collect.py {input.rows} --output {output.table} --beside {output.beside} --growth {output.growth} > {log} 2>&1"
 
 
 rule publish_benchmark:
@@ -140,9 +141,10 @@ rule publish_benchmark:
     #   snakemake --cores 1 publish_benchmark
     input:
         table="results/benchmark/benchmark.csv",
+        beside="results/benchmark/beside.csv",
         growth="results/benchmark/growth.csv",
         code=code("publish"),
     message:
         "Copy the benchmarks, and fill their tables in the README"
     shell:
-        "asphalt-nscd publish {input.table} {input.growth} --root results/benchmark --output results/published/benchmark --document README.md --block benchmark={input.table} --block growth={input.growth}"
+        "asphalt-nscd publish {input.table} {input.beside} {input.growth} --root results/benchmark --output results/published/benchmark --document README.md --block benchmark={input.beside} --block growth={input.growth}"
