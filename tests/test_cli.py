@@ -281,3 +281,26 @@ def test_input_that_is_no_result_of_ours_is_never_removed(tmp_path):
     save(model := tmp_path / "m.h5", "model", {}, {})
     assert run("collect", model, "--output", tmp_path / "x.csv", env=inside).returncode == 2
     assert geometry.exists() and model.exists()
+
+
+@pytest.mark.parametrize(
+    "content", ["", "specimen,E_MPa\n", "specimen,E_MPa\n1\n", "specimen,E_MPa\n\x80", '"']
+)
+def test_a_cut_table_is_made_anew_where_the_workflow_made_it_and_left_where_a_user_did(tmp_path, content):
+    inside = {**os.environ, cli.DIE_WITH_PARENT: "1"}
+    for place, made in (("results/mine", True), ("results/published/mine", False), ("data", False)):
+        (table := tmp_path / place / "measured.csv").parent.mkdir(parents=True)
+        table.write_text(content, encoding="latin-1")
+        tables = (f"{kind}={place}/measured.csv" for kind in ("measured", "simulations", "published"))
+        done = run("table", "table4", *tables, "--output", "x.csv", env=inside, cwd=tmp_path)
+        assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
+        assert table.exists() != made, done.stderr
+        assert done.stderr.endswith("; it was removed, run the workflow again to make it anew.\n") == made
+    assert not (tmp_path / "x.csv").exists()
+
+
+def test_a_result_of_another_kind_is_made_anew(tmp_path):
+    save(path := tmp_path / "results/mine/f3.h5", "model", {}, {})
+    inside = {**os.environ, cli.DIE_WITH_PARENT: "1"}
+    done = run("collect", "results/mine/f3.h5", "--output", "x.csv", env=inside, cwd=tmp_path)
+    assert done.returncode == 2 and not path.exists() and "holds 'model', not 'test'" in done.stderr

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.errors import InputError, unreadable
 from asphalt_nscd.paths import require_readable
 
 _CONVERSIONS = {
@@ -134,10 +134,10 @@ def read_csv(path: str | Path) -> Table:
             reader = csv.reader(("\n" if line.startswith("#") else line for line in file), strict=True)
             rows = [(reader.line_num, [field.strip() for field in row]) for row in reader]
     except (UnicodeDecodeError, csv.Error, OSError) as error:
-        raise InputError(f"{path}: cannot be read as CSV text ({error}); save it as UTF-8 CSV.") from None
+        raise unreadable(path, f"cannot be read as CSV text ({error})", "save it as UTF-8 CSV") from None
     rows = [(line, fields) for line, fields in rows if any(fields)]
     if not rows:
-        raise InputError(f"{path}: the file is empty; give a header line and one line for each row.")
+        raise unreadable(path, "the file is empty", "give a header line and one line for each row")
     header = rows[0][1]
     if len(header) == 1 and re.search("[;\t]", header[0]):
         raise InputError(
@@ -149,13 +149,13 @@ def read_csv(path: str | Path) -> Table:
             f"{path}: a column name is empty or stands twice in the header; name each column once."
         )
     if len(rows) == 1:
-        raise InputError(f"{path}: the table has a header but no rows; add at least one.")
+        raise unreadable(path, "the table has a header but no rows", "add at least one")
     for line, fields in rows[1:]:
         if len(fields) != len(header):
-            raise InputError(
-                f"{path}, line {line}: {len(fields)} fields under {len(header)} column names; "
-                "separate with commas and write decimals with a point."
-            )
+            raise unreadable(
+                path, f"line {line}: {len(fields)} fields under {len(header)} column names",
+                "separate with commas and write decimals with a point",
+            )  # fmt: skip
     columns = {name: [fields[i] for _, fields in rows[1:]] for i, name in enumerate(header)}
     return Table(path, columns, [line for line, _ in rows[1:]])
 

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 LONGEST = 1000  # characters of a message
+
+# Set by the workflow: a step must not outlive a killed Snakemake, which would run it a second time, and
+# a damaged result is removed.
+DIE_WITH_PARENT = "ASPHALT_NSCD_DIE_WITH_PARENT"
+# Where the workflow, run at the top of the repository, puts what it makes, and what of it is committed.
+RESULTS, PUBLISHED = "results", "published"
 
 
 class InputError(Exception):
@@ -26,3 +33,11 @@ class DamagedFile(InputError):
     def __init__(self, path: str | Path, problem: str) -> None:
         super().__init__(f"{path}: {problem}; delete it and run the workflow again.")
         self.path, self.problem = Path(path), problem
+
+
+def unreadable(path: str | Path, problem: str, mend: str) -> InputError:
+    """What to raise for a file that cannot be read: a user's to mend, or a result of the workflow to be made again."""
+    parts = Path(path).parts
+    if os.environ.get(DIE_WITH_PARENT) and parts[:1] == (RESULTS,) and parts[1:2] != (PUBLISHED,):
+        return DamagedFile(path, problem)
+    return InputError(f"{path}: {problem}; {mend}.")

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asphalt_nscd.errors import DamagedFile, InputError
+from asphalt_nscd.errors import DamagedFile, InputError, unreadable
 from asphalt_nscd.paths import require_readable
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ def read_json(path: str | Path) -> Any:
     try:
         return json.loads(Path(path).read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as error:  # no JSON, no UTF-8, a number or nesting without end
-        raise InputError(f"{path}: not valid JSON ({error}); delete it and make it again.") from None
+        raise unreadable(path, f"not valid JSON ({error})", "delete it and make it again") from None
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ def load(path: str | Path, kind: str) -> Record:
     digest = attributes.pop("digest", None)
     attributes.pop("provenance", None)
     if found != kind:
-        raise InputError(f"{path}: holds {found or 'nothing of ours'!r}, not {kind!r}; give the right file.")
+        raise unreadable(path, f"holds {found or 'nothing of ours'!r}, not {kind!r}", "give the right file")
     if format_version != FORMAT_VERSION:
         raise DamagedFile(path, f"format {format_version}, this version reads {FORMAT_VERSION}")
     if digest != _digest(kind, arrays, attributes):

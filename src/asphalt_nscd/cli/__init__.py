@@ -21,11 +21,7 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
 import click  # noqa: E402
 
 from asphalt_nscd import __version__  # noqa: E402
-from asphalt_nscd.errors import DamagedFile, InputError  # noqa: E402
-
-# Set by the workflow: a step must not outlive a killed Snakemake, which would run it a second time, and
-# a damaged result is removed.
-DIE_WITH_PARENT = "ASPHALT_NSCD_DIE_WITH_PARENT"
+from asphalt_nscd.errors import DIE_WITH_PARENT, DamagedFile, InputError  # noqa: E402
 
 _MENDS = {
     errno.ENOSPC: "free some space and run the same command again",
