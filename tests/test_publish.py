@@ -25,13 +25,13 @@ def test_blocks_are_replaced_and_the_rest_is_left(tmp_path):
     document.write_text(
         "before\n<!-- one -->\nold\n<!-- end one -->\nbetween\n<!-- two -->\n<!-- end two -->\nafter\n"
     )
-    table.write_text("name,value\na,1.23456\nb,\n")
+    table.write_text("name,value,spheres\na,1.23456,14160\nb,,\n")
     text.write_text("| as it is |\n")
     fill_blocks(document, {"one": table, "two": text})
     lines = document.read_text().splitlines()
     assert lines[0] == "before" and lines[-1] == "after" and "between" in lines
-    assert "| a      |   1.235 |" in lines and "old" not in lines
-    assert "| b      |         |" in lines
+    assert "| a      |   1.235 |     14160 |" in lines and "old" not in lines
+    assert "| b      |         |           |" in lines
     assert lines[lines.index("<!-- two -->") + 1] == "| as it is |"
     again = document.read_text()
     fill_blocks(document, {"one": table, "two": text})

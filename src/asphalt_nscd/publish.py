@@ -46,6 +46,6 @@ def fill_blocks(document: Path, blocks: Mapping[str, Path]) -> None:
 def _markdown(source: Path) -> str:
     if source.suffix == ".md":
         return source.read_text(encoding="utf-8")
-    table = pd.read_csv(source)
+    table = pd.read_csv(source).convert_dtypes()  # whole numbers stay so beside empty fields
     shown = table.astype(object).where(table.notna(), None)
     return shown.to_markdown(index=False, floatfmt=".4g", missingval="") + "\n"
