@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from asphalt_nscd.diagnosis.causes import CATALOGUE as NAMEABLE
 from asphalt_nscd.errors import InputError
 from blind.design import factorial
 from blind.generator import Hidden, draw
@@ -48,6 +49,42 @@ def test_small_designs_name_nothing_that_is_not_there(design):
 def test_small_designs_find_what_is_there_or_nothing(design):
     late = draw(1, [Hidden("channel_delay", amplitude=3e-4)], design=factorial(**design))
     assert diagnosed(late.table, late.geometry)[1] <= {("channel_delay", None)}
+
+
+@pytest.mark.parametrize("temperatures", [(15.0,), (0.0, 15.0)])
+def test_on_few_temperatures_a_name_is_the_likeliest_and_never_sure(temperatures):
+    """A gain over the logarithm of the frequency, which the catalogue lacks, passes for an offset of the phase."""
+    drawn = draw(5, design=factorial(temperatures=temperatures), form="moduli")
+    gain = 1.0 + 0.04 * np.log10(drawn.table["frequency_Hz"])
+    found, named = diagnosed(drawn.table.assign(E_MPa=drawn.table["E_MPa"] * gain), drawn.geometry)
+    assert named and found["verdict"] == "unexplained_structure"
+    assert any("not established" in note and "temperatures" in note for note in found["notes"])
+
+
+def test_one_specimen_makes_no_sure_name():
+    """A part in phase with E*, the same in all tests, passes for friction at the guide."""
+    for seed in (1, 2, 3):
+        drawn = draw(seed, design=factorial(specimens="A"), form="moduli")
+        modulus = drawn.table["E_MPa"]
+        found, named = diagnosed(drawn.table.assign(E_MPa=modulus * (1.0 + 60.0 / modulus)), drawn.geometry)
+        assert not named or found["verdict"] == "unexplained_structure"
+        assert not named or any("nothing was repeated" in note for note in found["notes"])
+
+
+def test_two_frequencies_that_no_common_law_fits_are_not_all_right():
+    table = draw(1, design=factorial(frequencies=(3.0, 40.0)), form="moduli")
+    phase = table.table["phase_deg"] + 5.0
+    found, named = diagnosed(table.table.assign(phase_deg=phase), table.geometry)
+    assert named == set() and found["verdict"] == "unexplained_structure"
+
+
+def test_limits_beyond_what_is_physical_are_none(full):
+    for design in ({"frequencies": (3.0, 40.0)}, {"temperatures": (15.0,)}):
+        drawn = draw(1, design=factorial(**design))
+        limits = diagnosed(drawn.table, drawn.geometry)[0]["detection_limits"]
+        for cause in NAMEABLE:
+            most = max(abs(cause.parameters[0].low), abs(cause.parameters[0].high))
+            assert limits.get(cause.name, {"value": 0.0})["value"] <= most
 
 
 def test_copies_are_no_replicates(full):

@@ -16,6 +16,7 @@ from scipy.stats import norm
 from asphalt_nscd.diagnosis.joint import Fitted, Noise
 from asphalt_nscd.diagnosis.observations import Observations
 
+SHOWN = 3  # of the others
 CHANCE = 0.01  # that any pair of frequencies is reported where nothing is wrong
 AGREES = 0.6  # share of the larger departure: even a single relaxation time keeps slope and phase nearer
 
@@ -70,7 +71,8 @@ def told(found: list[Contradiction]) -> list[str]:
     if not found:
         return []
     worst, others = found[0], found[1:]
-    also = ", ".join(f"{one.low:g} - {one.high:g} Hz at {one.temperature:g} degC" for one in others)
+    also = ", ".join(f"{one.low:g} - {one.high:g} Hz at {one.temperature:g} degC" for one in others[:SHOWN])
+    also += f" and {len(others) - SHOWN} more" if len(others) > SHOWN else ""
     return [
         f"At {worst.temperature:g} degC, from {worst.low:g} to {worst.high:g} Hz, |E*| rises as a phase of "
         f"{np.degrees(worst.asked):.1f} deg would, and {np.degrees(worst.measured):.1f} deg were measured "

@@ -18,6 +18,9 @@ from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.errors import InputError
 
 DRAWS = 4000
+LEAST_ISOTHERMS = (
+    4  # on fewer, what the catalogue lacks passes for a cause: a gain over ln f for an offset of the phase
+)
 FIRST_SCATTER = (0.02, np.radians(0.5))  # of |E*| and phase, where nothing was repeated
 
 
@@ -61,7 +64,8 @@ def diagnose(
     baseline_p = misfit_p_value(baseline, noise)
     spectrum_p = misfit_p_value(fitted, noise)
     spectrum_better = _information(fitted) < _information(baseline)
-    if baseline_p > CHANCE and not spectrum_better and spectrum_p < CHANCE:
+    no_common_law = baseline_p > CHANCE and not spectrum_better and spectrum_p < CHANCE
+    if no_common_law:
         joint, fitted = baseline_joint, baseline
         notes.append(
             "The Burgers laws fit and no law common to all temperatures does; causes are judged against "
@@ -82,9 +86,45 @@ def diagnose(
         joint is not baseline_joint and baseline_p <= CHANCE and spectrum_better, ladder, notes=notes,
     )  # fmt: skip
     diagnosis.verdict = _verdict(diagnosis)
+    too_few = _too_few(diagnosis)
+    if ladder.rungs and too_few:
+        diagnosis.verdict = "unexplained_structure"
+        names = ", ".join(dict.fromkeys(rung.candidate.cause.name for rung in ladder.rungs))
+        notes.append(
+            f"{names}: the likeliest of the catalogue, not established, for {too_few}; an effect that the catalogue "
+            "lacks may look the same."
+        )
+    if no_common_law and not ladder.rungs:
+        diagnosis.verdict = "unexplained_structure"
+    notes += _at_bounds(ladder)
     if diagnosis.verdict == "unexplained_structure":
         diagnosis.notes += causality.told(causality.contradictions(observed, ladder.fitted, noise))
     return diagnosis
+
+
+def _too_few(diagnosis: Diagnosis) -> str:
+    """Why these data tell no cause from what the catalogue lacks; empty if they may."""
+    observed = diagnosis.observed
+    if not diagnosis.replicated:
+        return "nothing was repeated on another specimen"
+    if observed.frequencies.size < 3:
+        return "two frequencies show no curvature"
+    if observed.isotherms.size < LEAST_ISOTHERMS:
+        return f"fewer than {LEAST_ISOTHERMS} temperatures were tested"
+    return ""
+
+
+def _at_bounds(ladder: Ladder) -> list[str]:
+    """A sentence for each parameter of a named cause that stands at its physical bound."""
+    if not ladder.rungs:
+        return []
+    return [
+        f"{candidate.cause.name}: {parameter.name} stands at its bound of {value:g} {parameter.unit}, so that its "
+        "standard error means nothing; the true one may lie beyond, or the cause be another."
+        for candidate in ladder.rungs[-1].after.active
+        for parameter, value in zip(candidate.cause.parameters, candidate.values, strict=True)
+        if np.isclose(value, [parameter.low, parameter.high], rtol=1e-6, atol=0.0).any() and value
+    ]
 
 
 def misfit_p_value(fitted: Fitted, noise: Noise) -> float:

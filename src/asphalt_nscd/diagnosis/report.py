@@ -12,6 +12,7 @@ from asphalt_nscd.agreement import mean_relative_error
 from asphalt_nscd.diagnosis import heldout
 from asphalt_nscd.diagnosis.bases import LN10
 from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, cell_residuals
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.ladder import Rung
@@ -281,6 +282,11 @@ def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
         {"cause": _name(candidate), "needs": candidate.cause.shows_in}
         for candidate in diagnosis.ladder.unseen
     ]
+    seen = {name for name, _ in _physical_limits(diagnosis)}
+    out += [
+        {"cause": name, "needs": "a design in which less of it shows than is physical"}
+        for name in sorted({name for name, _ in diagnosis.ladder.limits} - seen)
+    ]
     if not diagnosis.relaxation_spectrum and observed.frequencies.size < 3:
         out.append({"cause": "relaxation_spectrum", "needs": "three frequencies: a Burgers law fits any two"})
     elif not diagnosis.replicated:
@@ -292,13 +298,21 @@ def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
     """Amplitude found with 95 % probability: of each cause, and of each place of a confined one."""
     units = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
     limits: dict[str, dict[str, Any]] = {}
-    for (name, place), value in diagnosis.ladder.limits.items():
+    for (name, place), value in _physical_limits(diagnosis).items():
         entry = limits.setdefault(name, {"value": np.inf, "unit": units[name]})
         entry["value"] = min(entry["value"], float(value))
         if place is not None:
             entry["confined_to"] = "specimen" if isinstance(place, str) else "temperature_C"
             entry.setdefault("places", {})[str(place)] = float(value)
     return limits
+
+
+def _physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
+    """Limits that the cause can reach within the bounds of its amplitude."""
+    most = {
+        cause.name: max(abs(cause.parameters[0].low), abs(cause.parameters[0].high)) for cause in CATALOGUE
+    }
+    return {key: value for key, value in diagnosis.ladder.limits.items() if value <= most[key[0]]}
 
 
 def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:

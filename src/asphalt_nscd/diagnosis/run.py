@@ -129,10 +129,18 @@ def summary(content: dict[str, Any]) -> str:
     ]
     left = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and left is not None:
-        lines.append(f"Largest pattern left: {left['pattern']}, {left['z']:.1f} standard deviations.")
+        lines.append(
+            f"Largest pattern left: {left['pattern']}, {left['z']:.1f} standard deviations of one pattern, "
+            f"p = {left['p_value']:.2g} among all."
+        )
     if content["withdrawn"]:
         lines.append(
             "Considered but not named, for too much is left: " + ", ".join(content["withdrawn"]) + "."
         )
+    lines += [
+        f"{rung['cause']} fits no better than {', '.join(rung['as_good'])}: one of these."
+        for rung in content["ladder"]
+        if rung["as_good"]
+    ]
     lines += content["notes"]
     return "\n".join(lines)
