@@ -23,9 +23,7 @@ def opened(cause: str, seed: int, ratio: float, suite: str = "single", removed: 
     cases = [Case(seed, "limits", design=design, shape=shape)] if cause in CATALOGUE else []
     cases.append(Case(seed, suite, (cause,), ratio, design=design, removed=removed, shape=shape))
     lines = list(sealed.run(cases))
-    if "seal" not in lines[-1]:
-        pytest.skip(f"{cause} cannot be drawn at {ratio:g} times the limit with seed {seed}")
-    return score.outcomes([(line["seal"], line["diagnosis"]) for line in lines])
+    return score.outcomes([(line["seal"], line["diagnosis"]) for line in lines if "seal" in line])
 
 
 @pytest.mark.parametrize("cause", SINGLES)
@@ -65,5 +63,8 @@ def test_a_fresh_case_is_not_misnamed(capsys):
     effect = str(random.choice([*SINGLES, *OUTSIDE]))
     with capsys.disabled():
         print(f"\nfresh blind case: {effect}; replay with BLIND_SEED={seed}")
-    row = opened(effect, seed, STRONG, suite="single" if effect in CATALOGUE else "outside").iloc[-1]
+    rows = opened(effect, seed, STRONG, suite="single" if effect in CATALOGUE else "outside")
+    if rows.empty or rows.iloc[-1]["cause"] != effect:
+        pytest.skip(f"{effect} cannot be made so visible in this mix; BLIND_SEED={seed}")
+    row = rows.iloc[-1]
     assert row["wrong"] == 0 or row["verdict"] == score.UNEXPLAINED, f"BLIND_SEED={seed}: {row.to_dict()}"

@@ -65,18 +65,18 @@ def table_gone(study: Study) -> Run:
 
 
 def table_in_half(study: Study) -> Run:
-    path = study.folder / "data/paper/table3_burgers.csv"
-    whole = path.read_text()
-    path.write_text(whole[: int(0.6 * len(whole))])
-    done = study.finish()
-    path.write_text(whole)
-    return done
+    return _cut(study, "data/paper/table3_burgers.csv", 0.6)
 
 
 def configuration_in_half(study: Study) -> Run:
-    path = study.folder / "study.yaml"
+    return _cut(study, "study.yaml", 0.5)
+
+
+def _cut(study: Study, name: str, share: float) -> Run:
+    """A run with a `share` of an input file, which is whole again afterwards."""
+    path = study.folder / name
     whole = path.read_text()
-    path.write_text(whole[: len(whole) // 2])
+    path.write_text(whole[: int(share * len(whole))])
     done = study.finish()
     path.write_text(whole)
     return done
