@@ -11,7 +11,7 @@ import numpy as np
 
 from asphalt_nscd.counts import read_counts
 from asphalt_nscd.geometry_input import read_geometry, require_within
-from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics, Progress, settle, vibrate
+from asphalt_nscd.specimen.deposit import REST_SPEED, Granulate, PouringNumerics, Progress, settle, vibrate
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.specimen.network import Network
 from asphalt_nscd.specimen.trimming import Specimen, layer_height, trim
@@ -19,7 +19,6 @@ from asphalt_nscd.store import load, save
 from asphalt_nscd.twopoint import Geometry
 
 DENSITY = 2600.0  # kg/m3 while pouring, section 3.2.1
-REST_SPEED = 1e-3  # m/s, root mean square of all spheres
 LONGEST_POURING = 3.0  # s
 LONGEST_REST = 0.3  # s
 TOUCHING = 1e-6  # m, gap below which two spheres count as touching
@@ -35,8 +34,8 @@ def deposit(
     stroke [m] crest to crest at vibration_frequency [Hz] for vibration_time [s] (zero: none).
     """
     began = time.process_time()
-    numerics = PouringNumerics(time_step=time_step)
     diameters, counts = read_counts(counts_table)
+    numerics = PouringNumerics.of(int(counts.sum()), time_step)
     position, radius = random_lattice(diameters, counts, box, np.random.default_rng(seed))
     granulate = Granulate.in_box(position, radius, box, DENSITY, friction)
     settle(granulate, numerics, REST_SPEED, LONGEST_POURING, progress, "pouring")

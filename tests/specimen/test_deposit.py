@@ -8,7 +8,14 @@ import numpy as np
 import pytest
 from naive.granular import all_pairs
 
-from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics, settle, vibrate
+from asphalt_nscd.specimen.deposit import (
+    LARGEST_UNDONE,
+    REST_SPEED,
+    Granulate,
+    PouringNumerics,
+    settle,
+    vibrate,
+)
 from asphalt_nscd.specimen.lattice import random_lattice
 
 BOX = (0.021, 0.016, 0.07)
@@ -167,3 +174,20 @@ def test_numerics_act(layer):
             shaken.advance(replace(PouringNumerics(), skin=skin))
         positions.append(shaken.position)
     np.testing.assert_array_equal(*positions)
+
+
+def test_a_layer_of_more_than_its_sweeps_can_carry_comes_to_rest():
+    """Overlaps undone faster than what counts as rest would keep it in motion."""
+    few = replace(PouringNumerics(), most_sweeps=4)
+    speeds = {}
+    for recovery in (few.recovery_speed, PouringNumerics.of(LARGEST_UNDONE + 1, 4e-4).recovery_speed):
+        layer = granulate()
+        settle(layer, replace(few, recovery_speed=recovery), REST_SPEED, 1.0, silent, "pouring")
+        speeds[recovery] = np.sqrt((layer.velocity[: layer.radius.size, :3] ** 2).sum(axis=1).mean())
+        overlap = -layer.contacts(1e-6)[1].min()
+        assert overlap < 0.01 * layer.radius.min()
+    assert min(speeds.values()) < REST_SPEED < max(speeds.values())
+
+
+def test_the_papers_layer_keeps_the_defaults():
+    assert PouringNumerics.of(14_160, 4e-4) == PouringNumerics()

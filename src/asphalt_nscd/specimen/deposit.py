@@ -9,6 +9,9 @@ import numpy as np
 
 from asphalt_nscd.nscd import granular, neighbours
 
+REST_SPEED = 1e-3  # m/s, root mean square of all spheres
+LARGEST_UNDONE = 20_000  # spheres
+
 Progress = Callable[[str, float, float], None]
 """Called with (stage, done, total), both in the unit of the stage."""
 
@@ -23,6 +26,17 @@ class PouringNumerics:
     skin: float = 4e-4  # m, pairs are searched again when a sphere has moved half of it
     margin: float = 2e-5  # m, gap below which a resting pair takes part in a step
     recovery_speed: float = 0.02  # m/s, at most, by which overlaps are undone
+
+    @classmethod
+    def of(cls, spheres: int, time_step: float) -> PouringNumerics:
+        """Those for so many spheres, with steps of time_step [s].
+
+        In a layer of many the sweeps of a step leave overlaps; undone at more than the speed of rest,
+        they would keep it in motion for ever.
+        """
+        if spheres > LARGEST_UNDONE:
+            return cls(time_step=time_step, recovery_speed=REST_SPEED)
+        return cls(time_step=time_step)
 
 
 @dataclass
