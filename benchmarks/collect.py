@@ -1,4 +1,4 @@
-"""All rows in one table, those beside peers, and how each stage grows: cpu ~ spheres^exponent, over all sizes done.
+"""All rows in one table, those beside peers, and how each stage grows: cpu ~ spheres^exponent.
 
 python benchmarks/collect.py ROWS.csv... --output TABLE.csv --beside BESIDE.csv --growth GROWTH.csv
 """
@@ -16,16 +16,22 @@ from asphalt_nscd.store import write_table
 
 
 def exponents(table: pd.DataFrame) -> pd.DataFrame:
-    """One row for each stage: least squares of log cost and log memory against log size."""
+    """One row for each stage: least squares of log cost and log memory against log size.
+
+    Over all sizes done, and, as `last`, from the last but one to the largest.
+    """
     rows = []
     done = table[(table.topic == "growth") & table.cpu_s.notna()]
     for case, group in done.groupby("case", sort=False):
+        group = group.sort_values("spheres")
         size = np.log(group.spheres.to_numpy(float))
         row = {"stage": case, "from": int(group.spheres.min()), "to": int(group.spheres.max())}
         for column, name in (("cpu_s", "exponent_of_time"), ("memory_MB", "exponent_of_memory")):
+            cost = np.log(group[column].to_numpy(float))
             several = size.size > 1
-            row[name] = np.polyfit(size, np.log(group[column].to_numpy(float)), 1)[0] if several else np.nan
-        largest = group.loc[group.spheres.idxmax()]
+            row[name] = np.polyfit(size, cost, 1)[0] if several else np.nan
+            row[f"last_{name}"] = (cost[-1] - cost[-2]) / (size[-1] - size[-2]) if several else np.nan
+        largest = group.iloc[-1]
         rows.append(row | {"cpu_s_of_largest": largest.cpu_s, "memory_MB_of_largest": largest.memory_MB})
     return pd.DataFrame(rows)
 

@@ -25,13 +25,18 @@ def run(folder, script, *arguments, **environment):
 
 
 def test_exponents_are_those_of_the_powers(tmp_path):
-    """cpu ~ n^1.5 and memory ~ n of one stage; a stage done at one size has none."""
+    """cpu ~ n^1.5 and memory ~ n of one stage; a stage done at one size has none. The last is that
+    between the two largest."""
     rows = [
         {"topic": "growth", "case": "pour", "spheres": n, "cpu_s": 1e-4 * n**1.5, "memory_MB": 0.1 * n}
         for n in (1000, 4000, 16000)
     ]
     rows += [{"topic": "growth", "case": "cut", "spheres": 1000, "cpu_s": 1.0, "memory_MB": 2.0}]
     rows += [{"topic": "growth", "case": "cut", "spheres": 4000, "remark": "not done within 16 GiB"}]
+    rows += [
+        {"topic": "growth", "case": "test", "spheres": n, "cpu_s": cpu, "memory_MB": 8.0}
+        for n, cpu in ((16000, 4.0), (1000, 1.0), (4000, 1.0))
+    ]
     columns = ["topic", "case", "spheres", "time_step_s", "cpu_s", "memory_MB", "remark"]
     for k, row in enumerate([*rows, {"topic": "pouring", "case": "yade", "remark": "absent"}]):
         write_table(tmp_path / f"{k}.csv", pd.DataFrame([row], columns=columns))
@@ -47,11 +52,13 @@ def test_exponents_are_those_of_the_powers(tmp_path):
         "--growth",
         "growth.csv",
     )
-    assert pd.read_csv(tmp_path / "table.csv").topic.tolist() == ["growth"] * 5 + ["pouring"]
+    assert pd.read_csv(tmp_path / "table.csv").topic.tolist() == ["growth"] * 8 + ["pouring"]
     assert pd.read_csv(tmp_path / "beside.csv").topic.tolist() == ["pouring"]
     growth = pd.read_csv(tmp_path / "growth.csv").set_index("stage")
     assert growth.exponent_of_time["pour"] == pytest.approx(1.5)
     assert growth.exponent_of_memory["pour"] == pytest.approx(1.0)
+    assert growth.last_exponent_of_time["test"] == pytest.approx(1.0)
+    assert growth.exponent_of_time["test"] == pytest.approx(0.5)
     assert growth.loc["pour", "from"] == 1000 and growth.loc["pour", "to"] == 16000
     assert pd.isna(growth.exponent_of_time["cut"]) and growth.cpu_s_of_largest["cut"] == 1.0
 
