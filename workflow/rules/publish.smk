@@ -3,6 +3,7 @@
 
 BLOCKS = ["<results>/samples.csv", "<results>/table4.csv", "<results>/timings.md"]
 BLOCKS += ["<results>/gain.csv"] if COMMON_LAW else []
+BLOCKS += ["<results>/outputs.csv"] if "outputs" in TABLES else []
 
 
 rule publish:
