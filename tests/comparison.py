@@ -1,4 +1,8 @@
-"""Two folders of results, compared bit for bit but for when, where and how fast they were made."""
+"""Two folders of results, compared bit for bit but for when, where and how fast they were made.
+
+Left out are files that hold nothing else (`OF_A_RUN`), the commit in JSON and on pages, and of each test its
+seconds; of HDF5, which holds addresses of its own, every array and attribute is compared instead of the bytes.
+"""
 
 from __future__ import annotations
 
@@ -6,67 +10,75 @@ import re
 from pathlib import Path
 
 import h5py
-import pandas as pd
+import numpy as np
 
-VOLATILE = (
-    "logs", "benchmarks", "compiled", "report.html", "workflow.html", "provenance.json", "timings.csv", "timings.md",
+OF_A_RUN = (
+    "logs", "benchmarks", "compiled", "report.html", "workflow.html", "timings.csv", "timings.md", "pages/timings.html",
 )  # fmt: skip
-
-_COMMIT = re.compile(rb"\b[0-9a-f]{40}(-dirty)?\b")  # of the code; a file edited meanwhile makes it dirty
-CPU = "cpu_s"  # column and attribute
+# Attributes of HDF5; the digest is of the seconds too.
+_ATTRIBUTES_OF_A_RUN = ("provenance", "digest", "cpu_s")
+_COLUMN_OF_A_RUN = b"cpu_s"
+_COMMIT = {
+    ".json": re.compile(rb'(?<="git_commit": ")[^"]*'),
+    ".html": re.compile(rb"(?<=, commit )[^ <]*(?=\.</p>)"),
+}
+_ROW = re.compile(rb"<tr>.*?</tr>", re.DOTALL)
+_CELL = re.compile(rb"<t[hd][ >].*?</t[hd]>", re.DOTALL)
 
 
 def differences(first: Path, second: Path) -> list[str]:
     """A sentence for each file that is missing on one side, or whose content differs."""
-    names = sorted(_results(first) | _results(second))
+    names = sorted(results(first) | results(second))
     return [f"{name}: {said}" for name in names if (said := _difference(first / name, second / name))]
 
 
-def _results(folder: Path) -> set[Path]:
-    return {
-        place
-        for path in folder.rglob("*")
-        if path.is_file()
-        and (place := path.relative_to(folder)).parts[0] not in VOLATILE
-        and place != Path("pages/timings.html")
-    }
+def results(folder: Path) -> set[Path]:
+    """Files below a folder that are compared."""
+    places = {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+    return {place for place in places if not any(place.is_relative_to(name) for name in OF_A_RUN)}
 
 
 def _difference(first: Path, second: Path) -> str | None:
-    if first.suffix == ".html" and _timed(first.parents[1] / f"{first.stem}.csv"):
-        return None  # the table itself is compared
     missing = [str(path) for path in (first, second) if not path.is_file()]
     if missing:
         return f"no {missing[0]}"
-    contents = _content(first), _content(second)
-    if isinstance(contents[0], pd.DataFrame):
-        return None if contents[0].equals(contents[1]) else "differs"
-    return None if contents[0] == contents[1] else "differs"
-
-
-def _timed(path: Path) -> bool:
-    """Whether a table says how long each test took."""
-    return path.is_file() and CPU in path.read_text(encoding="utf-8").partition("\n")[0].split(",")
+    return None if _content(first) == _content(second) else "differs"
 
 
 def _content(path: Path) -> object:
-    """Bytes; of HDF5 all arrays and attributes but the provenance, for these files hold addresses of their own."""
-    if path.suffix == ".csv" and _timed(path):
-        return pd.read_csv(path, dtype=str).drop(columns=CPU)
-    if path.suffix != ".h5":
-        return _COMMIT.sub(b"", path.read_bytes())
-    content: dict[str, object] = {}
-    with h5py.File(path) as file:
-        content |= {
-            name: repr(value)
-            for name, value in file.attrs.items()
-            if name not in ("provenance", "digest", CPU)
-        }
-        file.visititems(
-            lambda name, item: (
-                content.__setitem__(f"/{name}", (item.dtype.str, item.shape, item[()].tobytes()))
-                if isinstance(item, h5py.Dataset)
-                else None
-            )
-        )
-    return content
+    if path.suffix == ".h5":
+        with h5py.File(path) as file:
+            content: dict[str, object] = {"/": _attributes(file)}
+            file.visititems(lambda name, item: content.__setitem__(name, (_array(item), _attributes(item))))
+        return content
+    text = path.read_bytes()
+    if path.suffix in _COMMIT:
+        text = _COMMIT[path.suffix].sub(b"", text)
+    if path.suffix == ".csv":
+        return _without_seconds([line.split(b",") for line in text.splitlines()]) or text
+    if path.suffix == ".html":
+        rows = _without_seconds([_CELL.findall(row) for row in _ROW.findall(text)])
+        return [_ROW.sub(b"", text), rows] if rows else text
+    return text
+
+
+def _without_seconds(rows: list[list[bytes]]) -> list[list[bytes]]:
+    """Rows of a table without the column of that name, nothing if there is none. A row of other length stays whole."""
+    head = [cell.removeprefix(b"<th>").removesuffix(b"</th>") for cell in rows[0]] if rows else []
+    if _COLUMN_OF_A_RUN not in head:
+        return []
+    column = head.index(_COLUMN_OF_A_RUN)
+    return [row[:column] + row[column + 1 :] if len(row) == len(head) else row for row in rows]
+
+
+def _array(item: h5py.Dataset | h5py.Group) -> object:
+    return _exactly(item[()]) if isinstance(item, h5py.Dataset) else None
+
+
+def _attributes(item: h5py.Dataset | h5py.Group) -> dict[str, object]:
+    return {name: _exactly(item.attrs[name]) for name in item.attrs if name not in _ATTRIBUTES_OF_A_RUN}
+
+
+def _exactly(value: object) -> object:
+    array = np.asarray(value)
+    return array.dtype.str, array.shape, array.tolist() if array.dtype == object else array.tobytes()

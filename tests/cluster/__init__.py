@@ -1,1 +1,1 @@
-"""The smoke study on a real Slurm of one node: `PYTHONPATH=tests python -m cluster`, or `make cluster`."""
+"""A study on a real Slurm of one node: `PYTHONPATH=tests:src python -m cluster`, or `make cluster`."""

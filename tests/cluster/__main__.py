@@ -1,62 +1,79 @@
-"""The smoke study here and through Slurm, with jobs killed and preempted in mid-run; equal bit for bit.
+"""A study here and through Slurm, with one job killed and one preempted in mid-run; equal bit for bit.
 
-PYTHONPATH=tests python -m cluster     or     make cluster
+make cluster                                                                  the smoke study
+PYTHONPATH=tests:src python -m cluster --configfile config/paper.yaml         another
 """
 
 from __future__ import annotations
 
+import argparse
 import os
-import re
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import time
-from datetime import datetime
 from pathlib import Path
 
 import pandas as pd
-from comparison import differences
+import yaml
+from comparison import differences, results
 
 from asphalt_nscd.store import provenance, write_json, write_table
+from cluster.cost import cost
 from cluster.node import slurm, why_not
 
 ROOT = Path(__file__).parents[2]
-RESULTS = Path("results/smoke")
 OUTPUT = Path("results/cluster")
 # squeue, for there is no accounting; and looked at more often than a real cluster would like.
 ON_ONE_NODE = (
-    "--profile", "profiles/slurm", "--slurm-no-account", "--slurm-status-command", "squeue",
-    "--seconds-between-status-checks", "2", "--slurm-init-seconds-before-status-checks", "2", "--latency-wait", "5",
+    "--profile", "profiles/slurm", "--slurm-chunks-no-account", "--slurm-chunks-status-command", "squeue",
+    "--seconds-between-status-checks", "2", "--slurm-chunks-init-seconds-before-status-checks", "2",
+    "--latency-wait", "5",
 )  # fmt: skip
-# What is done to the first job of a rule while it runs, and the rule.
-DISTURBANCES = {"rule_deposit_": ("scancel",), "rule_tests_": ("scontrol", "requeue")}
+# What is done to the first chunk of a group while a step of it runs.
+DISTURBANCES = {"rule_specimen": ("scancel",), "rule_tests": ("scontrol", "requeue")}
 
 
 def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--configfile", type=Path, default=Path("config/smoke.yaml"), help="the study")
+    parser.add_argument(
+        "--finished", type=Path, help="its results, where it has been run by this code before"
+    )
+    given = parser.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that what was started is stopped
     if reason := why_not():
         print(f"skipped: {reason}.")
         return 0
+    name = yaml.safe_load(given.configfile.read_text(encoding="utf-8"))["study"]
     folder = Path(tempfile.mkdtemp(prefix="cluster-"))
     try:
-        here, there = (_workspace(folder / name) for name in ("here", "there"))
-        if subprocess.run(_snakemake("--cores", "2"), cwd=here, stdout=subprocess.DEVNULL).returncode:
-            return 1
+        here = given.finished or _run_here(_workspace(folder / "here"), given.configfile) / "results" / name
+        there = _workspace(folder / "there")
         with slurm():
-            done = _disturbed(there)
-            rows = _cost(there)
-        different = differences(here / RESULTS, there / RESULTS)
-        rows |= {"disturbed in mid-run": done, "files of results that differ from a run here": len(different)}
-        table = pd.DataFrame(rows.items(), columns=["what", "number"])
+            began = time.monotonic()
+            _disturbed(there, given.configfile)
+            rows = cost(there / "results" / name)
+        rows["seconds from first to last"] = round(time.monotonic() - began)
+        different = differences(here, there / "results" / name)
+        rows["files of results compared"] = len(results(there / "results" / name))
+        rows["files that differ from a run without Slurm"] = len(different)
+        table = pd.DataFrame(rows.items(), columns=["what", name])
         write_table(OUTPUT / "cluster.csv", table)
         write_json(OUTPUT / "provenance.json", provenance())
         print(table.to_string(index=False))
         print("\n".join(different) or "All results are equal bit for bit.")
-        return 1 if different or done < len(DISTURBANCES) else 0
+        return 1 if different else 0
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def _run_here(folder: Path, config: Path) -> Path:
+    if subprocess.run(_snakemake(config, "--cores", "2"), cwd=folder, stdout=subprocess.DEVNULL).returncode:
+        raise SystemExit("error: the study failed without Slurm.")
+    return folder
 
 
 def _workspace(folder: Path) -> Path:
@@ -65,23 +82,23 @@ def _workspace(folder: Path) -> Path:
     return folder
 
 
-def _snakemake(*arguments: str) -> list[str]:
+def _snakemake(config: Path, *arguments: str) -> list[str]:
     words = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
-    return [*words, "--configfile", "config/smoke.yaml", "--quiet", "all", *arguments]
+    return [*words, "--configfile", str(config), "--quiet", "all", *arguments]
 
 
-def _disturbed(folder: Path) -> int:
-    """Run the study through Slurm; the number of jobs that were killed or preempted while they ran."""
+def _disturbed(folder: Path, config: Path) -> None:
+    """Run the study through Slurm, kill one job and preempt another while they run."""
     waiting = dict(DISTURBANCES)
-    with subprocess.Popen(_snakemake(*ON_ONE_NODE), cwd=folder) as process:
+    with subprocess.Popen(_snakemake(config, *ON_ONE_NODE), cwd=folder) as process:
         try:
             while process.poll() is None:
                 for number, comment in _running():
-                    name = next((name for name in waiting if name in comment), None)
-                    if name is not None:
-                        time.sleep(3.0)  # into the middle of its work
-                        subprocess.run([*waiting.pop(name), number], check=True)
-                        print(f"{comment}: {' '.join(DISTURBANCES[name])}")
+                    group = next((group for group in waiting if comment.startswith(group)), None)
+                    if group is not None and _at_work(number):
+                        time.sleep(1.0)
+                        subprocess.run([*waiting.pop(group), number], check=True)
+                        print(f"{' '.join(DISTURBANCES[group])}: job {number}, {comment}", flush=True)
                 time.sleep(0.5)
         finally:
             process.kill()
@@ -89,11 +106,12 @@ def _disturbed(folder: Path) -> int:
         logs = [*folder.rglob(".snakemake/slurm_logs/**/*.log"), *folder.rglob(".snakemake/log/*.log")]
         print(*(f"{path}:\n{path.read_text(errors='replace')[-3000:]}" for path in logs), sep="\n")
         raise SystemExit(f"error: snakemake ended with {process.returncode}.")
-    return len(DISTURBANCES) - len(waiting)
+    if waiting:
+        raise SystemExit(f"error: no job of {', '.join(waiting)} was met at work.")
 
 
 def _running() -> list[tuple[str, str]]:
-    """Number and comment of jobs that run: the comment names rule or group."""
+    """Number and comment of jobs that run: the comment names the group."""
     listed = subprocess.run(
         ["squeue", "--noheader", "--states=RUNNING", "--format=%i %k"],
         capture_output=True,
@@ -103,30 +121,16 @@ def _running() -> list[tuple[str, str]]:
     return [(line.split()[0], line.partition(" ")[2]) for line in listed.stdout.splitlines()]
 
 
-def _cost(folder: Path) -> dict[str, float]:
-    """What Slurm took for itself: time in jobs beside that of the steps in them."""
-    said = subprocess.run(["scontrol", "show", "job"], capture_output=True, text=True, check=True).stdout
-    fields = [dict(re.findall(r"(\w+)=(\S+)", block)) for block in said.split("\n\n") if "JobId" in block]
-    whole = [job for job in fields if job["JobState"] == "COMPLETED"]
-    spent = sum(
-        (datetime.fromisoformat(job["EndTime"]) - datetime.fromisoformat(job["StartTime"])).total_seconds()
-        * int(job["NumCPUs"])
-        for job in whole
-    )
-    waited = sum(
-        (datetime.fromisoformat(job["StartTime"]) - datetime.fromisoformat(job["SubmitTime"])).total_seconds()
-        for job in whole
-    )
-    benchmarks = list((folder / RESULTS / "benchmarks").rglob("*.tsv"))
-    steps = sum(float(path.read_text().splitlines()[-1].split("\t")[0]) for path in benchmarks)
-    return {
-        "Slurm jobs": len(whole),
-        "steps in them": len(benchmarks),
-        "core seconds held by the jobs": round(spent),
-        "seconds of the steps in them": round(steps),
-        "seconds in the queue, a job": round(waited / len(whole), 1),
-        "seconds of its own, a job": round((spent - steps) / len(whole), 1),
-    }
+def _at_work(number: str) -> bool:
+    """Whether a step of that Slurm job computes."""
+    for place in Path("/proc").glob("[0-9]*"):
+        try:
+            command, environment = (place / "cmdline").read_bytes(), (place / "environ").read_bytes()
+        except OSError:
+            continue  # it has ended
+        if b"/asphalt-nscd\0" in command and f"SLURM_JOB_ID={number}".encode() in environment.split(b"\0"):
+            return True
+    return False
 
 
 if __name__ == "__main__":

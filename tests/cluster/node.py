@@ -15,7 +15,7 @@ from pathlib import Path
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue", "scancel", "sinfo")
 CONFIGURATION = Path("/etc/slurm/slurm.conf")  # SLURM_CONF would be lost inside jobs
 
-# No accounting, no cgroups: neither a database nor systemd is there. Jobs stay known to squeue for an hour.
+# No accounting, no cgroups: neither a database nor systemd is there. Jobs stay known to squeue for a day.
 TEMPLATE = """\
 ClusterName=one
 SlurmctldHost={host}(127.0.0.1)
@@ -36,7 +36,8 @@ MpiDefault=none
 SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU
 ReturnToService=2
-MinJobAge=3600
+MinJobAge=86400
+KillWait=5
 NodeName={host} NodeAddr=127.0.0.1 CPUs={cpus} RealMemory={memory} State=UNKNOWN
 PartitionName=work Nodes={host} Default=YES MaxTime=INFINITE State=UP
 """
@@ -56,7 +57,7 @@ def why_not() -> str | None:
 
 @contextmanager
 def slurm() -> Iterator[Path]:
-    """A Slurm that takes jobs; its folder with logs. All that it started is stopped at the end."""
+    """A Slurm that takes jobs; its folder with logs. All that it started is stopped at the end, jobs first."""
     folder = Path(tempfile.mkdtemp(prefix="slurm-"))
     folder.chmod(0o755)  # munged insists
     for name in ("state", "spool"):
@@ -90,6 +91,7 @@ def slurm() -> Iterator[Path]:
         _wait(lambda: _answer("sinfo", "--noheader", "--format=%T") == "idle", "the node", folder)
         yield folder
     finally:
+        _end_jobs()
         for daemon in reversed(daemons):
             daemon.terminate()
             try:
@@ -100,6 +102,17 @@ def slurm() -> Iterator[Path]:
         if CONFIGURATION.exists() and CONFIGURATION.read_text() == text:
             CONFIGURATION.unlink()
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def _end_jobs(seconds: float = 30.0) -> None:
+    """Those that still run where the study was interrupted: they would outlive slurmd."""
+    until = time.monotonic() + seconds
+    while jobs := _answer("squeue", "--noheader", "--format=%A").split():
+        _answer("scancel", *jobs)
+        if time.monotonic() > until:
+            print(f"warning: Slurm jobs {', '.join(jobs)} did not end in {seconds:g} s.")
+            break
+        time.sleep(0.5)
 
 
 def _path() -> str:

@@ -29,7 +29,7 @@ for name, (category, data) in FIGURES.items():
         benchmark:
             f"<results>/benchmarks/{name}.tsv"
         group:
-            "figures"
+            "contents"
         message:
             f"Draw {name}"
         shell:
@@ -53,7 +53,7 @@ for name, data in TABLES.items():
         benchmark:
             f"<results>/benchmarks/{name}.tsv"
         group:
-            "tables"
+            "contents"
         message:
             f"Make {name}"
         shell:
