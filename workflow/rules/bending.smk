@@ -29,7 +29,7 @@ rule simulate:
         tests=tests,
         test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s", "rest_steps"),
     resources:
-        mem_mb=1200,
+        mem_mb=lambda wildcards, attempt: 1600 * attempt,
     log:
         "<results>/logs/simulate/{sample}/T{temperature}.log",
     benchmark:

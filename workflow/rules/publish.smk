@@ -68,3 +68,16 @@ rule publish_faults:
         "Copy the table of faults, and fill its summary into the README"
     shell:
         "asphalt-nscd publish {input.files} --root results/faults --output results/published/faults --document README.md --block faults={input.summary}"
+
+
+rule publish_cluster:
+    # After a run of tests/cluster, whose table this is. Only on request:
+    #   snakemake --cores 1 publish_cluster
+    input:
+        table="results/cluster/cluster.csv",
+        provenance="results/cluster/provenance.json",
+        code=code("publish"),
+    message:
+        "Copy what a run through Slurm cost, and fill its table into the README"
+    shell:
+        "asphalt-nscd publish {input.table} {input.provenance} --root results/cluster --output results/published/cluster --document README.md --block cluster={input.table}"

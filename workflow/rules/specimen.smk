@@ -70,7 +70,7 @@ rule condense:
     params:
         bonds=options(STUDY["specimens"]["bonds"], "poisson", "yield_Pa", "friction"),
     resources:
-        mem_mb=2500,
+        mem_mb=lambda wildcards, attempt: 2700 * attempt,
     log:
         "<results>/logs/condense/{head}/{sample}.log",
     benchmark:
