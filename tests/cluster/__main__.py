@@ -49,6 +49,7 @@ def main() -> int:
         return 0
     name = yaml.safe_load(given.configfile.read_text(encoding="utf-8"))["study"]
     folder = Path(tempfile.mkdtemp(prefix="cluster-"))
+    different: list[str] = []
     try:
         here = given.finished or _run_here(_workspace(folder / "here"), given.configfile) / "results" / name
         there = _workspace(folder / "there")
@@ -64,10 +65,14 @@ def main() -> int:
         write_table(OUTPUT / "cluster.csv", table)
         write_json(OUTPUT / "provenance.json", provenance())
         print(table.to_string(index=False))
-        print("\n".join(different) or "All results are equal bit for bit.")
-        return 1 if different else 0
+        if different:
+            print(*different, f"To look at them: {folder}", sep="\n")
+            return 1
+        print("All results are equal bit for bit.")
+        return 0
     finally:
-        shutil.rmtree(folder, ignore_errors=True)
+        if not different:
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 def _run_here(folder: Path, config: Path) -> Path:
