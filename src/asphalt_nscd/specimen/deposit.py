@@ -31,11 +31,11 @@ class PouringNumerics:
     def of(cls, spheres: int, time_step: float) -> PouringNumerics:
         """Those for so many spheres, with steps of time_step [s].
 
-        In a layer of many the sweeps of a step leave overlaps; undone at more than the speed of rest,
-        they would keep it in motion for ever.
+        In a layer of many the sweeps of a step leave overlaps everywhere; undone at the speed of rest
+        or more, they would keep it in motion for ever.
         """
         if spheres > LARGEST_UNDONE:
-            return cls(time_step=time_step, recovery_speed=REST_SPEED)
+            return cls(time_step=time_step, recovery_speed=0.1 * REST_SPEED)
         return cls(time_step=time_step)
 
 
