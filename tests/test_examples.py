@@ -8,7 +8,7 @@ from importlib import import_module
 import pytest
 
 MODULES = [
-    "twopoint", "signals", "rheology.burgers", "rheology.chain", "rheology.fitting", "rheology.shift",
+    "nscd.friction", "twopoint", "signals", "rheology.burgers", "rheology.chain", "rheology.fitting", "rheology.shift",
     "rheology.spectrum",
 ]  # fmt: skip
 

@@ -55,7 +55,10 @@ def solve_files(files: Sequence[str | Path], tolerance: float) -> list[Outcome]:
     problems = [read_problem(file) for file in files]
     outcomes = []
     for file, problem in zip(files, problems, strict=True):
-        solve_contacts(problem.W, problem.q, problem.mu, most_sweeps=20, most_steps=0)  # compiles, warms up
+        try:  # compiles, warms up
+            solve_contacts(problem.W, problem.q, problem.mu, most_sweeps=20, most_steps=0)
+        except ValueError as error:
+            raise InputError(f"{file}: {error}; {_MEND}.") from None
         begin = time.process_time()
         solution = solve_contacts(problem.W, problem.q, problem.mu, tolerance)
         seconds = time.process_time() - begin
@@ -78,7 +81,7 @@ def read_problem(path: str | Path) -> LocalProblem:
     import h5py
 
     if not Path(path).is_file():
-        raise InputError(f"{path}: no such file; check the path.")
+        raise InputError(f"{path}: no such file, or a folder; check the path.")
     try:
         with h5py.File(path, "r") as file:
             found = {}

@@ -57,25 +57,47 @@ def one_contact(w, q, friction):
 
 
 def naive_natural_map(delassus, free, friction, impulse):
-    """Both errors, written out with norms; friction is one number or one for each contact."""
+    """Both errors, written out with norms; friction is one number or one for each contact.
+
+    The second is that of the worst part, of contacts that are coupled to no others.
+    """
     contacts = free.size // 3
     mu = np.broadcast_to(friction, contacts)
     u = (delassus @ impulse + free).reshape(-1, 3)
     r, q = impulse.reshape(-1, 3), free.reshape(-1, 3)
     rho = np.array([3 / np.trace(delassus[3 * c : 3 * c + 3, 3 * c : 3 * c + 3]) for c in range(contacts)])
-    errors = []
-    for unit in (np.ones(contacts), rho):
-        miss = []
-        for c in range(contacts):
-            shifted = u[c] + [mu[c] * np.hypot(u[c, 1], u[c, 2]), 0, 0]
-            miss.append((r[c] - nearest_in_cone(r[c] - unit[c] * shifted, mu[c])) / np.sqrt(unit[c]))
-        root = np.sqrt(unit)[:, None]
-        sizes = [np.linalg.norm(root * q), np.linalg.norm(r / root), np.linalg.norm(root * u)]
-        if unit is rho:
-            errors.append(max(np.linalg.norm(miss), 2.0**-52 * sizes[1]) / sizes[0])
-        else:
-            errors.append(np.linalg.norm(miss) / max(sizes))
-    return tuple(errors)
+
+    def miss(c, unit):
+        shifted = u[c] + [mu[c] * np.hypot(u[c, 1], u[c, 2]), 0, 0]
+        return (r[c] - nearest_in_cone(r[c] - unit * shifted, mu[c])) / np.sqrt(unit)
+
+    plain = np.linalg.norm([miss(c, 1.0) for c in range(contacts)])
+    plain /= max(np.linalg.norm(q), np.linalg.norm(r), np.linalg.norm(u))
+    root = np.sqrt(rho)[:, None]
+    scaled = []
+    for part in parts(delassus):
+        missed = np.linalg.norm([miss(c, rho[c]) for c in part])
+        rounding = 2.0**-52 * np.linalg.norm((r / root)[part])
+        scaled.append(
+            max(missed, rounding) / max(np.linalg.norm((root * q)[part]), 1e-6 * np.linalg.norm(root * q))
+        )
+    return plain, max(scaled)
+
+
+def parts(delassus):
+    """Lists of contacts that are coupled with each other and with no others."""
+    left, found = set(range(len(delassus) // 3)), []
+    while left:
+        part, new = [], [left.pop()]
+        while new:
+            c = new.pop()
+            part.append(c)
+            of_c = delassus[3 * c : 3 * c + 3] != 0.0, delassus[:, 3 * c : 3 * c + 3] != 0.0
+            coupled = set(np.flatnonzero(of_c[0].any(axis=0) | of_c[1].any(axis=1)) // 3) & left
+            left -= coupled
+            new += coupled
+        found.append(sorted(part))
+    return found
 
 
 def nearest_in_cone(z, mu):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from naive.friction import naive_extrapolation, naive_natural_map, naive_sweep, nearest_in_cone, one_contact
+from scipy import sparse
 
 from asphalt_nscd.nscd import contact_sweeps as kernels
 from asphalt_nscd.nscd.contact_problem import ContactProblem
@@ -62,6 +63,26 @@ def test_natural_map():
         assert min(found) > 0.05
 
 
+def test_natural_map_of_parts():
+    """Unitless, a part that W does not couple to the others counts by itself, unless hardly anything moves in it."""
+    w, q, rng = random_problem(3)
+    r = rng.normal(size=q.size)
+    alone = naive_natural_map(w, q, 0.4, r)[1]
+    both = sparse.block_diag([w, np.eye(3)]).tocsr()
+    for speed, seen in ((1e5, 1.0), (1e14, 0.0)):  # of a contact apart that is solved
+        q_both, r_both = np.array([*q, -speed, 0, 0]), np.array([*r, speed, 0, 0])
+        scaled = ContactProblem.of(both, q_both, 0.4).errors(r_both)[1]
+        assert scaled == pytest.approx(seen * alone, rel=1e-12, abs=1e-3 * alone * (1.0 - seen))
+        assert scaled > 0.0
+
+
+def test_natural_map_of_what_is_not_finite():
+    w, q, _ = random_problem(3)
+    problem = ContactProblem.of(w, q, 0.4)
+    for r in (np.full(q.size, 1e200), np.full(q.size, np.nan), np.full(q.size, np.inf)):
+        assert problem.errors(r) == (np.inf, np.inf)
+
+
 @pytest.mark.parametrize("friction", [0.0, 0.4, 3.0])
 def test_projection(friction):
     for z in np.random.default_rng(2).normal(size=(40, 3)):
@@ -117,10 +138,7 @@ def test_accelerated_sweeps(sweeps):
             )
     sizes = np.linalg.norm(changes, axis=1)
     assert (sizes[1:] < 2 * sizes[:-1]).all()  # none led astray, for which there is another way
-    found, count = kernels.accelerated_sweeps(
-        problem.start, problem.other, problem.block, q, problem.friction, problem.length, 0.0, sweeps,
-        np.zeros(q.size),
-    )  # fmt: skip
+    found, count = problem.sweeps(0.0, sweeps, np.zeros(q.size))
     assert count == sweeps
     np.testing.assert_allclose(found, results[-1], rtol=0, atol=1e-9)
 
@@ -128,14 +146,13 @@ def test_accelerated_sweeps(sweeps):
 def test_accelerated_sweeps_return_the_best_and_stop():
     w, q, _ = random_problem(7)
     problem = ContactProblem.of(w, q, 0.4)
-    arguments = (problem.start, problem.other, problem.block, q, problem.friction, problem.length)
     nothing = np.zeros(q.size)
-    r, sweeps = kernels.accelerated_sweeps(*arguments, 1e-10, 500, nothing)
+    r, sweeps = problem.sweeps(1e-10, 500, nothing)
     assert sweeps < 100 and max(problem.errors(r)) <= 1e-10
-    r, sweeps = kernels.accelerated_sweeps(*arguments, 1e-10, 2, nothing)
+    r, sweeps = problem.sweeps(1e-10, 2, nothing)
     assert sweeps == 2 and 1e-10 < max(problem.errors(r)) < max(problem.errors(np.zeros_like(r)))
-    solved, _ = kernels.accelerated_sweeps(*arguments, 1e-10, 500, nothing)
-    r, sweeps = kernels.accelerated_sweeps(*arguments, 1e-10, 500, solved)
+    solved, _ = problem.sweeps(1e-10, 500, nothing)
+    r, sweeps = problem.sweeps(1e-10, 500, solved)
     assert sweeps == 1 and max(problem.errors(r)) <= 1e-10
-    _, sweeps = kernels.accelerated_sweeps(*arguments, 0.0, 10_000, nothing)
+    _, sweeps = problem.sweeps(0.0, 10_000, nothing)
     assert sweeps < 1000  # rounding is reached: no progress, no end

@@ -213,6 +213,42 @@ def test_huge_reactions_are_not_their_own_excuse():
     assert problem.errors(np.array([1e19, 0.0, 0.0]))[1] > 1.0
 
 
+@pytest.mark.parametrize("seed", range(12))
+def test_of_an_indefinite_matrix_nothing_false_is_claimed(seed):
+    """Sweeps diverge there, beyond all numbers."""
+    rng = np.random.default_rng(seed)
+    W, q = rng.normal(size=(18, 18)), rng.normal(size=18)
+    W, q[::3] = W + W.T, q[::3] - 0.5
+    solution = solve_contacts(W, q, 0.5, most_steps=20)
+    with np.errstate(invalid="ignore"):  # there is no length where the trace is negative
+        true = naive_natural_map(W, q, 0.5, solution.reactions)[0] < 1e-7
+    assert true or not solution.converged
+
+
+def test_no_part_hides_behind_another():
+    """A body squeezed by two walls, and one that stops at a speed a million times higher."""
+    squeezed = np.eye(6)
+    squeezed[0, 3] = squeezed[3, 0] = -1.0
+    W = sparse.block_diag([squeezed, 1e-6 * np.eye(3)])
+    q = [-1.0, 0, 0, -1.0, 0, 0, -1e6, 0, 0]
+    assert not solve_contacts(W, q, 0.5).converged
+
+
+@pytest.mark.parametrize("size", [1e-300, 1e-160, 1e160, 1e300])
+def test_reactions_are_proportional_to_velocities_of_any_size(size):
+    w, q = np.diag([2.0, 3.0, 4.0]), np.array([-1.0, 0.5, 0.1])
+    solution = solve_contacts(w, size * q, 0.5)
+    expected = solve_contacts(w, q, 0.5)
+    np.testing.assert_allclose(solution.reactions / size, expected.reactions, rtol=1e-13)
+    np.testing.assert_allclose(solution.velocities / size, expected.velocities, rtol=1e-13, atol=1e-15)
+    assert solution.converged
+
+
+def test_nothing_touches():
+    solution = solve_contacts(np.zeros((0, 0)), [], 0.5)
+    assert solution.converged and solution.reactions.size == 0
+
+
 def test_a_fixed_contact_that_opens_does_not_disturb():
     w = sparse.block_diag([np.zeros((3, 3)), MASSES]).tocsr()
     np.testing.assert_allclose(solved(w, [1.0, 0, 0, -2.0, 0, 0], 0.4), [0, 0, 0, 1, 0, 0], atol=1e-12)
@@ -230,8 +266,17 @@ def test_no_motion_no_impulse():
         (np.eye(6), np.zeros(6), [0.5], "one number for each of 2 contacts"),
         (np.eye(3), [np.nan, 0, 0], 0.5, "finite"),
         (np.eye(3), np.zeros(3), -0.5, "negative"),
+        (1j * np.eye(3), np.zeros(3), 0.5, "real"),
+        (1e160 * np.eye(3), -np.ones(3), 0.5, "units"),
+        (1e-160 * np.eye(3), -np.ones(3), 0.5, "units"),
     ],
 )
 def test_no_contact_problem(W, q, mu, message):
     with pytest.raises(ValueError, match=message):
         solve_contacts(W, q, mu)
+
+
+@pytest.mark.parametrize("tolerance", [0.0, -1e-8, np.nan, np.inf, 1.0])
+def test_no_tolerance(tolerance):
+    with pytest.raises(ValueError, match="tolerance"):
+        solve_contacts(np.eye(3), -np.ones(3), 0.5, tolerance)

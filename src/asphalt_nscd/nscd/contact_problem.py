@@ -12,9 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU, splu
 
-from asphalt_nscd.nscd.contact_sweeps import natural_map
+from asphalt_nscd.nscd.contact_sweeps import accelerated_sweeps, natural_map
+
+LARGEST = 1e100  # of W, and its reciprocal the least: squares of more overflow
 
 
 @dataclass(frozen=True)
@@ -30,6 +33,7 @@ class ContactProblem:
     free_velocity: np.ndarray  # q (3 c,) [m/s]
     friction: np.ndarray  # mu (c,)
     length: np.ndarray  # rho (c,) [kg]: 3 / tr W_aa, the step length that suits each contact
+    part: np.ndarray  # (c,) number of the part that a contact is in: W couples no two parts
 
     @classmethod
     def of(cls, W, q, mu) -> ContactProblem:
@@ -40,6 +44,8 @@ class ContactProblem:
             raise ValueError(f"W {np.shape(W)} and q ({q.size},) are not of three rows for each contact")
         if np.ndim(mu) and np.shape(mu) != (contacts,):
             raise ValueError(f"mu {np.shape(mu)} is not one number for each of {contacts} contacts")
+        if np.iscomplexobj(W if not sparse.issparse(W) else W.data):
+            raise ValueError("W must be real")
         friction = np.broadcast_to(np.asarray(mu, float), contacts).copy()
         matrix = sparse.csr_array(W, dtype=float)
         blocks, row, own = _with_own_blocks(matrix)
@@ -47,12 +53,16 @@ class ContactProblem:
             raise ValueError("W, q and mu must be finite")
         if (friction < 0.0).any():
             raise ValueError("mu must not be negative")
+        size = np.abs(blocks.data).max(initial=0.0)
+        if size and not 1.0 / LARGEST < size < LARGEST:
+            raise ValueError(f"W is of size {size:.0e}; give it in units in which it is nearer to one")
         trace = np.trace(blocks.data[own], axis1=1, axis2=2)
         usual = trace.mean() if trace.any() else 1.0
         length = 3.0 / np.where(trace > 1e-14 * usual, trace, usual)
+        coupled = sparse.csr_array((np.ones(row.size), blocks.indices, blocks.indptr), (contacts, contacts))
         return cls(
             matrix, blocks.indptr.astype(np.int64), blocks.indices.astype(np.int64), row, own, blocks.data,
-            q, friction, length,
+            q, friction, length, connected_components(coupled, directed=False)[1].astype(np.int64),
         )  # fmt: skip
 
     def velocity(self, r: np.ndarray) -> np.ndarray:
@@ -62,8 +72,15 @@ class ContactProblem:
     def errors(self, r: np.ndarray) -> tuple[float, float]:
         """Error of the natural map as Siconos states it, and free of units; see `natural_map`."""
         return natural_map(
-            self.start, self.other, self.block, self.free_velocity, self.friction, self.length, r
+            self.start, self.other, self.block, self.free_velocity, self.friction, self.length, self.part, r
         )
+
+    def sweeps(self, tolerance: float, most_sweeps: int, first: np.ndarray) -> tuple[np.ndarray, int]:
+        """Reactions by accelerated sweeps from `first` (3 c,), and how many."""
+        return accelerated_sweeps(
+            self.start, self.other, self.block, self.free_velocity, self.friction, self.length, self.part,
+            tolerance, most_sweeps, first,
+        )  # fmt: skip
 
     def factor(self, block: np.ndarray, pressed: np.ndarray | None = None) -> SuperLU | None:
         """Factors of the matrix with other blocks in the places of W; None if it is singular.

@@ -14,7 +14,6 @@ from scipy import sparse
 
 from asphalt_nscd.nscd.contact_newton import refine
 from asphalt_nscd.nscd.contact_problem import ContactProblem
-from asphalt_nscd.nscd.contact_sweeps import accelerated_sweeps
 
 FIRST, LEAST, LARGEST = 0.3, 1e-6, 10.0  # damping d, of the mean of the eigenvalues of W_aa
 EASED, STIFFENED = 0.5, 2.0  # d after a point that was reached, and one that was not
@@ -32,18 +31,15 @@ def proximal_points(
     for _ in range(most_points):
         if least <= tolerance:
             break
-        softened = _softened(problem, damping, r)
+        soft = softened(problem, damping, r)
         aim = max(0.1 * tolerance, NEAR * error)
-        r, swept = accelerated_sweeps(
-            softened.start, softened.other, softened.block, softened.free_velocity, softened.friction,
-            softened.length, aim, MOST_SWEEPS, r,
-        )  # fmt: skip
-        left = max(softened.errors(r))
+        r, swept = soft.sweeps(aim, MOST_SWEEPS, r)
+        left = max(soft.errors(r))
         if left > aim:
-            trial, taken = refine(softened, r, aim)
+            trial, taken = refine(soft, r, aim)
             steps += taken
-            if max(softened.errors(trial)) < left:
-                r, left = trial, max(softened.errors(trial))
+            if max(soft.errors(trial)) < left:
+                r, left = trial, max(soft.errors(trial))
         sweeps, error = sweeps + swept, max(problem.errors(r))
         candidates = [r]
         if tolerance < error < HOPEFUL:
@@ -57,7 +53,7 @@ def proximal_points(
     return best, sweeps, steps
 
 
-def _softened(problem: ContactProblem, damping: float, r: np.ndarray) -> ContactProblem:
+def softened(problem: ContactProblem, damping: float, r: np.ndarray) -> ContactProblem:
     """The problem with `damping` / rho on the diagonal of W, and what it does to r taken off q."""
     added = damping / problem.length
     block = problem.block.copy()

@@ -15,10 +15,12 @@ _CHECK = 10  # sweeps between two computations of the error
 _ASTRAY = 4.0  # growth of the square of a sweep's change that is not forgiven
 _ROUNDING = 2.0**-52
 _PATIENCE = 300  # sweeps that may pass without the error falling to a tenth
+_LARGEST = 1e200  # squares beyond it are of sweeps that diverge
+_FAINT = 1e-12  # of all that moves, in squares: a part that moves less is not judged by its own motion
 
 
 @compiled
-def accelerated_sweeps(start, other, block, q, friction, length, tolerance, most_sweeps, first):
+def accelerated_sweeps(start, other, block, q, friction, length, part, tolerance, most_sweeps, first):
     """Sweeps from r = `first` (3 c,) until both errors are below tolerance, or progress ends.
 
     Returns (r of the least error, sweeps).
@@ -40,8 +42,10 @@ def accelerated_sweeps(start, other, block, q, friction, length, tolerance, most
             change[i] = weight[i] * (swept[i] - r[i])
             size += change[i] ** 2
             whole += (weight[i] * swept[i]) ** 2
+        if not size + whole < _LARGEST:
+            return best, sweep
         if sweep % _CHECK == 0 or sweep == most_sweeps or size <= tolerance**2 * whole:
-            error = max(natural_map(start, other, block, q, friction, length, swept))
+            error = max(natural_map(start, other, block, q, friction, length, part, swept))
             if error < least:
                 least = error
                 best[:] = swept
@@ -168,15 +172,18 @@ def one_contact(w, q0, q1, q2, mu):
 
 
 @compiled
-def natural_map(start, other, block, q, friction, length, r):
-    """Two errors of reactions r (3 c,): as Siconos states it, and free of units.
+def natural_map(start, other, block, q, friction, length, part, r):
+    """Two errors of reactions r (3 c,): as Siconos states it, and free of units; infinite where r is.
 
     |r - P_K(r - (u + mu |u_T| n))| / max(|q|, |r|, |u|) adds impulses to velocities, so that it
     depends on the units, and becomes small where reactions grow without end. The second takes
     the variables r / sqrt(rho) and u sqrt(rho), both square roots of energies, with the step
-    lengths rho_a = `length` (c,), is relative to |q| alone, and at least the rounding of r.
+    lengths rho_a = `length` (c,), is relative to |q| alone, and at least the rounding of r. It is that of
+    the worst part: contacts that nothing couples to the others, numbered in `part` (c,), answer for themselves.
     """
-    plain = frees = forces = speeds = distance = pressing = available = 0.0
+    plain = frees = forces = speeds = 0.0
+    parts = part.max() + 1
+    distance, pressing, available = np.zeros(parts), np.zeros(parts), np.zeros(parts)
     each, velocity = r.reshape(-1, 3), q.reshape(-1, 3)
     for a in range(friction.shape[0]):
         u0, u1, u2 = velocity[a, 0], velocity[a, 1], velocity[a, 2]
@@ -194,14 +201,18 @@ def natural_map(start, other, block, q, friction, length, r):
         plain += (r0 - p0) ** 2 + (r1 - p1) ** 2 + (r2 - p2) ** 2
         h = length[a]
         p0, p1, p2 = project_on_cone(r0 - h * shifted, r1 - h * u1, r2 - h * u2, friction[a])
-        distance += ((r0 - p0) ** 2 + (r1 - p1) ** 2 + (r2 - p2) ** 2) / h
-        pressing += force / h
-        available += free * h
+        distance[part[a]] += ((r0 - p0) ** 2 + (r1 - p1) ** 2 + (r2 - p2) ** 2) / h
+        pressing[part[a]] += force / h
+        available[part[a]] += free * h
+    if not np.isfinite(plain + frees + forces + speeds + distance.sum() + pressing.sum()):
+        return np.inf, np.inf
     tiny = 1e-300  # no motion and no force is no error
-    return (
-        np.sqrt(plain / max(frees, forces, speeds, tiny)),
-        np.sqrt(max(distance, _ROUNDING**2 * pressing) / max(available, tiny)),
-    )
+    faint = max(_FAINT * available.sum(), tiny)
+    worst = 0.0
+    for k in range(parts):
+        missed = max(distance[k], _ROUNDING**2 * pressing[k])
+        worst = max(worst, missed / max(available[k], faint))
+    return np.sqrt(plain / max(frees, forces, speeds, tiny)), np.sqrt(worst)
 
 
 @compiled

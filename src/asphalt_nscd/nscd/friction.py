@@ -15,7 +15,6 @@ from asphalt_nscd.nscd.contact_interior import interior_path
 from asphalt_nscd.nscd.contact_newton import refine
 from asphalt_nscd.nscd.contact_problem import ContactProblem
 from asphalt_nscd.nscd.contact_proximal import proximal_points
-from asphalt_nscd.nscd.contact_sweeps import accelerated_sweeps
 
 PATHS = ((3.0, 0.0), (10.0, 0.3), (10.0, 1.0), (100.0, 0.3), (1000.0, 0.0))
 """Start and balance of the paths, tried in turn: no single choice leads through every rock pile."""
@@ -58,31 +57,43 @@ def solve_contacts(W, q, mu, tolerance: float = 1e-8, most_sweeps: int = 3000, m
     W (3 c, 3 c) [1/kg] positive semidefinite, sparse of any storage or dense; q (3 c,) [m/s]; mu, one
     for all contacts or (c,); normal first. most_steps: of each interior path; there may be twice as many
     proximal points. Returns a ContactSolution whose error is that of the natural map (see `natural_map`),
-    relative; it is for the caller to look at `converged`. Raises ValueError for input that is no such problem.
+    relative to the whole of what W couples; it is for the caller to look at `converged`. Where W is
+    indefinite there may be no solution, or several. Raises ValueError for input that is no such problem.
+
+    A body of 2 kg on the ground, after 1 ms of gravity, slides at 2 mm/s:
+
+    >>> W, q = np.eye(3) / 2.0, [-9.81e-3, 2e-3, 0.0]
+    >>> solve_contacts(W, q, mu=0.5).reactions.round(12).tolist()  # stops it
+    [0.01962, -0.004, 0.0]
+    >>> solve_contacts(W, q, mu=0.1).reactions.round(12).tolist()  # slows it down
+    [0.01962, -0.001962, 0.0]
     """
-    problem = ContactProblem.of(W, q, mu)
-    best, sweeps = accelerated_sweeps(
-        problem.start, problem.other, problem.block, problem.free_velocity, problem.friction, problem.length,
-        tolerance, most_sweeps, np.zeros(problem.free_velocity.size),
-    )  # fmt: skip
+    if not 0.0 < tolerance < 1.0:
+        raise ValueError(f"tolerance {tolerance} is not between 0 and 1")
+    q = np.array(q, float).ravel()
+    if np.shape(W) == (0, 0) and not q.size:
+        return ContactSolution(q, q, 0.0, 0.0, 0, 0, True)
+    # a power of two changes no digit, and leaves room for squares
+    exponent = int(np.frexp(np.abs(q).max(initial=0.0))[1]) if np.isfinite(q).all() else 0
+    problem = ContactProblem.of(W, np.ldexp(q, -exponent), mu)
+    best, sweeps = problem.sweeps(tolerance, most_sweeps, np.zeros_like(q))
     least, steps = max(problem.errors(best)), 0
     for start, balance in PATHS:
         if least <= tolerance:
             break
-        with np.errstate(over="ignore", invalid="ignore"):  # a path without an end ends there
+        with np.errstate(all="ignore"):  # a path without an end ends there
             path = interior_path(problem, start, balance)
             found, error, taken = _follow(problem, path, tolerance, most_steps)
         steps += taken
         if error < least:
             best, least = found, error
     if least > tolerance:
-        with np.errstate(over="ignore", invalid="ignore"):
+        with np.errstate(all="ignore"):
             best, swept, taken = proximal_points(problem, best, tolerance, 2 * most_steps)
         sweeps, steps, least = sweeps + swept, steps + taken, max(problem.errors(best))
     error, scaled = problem.errors(best)
-    return ContactSolution(
-        best, problem.velocity(best), error, scaled, sweeps, steps, bool(least <= tolerance)
-    )
+    reactions, velocities = np.ldexp(best, exponent), np.ldexp(problem.velocity(best), exponent)
+    return ContactSolution(reactions, velocities, error, scaled, sweeps, steps, bool(least <= tolerance))
 
 
 def _follow(problem, path, tolerance, most_steps):

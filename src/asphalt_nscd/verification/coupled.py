@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,10 @@ import numpy as np
 from asphalt_nscd import fclib
 from asphalt_nscd.nscd import solve_contacts
 from asphalt_nscd.nscd.bonds import opening_operator
+from asphalt_nscd.nscd.contact_interior import interior_path
+from asphalt_nscd.nscd.contact_newton import refine
+from asphalt_nscd.nscd.contact_problem import ContactProblem
+from asphalt_nscd.nscd.contact_proximal import softened
 from asphalt_nscd.verification import assemblies
 from asphalt_nscd.verification.contacts import UPRIGHT, G
 from asphalt_nscd.verification.row import Checks, Row
@@ -100,16 +105,21 @@ def stacks() -> list[Row]:
     return rows
 
 
+def twenty(seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """(W, q) of twenty coupled contacts of random masses."""
+    rng = np.random.default_rng(seed)
+    jacobian = rng.normal(size=(60, 66))
+    q = rng.normal(size=60)
+    q[::3] -= 0.5
+    return jacobian @ jacobian.T / 66 + 0.2 * np.eye(60), q
+
+
 @checks
 def generated() -> Row:
-    """Twenty coupled contacts of random masses: the worst of ten problems."""
+    """The worst of ten problems."""
     worst = 0.0
     for seed in range(10):
-        rng = np.random.default_rng(seed)
-        jacobian = rng.normal(size=(60, 66))
-        q = rng.normal(size=60)
-        q[::3] -= 0.5
-        w = jacobian @ jacobian.T / 66 + 0.2 * np.eye(60)
+        w, q = twenty(seed)
         worst = max(worst, natural_map(w, q, 0.7, solve_contacts(w, q, 0.7, tolerance=1e-10).reactions))
     return Row(
         "twenty coupled contacts, error of the natural map",
@@ -118,6 +128,33 @@ def generated() -> Row:
         1e-9,
         APART,
     )
+
+
+@checks
+def each_alone() -> list[Row]:
+    """Each method by itself, for another would finish what a wrong one leaves."""
+    (w, q), mu = twenty(0), 0.7
+    problem = ContactProblem.of(w, q, mu)
+    solved, _ = problem.sweeps(1e-15, 3000, np.zeros(60))
+    near = solved * (1.0 + 1e-3 * np.random.default_rng(1).normal(size=60))
+    path = list(islice(interior_path(problem, 3.0, 0.0), 10))
+    soft = softened(problem, 0.3, solved)
+    found = {
+        "twenty sweeps": (natural_map(w, q, mu, problem.sweeps(1e-15, 20, np.zeros(60))[0]), 1e-10),
+        "three Newton steps from a thousandth beside": (
+            natural_map(w, q, mu, refine(problem, near, 1e-15, 3)[0]),
+            1e-12,
+        ),
+        "ten steps of the interior path": (natural_map(w, q, mu, path[-1]), 1e-6),
+        "the solution in the softened problem of its proximal point": (
+            natural_map(soft.matrix.toarray(), soft.free_velocity, mu, solved),
+            1e-12,
+        ),
+    }
+    return [
+        Row(f"{name}, error of the natural map", 0.0, error, tolerance, APART)
+        for name, (error, tolerance) in found.items()
+    ]
 
 
 @checks
