@@ -335,15 +335,23 @@ def test_at_rest_contact_forces_balance_every_weight():
     assert (np.linalg.norm(torque, axis=1) / size).max() < 1e-10
 
 
-@pytest.mark.parametrize(("restitution", "recovery_speed"), [(0.0, 0.02), (0.5, 0.0)])
-def test_naive_twin(restitution, recovery_speed):
+@pytest.mark.parametrize(
+    ("restitution", "recovery_speed", "recovery_time"), [(0.0, 0.02, 0.0), (0.5, 0.0, 0.0), (0.0, 0.02, 2e-3)]
+)
+def test_naive_twin(restitution, recovery_speed, recovery_time):
     """A dozen balls thrown into a corner under a moving lid: all quantities to rounding, 1e-11."""
     rng = np.random.default_rng(9)
     position, radius = random_lattice(np.array([3e-3, 6e-3]), np.array([10, 3]), (0.012,) * 3, rng)
     pile = balls(position, radius, (0.012,) * 3, 0.4, restitution)
     pile.velocity[: radius.size] = rng.normal(0, 0.5, (radius.size, 6))
     pile.position[1] = pile.position[0] + (radius[:2].sum() - 1e-5) * np.array([0.6, 0.0, 0.8])  # an overlap
-    settings = numerics(most_sweeps=40, tolerance=1e-6, recovery_speed=recovery_speed, margin=1e-4)
+    settings = numerics(
+        most_sweeps=40,
+        tolerance=1e-6,
+        recovery_speed=recovery_speed,
+        recovery_time=recovery_time,
+        margin=1e-4,
+    )
     plane_velocity = np.zeros((6, 3))
     plane_velocity[5] = [0.05, 0.0, -0.3]
     position, velocity, impulses, points = pile.position.copy(), pile.velocity.copy(), {}, pile.plane_point
@@ -354,6 +362,7 @@ def test_naive_twin(restitution, recovery_speed):
         position, velocity, impulses = naive_step(
             position, radius, velocity, mass(pile), points, pile.plane_normal, pile.gravity, impulses,
             dt=settings.time_step, friction=0.4, restitution=restitution, recovery_speed=recovery_speed,
+            recovery_time=recovery_time,
             margin=settings.margin + 0.5 * settings.time_step * speed.mean(), tolerance=1e-6, most_sweeps=40,
         )  # fmt: skip
         points = points + settings.time_step * plane_velocity
