@@ -72,3 +72,12 @@ def test_labels_at_ends_are_in_the_order_of_the_lines_and_apart():
 def test_temperatures_have_a_true_minus():
     assert style.celsius(-10.0) == "\N{MINUS SIGN}10 °C"
     assert style.celsius(12.5) == "12.5 °C"
+
+
+def test_axes_stand_where_the_last_bit_of_the_layout_does_not_show():
+    figure, panels = style.new_figure(style.SINGLE, 120.0, rows=7)
+    for _ in range(2):  # PDF, then PNG
+        figure.draw_without_rendering()
+        bounds = np.array([axes.get_position().bounds for axes in panels])
+        assert np.abs(bounds - np.round(bounds, 9)).max() < 1e-14
+    assert 0.0 < bounds[:, 0].max() < 0.2 and np.all(np.diff(bounds[:, 1]) < 0.0)
