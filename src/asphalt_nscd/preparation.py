@@ -35,8 +35,8 @@ def deposit(
     """
     began = time.process_time()
     diameters, counts = read_counts(counts_table)
-    numerics = PouringNumerics.of(int(counts.sum()), time_step)
     position, radius = random_lattice(diameters, counts, box, np.random.default_rng(seed))
+    numerics = PouringNumerics.of(radius, time_step)
     granulate = Granulate.in_box(position, radius, box, DENSITY, friction)
     settle(granulate, numerics, REST_SPEED, LONGEST_POURING, progress, "pouring")
     poured, poured_height = granulate.position.copy(), layer_height(granulate.position, radius)

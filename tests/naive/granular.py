@@ -27,7 +27,7 @@ def all_pairs(position, radius, plane_point, plane_normal, reach):
 
 def naive_step(
     position, radius, velocity, mass, plane_point, plane_normal, gravity, impulses, *, dt, friction,
-    restitution, recovery_speed, recovery_time, margin, tolerance, most_sweeps,
+    restitution, recovery_speed, allowed_overlap, margin, tolerance, most_sweeps,
 ):  # fmt: skip
     """Returns (position, velocity, impulses) after dt. impulses: {(i, j): (3,)} acts on body j.
 
@@ -61,7 +61,7 @@ def naive_step(
         on_second = np.hstack([frame, -(frame @ cross)])
         delassus = on_first * inverse[i] @ on_first.T + on_second * inverse[j] @ on_second.T
         before = normal @ (velocity[j, :3] - velocity[i, :3])
-        target = -gap / dt if gap > 0 else min(-gap / max(dt, recovery_time), recovery_speed)
+        target = -gap / dt if gap > 0 else min(max(-gap - allowed_overlap, 0) / dt, recovery_speed)
         if restitution > 0 and before < 0 and gap + dt * before <= 0:
             target = -restitution * before
         contacts.append((i, j, frame, on_first, on_second, delassus, target))

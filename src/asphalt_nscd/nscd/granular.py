@@ -61,14 +61,14 @@ def active_contacts(position, radius, velocity, plane_point, plane_normal, start
 @compiled
 def step(
     position, radius, velocity, inverse_mass, plane_point, plane_normal, gravity,
-    start, other, impulse, dt, friction, restitution, recovery_speed, recovery_time, margin,
+    start, other, impulse, dt, friction, restitution, recovery_speed, allowed_overlap, margin,
     tolerance, most_sweeps,
 ):  # fmt: skip
     """Advance spheres by dt [s]; position, velocity and impulse (per pair) change in place.
 
     position (n, 3) [m]; velocity (n + p, 6) [m/s] (linear, spin; planes last, prescribed);
     inverse_mass (n + p,) [1/kg], zero for planes; gravity (3,) [m/s2]; impulse (pairs, 3) [N s];
-    Overlaps are undone within recovery_time [s], or a step, but not faster than recovery_speed [m/s].
+    Overlaps beyond allowed_overlap [m] are undone, no faster than by recovery_speed [m/s] (zero: never).
     Returns (active contacts, sweeps, relative change of the last sweep).
     """
     n = position.shape[0]
@@ -80,10 +80,10 @@ def step(
         position, radius, velocity, plane_point, plane_normal, start, other, dt, margin
     )
     target = np.empty(gap.shape[0])
-    undoing = max(dt, recovery_time)
     for c in range(gap.shape[0]):
         # an open gap may close within the step; an overlap left by an unconverged step is undone slowly
-        target[c] = -gap[c] / dt if gap[c] > 0.0 else min(-gap[c] / undoing, recovery_speed)
+        overlap = max(-gap[c] - allowed_overlap, 0.0)
+        target[c] = -gap[c] / dt if gap[c] > 0.0 else min(overlap / dt, recovery_speed)
         if restitution > 0.0:
             opening = 0.0
             for k in range(3):

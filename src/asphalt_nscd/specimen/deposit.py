@@ -10,7 +10,8 @@ import numpy as np
 from asphalt_nscd.nscd import granular, neighbours
 
 REST_SPEED = 1e-3  # m/s, root mean square of all spheres
-LARGEST_UNDONE = 20_000  # spheres whose overlaps may be undone in a step
+MANY = 20_000  # spheres, of which the sweeps of a step leave overlaps everywhere
+ALLOWED_OVERLAP = 0.005  # of the smallest radius
 
 Progress = Callable[[str, float, float], None]
 """Called with (stage, done, total), both in the unit of the stage."""
@@ -26,16 +27,17 @@ class PouringNumerics:
     skin: float = 4e-4  # m, pairs are searched again when a sphere has moved half of it
     margin: float = 2e-5  # m, gap below which a resting pair takes part in a step
     recovery_speed: float = 0.02  # m/s, at most, by which overlaps are undone
-    recovery_time: float = 0.0  # s, or a step, within which they are undone
+    allowed_overlap: float = 0.0  # m, left as it is
 
     @classmethod
-    def of(cls, spheres: int, time_step: float) -> PouringNumerics:
-        """Those for so many spheres, with steps of time_step [s].
+    def of(cls, radius: np.ndarray, time_step: float) -> PouringNumerics:
+        """Those for spheres of radius (n,) [m], with steps of time_step [s].
 
-        The sweeps of a step leave small overlaps everywhere in a layer of many; undone in a single
-        step, they would keep it in motion for ever.
+        The sweeps of a step leave small overlaps everywhere in a layer of many spheres; undone at once,
+        they would keep it in motion for ever.
         """
-        return cls(time_step=time_step, recovery_time=0.01 if spheres > LARGEST_UNDONE else 0.0)
+        allowed = ALLOWED_OVERLAP * float(radius.min()) if radius.size > MANY else 0.0
+        return cls(time_step=time_step, allowed_overlap=allowed)
 
 
 @dataclass
@@ -93,7 +95,7 @@ class Granulate:
         _, sweeps, change = granular.step(
             self.position, self.radius, self.velocity, self.inverse_mass, self.plane_point,
             self.plane_normal, self.gravity, self._start, self._other, self.impulse, dt, self.friction,
-            self.restitution, numerics.recovery_speed, numerics.recovery_time, margin,
+            self.restitution, numerics.recovery_speed, numerics.allowed_overlap, margin,
             numerics.tolerance, numerics.most_sweeps,
         )  # fmt: skip
         self.plane_point = self.plane_point + dt * self.velocity[n:, :3]
