@@ -55,3 +55,19 @@ def test_locks_of_a_living_process_stay_and_those_of_a_killed_one_go(directory, 
 
 def test_directory_is_made(tmp_path):
     assert lock.release_stale_locks(tmp_path / ".snakemake") is True
+
+
+def test_a_snakemake_that_ends_leaves_the_locks_of_others(tmp_path):
+    """By Snakemake itself, two of which lock different files in one folder."""
+    from snakemake.persistence.file import FilePersistence
+
+    lock.remove_own_locks_only()
+    first, second = (FilePersistence.__new__(FilePersistence) for _ in range(2))
+    for persistence in (first, second):
+        persistence._lockdir, persistence._lockfile = str(tmp_path), {}
+    first._write_locks("output", ["results/mine/measured.csv"])
+    second._write_locks("output", ["results/other/measured.csv"])
+    second._delete_locks()
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["results/mine/measured.csv\n"]
+    first._delete_locks()
+    assert not list(tmp_path.iterdir())

@@ -1,10 +1,10 @@
-"""Locks that a killed Snakemake left behind, told apart from those of a living one."""
+"""Snakemake's locks: those that a killed one left behind go, those of a living one stay."""
 
 from __future__ import annotations
 
 import fcntl
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
 _alive: list[IO[str]] = []  # open files: the kernel drops their locks when this process ends, however it ends
 
@@ -31,3 +31,19 @@ def release_stale_locks(directory: str | Path) -> bool:
             stale.unlink(missing_ok=True)
     fcntl.flock(handle, fcntl.LOCK_SH)
     return alone
+
+
+def remove_own_locks_only() -> None:
+    """Have a Snakemake that ends leave the locks of others.
+
+    As it stands (9.x) it removes the folder of all locks, after which a third one may write what a
+    second one is writing.
+    """
+    from snakemake.persistence.file import FilePersistence
+
+    def remove_own(persistence: Any) -> None:
+        for lock in persistence._lockfile.values():
+            Path(lock).unlink(missing_ok=True)
+        persistence._lockfile.clear()
+
+    FilePersistence._delete_locks = remove_own

@@ -10,13 +10,14 @@ from asphalt_nscd.clock import mistrust_future
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.failures import failures
 from asphalt_nscd.feasible import require_feasible
-from asphalt_nscd.lock import release_stale_locks
+from asphalt_nscd.lock import release_stale_locks, remove_own_locks_only
 from asphalt_nscd.paths import require_writable
 from asphalt_nscd.sources import PACKAGE, modules_of, source_files, stamp
 from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
 
 if workflow.is_main_process:
     release_stale_locks(".snakemake")
+    remove_own_locks_only()
 
 # `asphalt-nscd` is the one beside this Python, whether or not the environment is activated.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
