@@ -65,3 +65,13 @@ def test_checksums_hold_and_one_digit_breaks_them(tmp_path):
     found = CHECK["_checksums"](tmp_path)
     assert len(found) == 2 and "simulations.csv: is not the file that was published" in found[0]
     assert "table2.csv: is missing" in found[1]
+    (tmp_path / "paper/SHA256SUMS").unlink()
+    assert CHECK["_checksums"](tmp_path) == [f"{tmp_path / 'paper/SHA256SUMS'}: is missing"]
+
+
+def test_the_picture_of_the_first_page_is_among_the_checksums(tmp_path):
+    shutil.copytree(PUBLISHED, tmp_path / "paper")
+    with (tmp_path / "paper/first_page.png").open("ab") as picture:
+        picture.write(b"0")
+    (found,) = CHECK["_checksums"](tmp_path)
+    assert "first_page.png: is not the file that was published" in found

@@ -18,6 +18,11 @@ def test_files_are_copied_with_their_checksums(tmp_path):
         f"{hashlib.sha256(b'x' + bytes([10]) + b'1' + bytes([10])).hexdigest()}  b.csv",
         f"{hashlib.sha256(b'picture').hexdigest()}  figures/a.png",
     ]
+    (output / "c.png").write_bytes(b"another")
+    publish([output / "c.png"], output, output)  # what stands there already is listed too
+    assert (output / CHECKSUMS).read_text().splitlines() == [
+        *lines[:1], f"{hashlib.sha256(b'another').hexdigest()}  c.png", lines[1]
+    ]  # fmt: skip
 
 
 def test_blocks_are_replaced_and_the_rest_is_left(tmp_path):

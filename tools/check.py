@@ -9,7 +9,6 @@ published. Then the checksums of all that is published. The first difference of 
 
 from __future__ import annotations
 
-import hashlib
 import os
 import shutil
 import subprocess
@@ -18,6 +17,7 @@ import tempfile
 from pathlib import Path
 
 from asphalt_nscd.compare import first_difference
+from asphalt_nscd.publish import altered
 
 ROOT = Path(__file__).resolve().parents[1]
 # Files made again, their relative tolerance: rounding differs between processors, and minimisers stop on it.
@@ -71,16 +71,7 @@ def _made_again(published: Path, folder: Path) -> list[str]:
 
 
 def _checksums(folder: Path) -> list[str]:
-    found = []
-    for sums in sorted(folder.glob("*/SHA256SUMS")):
-        for line in sums.read_text(encoding="utf-8").splitlines():
-            digest, name = line.split("  ", 1)
-            path = sums.parent / name
-            if not path.is_file():
-                found.append(f"{path}: is missing")
-            elif hashlib.sha256(path.read_bytes()).hexdigest() != digest:
-                found.append(f"{path}: is not the file that was published ({sums.name})")
-    return found
+    return [difference for path in sorted(folder.iterdir()) if path.is_dir() for difference in altered(path)]
 
 
 if __name__ == "__main__":

@@ -16,15 +16,40 @@ CHECKSUMS = "SHA256SUMS"
 
 
 def publish(files: Sequence[Path], root: Path, output: Path) -> None:
-    """Copy files (below root) into output, keeping their places, and list their SHA-256 sums there."""
-    lines = []
-    for path in sorted(files):
-        place = path.relative_to(root)
-        with atomic_path(output / place) as temporary:
+    """Copy files (below root) into output, keeping their places; the list of SHA-256 sums there names all files."""
+    for path in files:
+        with atomic_path(output / path.relative_to(root)) as temporary:
             shutil.copyfile(path, temporary)
-        lines.append(f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {place.as_posix()}\n")
     with atomic_path(output / CHECKSUMS) as temporary:
-        temporary.write_text("".join(lines), encoding="utf-8")
+        temporary.write_text("".join(f"{_sum(path)}  {name}\n" for name, path in _published(output)))
+
+
+def altered(folder: Path) -> list[str]:
+    """What differs from the list of checksums in a published folder, a sentence for each file."""
+    sums = folder / CHECKSUMS
+    if not sums.is_file():
+        return [f"{sums}: is missing"]
+    listed = {
+        name: digest for digest, name in (line.split("  ", 1) for line in sums.read_text().splitlines())
+    }
+    there = dict(_published(folder))
+    found = []
+    for name in sorted(listed.keys() | there.keys()):
+        if name not in there:
+            found.append(f"{folder / name}: is missing")
+        elif listed.get(name) != _sum(there[name]):
+            found.append(f"{there[name]}: is not the file that was published ({CHECKSUMS})")
+    return found
+
+
+def _published(folder: Path) -> list[tuple[str, Path]]:
+    """Names below folder, and paths, of all files but the list itself and hidden ones."""
+    files = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
+    return sorted((path.relative_to(folder).as_posix(), path) for path in files if path != folder / CHECKSUMS)
+
+
+def _sum(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def fill_blocks(document: Path, blocks: Mapping[str, Path]) -> None:

@@ -35,6 +35,7 @@ def test_first_page_says_what_was_done_and_found(page):
     assert said["simulated"][0].startswith("2 samples of 90 to 110 bonded spheres")
     assert said["simulated"][0].endswith("at 6 conditions: 12 tests.")
     assert "|E*| times 1.1 to 1.2" in said["simulated"][1]
+    assert "do not stand for the mix" in said["simulated"][2]
     assert "most at 20 °C" in said["wrong"][0]
     assert said["verdict"].startswith("Explained: with relaxation spectrum and loose clamp (specimen 2)")
     assert said["gained"][0] == ("error of |E*|, %", "8", "2")

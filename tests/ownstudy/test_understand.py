@@ -123,6 +123,7 @@ LONG = "T_C;f_Hz;E_MPa;phi_deg"
     [
         ("T set (°C);T core (°C);f_Hz;E_MPa;phi_deg", "15;15.1;10;9;2",
          "columns 'T set (°C)' and 'T core (°C)' may each be temperature_C"),
+        ("T_C;f_Hz;E_MPa;E_MPa;phi_deg", "15;10;9000;9001;20", "column 'E_MPa' stands twice; remove one"),
         ("T_C;f_Hz;E;phi_deg", "15;10;9000;20",
          "column 'E' does not say its unit; write it behind the name, as in E (MPa)."),
         ("T_C;f_Hz;F0_N;z0_m;phi_rad", "15;10;9;9;2",

@@ -51,10 +51,12 @@ rule first_page:
     params:
         tests=os.path.relpath(Path(workflow.basedir, "tests")),
         python=sys.executable,
+        folder=f"results/published/{STUDY['study']}",
     message:
         "Take a picture of the report's first page"
     shell:
-        "env PYTHONPATH={params.tests} {params.python} -m browser {input} --picture {output}"
+        "env PYTHONPATH={params.tests} {params.python} -m browser {input} --picture {output} && "
+        "asphalt-nscd publish {output} --root {params.folder} --output {params.folder} --document README.md"
 
 
 rule publish_faults:

@@ -105,7 +105,10 @@ def _single(cells: Cells, name: str, places: list[Place]) -> Place:
     """The one column of a quantity, with its unit."""
     (place, column), *others = places
     if others:
-        both = " and ".join(repr(cells.header[place]) for place, _ in places)
+        names = [cells.header[place] for place, _ in places]
+        if len(set(names)) < len(names):
+            raise InputError(f"{cells.path}: column {names[0]!r} stands twice; remove one or rename it.")
+        both = " and ".join(map(repr, names))
         raise InputError(
             f"{cells.path}: columns {both} may each be {name}; say which with "
             f'--column {_as_written(name, column)}="{cells.header[place]}", or remove the others.'

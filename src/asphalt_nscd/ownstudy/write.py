@@ -28,7 +28,8 @@ from asphalt_nscd.study import complete_study
 from asphalt_nscd.twopoint import Geometry
 
 SCHEMA = Path(__file__).resolve().parents[3] / "workflow/schemas/study.schema.yaml"
-RESERVED = ("published",)  # folders of results/ that belong to no study
+# Folders of results/ that belong to no study.
+RESERVED = ("benchmark", "blind", "cluster", "faults", "published", "verification")
 
 AMPLITUDE = 63e-6  # m, of the paper's head
 STEPS_PER_CYCLE = 500  # of the paper's highest frequency, 40 Hz
@@ -101,7 +102,7 @@ def _require_free(name: str, config: Path, folder: Path) -> None:
     pattern = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))["properties"]["study"]["pattern"]
     if not re.fullmatch(pattern.strip("^$"), name) or name in RESERVED:
         raise InputError(
-            f"NAME {name!r}: give letters, digits, - and _, the first a letter, and not {' or '.join(RESERVED)}."
+            f"NAME {name!r}: give letters, digits, - and _, the first a letter, and none of {', '.join(RESERVED)}."
         )
     for path in (config, folder):
         if path.exists():

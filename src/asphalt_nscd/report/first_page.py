@@ -13,6 +13,12 @@ from asphalt_nscd.diagnosis.page import sections
 from asphalt_nscd.diagnosis.written import three_digits
 from asphalt_nscd.results import the_only
 
+ENOUGH = 5000  # spheres
+TOO_FEW = (
+    "So few spheres are a smaller specimen than any that was measured, and do not stand for the mix: laws, phase and "
+    "diagnosis are already what they will be, simulated |E*| is not."
+)
+
 
 def first_page(
     measured: Sequence[Path], simulations: Sequence[Path], samples: Sequence[Path], diagnosis: list[Path],
@@ -63,6 +69,7 @@ def _simulated(tests: pd.DataFrame, samples: pd.DataFrame) -> list[str]:
         f"{_many(len(samples), 'sample')} of {_range(samples['spheres'])} bonded spheres, poured one by one from the "
         f"grading, in two-point bending at {_many(len(conditions), 'condition')}: {_many(len(tests), 'test')}.",
         f"They return the law of their bonds, |E*| times {_range(samples['E_over_law'])} by their packing.",
+        *([TOO_FEW] if samples["spheres"].max() < ENOUGH else []),
     ]  # fmt: skip
 
 
