@@ -11,7 +11,7 @@ from naive.friction import nearest_in_cone
 from asphalt_nscd.nscd import contact_interior as interior
 from asphalt_nscd.nscd.contact_newton import linearised, refine
 from asphalt_nscd.nscd.contact_problem import ContactProblem
-from asphalt_nscd.nscd.contact_proximal import _softened, proximal_points
+from asphalt_nscd.nscd.contact_proximal import proximal_points, softened
 from asphalt_nscd.verification.assemblies import box_stack, spheres_in_a_box
 
 
@@ -114,7 +114,7 @@ def test_reach():
 def test_softened_problem_has_the_solution_of_the_problem_where_it_stays():
     problem, rng = random_problem(4)
     r, x = rng.normal(size=24), rng.normal(size=24)
-    soft = _softened(problem, 0.3, r)
+    soft = softened(problem, 0.3, r)
     damped = 0.3 / np.repeat(problem.length, 3)
     np.testing.assert_allclose(soft.velocity(x), problem.velocity(x) + damped * (x - r), atol=1e-12)
     np.testing.assert_allclose(soft.velocity(r), problem.velocity(r), atol=1e-12)
