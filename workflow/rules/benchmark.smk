@@ -136,6 +136,20 @@ rule benchmark:
         MEASURE + "/collect.py {input.rows} --output {output.table} --beside {output.beside} --growth {output.growth} > {log} 2>&1"
 
 
+rule benchmark_provenance:
+    input:
+        "results/benchmark/benchmark.csv",
+        code=code("provenance"),
+    output:
+        "results/benchmark/provenance.json",
+    log:
+        "results/benchmark/logs/provenance.log",
+    message:
+        "Write down what was measured"
+    shell:
+        "asphalt-nscd provenance --output {output} > {log} 2>&1"
+
+
 rule publish_benchmark:
     # What is committed of them, and their tables in the README. Only on request:
     #   snakemake --cores 1 publish_benchmark
@@ -143,8 +157,9 @@ rule publish_benchmark:
         table="results/benchmark/benchmark.csv",
         beside="results/benchmark/beside.csv",
         growth="results/benchmark/growth.csv",
+        provenance="results/benchmark/provenance.json",
         code=code("publish"),
     message:
         "Copy the benchmarks, and fill their tables in the README"
     shell:
-        "asphalt-nscd publish {input.table} {input.beside} {input.growth} --root results/benchmark --output results/published/benchmark --document README.md --block benchmark={input.beside} --block growth={input.growth}"
+        "asphalt-nscd publish {input.table} {input.beside} {input.growth} {input.provenance} --root results/benchmark --output results/published/benchmark --document README.md --block benchmark={input.beside} --block growth={input.growth}"
