@@ -69,7 +69,7 @@ CENTRES = {
     "havriliak_negami_mirrored": {"glassy": 36e9, "static": 50e6, "log10_tau": -1.8, "a": 0.27, "b": 2.3},
     "maxwell_ladder": {"glassy": 37e9, "static": 60e6, "log10_tau": -0.7, "width": 4.0, "skew": -3.0},
 }  # fmt: skip
-SHIFTS = ("wlf", "arrhenius")
+SHIFTS = ("wlf", "arrhenius", "quadratic", "straight")  # of the last two, log10 a_T over T is a polynomial
 
 # What a mix may show in the paper's design; draws outside it are drawn again.
 STIFF_CORNER, SOFT_CORNER = (-10.0, 40.0), (30.0, 3.0)  # degC, Hz
@@ -92,6 +92,9 @@ class Law:
         if self.shift == "wlf":
             c1, c2 = self.shift_parameters["c1"], self.shift_parameters["c2"]
             return -np.log(10.0) * c1 * above / (c2 + above)
+        if self.shift == "quadratic" or self.shift == "straight":
+            slope, bend = self.shift_parameters["slope"], self.shift_parameters.get("bend", 0.0)
+            return -np.log(10.0) * slope * above * (1.0 - bend * above)
         inverse = 1.0 / (KELVIN + REFERENCE + above) - 1.0 / (KELVIN + REFERENCE)
         return self.shift_parameters["energy"] / GAS_CONSTANT * inverse
 
@@ -126,11 +129,13 @@ def _around(centre: dict[str, float], rng: np.random.Generator) -> dict[str, flo
 
 def _draw_shift(rng: np.random.Generator) -> tuple[str, dict[str, float]]:
     kind = str(rng.choice(SHIFTS))
+    if kind == "arrhenius":
+        return kind, {"energy": float(rng.uniform(160e3, 240e3))}  # J/mol
+    c2 = float(rng.uniform(80.0, 180.0))  # K
+    slope = float(rng.uniform(0.10, 0.15))  # decades per kelvin at REFERENCE
     if kind == "wlf":
-        c2 = rng.uniform(80.0, 180.0)  # K
-        slope = rng.uniform(0.10, 0.15)  # decades per kelvin at REFERENCE
-        return kind, {"c1": float(slope * c2), "c2": float(c2)}
-    return kind, {"energy": float(rng.uniform(160e3, 240e3))}  # J/mol
+        return kind, {"c1": slope * c2, "c2": c2}
+    return kind, {"slope": slope} | ({"bend": 1.0 / c2} if kind == "quadratic" else {})
 
 
 def _is_a_mix(law: Law) -> bool:

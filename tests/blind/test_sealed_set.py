@@ -7,7 +7,7 @@ import os
 import numpy as np
 import pytest
 
-from blind import score, sealed
+from blind import laws, score, sealed
 from blind.causes import CATALOGUE
 from blind.outside import OUTSIDE
 from blind.plan import JUDGED, NEEDS, Case
@@ -32,6 +32,16 @@ def test_a_hidden_cause_is_named_rightly_and_its_empty_case_not_at_all(cause):
     assert empty["outcome"] == score.NOTHING, empty
     assert row["named"] and row["wrong"] == 0, row
     assert abs(row["error_sigma"]) < 3.5
+
+
+@pytest.mark.parametrize("shift", laws.SHIFTS)
+@pytest.mark.parametrize("seed", [5, 9])
+def test_no_form_of_the_shift_is_taken_for_a_cause(shift, seed, monkeypatch):
+    monkeypatch.setattr(laws, "SHIFTS", (shift,))
+    (line,) = sealed.run([Case(seed, "empty", shape="huet_sayegh")])
+    assert line["seal"]["law"]["shift"] == shift
+    assert [rung["cause"] for rung in line["diagnosis"]["ladder"]] == ["relaxation_spectrum"]
+    assert line["diagnosis"]["verdict"] == "explained"
 
 
 @pytest.mark.parametrize("effect", ["gain_at_frequency", "specimen_frequency", "alternating_phase"])

@@ -43,6 +43,10 @@ def test_shifts_have_the_stated_rates():
     assert arrhenius.log_shift(-10.0) == pytest.approx(
         200e3 / 8.314462618 * (1 / (KELVIN - 10.0) - 1 / (KELVIN + 15.0))
     )
+    straight = {"slope": 0.12}
+    assert Law("huet_sayegh", {}, "straight", straight).log_shift(5.0) == pytest.approx(1.2 * np.log(10.0))
+    quadratic = Law("huet_sayegh", {}, "quadratic", straight | {"bend": 1.0 / 130.0})
+    assert quadratic.log_shift(25.0) == pytest.approx(-1.2 * (1.0 - 10.0 / 130.0) * np.log(10.0))
 
 
 def test_draws_differ_between_seeds_only():

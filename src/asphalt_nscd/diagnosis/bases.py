@@ -1,8 +1,8 @@
 """Laws of the mix against which causes are judged: parameters with priors, moduli with derivatives.
 
 A rig effect may not soak up the misfit of a parametric law, so the base is flexible: many Maxwell
-elements on reduced time, their logarithmic strengths smoothed, with a WLF shift and a small smooth
-departure from it. Burgers at each temperature, the paper's law, has the same interface.
+elements on reduced time, their logarithmic strengths smoothed, with a WLF shift of any curvature and a
+small smooth departure from it. Burgers at each temperature, the paper's law, has the same interface.
 """
 
 from __future__ import annotations
@@ -12,10 +12,12 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import expit, logit
 
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 LN10 = np.log(10.0)
+CLEAR = 10.0  # K beyond the tests that a shift is not singular in, further than a bias is sought
 
 
 class Base(Protocol):
@@ -32,17 +34,19 @@ class Base(Protocol):
 class FlexibleSpectrum:
     """Maxwell elements on WLF-reduced time.
 
-    times (m,): relaxation times [s] at the reference temperature [degC], ascending; roughness: standard
-    deviation of the second differences of ln(strength); least_c2 [K]: the shift is singular at C2 below
-    the coldest test; span [K]: scale of the departure from WLF; static_modulus [Pa]: known from
-    elsewhere, or None; ends_straight: the tests come near it. Parameters: ln strength (m), ln static
-    modulus, ln C1, ln(C2 - least_c2), departure.
+    times (m,): relaxation times [s] at the reference temperature [degC], ascending; below, above [K]: how far
+    the tests reach from it; roughness: standard deviation of the second differences of ln(strength);
+    static_modulus [Pa]: known from elsewhere, or None; ends_straight: the tests come near it. Parameters:
+    ln strength (m), ln static modulus, ln slope, log-odds of the curvature, departure.
+
+    WLF by its slope C1/C2 and curvature 1/C2, of which a shift straight in T is nothing special; in C1 and C2
+    it lies at infinity, and an isotherm was said to be off instead.
     """
 
     times: Vector
     reference_temperature: float
-    least_c2: float
-    span: float
+    below: float
+    above: float
     roughness: float
     static_modulus: float | None = None
     ends_straight: bool = False
@@ -50,20 +54,40 @@ class FlexibleSpectrum:
     # Slower than the tests, a bump acts as a larger static modulus. Where that is known and near, there is none.
     SLOWEST = 5  # elements
     STRAIGHT = 0.02  # standard deviation of their second differences
-    DEPARTURE = 0.1  # standard deviation of ln(a_T) off WLF one span away from the reference
+    SLOPE = 0.12, 1.0  # decades/K at the reference: mean, standard deviation of its logarithm
+    CURVATURE = 7e-3, 5e-3  # 1/K: mean, standard deviation; bitumens about 0.01, Arrhenius 0.0035
+    # Standard deviation of ln(a_T) off WLF as far from the reference as the tests reach. With 0.1 quadratic
+    # shifts are taken for a bias, 0.3 hides one at the ends.
+    DEPARTURE = 0.2
 
     @property
     def parameters(self) -> int:
         return self.times.size + 4
 
+    @property
+    def _curvatures(self) -> tuple[float, float]:
+        """Least, and how much the largest is above it [1/K]."""
+        least = -1.0 / (self.above + CLEAR)
+        return least, 1.0 / (self.below + CLEAR) - least
+
+    def log_odds(self, curvature: float) -> float:
+        """The parameter for a curvature [1/K]."""
+        least, width = self._curvatures
+        return float(logit((curvature - least) / width))
+
+    def curvature(self, log_odds: float) -> tuple[float, float]:
+        """1/C2 [1/K] and its derivative with respect to the parameter."""
+        (least, width), share = self._curvatures, float(expit(log_odds))
+        return least + width * share, width * share * (1.0 - share)
+
     def log_shift(self, x: Vector, temperature: Vector) -> tuple[Vector, NDArray]:
         """ln a_T (n,) and its derivative (n, 3) with respect to the last three parameters."""
-        c1, c2 = np.exp(x[-3]), self.least_c2 + np.exp(x[-2])
-        above = temperature - self.reference_temperature
-        wlf = -LN10 * c1 * above / (c2 + above)
-        cubic = (above / self.span) ** 3
-        slopes = np.column_stack([wlf, -wlf / (c2 + above) * (c2 - self.least_c2), cubic])
-        return wlf + x[-1] * cubic, slopes
+        curvature, change = self.curvature(x[-2])
+        away = temperature - self.reference_temperature
+        bent = away / (1.0 + curvature * away)
+        wlf = -LN10 * np.exp(x[-3]) * bent
+        cubic = (away / max(self.below, self.above, 1.0)) ** 3
+        return wlf + x[-1] * cubic, np.column_stack([wlf, -wlf * bent * change, cubic])
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
         m = self.times.size
@@ -87,11 +111,13 @@ class FlexibleSpectrum:
         if self.ends_straight:
             rows[m - 2 - self.SLOWEST : m - 2, :m] *= max(self.roughness / self.STRAIGHT, 1.0)
         offset = np.zeros(m + 2)
-        # Broad: the static modulus anywhere from 1e-5 to 0.1 of the glassy one; WLF constants of bitumens.
+        # Broad: the static modulus anywhere from 1e-5 to 0.1 of the glassy one.
         level = float(np.log(np.exp(x[:m]).sum()))
         rows[m - 2, m], offset[m - 2] = 1.0 / 3.0, (level - 6.0) / 3.0
-        rows[m - 1, -3], offset[m - 1] = 1.0, np.log(12.0)
-        rows[m, -2], offset[m] = 1.0, np.log(100.0)
+        rows[m - 1, -3], offset[m - 1] = 1.0 / self.SLOPE[1], np.log(self.SLOPE[0]) / self.SLOPE[1]
+        usual = self.log_odds(self.CURVATURE[0])
+        rows[m, -2] = self.curvature(usual)[1] / self.CURVATURE[1]
+        offset[m] = rows[m, -2] * usual
         rows[m + 1, -1] = 1.0 / self.DEPARTURE
         return rows @ x - offset, rows
 

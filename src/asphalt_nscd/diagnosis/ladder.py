@@ -130,19 +130,26 @@ def _tail(by_chance: np.ndarray, z: float) -> float:
 
 
 def _best(joint, fitted, candidates, gains, p_value, least) -> Rung:
-    """The candidate of largest gain when refitted jointly, among those that come near it by their score."""
+    """The candidate of largest gain when refitted jointly, among those that come near it by their score.
+
+    With them the other isotherms of such a cause: a shift bent towards the one that is off hides it. Of those
+    as good the one of fewest parameters: a loss bump far above the band is a delay with three more.
+    """
     order = np.argsort(-gains)
     shortlist: dict[tuple, Candidate] = {}
     for k in order:
         if gains[k] >= max(SHORTLIST * gains.max(), least) and len(shortlist) < MOST_REFITS:
             shortlist.setdefault(candidates[k].key, candidates[k])
+    bent = {name for name, place in shortlist if isinstance(place, float)}
+    for candidate in candidates:
+        if candidate.cause.name in bent:
+            shortlist.setdefault(candidate.key, candidate)
     refits = [joint.fit(fitted.law, fitted.scales, (*fitted.active, c)) for c in shortlist.values()]
     gained = np.array([fitted.objective - refit.objective for refit in refits])
     gained -= [2.0 * (len(c.values) - 1) for c in shortlist.values()]
-    best = int(np.argmax(gained))
-    rivals = tuple(
-        refits[k].active[-1] for k in range(len(refits)) if k != best and gained[best] - gained[k] < AS_GOOD
-    )
+    as_good = np.flatnonzero(gained.max() - gained < AS_GOOD)
+    best = min(as_good, key=lambda k: (len(refits[k].active[-1].values), -gained[k]))
+    rivals = tuple(refits[k].active[-1] for k in as_good if k != best)
     return Rung(refits[best].active[-1], p_value, fitted, refits[best], rivals)
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.agreement import mean_relative_error
 from asphalt_nscd.diagnosis import heldout
-from asphalt_nscd.diagnosis.bases import LN10
+from asphalt_nscd.diagnosis.bases import LN10, FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, cell_residuals
@@ -18,7 +18,7 @@ from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.ladder import Rung
 from asphalt_nscd.diagnosis.scatter import STATED
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION
+from asphalt_nscd.diagnosis.written import CONFIDENCE, NOTABLE, SCHEMA_VERSION
 
 Logarithm = NDArray[np.complex128]  # ln E* (n,)
 
@@ -219,17 +219,11 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
     # As the last fit has them: a delay, say, that is not yet taken would be taken for relaxation.
     spectrum, fitted = ladder.joint.base, ladder.fitted
     shift = spectrum.log_shift(fitted.law, observed.isotherms)[0] / LN10
-    c1, above = np.exp(fitted.law[-3:-1])
-    relative = np.sqrt(np.diag(fitted.covariance))[fitted.law.size - 3 : fitted.law.size - 1]
-    shift_constants = {
-        "wlf_C1": _value(c1, "decades", c1 * relative[0]),
-        "wlf_C2": _value(spectrum.least_c2 + above, "K", above * relative[1]),
-    }
     return {
         "cause": "relaxation_spectrum", "where": None,
         "parameters": {
             # Two isotherms have one shift between them; one has none.
-            **(shift_constants if observed.isotherms.size > 2 else {}),
+            **(_shift_constants(spectrum, fitted) if observed.isotherms.size > 2 else {}),
             "reference_temperature": _value(spectrum.reference_temperature, "degC"),
         },
         "log10_shift": {f"{t:g}": float(s) for t, s in zip(observed.isotherms, shift, strict=True)},
@@ -237,6 +231,22 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
         "as_good": [],
         "sentence": "the mix relaxes over many decades of time; one Burgers law for each temperature has two times",
         "confirmed_by": "tests over more decades of frequency, or creep at the warmest temperature",
+    }  # fmt: skip
+
+
+def _shift_constants(spectrum: FlexibleSpectrum, fitted: Fitted) -> dict[str, dict[str, Any]]:
+    """C1 and C2, or the slope alone where the shift may be straight, which has them at infinity."""
+    at = [fitted.law.size - 3, fitted.law.size - 2]
+    slope, (curvature, change) = float(np.exp(fitted.law[-3])), spectrum.curvature(fitted.law[-2])
+    variance = np.array([1.0, change])[:, None] * fitted.covariance[np.ix_(at, at)] * [1.0, change]
+    if curvature < CONFIDENCE * np.sqrt(variance[1, 1]):
+        return {"shift_slope": _value(slope, "decades/K", slope * np.sqrt(variance[0, 0]))}
+    of_c1, of_c2 = np.array([1.0, -1.0 / curvature]), np.array([0.0, -1.0 / curvature])  # of their logarithms
+    return {
+        name: _value(value, unit, value * np.sqrt(along @ variance @ along))
+        for name, value, unit, along in (
+            ("wlf_C1", slope / curvature, "decades", of_c1), ("wlf_C2", 1.0 / curvature, "K", of_c2),
+        )
     }  # fmt: skip
 
 

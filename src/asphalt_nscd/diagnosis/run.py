@@ -15,6 +15,7 @@ from asphalt_nscd.diagnosis.extension import material_law
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.reading import read_observations
 from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.diagnosis.written import CONFIDENCE
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 from asphalt_nscd.store import provenance, write_json, write_table
@@ -81,14 +82,14 @@ def _write_law(path: Path, diagnosis: Diagnosis, origin: str) -> None:
 
 
 def _size(parameters: dict[str, Any]) -> str:
-    """The first parameter, which is the amplitude, with its standard error."""
+    """The first parameter, which is the amplitude, with its 95 % interval."""
     name, amplitude = next(iter(parameters.items()))
     if name == "reference_temperature":  # of a law whose shift these tests do not determine
         return ""
     error = amplitude["std_error"]
     return (
         f"{name} {amplitude['value']:.3g}"
-        + ("" if error is None else f" +- {error:.1g}")
+        + ("" if error is None else f" +- {CONFIDENCE * error:.2g}")
         + f" {amplitude['unit']}"
     )
 
@@ -111,7 +112,7 @@ def summary(content: dict[str, Any]) -> str:
     headers = [
         "cause",
         "where",
-        "parameter",
+        "parameter, 95 %",
         "p",
         "error |E*| %",
         "error phase %",

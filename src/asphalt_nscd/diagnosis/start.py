@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-from asphalt_nscd.diagnosis.bases import BurgersAtEach, FlexibleSpectrum
+from asphalt_nscd.diagnosis.bases import CLEAR, BurgersAtEach, FlexibleSpectrum
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.observations import Observations
 
@@ -82,15 +82,14 @@ def _first_burgers(omega: Vector, modulus: NDArray[np.complex128]) -> Vector:
 def _spectrum(observed: Observations, c1: float, c2: float) -> FlexibleSpectrum:
     isotherms = observed.isotherms
     reference = float(isotherms[isotherms.size // 2])
-    above = observed.temperature - reference
-    coldest = float(reference - isotherms[0])
-    reduced = np.log(observed.omega) - np.log(10.0) * c1 * above / (c2 + above)
+    below, above = reference - float(isotherms[0]), float(isotherms[-1]) - reference
+    away = observed.temperature - reference
+    reduced = np.log(observed.omega) - np.log(10.0) * c1 * away / (max(c2, below + 2.0 * CLEAR) + away)
     low, high = -reduced.max() - MARGIN, -reduced.min() + MARGIN
     times = np.exp(np.linspace(low, high, max(int(np.ceil((high - low) / SPACING)) + 1, 4)))
-    span = max(float(np.abs(above).max()), 1.0)
     static = observed.static_modulus
     near = static is not None and float(observed.modulus.real.min()) < NEAR * static
-    return FlexibleSpectrum(times, reference, coldest + 5.0, span, 0.2, static, near)
+    return FlexibleSpectrum(times, reference, below, above, 0.2, static, near)
 
 
 def _first_law(observed: Observations, base: FlexibleSpectrum, c1: float, c2: float) -> Vector:
@@ -99,6 +98,5 @@ def _first_law(observed: Observations, base: FlexibleSpectrum, c1: float, c2: fl
     m = base.times.size
     slope = np.linspace(0.0, -4.0, m)  # weaker where slower
     strength = np.log(1.2 * largest) + slope - np.log(np.exp(slope).sum())
-    return np.concatenate(
-        [strength, [np.log(1e-3 * largest), np.log(c1), np.log(max(c2 - base.least_c2, 5.0)), 0.0]]
-    )
+    c2 = max(c2, base.below + 2.0 * CLEAR)
+    return np.concatenate([strength, [np.log(1e-3 * largest), np.log(c1 / c2), base.log_odds(1.0 / c2), 0.0]])

@@ -34,8 +34,8 @@ RANGES = {
     "delta": (-5.0, 6.0, 0.0, 1.5),
     "tau": (-15.0, 15.0, -3.0, 8.0),
     "beta": (-3.0, 15.0, 2.0, 8.0),
-    "c1": (0.0, 5.0, 2.0, 3.5),
-    "c2": (-5.0, 7.0, 3.0, 5.5),
+    "c1": (0.0, 8.0, 2.0, 3.5),
+    "c2": (-5.0, 10.0, 3.0, 5.5),
     "activation_energy": (-5.0, 3.0, 0.0, 1.5),
 }
 NO_EFFECT = 1e-5  # of a parameter on the residuals, relative to that of the strongest one
