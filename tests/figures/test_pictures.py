@@ -66,6 +66,11 @@ def test_stages_and_sizes(results):
     for axes in figure.axes:  # nothing beyond the paper
         box = axes.get_position()
         assert min(box.x0, box.y0) > 0.0 and max(box.x1, box.y1) < 1.0
+    legend = figure.axes[-1]
+    figure.draw_without_rendering()
+    for item in (*legend.patches, *legend.texts):  # nor beyond its own place, however low the section is
+        inside = item.get_window_extent().transformed(legend.transAxes.inverted())
+        assert min(inside.x0, inside.y0) > -0.01 and max(inside.x1, inside.y1) < 1.01
 
 
 def test_shades_grow_darker_with_the_diameter():

@@ -58,10 +58,11 @@ def draw(deposit: list[Path], specimen: list[Path]) -> Figure:
     bottom = HEIGHT - TITLE - TALL
     _scene(figure, (*trimmed, cut_shades), large, right, bottom)
     _title(figure, "d", "specimen", right, bottom + large * upright[1])
-    _title(figure, "e", "section of the specimen, with bonds", left, top)
+    _title(figure, "e", "section, with bonds", left, top)
     axes = _axes(figure, left, bottom, right - GUTTER - LEGEND - left, top - bottom)
     draw_section(axes, cut, cut_shades)
-    _sizes(_axes(figure, right - GUTTER - LEGEND, bottom, LEGEND, top - bottom), sizes, large)
+    # Beside the title too, for in a small study the section is low.
+    _sizes(_axes(figure, right - GUTTER - LEGEND, bottom, LEGEND, top + TITLE - 1.0 - bottom), sizes, large)
     return figure
 
 
@@ -126,8 +127,11 @@ def _sizes(axes: Axes, sizes: NDArray[np.float64], scale: float) -> None:
     tall = axes.get_position().height * HEIGHT
     axes.set_ylim(0.0, tall)
     axes.text(0.0, tall - 2.0, "diameter", fontsize=7.0, va="top")
-    for n, size in enumerate(sizes[::-1]):
-        y = tall - 7.0 - 3.9 * n
+    widest = scale * sizes.max()
+    rows = np.linspace(
+        tall - 5.0 - widest, max(widest, tall - 5.0 - widest - 3.9 * (sizes.size - 1)), sizes.size
+    )
+    for y, size in zip(rows, sizes[::-1], strict=True):
         colour = _shades(np.array([size]), sizes)[0]
-        axes.add_patch(Circle((2.0, y), scale * size, facecolor=colour, edgecolor=style.INK, lw=0.3))
-        axes.text(5.0, y, f"{2e3 * size:g} mm", va="center", fontsize=7.0)
+        axes.add_patch(Circle((widest + 0.2, y), scale * size, facecolor=colour, edgecolor=style.INK, lw=0.3))
+        axes.text(2.0 * widest + 1.0, y, f"{2e3 * size:g} mm", va="center", fontsize=7.0)
