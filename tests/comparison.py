@@ -1,7 +1,8 @@
 """Two folders of results, compared bit for bit but for when, where and how fast they were made.
 
-Left out are files that hold nothing else (`OF_A_RUN`), the commit in JSON and on pages, and of each test its
-seconds; of HDF5, which holds addresses of its own, every array and attribute is compared instead of the bytes.
+Left out are files that hold nothing else (`OF_A_RUN`), hidden ones, which hold digests of others, the commit in
+JSON and on pages, and of each test its seconds; of HDF5, which holds addresses of its own, every array and attribute
+is compared instead of the bytes.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ def differences(first: Path, second: Path) -> list[str]:
 
 def results(folder: Path) -> set[Path]:
     """Files below a folder that are compared."""
-    places = {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+    places = {path.relative_to(folder) for path in folder.rglob("[!.]*") if path.is_file()}
     return {place for place in places if not any(place.is_relative_to(name) for name in OF_A_RUN)}
 
 

@@ -299,6 +299,33 @@ def test_a_cut_table_is_made_anew_where_the_workflow_made_it_and_left_where_a_us
     assert not (tmp_path / "x.csv").exists()
 
 
+@pytest.mark.parametrize(
+    "damage", [lambda text: text.replace("5000", "5001"), lambda text: text[: text[:-1].rfind("\n") + 1]]
+)
+def test_a_digit_changed_or_a_line_lost_is_noticed_within_the_workflow(tmp_path, damage):
+    inside = {**os.environ, cli.DIE_WITH_PARENT: "1"}
+    (tmp_path / "geometry.csv").write_text(
+        "b_mm,B_mm,e_mm,h_mm,mass_kg,mobile_mass_kg\n25,56,25,250,0.6,0.1\n"
+    )
+    (tmp_path / "m.csv").write_text(
+        "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\na,10,3,5000,20\nb,10,3,5100,21\n"
+    )
+    reduce = ("reduce", "m.csv", "--geometry", "geometry.csv", "--output", "results/mine/measured.csv")
+    assert run(*reduce, env=inside, cwd=tmp_path).returncode == 0
+    page = ("page", "results/mine/measured.csv", "--title", "t", "--output", "page.html")
+    assert run(*page, env=inside, cwd=tmp_path).returncode == 0
+    table = tmp_path / "results/mine/measured.csv"
+    assert damage(table.read_text()) != table.read_text()
+    table.write_text(damage(table.read_text()))
+    done = run(*page, env=inside, cwd=tmp_path)
+    assert done.returncode == 2 and not table.exists() and "content is not what was written" in done.stderr
+    assert (
+        run(*reduce, env=inside, cwd=tmp_path).returncode
+        == run(*page, env=inside, cwd=tmp_path).returncode
+        == 0
+    )
+
+
 def test_a_result_of_another_kind_is_made_anew(tmp_path):
     save(path := tmp_path / "results/mine/f3.h5", "model", {}, {})
     inside = {**os.environ, cli.DIE_WITH_PARENT: "1"}

@@ -35,9 +35,12 @@ class DamagedFile(InputError):
         self.path, self.problem = Path(path), problem
 
 
+def is_result(path: str | Path) -> bool:
+    """Whether a step of the workflow is running, and this a file that a rule makes."""
+    parts = Path(path).parts
+    return bool(os.environ.get(DIE_WITH_PARENT)) and parts[:1] == (RESULTS,) and parts[1:2] != (PUBLISHED,)
+
+
 def unreadable(path: str | Path, problem: str, mend: str) -> InputError:
     """What to raise for a file that cannot be read: a user's to mend, or a result of the workflow to be made again."""
-    parts = Path(path).parts
-    if os.environ.get(DIE_WITH_PARENT) and parts[:1] == (RESULTS,) and parts[1:2] != (PUBLISHED,):
-        return DamagedFile(path, problem)
-    return InputError(f"{path}: {problem}; {mend}.")
+    return DamagedFile(path, problem) if is_result(path) else InputError(f"{path}: {problem}; {mend}.")

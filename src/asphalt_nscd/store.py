@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asphalt_nscd import digests
 from asphalt_nscd.errors import DamagedFile, InputError, unreadable
 from asphalt_nscd.paths import require_readable
 
@@ -43,6 +44,7 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
         temporary.chmod(0o644)
         with temporary.open("rb") as written:
             os.fsync(written.fileno())
+        digests.keep(path, temporary)
         temporary.replace(path)
     except (OSError, RuntimeError) as error:
         # h5py and most libraries do not name the file that they could not write, nor would a

@@ -27,6 +27,10 @@ def flipped(path: Path) -> None:
     path.write_bytes(data)
 
 
+def without_its_last_line(path: Path) -> None:
+    path.write_bytes(b"".join(path.read_bytes().splitlines(keepends=True)[:-1]))
+
+
 def other_kind(path: Path) -> None:
     shutil.copy(path.parents[len(path.parts) - path.parts.index("smoke") - 2] / MODEL, path)
 

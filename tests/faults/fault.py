@@ -20,12 +20,13 @@ READ = {
     "laws/published/T20.json": TEST,
     "measured.csv": "laws/fitted/T20.json",
     "simulations.csv": "samples.csv",
+    "samples.csv": "pages/samples.html",
+    "pages/samples.html": ALL,
 }
 
 CORE = "error: .*: the compiled core was damaged; it was removed"
 KILLED = "error: the job was killed, or the memory was used up; run the same"
 REMOVED = r"error: \S+: .*; it was removed, run the workflow again to make it anew\."
-NAMED = r"error: .*\S+\.(csv|json).*[.;]"
 
 
 @dataclass(frozen=True)

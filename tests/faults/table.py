@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import signal
 
-from faults.damaged import cut, damaged, emptied, flipped, other_kind
+from faults.damaged import cut, damaged, emptied, flipped, other_kind, without_its_last_line
 from faults.ended import half_written, signalled, two_at_once, workflow_signalled
-from faults.fault import ALL, CORE, DEPOSIT, DEPOSIT_LOG, NAMED, READ, REMOVED, TEST, Fault
+from faults.fault import ALL, CORE, DEPOSIT, DEPOSIT_LOG, READ, REMOVED, TEST, Fault
 from faults.storage import (
     full_disk,
     little_memory,
@@ -50,10 +50,11 @@ def standing() -> dict[str, list[Fault]]:
                 for how in (cut, emptied, flipped)
             ),
             damaged(TEST, other_kind, r"error: \S+f10\.h5: holds 'model', not 'test'"),
-            damaged("laws/published/T20.json", cut, NAMED),
-            damaged("measured.csv", cut, NAMED),
-            damaged("simulations.csv", cut, NAMED),
-            damaged("simulations.csv", emptied, NAMED),
+            *(
+                damaged(name, how, REMOVED)
+                for name in READ if not name.endswith(".h5")
+                for how in (cut, emptied, flipped, without_its_last_line)
+            ),
         ],
         "no room, no right, no memory": [
             Fault("disk full", full_disk, "error: .*s1.h5: no space left on device; free some space", DEPOSIT),

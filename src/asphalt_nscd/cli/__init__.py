@@ -20,7 +20,7 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
 
 import click  # noqa: E402
 
-from asphalt_nscd import __version__  # noqa: E402
+from asphalt_nscd import __version__, digests  # noqa: E402
 from asphalt_nscd.errors import DIE_WITH_PARENT, DamagedFile, InputError  # noqa: E402
 
 _MENDS = {
@@ -61,7 +61,12 @@ def main(arguments: list[str] | None = None) -> None:
     if os.environ.get(DIE_WITH_PARENT) and sys.platform == "linux":
         prctl_set_death_signal = 1
         ctypes.CDLL(None).prctl(prctl_set_death_signal, signal.SIGTERM)
-    sys.exit(_status(lambda: group.main(arguments, prog_name="asphalt-nscd", standalone_mode=False)))
+    sys.exit(_status(lambda: _run(sys.argv[1:] if arguments is None else arguments)))
+
+
+def _run(arguments: list[str]) -> None:
+    digests.require_unchanged(arguments)
+    group.main(arguments, prog_name="asphalt-nscd", standalone_mode=False)
 
 
 def _status(step: Callable[[], object]) -> int:
