@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -24,6 +25,8 @@ def main() -> int:
     parser.add_argument("wanted", nargs="*", help="parts of the names or kinds of faults; all if left out")
     parser.add_argument("--finished", type=Path, help="folder where this study has been finished before")
     given = parser.parse_args()
+    # A shell has what it starts in the background ignore Ctrl-C, and so would all that is started here.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
     def asked(kind: str, name: str) -> bool:
         return not given.wanted or any(words in f"{kind}: {name}" for words in given.wanted)
