@@ -260,7 +260,7 @@ def test_study_that_is_no_json(capsys, tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "damage", [lambda whole: whole[:-200], lambda whole: whole[:700] + b"x" + whole[701:], lambda _: b""]
 )
-def test_damaged_result_is_removed_within_the_workflow_only(tmp_path, damage):
+def test_damaged_result_is_set_aside_within_the_workflow_only(tmp_path, damage):
     save(path := tmp_path / "f3.h5", "test", {"force_N": [1.0, 2.0]}, {"specimen": "s1"})
     path.write_bytes(damage(path.read_bytes()))
     done = run("collect", path, "--output", tmp_path / "x.csv")
@@ -269,8 +269,10 @@ def test_damaged_result_is_removed_within_the_workflow_only(tmp_path, damage):
     assert done.stderr.endswith("; delete it and run the workflow again.\n")
     done = run("collect", path, "--output", tmp_path / "x.csv", env={**os.environ, cli.DIE_WITH_PARENT: "1"})
     assert done.returncode == 2 and not path.exists()
-    assert done.stderr.endswith("; it was removed, run the workflow again to make it anew.\n")
-    assert done.stderr.count("\n") == 1 and not list(tmp_path.iterdir())
+    assert done.stderr.endswith(
+        "; it was set aside as .f3.h5.damaged, run the workflow again to make it anew.\n"
+    )
+    assert done.stderr.count("\n") == 1 and [file.name for file in tmp_path.iterdir()] == [".f3.h5.damaged"]
 
 
 def test_input_that_is_no_result_of_ours_is_never_removed(tmp_path):
@@ -295,7 +297,7 @@ def test_a_cut_table_is_made_anew_where_the_workflow_made_it_and_left_where_a_us
         done = run("table", "table4", *tables, "--output", "x.csv", env=inside, cwd=tmp_path)
         assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
         assert table.exists() != made, done.stderr
-        assert done.stderr.endswith("; it was removed, run the workflow again to make it anew.\n") == made
+        assert done.stderr.endswith(", run the workflow again to make it anew.\n") == made
     assert not (tmp_path / "x.csv").exists()
 
 
@@ -316,9 +318,10 @@ def test_a_digit_changed_or_a_line_lost_is_noticed_within_the_workflow(tmp_path,
     assert run(*page, env=inside, cwd=tmp_path).returncode == 0
     table = tmp_path / "results/mine/measured.csv"
     assert damage(table.read_text()) != table.read_text()
-    table.write_text(damage(table.read_text()))
+    table.write_text(changed := damage(table.read_text()))
     done = run(*page, env=inside, cwd=tmp_path)
     assert done.returncode == 2 and not table.exists() and "content is not what was written" in done.stderr
+    assert table.with_name(".measured.csv.damaged").read_text() == changed
     assert (
         run(*reduce, env=inside, cwd=tmp_path).returncode
         == run(*page, env=inside, cwd=tmp_path).returncode

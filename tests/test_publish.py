@@ -3,7 +3,7 @@ import hashlib
 import pytest
 
 from asphalt_nscd.errors import InputError
-from asphalt_nscd.publish import CHECKSUMS, fill_blocks, publish
+from asphalt_nscd.publish import CHECKSUMS, altered, fill_blocks, publish
 
 
 def test_files_are_copied_with_their_checksums(tmp_path):
@@ -50,3 +50,18 @@ def test_missing_block_is_named(tmp_path):
     with pytest.raises(InputError, match="no block <!-- one -->"):
         fill_blocks(document, {"one": table})
     assert document.read_text() == "<!-- one -->\n"
+
+
+def test_what_differs_from_the_checksums_is_named(tmp_path):
+    for name in "abc":
+        (tmp_path / f"{name}.csv").write_text(f"x\n{name}\n")
+    publish([], tmp_path, tmp_path)
+    assert altered(tmp_path) == []
+    (tmp_path / "a.csv").write_text("x\n1\n")
+    (tmp_path / "b.csv").unlink()
+    (tmp_path / "d.csv").touch()
+    assert [sentence.split(": ")[0][-5:] for sentence in altered(tmp_path)] == ["a.csv", "b.csv", "d.csv"]
+    (tmp_path / CHECKSUMS).write_text("0123 a.csv\n")
+    assert altered(tmp_path) == [f"{tmp_path / CHECKSUMS}: a line is no checksum, two spaces and a name"]
+    (tmp_path / CHECKSUMS).unlink()
+    assert altered(tmp_path) == [f"{tmp_path / CHECKSUMS}: is missing"]

@@ -133,6 +133,14 @@ def test_bad_study_is_refused_in_one_sentence(config, change, sentence):
     assert sentence in refusal({**config, **change})
 
 
+def test_a_study_does_not_take_the_folder_of_other_results(config):
+    config["study"] = "published"
+    with pytest.raises(
+        InputError, match="study 'published' is a folder of other results; give it another name"
+    ):
+        complete(config)
+
+
 def test_missing_key(config):
     del config["laws"]
     assert "key 'laws' is missing from the study; add it." in refusal(config)

@@ -32,6 +32,7 @@ REDONE = {
     "diagnosis/law.json": 1e-3,
 }
 RULES = ("reconstruct", "reduce", "published_law", "fit", "table2", "table3", "table4", "diagnose", "gain")
+PUBLISHED = ("benchmark", "blind", "cluster", "faults", "paper", "verification")
 TAKEN = ("simulations.csv", "extended.csv")  # of full simulations
 
 
@@ -71,7 +72,11 @@ def _made_again(published: Path, folder: Path) -> list[str]:
 
 
 def _checksums(folder: Path) -> list[str]:
-    return [difference for path in sorted(folder.iterdir()) if path.is_dir() for difference in altered(path)]
+    strangers = sorted(path for path in folder.iterdir() if path.name not in PUBLISHED)
+    return [
+        *(f"{path}: is not one of {', '.join(PUBLISHED)}" for path in strangers),
+        *(difference for name in PUBLISHED for difference in altered(folder / name)),
+    ]
 
 
 if __name__ == "__main__":

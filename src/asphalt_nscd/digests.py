@@ -12,11 +12,16 @@ from pathlib import Path
 from asphalt_nscd.errors import DamagedFile, is_result
 from asphalt_nscd.paths import is_file
 
+WHOLE = 64  # characters of a digest that was written to its end
+
 
 def keep(path: Path, content: Path) -> None:
     """Write down the digest of `content`, which is about to become the result `path`; of other files none."""
-    if is_result(path) and path.suffix != ".h5":
-        _beside(path).write_text(_digest(content) + "\n")
+    beside = _beside(path)
+    standing = beside.exists()  # a step of the workflow repeated by hand
+    if standing or (is_result(path) and path.suffix != ".h5"):
+        beside.unlink(missing_ok=True)  # it may be another user's
+        beside.write_text(_digest(content) + "\n")
 
 
 def require_unchanged(arguments: Iterable[str]) -> None:
@@ -24,8 +29,9 @@ def require_unchanged(arguments: Iterable[str]) -> None:
     for argument in arguments:
         path = Path(argument.rpartition("=")[2])
         if is_result(path) and is_file(path) and is_file(_beside(path)):
-            if _beside(path).read_bytes().strip() != _digest(path).encode():
-                raise DamagedFile(path, "content is not what was written, so the file is damaged")
+            kept = _beside(path).read_bytes().strip()
+            if len(kept) == WHOLE and kept != _digest(path).encode():
+                raise DamagedFile(path, "content is not what was written: damaged, or changed by hand")
 
 
 def _beside(path: Path) -> Path:

@@ -29,9 +29,10 @@ def altered(folder: Path) -> list[str]:
     sums = folder / CHECKSUMS
     if not sums.is_file():
         return [f"{sums}: is missing"]
-    listed = {
-        name: digest for digest, name in (line.split("  ", 1) for line in sums.read_text().splitlines())
-    }
+    lines = [line.partition("  ") for line in sums.read_text(encoding="utf-8", errors="replace").splitlines()]
+    listed = {name: digest for digest, _, name in lines}
+    if "" in listed:
+        return [f"{sums}: a line is no checksum, two spaces and a name"]
     there = dict(_published(folder))
     found = []
     for name in sorted(listed.keys() | there.keys()):

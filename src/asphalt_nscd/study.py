@@ -23,6 +23,8 @@ _TYPES = {
     "object": "a mapping", "array": "a list", "string": "text",
     "number": "a number", "integer": "a whole number",
 }  # fmt: skip
+# Folders of results/ that belong to no study.
+RESERVED = ("benchmark", "cluster", "faults", "published", "verification")
 _OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
 
 
@@ -40,6 +42,10 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
     if errors:
         unknown = [error for error in errors if error.validator == "additionalProperties"]
         raise InputError(f"{source}: {_sentence((unknown or [best_match(errors)])[0])}")
+    if study["study"] in RESERVED:
+        raise InputError(
+            f"{source}: study {study['study']!r} is a folder of other results; give it another name."
+        )
     _fill(study, rules, rules)
     _check(study, source)
     return study

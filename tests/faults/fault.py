@@ -26,7 +26,7 @@ READ = {
 
 CORE = "error: .*: the compiled core was damaged; it was removed"
 KILLED = "error: the job was killed, or the memory was used up; run the same"
-REMOVED = r"error: \S+: .*; it was removed, run the workflow again to make it anew\."
+SET_ASIDE = r"error: \S+: .*; it was set aside as \.\S+\.damaged, run the workflow again to make it anew\."
 
 
 @dataclass(frozen=True)

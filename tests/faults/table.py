@@ -6,7 +6,7 @@ import signal
 
 from faults.damaged import cut, damaged, emptied, flipped, other_kind, without_its_last_line
 from faults.ended import half_written, signalled, two_at_once, workflow_signalled
-from faults.fault import ALL, CORE, DEPOSIT, DEPOSIT_LOG, READ, REMOVED, TEST, Fault
+from faults.fault import ALL, CORE, DEPOSIT, DEPOSIT_LOG, READ, SET_ASIDE, TEST, Fault
 from faults.storage import (
     full_disk,
     little_memory,
@@ -45,13 +45,13 @@ def standing() -> dict[str, list[Fault]]:
         "two Snakemakes at once": [Fault("two Snakemakes at once", two_at_once, "cannot be locked", DEPOSIT)],
         "a result cut, emptied, or with one bit flipped": [
             *(
-                damaged(name, how, REMOVED)
+                damaged(name, how, SET_ASIDE)
                 for name in READ if name.endswith(".h5")
                 for how in (cut, emptied, flipped)
             ),
             damaged(TEST, other_kind, r"error: \S+f10\.h5: holds 'model', not 'test'"),
             *(
-                damaged(name, how, REMOVED)
+                damaged(name, how, SET_ASIDE)
                 for name in READ if not name.endswith(".h5")
                 for how in (cut, emptied, flipped, without_its_last_line)
             ),

@@ -98,11 +98,12 @@ def _status(step: Callable[[], object]) -> int:
 
 
 def _heal(error: DamagedFile) -> str:
-    """Within the workflow, which can make the file again but takes it for good, remove it."""
+    """Within the workflow, which can make the file again but takes it for good, set it aside."""
     if not os.environ.get(DIE_WITH_PARENT):
         return str(error)
-    error.path.unlink(missing_ok=True)
-    return f"{error.path}: {error.problem}; it was removed, run the workflow again to make it anew."
+    aside = error.path.with_name(f".{error.path.name}.damaged")
+    error.path.replace(aside)
+    return f"{error.path}: {error.problem}; it was set aside as {aside.name}, run the workflow again to make it anew."
 
 
 def _forget_core() -> str:

@@ -56,9 +56,9 @@ class FlexibleSpectrum:
     STRAIGHT = 0.02  # standard deviation of their second differences
     SLOPE = 0.12, 1.0  # decades/K at the reference: mean, standard deviation of its logarithm
     CURVATURE = 7e-3, 5e-3  # 1/K: mean, standard deviation; bitumens about 0.01, Arrhenius 0.0035
-    # Standard deviation of ln(a_T) off WLF as far from the reference as the tests reach. With 0.1 quadratic
-    # shifts are taken for a bias, 0.3 hides one at the ends.
-    DEPARTURE = 0.2
+    # Standard deviation of ln(a_T) off WLF this far from the reference [K], where the paper's tests end; it grows
+    # with the cube. With 0.1 quadratic shifts are taken for a bias there, 0.3 hides one at the ends.
+    DEPARTURE = 0.2, 25.0
 
     @property
     def parameters(self) -> int:
@@ -71,9 +71,9 @@ class FlexibleSpectrum:
         return least, 1.0 / (self.below + CLEAR) - least
 
     def log_odds(self, curvature: float) -> float:
-        """The parameter for a curvature [1/K]."""
+        """The parameter for a curvature [1/K], or the nearest that is well within the bounds."""
         least, width = self._curvatures
-        return float(logit((curvature - least) / width))
+        return float(logit(np.clip((curvature - least) / width, 0.1, 0.9)))
 
     def curvature(self, log_odds: float) -> tuple[float, float]:
         """1/C2 [1/K] and its derivative with respect to the parameter."""
@@ -86,7 +86,7 @@ class FlexibleSpectrum:
         away = temperature - self.reference_temperature
         bent = away / (1.0 + curvature * away)
         wlf = -LN10 * np.exp(x[-3]) * bent
-        cubic = (away / max(self.below, self.above, 1.0)) ** 3
+        cubic = (away / self.DEPARTURE[1]) ** 3
         return wlf + x[-1] * cubic, np.column_stack([wlf, -wlf * bent * change, cubic])
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
@@ -118,7 +118,7 @@ class FlexibleSpectrum:
         usual = self.log_odds(self.CURVATURE[0])
         rows[m, -2] = self.curvature(usual)[1] / self.CURVATURE[1]
         offset[m] = rows[m, -2] * usual
-        rows[m + 1, -1] = 1.0 / self.DEPARTURE
+        rows[m + 1, -1] = 1.0 / self.DEPARTURE[0]
         return rows @ x - offset, rows
 
 

@@ -235,12 +235,15 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
 
 
 def _shift_constants(spectrum: FlexibleSpectrum, fitted: Fitted) -> dict[str, dict[str, Any]]:
-    """C1 and C2, or the slope alone where the shift may be straight, which has them at infinity."""
+    """C1 and C2, or the slope, where the shift may be straight, which has them at infinity, or bends the other way."""
     at = [fitted.law.size - 3, fitted.law.size - 2]
     slope, (curvature, change) = float(np.exp(fitted.law[-3])), spectrum.curvature(fitted.law[-2])
     variance = np.array([1.0, change])[:, None] * fitted.covariance[np.ix_(at, at)] * [1.0, change]
-    if curvature < CONFIDENCE * np.sqrt(variance[1, 1]):
-        return {"shift_slope": _value(slope, "decades/K", slope * np.sqrt(variance[0, 0]))}
+    of_curvature = float(np.sqrt(variance[1, 1]))
+    if curvature < CONFIDENCE * of_curvature:
+        straight = {"shift_slope": _value(slope, "decades/K", slope * np.sqrt(variance[0, 0]))}
+        bent = {"shift_curvature": _value(curvature, "1/K", of_curvature)}  # the other way than WLF
+        return straight | (bent if curvature < -CONFIDENCE * of_curvature else {})
     of_c1, of_c2 = np.array([1.0, -1.0 / curvature]), np.array([0.0, -1.0 / curvature])  # of their logarithms
     return {
         name: _value(value, unit, value * np.sqrt(along @ variance @ along))

@@ -24,12 +24,11 @@ from asphalt_nscd.ownstudy.grid import grid
 from asphalt_nscd.ownstudy.spheres import PAPER, Spheres, read_grading, spheres_for
 from asphalt_nscd.ownstudy.understand import understand
 from asphalt_nscd.store import atomic_path, write_table
-from asphalt_nscd.study import complete_study
+from asphalt_nscd.study import RESERVED, complete_study
 from asphalt_nscd.twopoint import Geometry
 
 SCHEMA = Path(__file__).resolve().parents[3] / "workflow/schemas/study.schema.yaml"
-# Folders of results/ that belong to no study.
-RESERVED = ("benchmark", "blind", "cluster", "faults", "published", "verification")
+TAKEN = (*RESERVED, "blind")
 
 AMPLITUDE = 63e-6  # m, of the paper's head
 STEPS_PER_CYCLE = 500  # of the paper's highest frequency, 40 Hz
@@ -100,9 +99,9 @@ def new_study(name: str, measurements: str | Path, wishes: Wishes) -> tuple[Path
 
 def _require_free(name: str, config: Path, folder: Path) -> None:
     pattern = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))["properties"]["study"]["pattern"]
-    if not re.fullmatch(pattern.strip("^$"), name) or name in RESERVED:
+    if not re.fullmatch(pattern.strip("^$"), name) or name in TAKEN:
         raise InputError(
-            f"NAME {name!r}: give letters, digits, - and _, the first a letter, and none of {', '.join(RESERVED)}."
+            f"NAME {name!r}: give letters, digits, - and _, the first a letter, and none of {', '.join(TAKEN)}."
         )
     for path in (config, folder):
         if path.exists():
