@@ -17,7 +17,7 @@
 # CORES=1 limits the cores; PYTHON=/path/to/python3.12 chooses the Python.
 
 CORES ?= all
-CONFIG ?= config/paper.yaml
+CONFIG ?=
 READY := .venv/.ready
 
 # Packages compile their bytecode once, at installation, not in every job.
@@ -32,7 +32,7 @@ endif
 
 # Said at once: Snakemake answers a missing configuration with a traceback.
 ifeq ($(filter study,$(MAKECMDGOALS))$(shell test -f "$(CONFIG)" && echo found),study)
-$(error $(CONFIG): no such file; give a study with CONFIG=my.yaml)
+$(error $(or $(CONFIG),CONFIG): no such file; give a study with CONFIG=my.yaml)
 endif
 
 .PHONY: paper smoke blind study test lint verify check faults fuzz cluster benchmark api

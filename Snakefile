@@ -17,14 +17,6 @@ onerror:
         print(sentence, file=sys.stderr)
 
 
-rule all:
-    # Everything the study asks for.
-    default_target: True
-    input:
-        "<results>/report.html",
-        "<results>/workflow.html",
-
-
 include: "workflow/rules/data.smk"  # Section 2: tests and their reduction
 include: "workflow/rules/fit.smk"  # Section 4.1: Burgers laws
 include: "workflow/rules/specimen.smk"  # Section 3.2: numerical samples
@@ -43,3 +35,12 @@ include: "workflow/rules/benchmark.smk"  # how fast is it beside its peers
 if STUDY["study"] == "blind":
 
     include: "workflow/rules/blind.smk"  # blind tests of the diagnosis
+
+
+rule all:
+    # Everything the study asks for.
+    default_target: True
+    input:
+        "<results>/report.html",
+        "<results>/workflow.html",
+        KEPT,

@@ -18,6 +18,7 @@ from asphalt_nscd.paths import inside
 from asphalt_nscd.plausible import LIMITS, least_modulus
 from asphalt_nscd.store import write_table
 
+LEAST_TESTS, LEAST_FREQUENCIES = 4, 2  # that a diagnosis takes
 ORIGINS = ("measured", "reconstructed", "synthetic")
 LABELS = ("replicate",)  # told apart, not measured
 KEYS = ("temperature_C", "frequency_Hz")

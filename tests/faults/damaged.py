@@ -35,6 +35,16 @@ def other_kind(path: Path) -> None:
     shutil.copy(path.parents[len(path.parts) - path.parts.index("smoke") - 2] / MODEL, path)
 
 
+def edited(name: str, said: str) -> Fault:
+    """One bit of a finished study, which is then run as a whole: what the failed run leaves missing is made too."""
+
+    def disturb(study: Study) -> Run:
+        flipped(study.results / name)
+        return study.finish()
+
+    return Fault(f"{name} of a finished study edited", disturb, said, "")
+
+
 def damaged(name: str, how: Callable[[Path], None], said: str) -> Fault:
     def disturb(study: Study) -> Run:
         path = study.results / name

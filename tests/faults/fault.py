@@ -32,7 +32,7 @@ SET_ASIDE = r"error: \S+: .*; it was set aside as \.\S+\.damaged, run the workfl
 @dataclass(frozen=True)
 class Fault:
     """disturb: does it, and returns the run that met it; said: what that run's last line must match, None where
-    the run has to succeed in spite of it; target: the file of results that both runs are to make."""
+    the run has to succeed in spite of it; target: the file of results that both runs are to make, all if empty."""
 
     name: str
     disturb: Callable[[Study], Run]

@@ -30,7 +30,7 @@ class Judged:
 def judge(kind: str, fault: Fault, finished: Study, folder: Path) -> Judged:
     for attempt in range(3):
         study = finished.copy(folder)
-        study.targets = (f"{RESULTS}/{fault.target}",)
+        study.targets = (f"{RESULTS}/{fault.target}",) if fault.target else ()
         try:
             met = fault.disturb(study)
             verdict = _wrong(fault, met, study, finished) or PASSED

@@ -92,6 +92,17 @@ def test_small_study_keeps_the_measured_geometry_beside_the_simulated_one():
     assert study["specimens"]["seeds"] == [1]
 
 
+def test_a_table_too_short_for_a_diagnosis_is_refused_at_once():
+    Path("two.csv").write_text(
+        "specimen,T (°C),f (Hz),E (MPa),phi (deg)\na,15,10,5000,20\na,15,25,6000,18\n", encoding="utf-8"
+    )
+    with pytest.raises(
+        InputError, match="two.csv: too short, for a diagnosis needs 4 tests at 2 frequencies"
+    ):
+        new_study("mine", "two.csv", Wishes())
+    assert not Path("data/mine").exists()
+
+
 def test_prism_is_simulated_as_a_prism():
     study = accepted(new_study("mine", german(rows()), Wishes(geometry=PRISM))[0])
     assert study["specimens"]["geometry"] == PRISM
@@ -105,7 +116,8 @@ def test_direct_tests_are_said_to_be_taken_as_measured():
 
 def peaks():
     Path("p.csv").write_text(
-        "T_C,f_Hz,F0 (N),z0 (µm),psi (deg)\n15,10,60,50,20\n15,25,65,50,18\n", encoding="utf-8"
+        "T_C,f_Hz,F0 (N),z0 (µm),psi (deg)\n15,10,60,50,20\n15,25,65,50,18\n20,10,50,50,25\n20,25,55,50,22\n",
+        encoding="utf-8",
     )
     return "p.csv"
 

@@ -145,3 +145,51 @@ RESULTS = [
     "<results>/provenance.json",
     [f"<results>/pages/{name}.html" for name in ("diagnosis", *PAGES)],
 ]
+
+# `all` asks for each file by name. Of one that a failed run left missing between others, which are there and newer,
+# Snakemake would say that nothing is to be done.
+KEPT = [
+    RESULTS,
+    "<results>/study.json",
+    rules.reconstruct.output if "reconstruct" in STUDY["measurements"] else [],
+    MEASURED,
+    FITTED_LAWS,
+    USED_LAWS,
+    DEPOSITS,
+    expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
+    expand("<results>/models/{head}/{sample}.h5", head=HEAD, sample=SAMPLES),
+    expand("<results>/diagnosis/specimens/{sample}.h5", sample=SAMPLES if COMMON_LAW else FIRST),
+    rules.simulations.input.tests,
+]
+if COMMON_LAW:
+    KEPT += [
+        COMMON_LAW,
+        expand(EXTENDED_LAWS, sample=SAMPLES, temperature=TEMPERATURES, frequency=FREQUENCIES),
+        expand("<results>/extended/rigs/{sample}.json", sample=SAMPLES),
+        rules.extended_simulations.input.tests,
+    ]
+if "time_step_study" in STUDY:
+    KEPT += [SOLVED, STOPPED]
+if "sensitivity" in STUDY:
+    KEPT += [
+        expand(
+            SCALED_LAW,
+            parameter=SENSITIVITY["parameters"],
+            factor=[label(factor) for factor in SENSITIVITY["factors"]],
+            temperature=label(SENSITIVITY["temperature_C"]),
+        ),
+        rules.sensitivity.input.tests,
+    ]
+if "audit" in STUDY:
+    KEPT += [
+        f"<results>/laws/pascal/T{label(AUDIT['temperature_C'])}.json",
+        f"<results>/models/blocked/s{AUDIT['seed']}.h5",
+        rules.readings.input.tests,
+    ]
+if "packing_study" in STUDY:
+    KEPT += [
+        rules.packing.input.deposits,
+        expand("<results>/specimens/{sample}.h5", sample=PACKED),
+        expand("<results>/models/{head}/{sample}.h5", head=HEAD, sample=PACKED),
+        rules.packing.input.tests,
+    ]

@@ -16,6 +16,7 @@ from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.ladder import CHANCE, Ladder, climb
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.measurements import LEAST_FREQUENCIES, LEAST_TESTS
 
 DRAWS = 4000
 LEAST_ISOTHERMS = (
@@ -47,7 +48,7 @@ def diagnose(
     catalogue: tuple[Cause, ...] = CATALOGUE, draws: int = DRAWS, seed: int = 0,
 ) -> Diagnosis:  # fmt: skip
     """Diagnose a table. scatter_stated: of |E*| (relative) and phase [rad], where replicates do not tell."""
-    if observed.size < 4 or observed.frequencies.size < 2:
+    if observed.size < LEAST_TESTS or observed.frequencies.size < LEAST_FREQUENCIES:
         raise InputError("a diagnosis needs at least four tests at two frequencies; measure more.")
     scatter.refuse_copies(observed)
     notes: list[str] = []

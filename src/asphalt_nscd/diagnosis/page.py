@@ -78,7 +78,9 @@ def sections(diagnosis: list[Path], map: list[Path], table4: Sequence[Path] = ()
 
 def _verdict(content: dict[str, Any]) -> str:
     """The verdict in one sentence."""
-    causes = " and ".join(_cause(rung) for rung in content["ladder"])
+    causes = " and ".join(
+        " or ".join([_cause(rung), *map(_words, rung["as_good"])]) for rung in content["ladder"]
+    )
     if content["verdict"] == "nothing_to_explain":
         return "Nothing to explain: the simulation misses these data by no more than their scatter."
     if content["verdict"] == "explained":

@@ -291,10 +291,11 @@ def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
         {"cause": cause.name, "needs": cause.needs or "more frequencies and temperatures"}
         for cause in CATALOGUE if not cause.places(observed)
     ]  # fmt: skip
+    shown = {c.key for rung in diagnosis.ladder.rungs for c in (rung.candidate, *rung.rivals)}
     out += [
         {"cause": _name(candidate), "needs": candidate.cause.shows_in}
-        for candidate in diagnosis.ladder.unseen
-    ]
+        for candidate in diagnosis.ladder.unseen if candidate.key not in shown
+    ]  # fmt: skip
     seen = {name for name, _ in _physical_limits(diagnosis)}
     out += [
         {"cause": name, "needs": "a design in which less of it shows than is physical"}

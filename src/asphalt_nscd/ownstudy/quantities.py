@@ -35,7 +35,7 @@ MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
     "frequency_Hz": ("f freq frequency loadingfrequency testfrequency fréquence frequenz prüffrequenz omega ω", _HERTZ),
     "E_MPa": (
         "E Estar modulus dynamicmodulus complexmodulus stiffness stiffnessmodulus norm module modulecomplexe "
-        "steifigkeit steifigkeitsmodul modul komplexermodul dynamischermodul",
+        "steifigkeit steifigkeitsmodul modul emodul komplexermodul dynamischermodul",
         _MEGAPASCAL,
     ),
     "phase_deg": ("phi φ ϕ delta δ phase phaseangle phaselag angledephase déphasage phasenwinkel", _DEGREE),

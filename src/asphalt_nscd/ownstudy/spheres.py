@@ -112,6 +112,8 @@ def read_grading(path: str | Path, sheet: str | None = None) -> pd.Series:
             )
         curve[values["diameter_mm"]] = values["passing_percent"]
     grading = pd.Series(curve)
+    if grading.max() <= 1.0:
+        raise InputError(f"{path}: passes at most {grading.max():g} %, as fractions would; give per cent.")
     try:
         counts_of_grading(
             np.array(grading.index, np.float64), np.array(grading, np.float64), SMALLEST_MM, 1000
