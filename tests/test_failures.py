@@ -38,3 +38,16 @@ def test_last_word_of_a_failed_job(tmp_path, written, sentence):
 def test_run_without_a_failed_job_or_without_a_log(tmp_path):
     (run := tmp_path / "run.log").write_text("WorkflowError: no rule\n")
     assert failures([run]) == failures([]) == failures([tmp_path / "none.log"]) == []
+
+
+def test_a_file_that_one_job_set_aside_is_not_said_to_be_missing_by_another(tmp_path):
+    words = {
+        "one": "error: results/a/m.h5: damaged; it was set aside as .m.h5.damaged, run the workflow again.",
+        "two": "error: results/a/m.h5: no such file; make it with its rule or check the path.",
+        "three": "error: mine.csv: no such file; check the path.",
+    }
+    for name, sentence in words.items():
+        (tmp_path / name).write_text(sentence + "\n")
+    run = tmp_path / "run.log"
+    run.write_text("".join(RUN.format(tmp_path / name) for name in words))
+    assert failures([run]) == [f"{words[name]} ({tmp_path / name})" for name in ("one", "three")]

@@ -7,13 +7,15 @@ from collections.abc import Iterable
 from pathlib import Path
 
 _FAILED = re.compile(r"^ +log: (.+) \(check log file", re.MULTILINE)  # as Snakemake puts it
+_SET_ASIDE = re.compile(r"error: (.+?): .*; it was set aside as ")
 KILLED = "error: the job was killed, or the memory was used up; run the same command again."
 
 
 def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
     """The last word of each failed job and the log that holds it.
 
-    A job that could not say anything was ended from outside; its log is made to say so.
+    A job that could not say anything was ended from outside; its log is made to say so. Of a damaged file that one
+    job set aside, others at the same time say that it is not there, which is left out.
     """
     run = "\n".join(map(_text, snakemake_logs))
     said = []
@@ -26,7 +28,9 @@ def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
             with path.open("a", encoding="utf-8") as file:
                 file.write(f"\n{KILLED}\n")
         said.append(f"{last} ({path})")
-    return said
+    aside = {found[1] for sentence in said if (found := _SET_ASIDE.match(sentence))}
+    missing = tuple(f"error: {path}: no such file" for path in aside)
+    return [sentence for sentence in said if not sentence.startswith(missing)]
 
 
 def _text(path: str | Path) -> str:

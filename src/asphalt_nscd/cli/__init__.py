@@ -12,6 +12,7 @@ import shutil
 import signal
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from importlib import import_module
 
 # One core or many must give identical numbers, and jobs run side by side: every step is one thread.
@@ -102,7 +103,8 @@ def _heal(error: DamagedFile) -> str:
     if not os.environ.get(DIE_WITH_PARENT):
         return str(error)
     aside = error.path.with_name(f".{error.path.name}.damaged")
-    error.path.replace(aside)
+    with suppress(FileNotFoundError):  # another job has just done so
+        error.path.replace(aside)
     return f"{error.path}: {error.problem}; it was set aside as {aside.name}, run the workflow again to make it anew."
 
 
