@@ -54,24 +54,35 @@ def test_tables_number_by_number(tmp_path, before, after, said):
     assert "was not made again" in first_difference(tmp_path / "a.csv", tmp_path / "gone.csv", 1e-6)
 
 
-def test_checksums_hold_and_one_digit_breaks_them(tmp_path):
-    assert CHECK["_checksums"](ROOT / "results/published") == []
-    shutil.copytree(PUBLISHED, tmp_path / "paper")
-    table = tmp_path / "paper/simulations.csv"
+@pytest.fixture
+def copy(tmp_path):
+    return shutil.copytree(PUBLISHED.parent, tmp_path / "published")
+
+
+def test_checksums_hold_and_one_digit_breaks_them(copy):
+    assert CHECK["_checksums"](copy) == []
+    table = copy / "paper/simulations.csv"
     text = table.read_text()
     digit = max(text.rfind(digit) for digit in "12345678")
     table.write_text(text[:digit] + str(int(text[digit]) + 1) + text[digit + 1 :])
-    (tmp_path / "paper/table2.csv").unlink()
-    found = CHECK["_checksums"](tmp_path)
+    (copy / "paper/table2.csv").unlink()
+    found = CHECK["_checksums"](copy)
     assert len(found) == 2 and "simulations.csv: is not the file that was published" in found[0]
     assert "table2.csv: is missing" in found[1]
-    (tmp_path / "paper/SHA256SUMS").unlink()
-    assert CHECK["_checksums"](tmp_path) == [f"{tmp_path / 'paper/SHA256SUMS'}: is missing"]
+    (copy / "paper/SHA256SUMS").unlink()
+    assert CHECK["_checksums"](copy) == [f"{copy / 'paper/SHA256SUMS'}: is missing"]
 
 
-def test_the_picture_of_the_first_page_is_among_the_checksums(tmp_path):
-    shutil.copytree(PUBLISHED, tmp_path / "paper")
-    with (tmp_path / "paper/first_page.png").open("ab") as picture:
+def test_a_folder_that_is_gone_and_one_too_many_are_named(copy):
+    shutil.rmtree(copy / "faults")
+    (copy / "notes.txt").touch()
+    stray, gone = CHECK["_checksums"](copy)
+    assert stray.startswith(f"{copy / 'notes.txt'}: is not one of benchmark, blind")
+    assert gone == f"{copy / 'faults/SHA256SUMS'}: is missing"
+
+
+def test_the_picture_of_the_first_page_is_among_the_checksums(copy):
+    with (copy / "paper/first_page.png").open("ab") as picture:
         picture.write(b"0")
-    (found,) = CHECK["_checksums"](tmp_path)
+    (found,) = CHECK["_checksums"](copy)
     assert "first_page.png: is not the file that was published" in found
