@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import time
 
@@ -50,6 +51,7 @@ def two_at_once(study: Study) -> Run:
     first = study.start("--cores", "1", *study.targets)
     while first.poll() is None and DEPOSIT_LOG not in study.jobs():
         time.sleep(0.01)
+    first.send_signal(signal.SIGSTOP)  # however slow the second is, the first has not ended
     second = study.finish()
     first.kill()
     first.communicate()

@@ -205,8 +205,9 @@ def test_second_run_at_the_same_time_is_refused(workspace):
     first = workspace.start("--cores", "1", *FITS)
     try:
         wait_for(workspace.folder / "results/smoke/logs/reconstruct.log")
-        second = workspace.run("--cores", "1", *FITS)
+        first.send_signal(signal.SIGSTOP)  # however slow the second is, the first has not ended
         assert first.poll() is None, "the first run ended too early to test anything"
+        second = workspace.run("--cores", "1", *FITS)
     finally:
         # not SIGTERM, on which Snakemake 9.27 can wait for itself forever
         first.kill()

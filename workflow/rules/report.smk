@@ -202,10 +202,11 @@ rule report:
 
 
 rule workflow_report:
-    # Snakemake's own report, from the records of how each file was made.
+    # Snakemake's own report, from the records of how each file was made. After ours, which looks for damaged files.
     localrule: True
     input:
         RESULTS,
+        "<results>/report.html",
         study="<results>/study.json",
     output:
         "<results>/workflow.html",
