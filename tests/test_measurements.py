@@ -195,6 +195,8 @@ BAD_TABLES = {
     "infinite": ([M, "A,15,10,inf,14"], "line 2: E_MPa = inf is not finite"),
     "empty field": ([M, "A,15,10,,14"], "line 2: E_MPa is empty"),
     "not a number": ([M, "A,15,10,stiff,14"], "line 2: E_MPa = 'stiff' is not a number"),
+    "digits in groups": ([M, "A,15,10,20_000,14"], "line 2: E_MPa = '20_000' is not a number"),
+    "formula": ([M, "=1+1,15,10,20000,14"], "line 2: specimen '=1+1' would be a formula in a spreadsheet"),
     "no specimen": ([M, ",15,10,20000,14"], "line 2: specimen is empty"),
     "duplicate": (
         [M, MODULUS, "B,15,10,20000,14", "A,15.0,10,21000,14"],

@@ -34,6 +34,9 @@ _CONVERSIONS = {
     ("ms", "s"): "divide by 1000",
     ("rad/s", "Hz"): "divide by 2 pi",
 }
+_AS_CSV = (
+    "save it as UTF-8 CSV with commas and decimal points, or have `asphalt-nscd new-study` read it as it is"
+)
 
 
 @dataclass(frozen=True)
@@ -83,10 +86,12 @@ class Table:
         return None
 
     def text(self, name: str) -> list[str]:
-        """A column of non-empty text."""
+        """A column of non-empty text. It goes into tables that are opened again in spreadsheets."""
         for row, value in enumerate(self.columns[name]):
             if not value:
                 raise self.error(row, f"{name} is empty; fill it in or remove the line.")
+            if value[0] in "=+-@":
+                raise self.error(row, f"{name} {value!r} would be a formula in a spreadsheet; rename it.")
         return self.columns[name]
 
     def numbers(self, name: str, limits: Limits | None = None) -> NDArray[np.float64]:
@@ -113,7 +118,7 @@ class Table:
     def _number(self, name: str, row: int) -> float:
         text = self.columns[name][row]
         try:
-            value = float(text)
+            value = plain_number(text)
         except ValueError:
             problem = f"{name} is empty" if not text else f"{name} = {text!r} is not a number"
             raise self.error(
@@ -134,16 +139,13 @@ def read_csv(path: str | Path) -> Table:
             reader = csv.reader(("\n" if line.startswith("#") else line for line in file), strict=True)
             rows = [(reader.line_num, [field.strip() for field in row]) for row in reader]
     except (UnicodeDecodeError, csv.Error, OSError) as error:
-        raise unreadable(path, f"cannot be read as CSV text ({error})", "save it as UTF-8 CSV") from None
+        raise unreadable(path, f"cannot be read as CSV text ({error})", _AS_CSV) from None
     rows = [(line, fields) for line, fields in rows if any(fields)]
     if not rows:
         raise unreadable(path, "the file is empty", "give a header line and one line for each row")
     header = rows[0][1]
     if len(header) == 1 and re.search("[;\t]", header[0]):
-        raise InputError(
-            f"{path}: columns are not separated by commas; save it with commas and decimal points, "
-            "or have `asphalt-nscd new-study` read it as it is."
-        )
+        raise InputError(f"{path}: columns are not separated by commas; {_AS_CSV}.")
     if len(set(header)) < len(header) or "" in header:
         raise InputError(
             f"{path}: a column name is empty or stands twice in the header; name each column once."
@@ -158,6 +160,13 @@ def read_csv(path: str | Path) -> Table:
             )  # fmt: skip
     columns = {name: [fields[i] for _, fields in rows[1:]] for i, name in enumerate(header)}
     return Table(path, columns, [line for line, _ in rows[1:]])
+
+
+def plain_number(text: str) -> float:
+    """The number a cell holds; ValueError for none, and for what only Python takes for one, such as `17_715`."""
+    if "_" in text or not text.isascii():
+        raise ValueError(f"{text!r} is not a number")
+    return float(text)
 
 
 def _stem_and_unit(column: str) -> tuple[str, str]:

@@ -15,8 +15,11 @@ from pathlib import Path
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue", "scancel", "sinfo")
 CONFIGURATION = Path("/etc/slurm/slurm.conf")  # SLURM_CONF would be lost inside jobs
 
+OURS = "# Written by tests/cluster, for as long as it runs.\n"
 # No accounting, no cgroups: neither a database nor systemd is there. Jobs stay known to squeue for a day.
-TEMPLATE = """\
+TEMPLATE = (
+    OURS
+    + """\
 ClusterName=one
 SlurmctldHost={host}(127.0.0.1)
 SlurmUser=root
@@ -41,6 +44,7 @@ KillWait=5
 NodeName={host} NodeAddr=127.0.0.1 CPUs={cpus} RealMemory={memory} State=UNKNOWN
 PartitionName=work Nodes={host} Default=YES MaxTime=INFINITE State=UP
 """
+)
 
 
 def why_not() -> str | None:
@@ -50,9 +54,14 @@ def why_not() -> str | None:
         return f"no {', '.join(missing)} on PATH (Debian: apt install slurmctld slurmd slurm-client munge)"
     if os.geteuid() != 0:
         return "only root can start a Slurm"
-    if CONFIGURATION.exists():
+    if CONFIGURATION.exists() and not _left_over():
         return f"{CONFIGURATION} stands already, and belongs to another Slurm"
     return None
+
+
+def _left_over() -> bool:
+    """Whether the configuration is of a run of this script that was killed, and its Slurm is gone."""
+    return CONFIGURATION.read_text().startswith(OURS) and not _answer("sinfo", "--noheader")
 
 
 @contextmanager
@@ -78,6 +87,8 @@ def slurm() -> Iterator[Path]:
         folder=folder, host=socket.gethostname(), cpus=os.cpu_count(), memory=int(0.9 * memory)
     )
     CONFIGURATION.parent.mkdir(parents=True, exist_ok=True)
+    if CONFIGURATION.exists() and _left_over():
+        CONFIGURATION.unlink()
     try:
         with CONFIGURATION.open("x") as file:
             file.write(text)

@@ -135,6 +135,7 @@ LONG = "T_C;f_Hz;E_MPa;phi_deg"
         (LONG, "15;10;1.234,5;20", "'1.234,5' seems to group its digits in thousands"),
         (LONG, "15;10;;20", "line 2: E_MPa: the cell is empty"),
         (LONG, "15;10;9e3x;20", "'9e3x' is not a number"),
+        (LONG, "15;10;9_000;20", "'9_000' is not a number"),
         ("specimen;" + LONG, "=cmd();15;10;9000;20", "specimen '=cmd()' must begin with a letter or digit"),
         ("origin;" + LONG, "guess;15;10;9000;20", "origin 'guess' is not one of measured"),
     ],

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from asphalt_nscd.csvinput import plain_number
 from asphalt_nscd.errors import InputError
 
 _COMMA = re.compile(r"[-+]?\d*,\d+([eE][-+]?\d+)?")
@@ -36,6 +37,6 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
 def number(text: str, mark: str) -> float | None:
     """The number that a cell holds, None if it holds none."""
     try:
-        return float(text.replace(",", ".") if mark == "," else text)
+        return plain_number(text.replace(",", ".") if mark == "," else text)
     except ValueError:
         return None
