@@ -169,7 +169,7 @@ def test_step_of_the_workflow_ends_with_its_parent(tmp_path):
         f"child = subprocess.Popen([sys.executable, '-c', {step!r}])\n"
         "print(child.pid, flush=True); time.sleep(60)"
     )
-    environment = {**os.environ, cli.DIE_WITH_PARENT: "1"}
+    environment = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
     process = subprocess.Popen(
         [sys.executable, "-c", parent], stdout=subprocess.PIPE, text=True, env=environment
     )
@@ -267,7 +267,7 @@ def test_damaged_result_is_set_aside_within_the_workflow_only(tmp_path, damage):
     assert done.returncode == 2 and path.exists()
     assert done.stderr.startswith(f"error: {path}: ") and done.stderr.count("\n") == 1
     assert done.stderr.endswith("; delete it and run the workflow again.\n")
-    done = run("collect", path, "--output", tmp_path / "x.csv", env={**os.environ, cli.DIE_WITH_PARENT: "1"})
+    done = run("collect", path, "--output", tmp_path / "x.csv", env={**os.environ, cli.WITHIN_WORKFLOW: "1"})
     assert done.returncode == 2 and not path.exists()
     assert done.stderr.endswith(
         "; it was set aside as .f3.h5.damaged, run the workflow again to make it anew.\n"
@@ -276,7 +276,7 @@ def test_damaged_result_is_set_aside_within_the_workflow_only(tmp_path, damage):
 
 
 def test_input_that_is_no_result_of_ours_is_never_removed(tmp_path):
-    inside = {**os.environ, cli.DIE_WITH_PARENT: "1"}
+    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
     (geometry := tmp_path / "g.json").write_text("{")
     assert run("trim", "d.h5", "--geometry", geometry, "--output", "x", env=inside).returncode == 2
     assert run("reduce", geometry, "--geometry", geometry, "--output", "x", env=inside).returncode == 2
@@ -289,7 +289,7 @@ def test_input_that_is_no_result_of_ours_is_never_removed(tmp_path):
     "content", ["", "specimen,E_MPa\n", "specimen,E_MPa\n1\n", "specimen,E_MPa\n\x80", '"']
 )
 def test_a_cut_table_is_made_anew_where_the_workflow_made_it_and_left_where_a_user_did(tmp_path, content):
-    inside = {**os.environ, cli.DIE_WITH_PARENT: "1"}
+    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
     for place, made in (("results/mine", True), ("results/published/mine", False), ("data", False)):
         (table := tmp_path / place / "measured.csv").parent.mkdir(parents=True)
         table.write_text(content, encoding="latin-1")
@@ -305,7 +305,7 @@ def test_a_cut_table_is_made_anew_where_the_workflow_made_it_and_left_where_a_us
     "damage", [lambda text: text.replace("5000", "5001"), lambda text: text[: text[:-1].rfind("\n") + 1]]
 )
 def test_a_digit_changed_or_a_line_lost_is_noticed_within_the_workflow(tmp_path, damage):
-    inside = {**os.environ, cli.DIE_WITH_PARENT: "1"}
+    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
     (tmp_path / "geometry.csv").write_text(
         "b_mm,B_mm,e_mm,h_mm,mass_kg,mobile_mass_kg\n25,56,25,250,0.6,0.1\n"
     )
@@ -329,8 +329,29 @@ def test_a_digit_changed_or_a_line_lost_is_noticed_within_the_workflow(tmp_path,
     )
 
 
+def test_a_step_repeated_by_hand_is_no_damage_and_a_digest_cut_short_no_verdict(tmp_path):
+    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
+    table, digest = tmp_path / "results/mine/m.csv", tmp_path / "results/mine/.m.csv.sha256"
+    table.parent.mkdir(parents=True)
+    page = ("page", "results/mine/m.csv", "--title", "t", "--output", "results/mine/page.html")
+    table.write_text("a\n1\n")
+    digest.write_text("0" * 63)
+    assert run(*page, env=inside, cwd=tmp_path).returncode == 0
+    digest.write_text("0" * 64)
+    assert run(*page, env=inside, cwd=tmp_path).returncode == 2
+
+    made = tmp_path / "results/mine/.page.html.sha256"
+    before = made.read_text()
+    table.write_text("a\n2\n")
+    assert run(*page, cwd=tmp_path).returncode == 0
+    assert made.read_text() != before
+    made.unlink()
+    assert run(*page, cwd=tmp_path).returncode == 0
+    assert not made.exists()
+
+
 def test_a_result_of_another_kind_is_made_anew(tmp_path):
     save(path := tmp_path / "results/mine/f3.h5", "model", {}, {})
-    inside = {**os.environ, cli.DIE_WITH_PARENT: "1"}
+    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
     done = run("collect", "results/mine/f3.h5", "--output", "x.csv", env=inside, cwd=tmp_path)
     assert done.returncode == 2 and not path.exists() and "holds 'model', not 'test'" in done.stderr

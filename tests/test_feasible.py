@@ -68,6 +68,15 @@ def test_every_test_needs_a_measurement(check, tests, sentence):
     assert str(error.value).startswith(sentence)
 
 
+def test_too_few_tests_for_a_diagnosis_are_refused_before_anything_is_poured(check):
+    few = "a diagnosis needs at least 4 tests and 2 frequencies, and these are"
+    alone = dict.fromkeys(("time_step_study", "packing_study", "audit", "sensitivity"))
+    with pytest.raises(InputError, match=f"my.yaml: mine.csv: {few} 2 at 2; measure more."):
+        check(measurements=measure(*FOUR[:2]), temperatures_C=[0], **alone)
+    with pytest.raises(InputError, match=f"my.yaml: frequencies_Hz: {few} 4 at 1; measure more."):
+        check(frequencies_Hz=[10], **alone)
+
+
 def test_frequency_with_more_digits_than_tables_keep_is_found(check):
     tests = [(temperature, frequency) for temperature in (0, 20) for frequency in (10 / 3, 10)]
     check(

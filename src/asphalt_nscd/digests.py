@@ -31,7 +31,11 @@ def require_unchanged(arguments: Iterable[str]) -> None:
         if is_result(path) and is_file(path) and is_file(_beside(path)):
             kept = _beside(path).read_bytes().strip()
             if len(kept) == WHOLE and kept != _digest(path).encode():
-                raise DamagedFile(path, "content is not what was written: damaged, or changed by hand")
+                raise DamagedFile(
+                    path,
+                    "content is not what was written: damaged, or changed by hand (to have that taken, put it back "
+                    f"and delete {_beside(path).name})",
+                )
 
 
 def _beside(path: Path) -> Path:

@@ -8,8 +8,8 @@ from pathlib import Path
 LONGEST = 1000  # characters of a message
 
 # Set by the workflow: a step must not outlive a killed Snakemake, which would run it a second time, and
-# a damaged result is removed.
-DIE_WITH_PARENT = "ASPHALT_NSCD_DIE_WITH_PARENT"
+# a damaged result is set aside.
+WITHIN_WORKFLOW = "ASPHALT_NSCD_WITHIN_WORKFLOW"
 # Where the workflow, run at the top of the repository, puts what it makes, and what of it is committed.
 RESULTS, PUBLISHED = "results", "published"
 
@@ -38,7 +38,7 @@ class DamagedFile(InputError):
 def is_result(path: str | Path) -> bool:
     """Whether a step of the workflow is running, and this a file that a rule makes."""
     parts = Path(path).parts
-    return bool(os.environ.get(DIE_WITH_PARENT)) and parts[:1] == (RESULTS,) and parts[1:2] != (PUBLISHED,)
+    return bool(os.environ.get(WITHIN_WORKFLOW)) and parts[:1] == (RESULTS,) and parts[1:2] != (PUBLISHED,)
 
 
 def unreadable(path: str | Path, problem: str, mend: str) -> InputError:

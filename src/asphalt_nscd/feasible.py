@@ -15,7 +15,7 @@ import numpy as np
 from asphalt_nscd.counts import read_counts
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.geometry_input import read_geometry, require_within
-from asphalt_nscd.measurements import tests_measured
+from asphalt_nscd.measurements import require_enough, tests_measured
 from asphalt_nscd.published_laws import read_published
 from asphalt_nscd.signals import require_steps
 from asphalt_nscd.tables import table2, table4
@@ -34,9 +34,8 @@ def require_feasible(study: Mapping[str, Any], source: str) -> None:
         _check_laws(study, source)
     if "table" in study["measurements"]:
         _check_measurements(study, source)
-    elif isinstance(study["geometry"], str):
-        names = [str(number + 1) for number in range(study["measurements"]["reconstruct"]["specimens"])]
-        read_geometry(study["geometry"], names)
+    else:
+        _check_reconstruction(study, source)
     if "published" in study:
         paths = {key: [Path(path)] for key, path in study["published"].items()}
         poured = [Path(study["specimens"]["counts_table"])]
@@ -95,8 +94,20 @@ def _check_measurements(study: Mapping[str, Any], source: str) -> None:
                     f"{source}: {path} has no test at {temperature:g} degC, {frequency:g} Hz; add it, or "
                     "leave one of them out of temperatures_C or frequencies_Hz."
                 )
+    with _at(f"{source}: {path}"):
+        require_enough(len(tests), tests["frequency_Hz"].nunique())
     if form != "moduli":
         read_geometry(study["geometry"], tests["specimen"])
+
+
+def _check_reconstruction(study: Mapping[str, Any], source: str) -> None:
+    """As many tests as a diagnosis needs, and a geometry for every specimen."""
+    names = [str(number + 1) for number in range(study["measurements"]["reconstruct"]["specimens"])]
+    frequencies = len(study["frequencies_Hz"])
+    with _at(f"{source}: frequencies_Hz"):
+        require_enough(len(names) * len(study["temperatures_C"]) * frequencies, frequencies)
+    if isinstance(study["geometry"], str):
+        read_geometry(study["geometry"], names)
 
 
 def _require_all(values: Sequence[float], available: Any, where: str, path: str) -> None:

@@ -83,6 +83,15 @@ def reduced_frame(
     return frame
 
 
+def require_enough(tests: int, frequencies: int) -> None:
+    """Refuse what is too little for a diagnosis; frequencies: how many different ones."""
+    if tests < LEAST_TESTS or frequencies < LEAST_FREQUENCIES:
+        raise InputError(
+            f"a diagnosis needs at least {LEAST_TESTS} tests and {LEAST_FREQUENCIES} frequencies, and these are "
+            f"{tests} at {frequencies}; measure more."
+        )
+
+
 def tests_measured(measurements: str | Path) -> tuple[pd.DataFrame, str]:
     """Specimen, temperature, frequency and origin of each row of a table of any form, and which form."""
     return _tests(read_csv(measurements), KEYS)

@@ -116,8 +116,8 @@ WRONG = {
     "GPa": (lambda t: t.assign(E_MPa=t["E_MPa"] / 1000.0), "E_MPa looks like GPa, multiply by 1000"),
     "Pa": (lambda t: t.assign(E_MPa=t["E_MPa"] * 1e6), "give a positive norm of E\\* in MPa"),
     "repeated rows": (lambda t: pd.concat([t, t]), "line 122: repeats the test of line 2"),
-    "three tests": (lambda t: t.head(3), "at least four tests at two frequencies"),
-    "one frequency": (lambda t: t[t["frequency_Hz"] == 10.0], "at least four tests at two frequencies"),
+    "three tests": (lambda t: t.head(3), "at least 4 tests and 2 frequencies"),
+    "one frequency": (lambda t: t[t["frequency_Hz"] == 10.0], "at least 4 tests and 2 frequencies"),
     "the same everywhere": (lambda t: t.assign(E_MPa=1e4, phase_deg=10.0), "copies are no replicates"),
 }  # fmt: skip
 

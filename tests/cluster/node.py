@@ -15,11 +15,11 @@ from pathlib import Path
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue", "scancel", "sinfo")
 CONFIGURATION = Path("/etc/slurm/slurm.conf")  # SLURM_CONF would be lost inside jobs
 
-OURS = "# Written by tests/cluster, for as long as it runs.\n"
+OURS = "# Written by tests/cluster for as long as this process runs: "
 # No accounting, no cgroups: neither a database nor systemd is there. Jobs stay known to squeue for a day.
 TEMPLATE = (
     OURS
-    + """\
+    + """{process}
 ClusterName=one
 SlurmctldHost={host}(127.0.0.1)
 SlurmUser=root
@@ -60,8 +60,9 @@ def why_not() -> str | None:
 
 
 def _left_over() -> bool:
-    """Whether the configuration is of a run of this script that was killed, and its Slurm is gone."""
-    return CONFIGURATION.read_text().startswith(OURS) and not _answer("sinfo", "--noheader")
+    """Whether the configuration is of a run of this script that was killed."""
+    process = CONFIGURATION.read_text().partition("\n")[0].removeprefix(OURS)
+    return process.isdigit() and not Path("/proc", process).exists()
 
 
 @contextmanager
@@ -84,7 +85,11 @@ def slurm() -> Iterator[Path]:
     key.chmod(0o600)
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2**20
     text = TEMPLATE.format(
-        folder=folder, host=socket.gethostname(), cpus=os.cpu_count(), memory=int(0.9 * memory)
+        process=os.getpid(),
+        folder=folder,
+        host=socket.gethostname(),
+        cpus=os.cpu_count(),
+        memory=int(0.9 * memory),
     )
     CONFIGURATION.parent.mkdir(parents=True, exist_ok=True)
     if CONFIGURATION.exists() and _left_over():

@@ -8,6 +8,8 @@ import pytest
 from asphalt_nscd.diagnosis import scatter
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.report import as_json
+from asphalt_nscd.diagnosis.simulated import read_specimen
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
 from asphalt_nscd.twopoint import Geometry, form_factor
@@ -60,6 +62,15 @@ def test_a_hidden_effect_is_named_alone_with_its_size(name):
     found = rung.candidate.values[0]
     error = np.sqrt(rung.after.covariance[-1, -1]) * rung.candidate.typical[0]
     assert abs(found - size) < 3.5 * error and error < 0.15 * abs(size)
+
+
+def test_a_cause_that_was_named_is_not_said_to_be_untestable():
+    diagnosis = diagnose(table(3, EFFECTS["loose_clamp", "b"][1]))
+    named = diagnosis.ladder.rungs[0].candidate
+    other = replace(named, place="c")
+    unsure = replace(diagnosis, ladder=replace(diagnosis.ladder, unseen=[named, other]))
+    untestable = [row["cause"] for row in as_json(unsure, read_specimen())["not_testable"]]
+    assert "loose_clamp @ c" in untestable and "loose_clamp @ b" not in untestable
 
 
 def test_an_empty_table_names_the_spectrum_only():

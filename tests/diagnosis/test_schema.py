@@ -12,6 +12,8 @@ from jsonschema import Draft202012Validator
 
 from asphalt_nscd.diagnosis import report, run
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA
+from asphalt_nscd.rheology.shift import Arrhenius
+from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8"))
@@ -53,6 +55,24 @@ def few(frame):
     return frame[(frame["temperature_C"] == 15) & frame["frequency_Hz"].isin([3, 40])]
 
 
+def least(frame):
+    """Two temperatures, two frequencies, one specimen."""
+    return single(frame[frame["temperature_C"].isin([0, 20]) & frame["frequency_Hz"].isin([3, 40])])
+
+
+def shift_bent_the_other_way(frame):
+    """A shift of which no WLF law is: it rises faster the warmer the mix."""
+    law = TwoS2P1D(1e6, 4e10, 0.2, 0.6, 1.6, 0.14, 30.0, Arrhenius(2e5, 15.0))
+    away = frame["temperature_C"] - 15.0
+    omega = 2 * np.pi * frame["frequency_Hz"] * 10 ** -(0.12 * away + 0.0008 * away**2)
+    modulus = law.complex_modulus(omega.to_numpy(), 15.0)
+    noise = np.random.default_rng(1).standard_normal((2, len(frame)))
+    return frame.assign(
+        E_MPa=1e-6 * np.abs(modulus) * (1 + 0.01 * noise[0]),
+        phase_deg=np.degrees(np.angle(modulus)) + 0.3 * noise[1],
+    )
+
+
 def single(frame):
     return frame[frame["specimen"] == "1"]
 
@@ -66,6 +86,10 @@ REACHED = {
     ),
     outlier: lambda content: [row["specimen"] for row in content["unexplained"]] == ["2"],
     few: lambda content: content["verdict"] == "nothing_to_explain" and not content["ladder"],
+    least: lambda content: content["tests"] == 4,
+    shift_bent_the_other_way: lambda content: (
+        content["ladder"][0]["parameters"]["shift_curvature"]["value"] < 0.0
+    ),
     single: lambda content: not content["scatter"]["from_replicates"] and content["notes"],
 }
 
@@ -96,6 +120,23 @@ def test_content_is_what_the_schema_says(diagnosed):
 def test_each_table_reaches_its_part_of_the_schema(diagnosed):
     change, folder = diagnosed
     assert REACHED[change](content_of(folder))
+
+
+def test_a_law_for_all_temperatures_is_written_and_told_of_where_it_is_far_off(diagnosed):
+    change, folder = diagnosed
+    assert (folder / "law.json").exists() == (change is not few)
+    told = [note for note in content_of(folder)["notes"] if "2S2P1D with one shift for all" in note]
+    assert bool(told) == (change is shift_bent_the_other_way)
+
+
+def test_amplitudes_stand_with_their_interval_in_the_summary(diagnosed):
+    content = content_of(diagnosed[1])
+    said = run.summary(content)
+    for rung in content["ladder"]:
+        name, first = next(iter(rung["parameters"].items()))
+        assert first["std_error"] is None or (
+            f"{name} {first['value']:.3g} +- {1.96 * first['std_error']:.2g}" in said
+        )
 
 
 def test_gains_are_errors_of_single_tests_and_of_averages_over_specimens(diagnosed):

@@ -95,12 +95,17 @@ def test_rivals_and_text_from_the_table_are_shown_as_text(page):
     html = page()
     assert "one of these" not in html
     ladder = [{
-        "cause": "loose_clamp", "where": "<b>", "p_value": 0.004, "as_good": ["specimen_geometry @ <b>"],
+        "cause": "loose_clamp", "where": "<b>", "p_value": 0.004,
+        "as_good": ["loose_clamp @ <i>", "temperature_bias @ -10.0"],
         "sentence": "s", "confirmed_by": "c", "gain": {"in_sample": GAIN, "held_out": {}},
         "parameters": {"compliance": {"value": 3e-12, "std_error": None, "unit": "1/Pa"}},
     }]  # fmt: skip
     html = page(ladder=ladder)
-    assert "Fits no better than specimen geometry @ &lt;b&gt;: one of these." in html
+    assert (
+        "Fits no better than loose clamp (specimen &lt;i&gt;), temperature bias (−10 °C): one of these."
+        in html
+    )
+    assert "with loose clamp (specimen &lt;b&gt;), or what fits no worse, in the simulation" in html
     assert "loose clamp (specimen &lt;b&gt;)" in html and "<td>0.004</td>" in html
 
 

@@ -97,7 +97,8 @@ def test_a_table_too_short_for_a_diagnosis_is_refused_at_once():
         "specimen,T (°C),f (Hz),E (MPa),phi (deg)\na,15,10,5000,20\na,15,25,6000,18\n", encoding="utf-8"
     )
     with pytest.raises(
-        InputError, match="two.csv: too short, for a diagnosis needs 4 tests at 2 frequencies"
+        InputError,
+        match="two.csv: a diagnosis needs at least 4 tests and 2 frequencies, and these are 2 at 2",
     ):
         new_study("mine", "two.csv", Wishes())
     assert not Path("data/mine").exists()

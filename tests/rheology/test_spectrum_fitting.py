@@ -83,6 +83,18 @@ def test_a_parameter_at_its_bound_is_unseen():
     assert fit.freedom == 50 - 7
 
 
+def test_of_a_straight_shift_the_slope_is_found_and_neither_c1_nor_c2():
+    law = TwoS2P1D(1e6, 4e10, 0.2, 0.6, 1.7, 0.1, 30.0, WLF(0.12 * 1e5, 1e5, 15.0))
+    omega, temperature = (
+        x.ravel() for x in np.meshgrid(2 * np.pi * np.geomspace(1, 40, 6), np.linspace(-20, 40, 7))
+    )
+    fit = fit_spectrum(omega, temperature, law.complex_modulus(omega, temperature), 15.0)
+    shift = fit.law.shift
+    assert fit.rms_log_residual < 3e-3
+    assert shift.c1 / shift.c2 == pytest.approx(0.12, rel=0.01)
+    assert {"c1", "c2"} <= set(fit.unseen) and not {"c1", "c2"} & set(fit.std_error)
+
+
 def test_too_few_points_give_no_standard_errors():
     few = [0, 7, 13, 24]
     fit = fit_spectrum(

@@ -178,6 +178,17 @@ def test_edited_record_is_reduced_again(workspace):
     assert workspace.planned(target) == {"reduce": 1}
 
 
+@pytest.mark.parametrize("study", ["smoke", "paper"])
+def test_all_asks_for_each_file_by_name(workspace, study):
+    """Else one that a failed run left missing between newer ones would not be made."""
+    (workspace.folder / "study.yaml").write_text((workspace.folder / f"config/{study}.yaml").read_text())
+    said = workspace.run("--dry-run").stdout
+    asked = re.search(r"^(?:local)?rule all:\n    input: (.+)", said, re.MULTILINE)[1].split(", ")
+    made = re.findall(r"^(results/\S+)\t", workspace.run("--summary").stdout, re.MULTILINE)
+    assert len(made) > 100
+    assert {path for path in made if "/compiled/" not in path} <= set(asked)
+
+
 def test_killed_run_is_finished_by_the_same_command(workspace):
     workspace.configure()
     undisturbed = workspace.run("--cores", "2", *FITS)

@@ -21,7 +21,7 @@ if workflow.is_main_process:
 
 # `asphalt-nscd` is the one beside this Python, whether or not the environment is activated.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-os.environ["ASPHALT_NSCD_DIE_WITH_PARENT"] = "1"
+os.environ["ASPHALT_NSCD_WITHIN_WORKFLOW"] = "1"
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 shell.prefix("exec ")
 

@@ -150,6 +150,7 @@ RESULTS = [
 # Snakemake would say that nothing is to be done.
 KEPT = [
     RESULTS,
+    "<results>/timings.md",
     "<results>/study.json",
     rules.reconstruct.output if "reconstruct" in STUDY["measurements"] else [],
     MEASURED,

@@ -22,7 +22,7 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
 import click  # noqa: E402
 
 from asphalt_nscd import __version__, digests  # noqa: E402
-from asphalt_nscd.errors import DIE_WITH_PARENT, DamagedFile, InputError  # noqa: E402
+from asphalt_nscd.errors import WITHIN_WORKFLOW, DamagedFile, InputError  # noqa: E402
 
 _MENDS = {
     errno.ENOSPC: "free some space and run the same command again",
@@ -59,7 +59,7 @@ def group() -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run one step. Exit status 2 with one sentence if input or files cannot be used."""
-    if os.environ.get(DIE_WITH_PARENT) and sys.platform == "linux":
+    if os.environ.get(WITHIN_WORKFLOW) and sys.platform == "linux":
         prctl_set_death_signal = 1
         ctypes.CDLL(None).prctl(prctl_set_death_signal, signal.SIGTERM)
     sys.exit(_status(lambda: _run(sys.argv[1:] if arguments is None else arguments)))
@@ -100,7 +100,7 @@ def _status(step: Callable[[], object]) -> int:
 
 def _heal(error: DamagedFile) -> str:
     """Within the workflow, which can make the file again but takes it for good, set it aside."""
-    if not os.environ.get(DIE_WITH_PARENT):
+    if not os.environ.get(WITHIN_WORKFLOW):
         return str(error)
     aside = error.path.with_name(f".{error.path.name}.damaged")
     with suppress(FileNotFoundError):  # another job has just done so

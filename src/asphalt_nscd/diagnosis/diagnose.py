@@ -15,8 +15,7 @@ from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.ladder import CHANCE, Ladder, climb
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.errors import InputError
-from asphalt_nscd.measurements import LEAST_FREQUENCIES, LEAST_TESTS
+from asphalt_nscd.measurements import require_enough
 
 DRAWS = 4000
 LEAST_ISOTHERMS = (
@@ -48,8 +47,7 @@ def diagnose(
     catalogue: tuple[Cause, ...] = CATALOGUE, draws: int = DRAWS, seed: int = 0,
 ) -> Diagnosis:  # fmt: skip
     """Diagnose a table. scatter_stated: of |E*| (relative) and phase [rad], where replicates do not tell."""
-    if observed.size < LEAST_TESTS or observed.frequencies.size < LEAST_FREQUENCIES:
-        raise InputError("a diagnosis needs at least four tests at two frequencies; measure more.")
+    require_enough(observed.size, observed.frequencies.size)
     scatter.refuse_copies(observed)
     notes: list[str] = []
     aside = scatter.outliers(observed)

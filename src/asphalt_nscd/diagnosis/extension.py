@@ -23,6 +23,7 @@ from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
 from asphalt_nscd.diagnosis.simulated import read_specimen
 from asphalt_nscd.errors import InputError
+from asphalt_nscd.measurements import LEAST_TESTS
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.fitting import Fit
 from asphalt_nscd.rheology.laws_io import write_chain
@@ -34,22 +35,43 @@ from asphalt_nscd.store import read_json, write_json
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 TOLERANCE = 1e-3  # of ln E* of a Kelvin chain over the tested band
+FAR = 1.0  # scatter of one test, of the law of the extended simulation from what was found
 MARGIN = 2.0  # of the band, for the transient of a test
 
 
 def material_law(diagnosis: Diagnosis) -> Fit:
     """One 2S2P1D law with a WLF shift (nine parameters) of the measurements without the named causes.
 
-    Of two temperatures, which determine no WLF constants, with an Arrhenius shift.
+    Of two temperatures or four tests, which determine no WLF constants, with an Arrhenius shift.
     """
     observed, ladder = diagnosis.observed, diagnosis.ladder
     named = ladder.fitted
-    alone = ladder.joint.apparent(named.law, ())[0]
+    alone = _without_causes(diagnosis)
     with_causes = ladder.joint.apparent(named.law, named.active)[0]
     modulus = observed.modulus * alone / with_causes
     reference = float(observed.isotherms[observed.isotherms.size // 2])
-    shift = "wlf" if observed.isotherms.size > 2 else "arrhenius"
+    shift = "wlf" if observed.isotherms.size > 2 and observed.size > LEAST_TESTS else "arrhenius"
     return fit_spectrum(observed.omega, observed.temperature, modulus, reference, shift=shift)
+
+
+def law_notes(diagnosis: Diagnosis, law: Spectrum) -> list[str]:
+    """What to say where the law cannot take the form of the mix, as where the shift is not of its kind."""
+    observed = diagnosis.observed
+    off = np.log(law.complex_modulus(observed.omega, observed.temperature) / _without_causes(diagnosis))
+    sigma = diagnosis.noise.sigma
+    miss = float(np.sqrt(np.mean((off.real / sigma[0]) ** 2 + (off.imag / sigma[1]) ** 2) / 2.0))
+    if miss < FAR:
+        return []
+    return [
+        f"The law of the extended simulation, 2S2P1D with one shift for all, is {miss:.2g} times the scatter of a test "
+        f"away from the law found here, {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*|: so far is that "
+        "simulation from these data."
+    ]
+
+
+def _without_causes(diagnosis: Diagnosis) -> Complex:
+    """E* (n,) [Pa] of the mix alone, by the last fit."""
+    return diagnosis.ladder.joint.apparent(diagnosis.ladder.fitted.law, ())[0]
 
 
 def extend(

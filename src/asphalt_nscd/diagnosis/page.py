@@ -15,6 +15,7 @@ from asphalt_nscd.csvinput import read_csv
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
     limits_by_place,
+    member_name,
     place_name,
     read_diagnosis,
     shown,
@@ -63,23 +64,26 @@ def sections(diagnosis: list[Path], map: list[Path], table4: Sequence[Path] = ()
         "origin": _origin(content["origin"]),
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
-        "ladder": [_rung(rung) for rung in ladder],
+        "ladder": [_rung(rung) | {"as_good": _members(rung["as_good"], content)} for rung in ladder],
         "held_out": HELD_OUT,
         "baseline": _baseline(content["baseline"]),
         "map": b64encode(the_only(map, "map").read_bytes()).decode(),
         "unexplained": [_unexplained(row) for row in content["unexplained"]],
         "limits": _limits(content["detection_limits"]),
-        "not_testable": [(_words(row["cause"]), row["needs"]) for row in content["not_testable"]],
-        "alike": [[_words(name) for name in group] for group in content["indistinguishable"]],
-        "withdrawn": [_words(name) for name in content["withdrawn"]],
+        "not_testable": [
+            (*_members([row["cause"]], content), row["needs"]) for row in content["not_testable"]
+        ],
+        "alike": [_members(group, content) for group in content["indistinguishable"]],
+        "withdrawn": _members(content["withdrawn"], content),
         "next": [(_cause(rung), rung["confirmed_by"]) for rung in ladder],
     }
 
 
 def _verdict(content: dict[str, Any]) -> str:
-    """The verdict in one sentence."""
+    """The verdict in one sentence; a cause that others match is the likeliest."""
     causes = " and ".join(
-        " or ".join([_cause(rung), *map(_words, rung["as_good"])]) for rung in content["ladder"]
+        f"{_cause(rung)}, or what fits no worse," if rung["as_good"] else _cause(rung)
+        for rung in content["ladder"]
     )
     if content["verdict"] == "nothing_to_explain":
         return "Nothing to explain: the simulation misses these data by no more than their scatter."
@@ -116,8 +120,11 @@ def _rung(rung: dict[str, Any]) -> dict[str, Any]:
         "parameters": [_estimate(name, value) for name, value in rung["parameters"].items()],
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {name: _gain(gain["held_out"][name]) for name in HELD_OUT if name in gain["held_out"]},
-        "as_good": [_words(name) for name in rung["as_good"]],
     }  # fmt: skip
+
+
+def _members(names: list[str], content: dict[str, Any]) -> list[str]:
+    return [member_name(name, content["detection_limits"]) for name in names]
 
 
 def _cause(rung: dict[str, Any]) -> str:

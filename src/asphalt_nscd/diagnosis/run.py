@@ -10,8 +10,8 @@ from typing import Any
 from tabulate import tabulate
 
 from asphalt_nscd.diagnosis import report
-from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.extension import material_law
+from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.extension import law_notes, material_law
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.reading import read_observations
 from asphalt_nscd.diagnosis.simulated import read_specimen
@@ -48,7 +48,10 @@ def run(
         diagnosis = diagnose(observed, scatter, draws=draws, seed=seed)
     except InputError as error:
         raise InputError(f"{measurements}: {error}") from None
+    fit = None if observed.isotherms.size < 2 else material_law(diagnosis)
     content = report.as_json(diagnosis, numerical)
+    if fit is not None:
+        content["notes"] += law_notes(diagnosis, fit.law)
     if simulations is not None:
         content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
     content["origin"] = origin
@@ -65,20 +68,13 @@ def run(
     }
     folder = Path(folder)
     write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical))
-    _write_law(folder / "law.json", diagnosis, origin)
+    if fit is not None:
+        write_spectrum(
+            folder / "law.json", fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,
+            std_error=fit.std_error, unseen=fit.unseen,
+        )  # fmt: skip
     write_json(folder / "diagnosis.json", content)
     return summary(content)
-
-
-def _write_law(path: Path, diagnosis: Diagnosis, origin: str) -> None:
-    """The continuous law of the mix, where the table determines one."""
-    if diagnosis.observed.isotherms.size < 2 or diagnosis.observed.size < 5:
-        return
-    fit = material_law(diagnosis)
-    write_spectrum(
-        path, fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,
-        std_error=fit.std_error, unseen=fit.unseen,
-    )  # fmt: skip
 
 
 def _size(parameters: dict[str, Any]) -> str:

@@ -101,5 +101,16 @@ def limits_by_place(limit: dict[str, Any]) -> dict[str, float]:
     places = limit.get("places")
     if places is None:
         return {place_name(None): limit["value"]}
-    kind = {"specimen": str, "temperature_C": float}[limit["confined_to"]]
-    return {place_name(kind(place)): value for place, value in places.items()}
+    return {_place(limit, place): value for place, value in places.items()}
+
+
+def member_name(member: str, limits: dict[str, Any]) -> str:
+    """A member of a list of causes, `cause @ place`, in words: `temperature bias (30 °C)`."""
+    cause, _, place = member.partition(" @ ")
+    where = _place(limits.get(cause, {}), place)
+    return cause.replace("_", " ") + (f" ({where})" if where else "")
+
+
+def _place(limit: dict[str, Any], written: str) -> str:
+    kind = {"specimen": str, "temperature_C": float}.get(limit.get("confined_to", ""))
+    return place_name(kind(written)) if kind and written else written

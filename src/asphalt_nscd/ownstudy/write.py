@@ -17,7 +17,7 @@ import yaml
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.feasible import require_feasible
 from asphalt_nscd.geometry_input import read_geometry
-from asphalt_nscd.measurements import LEAST_FREQUENCIES, LEAST_TESTS, reduced_frame
+from asphalt_nscd.measurements import reduced_frame, require_enough
 from asphalt_nscd.ownstudy.cells import read_cells
 from asphalt_nscd.ownstudy.duration import duration
 from asphalt_nscd.ownstudy.grid import grid
@@ -65,11 +65,10 @@ def new_study(name: str, measurements: str | Path, wishes: Wishes) -> tuple[Path
     geometry = _geometry(read.form, wishes)
     frame = reduced_frame(read.table, geometry)
     temperatures, frequencies, notes = grid(frame, read.table.path)
-    if len(frame) < LEAST_TESTS or frame["frequency_Hz"].nunique() < LEAST_FREQUENCIES:
-        raise InputError(
-            f"{measurements}: too short, for a diagnosis needs {LEAST_TESTS} tests at {LEAST_FREQUENCIES} frequencies; "
-            "measure more."
-        )
+    try:
+        require_enough(len(frame), frame["frequency_Hz"].nunique())
+    except InputError as error:
+        raise InputError(f"{measurements}: {error}") from None
     shape = read_geometry(geometry, frame["specimen"])[frame["specimen"].iloc[0]]
     simulated = SMALL if wishes.small else shape
     spheres = SMALL_SPHERES if wishes.small else _spheres(simulated, wishes)

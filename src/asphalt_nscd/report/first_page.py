@@ -67,7 +67,7 @@ def _simulated(tests: pd.DataFrame, samples: pd.DataFrame) -> list[str]:
     conditions = tests[["temperature_C", "frequency_Hz"]].drop_duplicates()
     return [
         f"{_many(len(samples), 'sample')} of {_range(samples['spheres'])} bonded spheres, poured from the grading, "
-        f" in two-point bending at {_many(len(conditions), 'condition')}: {_many(len(tests), 'test')}.",
+        f"in two-point bending at {_many(len(conditions), 'condition')}: {_many(len(tests), 'test')}.",
         f"They return the law of their bonds, |E*| times {_range(samples['E_over_law'])} by their packing.",
         *([TOO_FEW] if samples["spheres"].max() < ENOUGH else []),
     ]  # fmt: skip

@@ -90,6 +90,8 @@ def fit_spectrum(
     low, high, first, last = np.array([RANGES[name] for name in names]).T
     solution = best_of_starts(residual, (low, high), (first, last))
     seen = _seen(solution, low, high)
+    if "c2" in names and not seen[names.index("c2")]:
+        seen[names.index("c1")] = False  # of a straight shift only C1/C2 is determined
     return Fit(
         build(solution.x),
         _standard_errors(solution, seen, build, names),
