@@ -60,6 +60,13 @@ def least(frame):
     return single(frame[frame["temperature_C"].isin([0, 20]) & frame["frequency_Hz"].isin([3, 40])])
 
 
+def ragged(frame):
+    """Four tests at three temperatures."""
+    frame = single(frame)
+    at = [(0, 3), (0, 40), (15, 3), (20, 3)]
+    return frame[[pair in at for pair in zip(frame["temperature_C"], frame["frequency_Hz"], strict=True)]]
+
+
 def shift_bent_the_other_way(frame):
     """A shift of which no WLF law is: it rises faster the warmer the mix."""
     law = TwoS2P1D(1e6, 4e10, 0.2, 0.6, 1.6, 0.14, 30.0, Arrhenius(2e5, 15.0))
@@ -87,6 +94,7 @@ REACHED = {
     outlier: lambda content: [row["specimen"] for row in content["unexplained"]] == ["2"],
     few: lambda content: content["verdict"] == "nothing_to_explain" and not content["ladder"],
     least: lambda content: content["tests"] == 4,
+    ragged: lambda content: content["tests"] == 4,
     shift_bent_the_other_way: lambda content: (
         content["ladder"][0]["parameters"]["shift_curvature"]["value"] < 0.0
     ),
