@@ -60,7 +60,7 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum) -> list[str]:
     off = np.log(law.complex_modulus(observed.omega, observed.temperature) / _without_causes(diagnosis))
     sigma = diagnosis.noise.sigma
     miss = float(np.sqrt(np.mean((off.real / sigma[0]) ** 2 + (off.imag / sigma[1]) ** 2) / 2.0))
-    if miss < FAR:
+    if miss < FAR or not diagnosis.replicated:  # else the scatter itself is a guess
         return []
     return [
         f"The law of the extended simulation, 2S2P1D with one shift for all, is {miss:.2g} times the scatter of a test "
