@@ -158,23 +158,26 @@ def test_failed_job_ends_with_its_sentence_and_its_log(workspace):
 
 def test_edited_record_is_reduced_again(workspace):
     folder = workspace.folder
-    rows = ["time_s,force_N,displacement_m"]
-    for step in range(400):
-        angle = 2 * math.pi * 10 * step * 1e-3
-        rows.append(f"{step * 1e-3},{20 * math.sin(angle + 0.3)},{6.3e-5 * math.sin(angle)}")
-    (folder / "record.csv").write_text("\n".join(rows) + "\n")
-    (folder / "mine.csv").write_text("specimen,temperature_C,frequency_Hz,record\n1,20,10,record.csv\n")
-    one = {"temperatures_C": [20], "frequencies_Hz": [10], "measurements": {"table": "mine.csv"}}
+    table = ["specimen,temperature_C,frequency_Hz,record"]
+    for frequency in (5, 10):
+        rows = ["time_s,force_N,displacement_m"]
+        for step in range(800):
+            angle = 2 * math.pi * frequency * step * 1e-3
+            rows.append(f"{step * 1e-3},{20 * math.sin(angle + 0.3)},{6.3e-5 * math.sin(angle)}")
+        (record := folder / f"record{frequency}.csv").write_text("\n".join(rows) + "\n")
+        table += [f"{specimen},20,{frequency},{record.name}" for specimen in (1, 2)]
+    (folder / "mine.csv").write_text("\n".join(table) + "\n")
+    one = {"temperatures_C": [20], "frequencies_Hz": [5, 10], "measurements": {"table": "mine.csv"}}
     one |= dict.fromkeys(OPTIONAL)
     workspace.configure(**one, reduction={"cycles": 3})
     target = "results/smoke/measured.csv"
     done = workspace.run(target, "--cores", "1")
     assert done.returncode == 0, done.stderr
     assert workspace.planned(target) == {}
-    (folder / "record.csv").write_text("\n".join(rows[:-50]) + "\n")
+    record.write_text("\n".join(rows[:-50]) + "\n")
     assert workspace.planned(target) == {"reduce": 1}
     workspace.configure(**one, reduction={"cycles": 2})
-    (folder / "record.csv").write_text("\n".join(rows) + "\n")
+    record.write_text("\n".join(rows) + "\n")
     assert workspace.planned(target) == {"reduce": 1}
 
 
