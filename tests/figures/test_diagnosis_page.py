@@ -1,5 +1,6 @@
 """The page of a diagnosis says what diagnosis.json says, and never more."""
 
+import json
 import re
 
 import pandas as pd
@@ -107,6 +108,25 @@ def test_rivals_and_text_from_the_table_are_shown_as_text(page):
     )
     assert "with loose clamp (specimen &lt;b&gt;), or what fits no worse, in the simulation" in html
     assert "loose clamp (specimen &lt;b&gt;)" in html and "<td>0.004</td>" in html
+
+
+def test_without_replicates_nothing_is_called_right_or_established(page, results):
+    alone = {
+        "modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": False,
+    }  # fmt: skip
+    assert "scatter by 1 % and 0.5°. Everything" in page()
+    html = page(verdict="nothing_to_explain", ladder=[], tested=False, scatter=alone)
+    assert "Not judged: nothing found" in html and "Nothing to explain" not in html
+    assert "scatter by 1 % and 0.5° as far as a smooth law can tell, for nothing was repeated." in html
+    made = json.loads(results.diagnosis()["diagnosis"][0].read_text())["provenance"]
+    stated = page(scatter=alone, provenance=made | {"scatter_stated": [0.01, 0.5]})
+    assert "scatter by 1 % and 0.5°, as was stated." in stated
+    html = page(verdict="unexplained_structure", lack_of_fit_p_value=0.5, largest_pattern_left=None)
+    assert (
+        "Not established: relaxation spectrum and loose clamp (specimen 2) would explain these data" in html
+    )
+    html = page(verdict="unexplained_structure", lack_of_fit_p_value=1e-4, largest_pattern_left=None)
+    assert "Not explained in full" in html
 
 
 GAIN = {

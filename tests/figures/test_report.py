@@ -21,7 +21,11 @@ def page(results, tmp_path):
     def make(**changes):
         diagnosis = results.diagnosis(**changes)["diagnosis"]
         return first_page(
-            results.measured(), results.simulations(samples=("s1", "s2")), [samples], diagnosis, [picture]
+            results.measured(),
+            results.simulations(("s1", "s2"), ratios=lambda sample: 1.1),
+            [samples],
+            diagnosis,
+            [picture],
         )
 
     return make
@@ -37,8 +41,14 @@ def test_first_page_says_what_was_done_and_found(page):
     assert "|E*| times 1.1 to 1.2" in said["simulated"][1]
     assert "do not stand for the mix" in said["simulated"][2]
     assert "most at 20 °C" in said["wrong"][0]
+    assert "(Table 4): |E*| by 10 %, the phase by 0.165 %." in said["wrong"][1]
     assert said["verdict"].startswith("Explained: with relaxation spectrum and loose clamp (specimen 2)")
     assert said["gained"][0] == ("error of |E*|, %", "8", "2")
+
+
+def test_what_to_beware_of_stands_on_the_first_page(page, tmp_path):
+    html = assemble("mine", page(notes=["Only one specimen."]), [], tmp_path)
+    assert html.index("<h3>Why") < html.index("Only one specimen.") < html.index("<h3>What was gained")
 
 
 def test_nothing_gained_where_no_cause_is_named(page):

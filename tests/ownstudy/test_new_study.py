@@ -160,7 +160,9 @@ def test_what_cannot_be_meant_is_refused_and_leaves_nothing(folder, tests, sente
     assert [path.name for path in folder.iterdir()] == ["t.csv"]
 
 
-@pytest.mark.parametrize("name", ["../mine", "1st", "my study", "", "published", "verification", "mine\n"])
+@pytest.mark.parametrize(
+    "name", ["../mine", "1st", "my study", "", "published", "verification", "mine\n", "null", "on"]
+)
 def test_bad_names(name):
     with pytest.raises(InputError, match="NAME"):
         new_study(name, german(rows()), Wishes())

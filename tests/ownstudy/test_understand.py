@@ -43,6 +43,7 @@ def refusal(header, *rows, **chosen):
         ("z0 (µm)", "z0_m", 1e-6), ("z0 (μm)", "z0_m", 1e-6), ("displacement mm", "z0_m", 1e-3),
         ("Steifigkeitsmodul |E*| [GPa]", "E_MPa", 1e3), ("Komplexer Modul (MPa)", "E_MPa", 1),
         ("Dynamic modulus E* (MPa)", "E_MPa", 1), ("Phase angle δ (°)", "phase_deg", 1),
+        ("Phasenwinkel (Grad)", "phase_deg", 1), ("Temperatur (Grad C)", "temperature_C", 1),
         ("Frequenz in Hz", "frequency_Hz", 1), ("Dynamic modulus E' (MPa)", None, None),
         ("Phase angle E* (°)", None, None), ("Operator", None, None),
         ("E' (MPa)", None, None), ("E'' (MPa)", None, None), ("|G*| (MPa)", None, None), ("e (mm)", None, None),
@@ -56,7 +57,9 @@ def test_names_and_units(name, quantity, one):
         assert column.factor + column.offset == pytest.approx(one, rel=1e-9)
 
 
-@pytest.mark.parametrize("name", ["E (mPa)", "E (deg)", "phi (Hz)", "f (1/min)", "specimen (mm)"])
+@pytest.mark.parametrize(
+    "name", ["E (mPa)", "E (deg)", "phi (Hz)", "phi (grad)", "f (1/min)", "specimen (mm)"]
+)
 def test_foreign_units_are_refused(name):
     with pytest.raises(InputError, match="is no unit of it"):
         recognise(name)
@@ -64,7 +67,13 @@ def test_foreign_units_are_refused(name):
 
 @pytest.mark.parametrize(
     ("name", "quantity"),
-    [("Sieve (mm)", "diameter_mm"), ("% passing", "passing_percent"), ("Passing (%)", "passing_percent")],
+    [
+        ("Sieve (mm)", "diameter_mm"),
+        ("% passing", "passing_percent"),
+        ("Passing (%)", "passing_percent"),
+        ("Siebweite (mm)", "diameter_mm"),
+        ("Durchgang (M.-%)", "passing_percent"),
+    ],
 )
 def test_sieves(name, quantity):
     assert recognise(name, SIEVES).quantity == quantity

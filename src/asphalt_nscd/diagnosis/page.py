@@ -12,8 +12,10 @@ import pandas as pd
 from jinja2 import Environment, StrictUndefined
 
 from asphalt_nscd.csvinput import read_csv
+from asphalt_nscd.diagnosis.ladder import CHANCE
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
+    UNJUDGED,
     limits_by_place,
     member_name,
     place_name,
@@ -62,6 +64,7 @@ def sections(diagnosis: list[Path], map: list[Path], table4: Sequence[Path] = ()
     return {
         "verdict": _verdict(content),
         "origin": _origin(content["origin"]),
+        "scatter": _scatter(content),
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
         "ladder": [_rung(rung) | {"as_good": _members(rung["as_good"], content)} for rung in ladder],
@@ -85,11 +88,16 @@ def _verdict(content: dict[str, Any]) -> str:
         f"{_cause(rung)}, or what fits no worse," if rung["as_good"] else _cause(rung)
         for rung in content["ladder"]
     )
+    if content["verdict"] == "nothing_to_explain" and not content["tested"]:
+        return f"Not judged: {UNJUDGED}."
     if content["verdict"] == "nothing_to_explain":
         return "Nothing to explain: the simulation misses these data by no more than their scatter."
     if content["verdict"] == "explained":
         return f"Explained: with {causes} in the simulation, what is left is the scatter of replicates."
     left = content["largest_pattern_left"]
+    chances = [content["lack_of_fit_p_value"], *([left["p_value"]] if left else [])]
+    if causes and min(chances) > CHANCE:
+        return f"Not established: {causes} would explain these data, and so might what the catalogue lacks."
     where = (
         f", most of all at {left['pattern']} ({three_digits(left['z'])} standard deviations)" if left else ""
     )
@@ -97,6 +105,16 @@ def _verdict(content: dict[str, Any]) -> str:
     return (
         f"Not explained in full: {part}more than scatter is left that no cause of the catalogue fits{where}."
     )
+
+
+def _scatter(content: dict[str, Any]) -> str:
+    scatter = content["scatter"]
+    sizes = f"From test to test they scatter by {scatter['modulus_percent']:.2g} % and {scatter['phase_deg']:.2g}°"
+    if scatter["from_replicates"]:
+        return f"{sizes}."
+    if content["provenance"].get("scatter_stated"):
+        return f"{sizes}, as was stated."
+    return f"{sizes} as far as a smooth law can tell, for nothing was repeated."
 
 
 def _origin(origin: str) -> list[str]:

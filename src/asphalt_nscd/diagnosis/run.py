@@ -15,7 +15,7 @@ from asphalt_nscd.diagnosis.extension import law_notes, material_law
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.reading import read_observations
 from asphalt_nscd.diagnosis.simulated import read_specimen
-from asphalt_nscd.diagnosis.written import CONFIDENCE
+from asphalt_nscd.diagnosis.written import CONFIDENCE, UNJUDGED
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 from asphalt_nscd.store import provenance, write_json, write_table
@@ -29,7 +29,6 @@ HELD_OUT = {
     "isotherms held out / scatter": "leave_one_isotherm_out",
     "frequencies held out / scatter": "leave_one_frequency_out",
 }
-UNJUDGED = "nothing found, but these data cannot judge the Burgers laws themselves."
 
 
 def run(
@@ -122,7 +121,7 @@ def summary(content: dict[str, Any]) -> str:
         "",
         tabulate(rows, headers) if rows else "No cause beats chance.",
         "",
-        VERDICTS[content["verdict"]] if judged else UNJUDGED,
+        VERDICTS[content["verdict"]] if judged else f"{UNJUDGED}.",
     ]
     left = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and left is not None:

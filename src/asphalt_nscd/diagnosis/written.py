@@ -89,6 +89,9 @@ def three_digits(value: float) -> str:
     return f"{float(f'{value:.3g}'):.10g}"
 
 
+UNJUDGED = "nothing found, but these data cannot judge the Burgers laws themselves"
+
+
 def place_name(where: str | float | None) -> str:
     """Where a cause sits, in words; empty for all tests."""
     if where is None:

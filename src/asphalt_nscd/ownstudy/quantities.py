@@ -44,8 +44,11 @@ MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
     "psi_deg": ("psi ψ", _DEGREE),
 }  # fmt: skip
 SIEVES = {
-    "diameter_mm": ("d D diameter sieve sievesize size sieveopening opening", _MILLIMETRE),
-    "passing_percent": ("passing percentpassing masspassing passant", _PERCENT),
+    "diameter_mm": (
+        "d D diameter sieve sievesize size sieveopening opening siebweite maschenweite tamis",
+        _MILLIMETRE,
+    ),
+    "passing_percent": ("passing percentpassing masspassing passant durchgang siebdurchgang", _PERCENT),
 }
 _UNITS = {name for _, units in (MEASURED | SIEVES).values() for name in units}
 
@@ -121,14 +124,14 @@ def _splits(header: str) -> Iterator[tuple[str, str]]:
 def _spelled(unit: str) -> str:
     """A unit in one of the spellings that stand in the tables above."""
     unit = re.sub(r"\s+", "", unit).replace("µ", "u").replace("μ", "u").replace("²", "2").replace("^", "")
-    unit = re.sub(r"^[°º](?=[CF]$)|^deg(?=[CF]$)", "", unit)
+    unit = re.sub(r"^(?:[°º]|deg|Grad)(?=[CF]$)", "", unit)
     words = {
         "°": "deg", "º": "deg", "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad",
         "celsius": "C", "kelvin": "K", "fahrenheit": "F", "micron": "um", "microns": "um", "hz": "Hz",
-        "kpa": "kPa", "mpa": "MPa", "gpa": "GPa",
+        "kpa": "kPa", "mpa": "MPa", "gpa": "GPa", "Grad": "deg", "M-%": "%", "m.-%": "%",
     }  # fmt: skip
     key = unit.lower() if unit.islower() or len(unit) > 3 else unit  # mPa stays what it is
-    return words.get(key, unit)
+    return words.get(unit, words.get(key, unit))
 
 
 def _quantity(stem: str, known: dict, qualified: bool) -> str | None:

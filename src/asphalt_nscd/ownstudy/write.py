@@ -103,9 +103,10 @@ def new_study(name: str, measurements: str | Path, wishes: Wishes) -> tuple[Path
 
 def _require_free(name: str, config: Path, folder: Path) -> None:
     pattern = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))["properties"]["study"]["pattern"]
-    if not re.fullmatch(pattern.strip("^$"), name) or name in TAKEN:
+    if not re.fullmatch(pattern.strip("^$"), name) or name in TAKEN or yaml.safe_load(name) != name:
         raise InputError(
-            f"NAME {name!r}: give letters, digits, - and _, the first a letter, and none of {', '.join(TAKEN)}."
+            f"NAME {name!r}: give letters, digits, - and _, the first a letter, and none of "
+            f"{', '.join(TAKEN)}, nor what means something else in YAML, as true and null do."
         )
     for path in (config, folder):
         if path.exists():
