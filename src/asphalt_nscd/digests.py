@@ -7,21 +7,28 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 
 from asphalt_nscd.errors import DamagedFile, is_result
 from asphalt_nscd.paths import is_file
 
+SUFFIX = ".sha256"
 WHOLE = 64  # characters of a digest that was written to its end
 
 
-def keep(path: Path, content: Path) -> None:
-    """Write down the digest of `content`, which is about to become the result `path`; of other files none."""
+def forget(path: Path) -> bool:
+    """Remove the digest of a file that is about to be replaced, which may be another user's; whether there was one."""
     beside = _beside(path)
-    standing = beside.exists()  # a step of the workflow repeated by hand
+    standing = beside.exists()
+    beside.unlink(missing_ok=True)
+    return standing
+
+
+def keep(path: Path, standing: bool) -> None:
+    """Write down the digest of a result; of other files none, but where one stood: a step repeated by hand."""
     if standing or (is_result(path) and path.suffix != ".h5"):
-        beside.unlink(missing_ok=True)  # it may be another user's
-        beside.write_text(_digest(content) + "\n")
+        _beside(path).write_text(_digest(path) + "\n")
 
 
 def require_unchanged(arguments: Iterable[str]) -> None:
@@ -38,8 +45,28 @@ def require_unchanged(arguments: Iterable[str]) -> None:
                 )
 
 
+def damaged(folder: str | Path) -> list[DamagedFile]:
+    """What is wrong with tables, figures and pages below a folder, which nothing may ever read again."""
+    found = []
+    for beside in sorted(Path(folder).rglob(f".*{SUFFIX}")):
+        try:
+            with suppress(OSError):  # what cannot be read is for the step that needs it
+                require_unchanged([str(beside.with_name(beside.name[1 : -len(SUFFIX)]))])
+        except DamagedFile as error:
+            found.append(error)
+    return found
+
+
+def set_aside(error: DamagedFile) -> str:
+    """Move a damaged file out of the way of the workflow, which takes what it finds for good; the sentence on it."""
+    aside = error.path.with_name(f".{error.path.name}.damaged")
+    with suppress(FileNotFoundError):  # another job has just done so
+        error.path.replace(aside)
+    return f"{error.path}: {error.problem}; it was set aside as {aside.name}, run the workflow again to make it anew."
+
+
 def _beside(path: Path) -> Path:
-    return path.with_name(f".{path.name}.sha256")
+    return path.with_name(f".{path.name}{SUFFIX}")
 
 
 def _digest(path: Path) -> str:

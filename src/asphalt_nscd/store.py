@@ -44,8 +44,9 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
         temporary.chmod(0o644)
         with temporary.open("rb") as written:
             os.fsync(written.fileno())
-        digests.keep(path, temporary)
+        standing = digests.forget(path)  # a kill between leaves no digest, never that of another content
         temporary.replace(path)
+        digests.keep(path, standing)
     except (OSError, RuntimeError) as error:
         # h5py and most libraries do not name the file that they could not write, nor would a
         # temporary name help.

@@ -45,12 +45,26 @@ def edited(name: str, said: str) -> Fault:
     return Fault(f"{name} of a finished study edited", disturb, said, "")
 
 
+def decayed(name: str, said: str) -> Fault:
+    """One bit of a finished study of which nothing is to be made."""
+
+    def disturb(study: Study) -> Run:
+        _decay(study.results / name, flipped)
+        return study.finish()
+
+    return Fault(f"{name} of a finished study decayed", disturb, said, "")
+
+
+def _decay(path: Path, how: Callable[[Path], None]) -> None:
+    """As damage to a disk leaves it: the times are those of before."""
+    times = path.stat()
+    how(path)
+    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+
+
 def damaged(name: str, how: Callable[[Path], None], said: str) -> Fault:
     def disturb(study: Study) -> Run:
-        path = study.results / name
-        times = path.stat()
-        how(path)
-        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))  # as damage to a disk leaves it
+        _decay(study.results / name, how)
         (study.results / READ[name]).unlink()
         return study.finish()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 
-from faults.damaged import cut, damaged, edited, emptied, flipped, other_kind, without_its_last_line
+from faults.damaged import cut, damaged, decayed, edited, emptied, flipped, other_kind, without_its_last_line
 from faults.ended import half_written, signalled, two_at_once, workflow_signalled
 from faults.fault import ALL, CORE, DEPOSIT, DEPOSIT_LOG, READ, SET_ASIDE, TEST, Fault
 from faults.storage import (
@@ -28,6 +28,8 @@ from faults.surroundings import (
     table_in_half,
     with_environment,
 )
+
+DECAYED = ("simulations.csv", "diagnosis/diagnosis.json", "figures/fig09.png", "pages/samples.html", ALL)
 
 
 def standing() -> dict[str, list[Fault]]:
@@ -56,6 +58,7 @@ def standing() -> dict[str, list[Fault]]:
                 for how in (cut, emptied, flipped, without_its_last_line)
             ),
             *(edited(name, SET_ASIDE) for name in READ),
+            *(decayed(name, SET_ASIDE) for name in DECAYED),
         ],
         "no room, no right, no memory": [
             Fault("disk full", full_disk, "error: .*s1.h5: no space left on device; free some space", DEPOSIT),

@@ -214,6 +214,22 @@ def test_killed_run_is_finished_by_the_same_command(workspace):
     assert contents(results) == expected
 
 
+def test_a_finished_table_that_decayed_is_set_aside_by_the_next_run_and_made_anew_by_the_one_after(workspace):
+    workspace.configure()
+    assert workspace.run("--cores", "2", *FITS).returncode == 0
+    law = workspace.folder / FITS[0]
+    whole, times = law.read_text(), law.stat()
+    law.write_text(whole.replace("1", "2", 1))
+    os.utime(law, ns=(times.st_atime_ns, times.st_mtime_ns))
+    assert workspace.planned(*FITS) == {} and law.exists()
+    met = workspace.run("--cores", "2", *FITS)
+    assert met.returncode != 0
+    assert met.stderr.splitlines()[-1].startswith(f"error: {FITS[0]}: content is not what was written")
+    assert not law.exists()
+    assert workspace.run("--cores", "2", *FITS).returncode == 0
+    assert law.read_text() == whole
+
+
 def test_second_run_at_the_same_time_is_refused(workspace):
     workspace.configure()
     first = workspace.start("--cores", "1", *FITS)

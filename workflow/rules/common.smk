@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from asphalt_nscd.clock import mistrust_future
+from asphalt_nscd.digests import damaged, set_aside
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.failures import failures
 from asphalt_nscd.feasible import require_feasible
@@ -15,8 +16,8 @@ from asphalt_nscd.paths import require_writable
 from asphalt_nscd.sources import PACKAGE, modules_of, source_files, stamp
 from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
 
+ALONE = workflow.is_main_process and release_stale_locks(".snakemake")
 if workflow.is_main_process:
-    release_stale_locks(".snakemake")
     remove_own_locks_only()
 
 # `asphalt-nscd` is the one beside this Python, whether or not the environment is activated.
@@ -39,6 +40,10 @@ try:
         require_writable(f"results/{STUDY['study']}")
         mistrust_future(f"results/{STUDY['study']}")
         mistrust_future(".snakemake/code")
+        if ALONE and not workflow.output_settings.dryrun:
+            _damaged = damaged(f"results/{STUDY['study']}")
+            if _damaged:
+                sys.exit("\n".join(f"error: {set_aside(found)}" for found in _damaged))
 except InputError as error:
     sys.exit(f"error: {error}")
 

@@ -12,7 +12,6 @@ import shutil
 import signal
 import sys
 from collections.abc import Callable
-from contextlib import suppress
 from importlib import import_module
 
 # One core or many must give identical numbers, and jobs run side by side: every step is one thread.
@@ -77,7 +76,8 @@ def _status(step: Callable[[], object]) -> int:
         error.show()
         return error.exit_code
     except DamagedFile as error:
-        return _say(_heal(error), 2)
+        within = os.environ.get(WITHIN_WORKFLOW)
+        return _say(digests.set_aside(error) if within else str(error), 2)
     except InputError as error:
         return _say(str(error), 2)
     except (KeyboardInterrupt, click.Abort):
@@ -96,16 +96,6 @@ def _status(step: Callable[[], object]) -> int:
             raise
         return _say(sentence, 2)
     return 0
-
-
-def _heal(error: DamagedFile) -> str:
-    """Within the workflow, which can make the file again but takes it for good, set it aside."""
-    if not os.environ.get(WITHIN_WORKFLOW):
-        return str(error)
-    aside = error.path.with_name(f".{error.path.name}.damaged")
-    with suppress(FileNotFoundError):  # another job has just done so
-        error.path.replace(aside)
-    return f"{error.path}: {error.problem}; it was set aside as {aside.name}, run the workflow again to make it anew."
 
 
 def _forget_core() -> str:
