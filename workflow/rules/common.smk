@@ -11,14 +11,14 @@ from asphalt_nscd.digests import damaged, set_aside
 from asphalt_nscd.errors import InputError
 from asphalt_nscd.failures import failures
 from asphalt_nscd.feasible import require_feasible
-from asphalt_nscd.lock import release_stale_locks, remove_own_locks_only
+from asphalt_nscd.lock import release_stale_locks, hold_own_locks
 from asphalt_nscd.paths import require_writable
 from asphalt_nscd.sources import PACKAGE, modules_of, source_files, stamp
 from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
 
 ALONE = workflow.is_main_process and release_stale_locks(".snakemake")
 if workflow.is_main_process:
-    remove_own_locks_only()
+    hold_own_locks()
 
 # `asphalt-nscd` is the one beside this Python, whether or not the environment is activated.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
