@@ -96,7 +96,7 @@ def _verdict(content: dict[str, Any]) -> str:
         return f"Explained: with {causes} in the simulation, what is left is the scatter of replicates."
     left = content["largest_pattern_left"]
     chances = [content["lack_of_fit_p_value"], *([left["p_value"]] if left else [])]
-    if causes and min(chances) > CHANCE:
+    if causes and min(chances) > 0.5 * CHANCE:  # as `diagnose` judges either
         return f"Not established: {causes} would explain these data, and so might what the catalogue lacks."
     where = (
         f", most of all at {left['pattern']} ({three_digits(left['z'])} standard deviations)" if left else ""
