@@ -42,8 +42,9 @@ def test_report_has_nothing_to_complain_of(tmp_path, width):
     (tmp_path / "workflow.html").touch()
     sentence = ["A sentence about 120 moduli."]
     page = {
-        "measured": sentence, "simulated": sentence, "wrong": sentence, "verdict": "Explained.", "causes": [], "notes": sentence,
-        "gained": [("error of |E*|, %", "2", "1")], "held_out": None, "map": b64encode(png()).decode(),
+        "measured": sentence, "simulated": sentence, "wrong": sentence, "verdict": "Explained.", "causes": [],
+        "notes": sentence, "gained": [("error of |E*|, %", "2", "1")], "held_out": None,
+        "map": b64encode(png()).decode(),
     }  # fmt: skip
     entries = [Entry(f"{place} Part", tmp_path / name) for place, name in enumerate(("a.png", "t.html"))]
     (tmp_path / "report.html").write_text(
