@@ -55,8 +55,8 @@ rule first_page:
     message:
         "Take a picture of the report's first page"
     shell:
-        "env PYTHONPATH={params.tests} {params.python} -m browser {input} --picture {output} && "
-        "asphalt-nscd publish {output} --root {params.folder} --output {params.folder} --document README.md"
+        "bash -c 'env PYTHONPATH={params.tests} {params.python} -m browser {input} --picture {output} && "
+        "asphalt-nscd publish {output} --root {params.folder} --output {params.folder} --document README.md'"
 
 
 rule publish_faults:
