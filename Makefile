@@ -67,13 +67,13 @@ check: $(READY)
 	@.venv/bin/python tools/check.py
 
 faults: $(READY)
-	@PYTHONPATH=tests .venv/bin/python -m faults
+	@PYTHONPATH=trials .venv/bin/python -m faults
 
 fuzz: $(READY)
-	@PYTHONPATH=tests .venv/bin/python -m fuzz
+	@PYTHONPATH=trials:tests .venv/bin/python -m fuzz
 
 cluster: $(READY)
-	@PYTHONPATH=tests .venv/bin/python -m cluster
+	@PYTHONPATH=trials .venv/bin/python -m cluster
 
 api: $(READY)
 	@.venv/bin/pdoc --output-directory docs/api asphalt_nscd '!asphalt_nscd.cli'

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from rows import COLUMNS
 
-from asphalt_nscd.store import write_table
+from asphalt_nscd.files.store import write_table
 
 
 def exponents(table: pd.DataFrame) -> pd.DataFrame:

@@ -12,12 +12,12 @@ from pathlib import Path
 import numpy as np
 from rows import Clock, absent, run, write_rows
 
-from asphalt_nscd.bending import Record, bond_law, read_model, run_test
-from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
-from asphalt_nscd.nscd.law import BondLaw
-from asphalt_nscd.nscd.sweeping import SweepingStepper
-from asphalt_nscd.preparation import read_specimen
+from asphalt_nscd.bending.bending_test import Record, bond_law, read_model, run_test
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 from asphalt_nscd.rheology.laws_io import read_bond_law
+from asphalt_nscd.specimen.preparation import read_specimen
 
 TOPIC = "cycle of 10 Hz"
 FREQUENCY, AMPLITUDE, TIME_STEP = 10.0, 63e-6, 5e-5

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from rows import Clock, absent, run, write_rows
 
-from asphalt_nscd.counts import read_counts
-from asphalt_nscd.preparation import DENSITY
+from asphalt_nscd.specimen.counts import read_counts
 from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
+from asphalt_nscd.specimen.preparation import DENSITY
 
 TOPIC = "pouring"
 BOX = (0.25, 0.025, 1.6)  # m

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from asphalt_nscd.store import write_table
+from asphalt_nscd.files.store import write_table
 
 COLUMNS = ["topic", "case", "spheres", "time_step_s", "cpu_s", "memory_MB", "remark"]
 

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from asphalt_nscd.nscd.bonds import BondedSystem
-from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen
 from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam

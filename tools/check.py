@@ -16,8 +16,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from asphalt_nscd.compare import first_difference
-from asphalt_nscd.publish import altered
+from asphalt_nscd.reporting.compare import first_difference
+from asphalt_nscd.reporting.publish import altered
 
 ROOT = Path(__file__).resolve().parents[1]
 # Files made again, their relative tolerance: rounding differs between processors, and minimisers stop on it.

@@ -10,9 +10,9 @@ from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.report import as_json
 from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.measurements.twopoint import Geometry, form_factor
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
-from asphalt_nscd.twopoint import Geometry, form_factor
 
 LAW = TwoS2P1D(1e6, 42.58e9, 0.199, 0.604, 1.644, 0.14, 28.5, WLF(11.69, 79.86, 15.0))
 GAMMA = form_factor(Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235))

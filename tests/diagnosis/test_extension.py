@@ -6,16 +6,16 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from asphalt_nscd.bending.rig import read_rig
 from asphalt_nscd.diagnosis.extension import extend
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.simulated import SHIPPED, read_specimen
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.twopoint import Geometry, form_factor
 from asphalt_nscd.rheology.laws_io import read_bond_law
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
-from asphalt_nscd.rig import read_rig
-from asphalt_nscd.twopoint import Geometry, form_factor
 
 LAW = TwoS2P1D(1e6, 42e9, 0.2, 0.6, 1.6, 0.14, 28.0, WLF(11.7, 80.0, 15.0))
 GAMMA = form_factor(Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235))

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.diagnosis.numerics import of_campaign
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 
 
 def test_departures_from_law_and_ratio(tmp_path):

@@ -3,8 +3,8 @@
 import pytest
 
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.errors import InputError
-from asphalt_nscd.measurements import reduce_table
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.reduction import reduce_table
 
 ROWS = ["A,a,0,1,9000,20", "A,b,0,1,9100,20.1", "A,a,0,10,12000,16", "A,b,0,10,12100,16.1"]
 

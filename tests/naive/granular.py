@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.nscd.granular_sweeps import ROUND
+from asphalt_nscd.nscd.spheres.gauss_seidel import ROUND
 
 
 def all_pairs(position, radius, plane_point, plane_normal, reach):

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds import BondedSystem
-from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.system import BondedSystem
 
 
 @dataclass

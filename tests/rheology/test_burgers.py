@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.burgers import Burgers
 
 LAW = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)  # 15 degC

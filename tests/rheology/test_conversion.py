@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.shift import WLF

@@ -5,7 +5,7 @@ from dataclasses import astuple
 import numpy as np
 import pytest
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.fitting import best_of_starts, fit_burgers
 

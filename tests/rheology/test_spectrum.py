@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
 from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D, parameters
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
 from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D
 from asphalt_nscd.rheology.spectrum_io import read_spectrum, write_spectrum

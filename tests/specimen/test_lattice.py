@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from naive.granular import all_pairs
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.specimen.lattice import random_lattice
 
 MIXES = {

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.specimen.trimming import layer_height, trim
-from asphalt_nscd.twopoint import Geometry
 
 GEOMETRY = Geometry(b=10e-3, B=20e-3, e=10e-3, h=60e-3, mass=0.02, mobile_mass=0.008)
 BOX = np.array([60e-3, 10e-3, 26.4e-3])

@@ -7,12 +7,12 @@ import math
 import pandas as pd
 import pytest
 
-from asphalt_nscd.errors import InputError
-from asphalt_nscd.sources import PACKAGE
-from asphalt_nscd.store import write_table
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import write_table
 from asphalt_nscd.verification.mutations import MUTANTS, mutate
 from asphalt_nscd.verification.row import FAILED, PASSED, Checks, Row, order
 from asphalt_nscd.verification.study import COLUMNS, THEMES, joined, require_passed, summarised, table, verify
+from asphalt_nscd.workflow_support.sources import PACKAGE
 
 
 @pytest.mark.parametrize("theme", ["law", "accounts", "methods"])

@@ -107,7 +107,7 @@ rule packing:
             frequency=label(PACKING["frequency_Hz"]),
         ),
         deposits=expand("<results>/deposits/{sample}.h5", sample=PACKED),
-        code=code("table", "tables.packing"),
+        code=code("table", "reporting.tables.packing"),
     output:
         "<results>/packing.csv",
     params:

@@ -2,10 +2,10 @@
 #   make blind
 #   snakemake blind --cores all --configfile config/blind.yaml
 
-sys.path.insert(0, str(Path(workflow.basedir, "tests")))
+sys.path.insert(0, str(Path(workflow.basedir, "trials")))
 from blind import plan
 
-BLIND = f"env PYTHONPATH={Path(workflow.basedir, 'tests')}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m blind"
+BLIND = f"env PYTHONPATH={Path(workflow.basedir, 'trials')}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m blind"
 GENERATOR = ["causes", "design", "generator", "laws", "outside", "plan", "records", "rig", "score", "sealed", "strength"]
 CHUNKS = expand("<results>/chunks/{number}.jsonl", number=range(len(plan.chunks())))
 INSIDE = expand("<results>/inside/{mix}/{effect}.jsonl", mix=plan.MIXES, effect=["nothing", *plan.INSIDE])
@@ -14,7 +14,7 @@ BLIND_FIGURES = ["efficiency", "isolation"]
 
 
 def blind_code(*names):
-    return [f"tests/blind/{name}.py" for name in names]
+    return [f"trials/blind/{name}.py" for name in names]
 
 
 rule blind_chunk:

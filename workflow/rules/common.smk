@@ -6,15 +6,15 @@ import re
 import sys
 from pathlib import Path
 
-from asphalt_nscd.clock import mistrust_future
-from asphalt_nscd.digests import damaged, set_aside
-from asphalt_nscd.errors import InputError
-from asphalt_nscd.failures import failures
-from asphalt_nscd.feasible import require_feasible
-from asphalt_nscd.lock import release_stale_locks, hold_own_locks
-from asphalt_nscd.paths import require_writable
-from asphalt_nscd.sources import PACKAGE, modules_of, source_files, stamp
-from asphalt_nscd.study import complete_study, label, refuse_repeated_keys
+from asphalt_nscd.workflow_support.clock import mistrust_future
+from asphalt_nscd.files.digests import damaged, set_aside
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.workflow_support.failures import failures
+from asphalt_nscd.study.preflight import require_feasible
+from asphalt_nscd.workflow_support.lock import release_stale_locks, hold_own_locks
+from asphalt_nscd.files.paths import require_writable
+from asphalt_nscd.workflow_support.sources import PACKAGE, modules_of, source_files, stamp
+from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
 
 ALONE = workflow.is_main_process and release_stale_locks(".snakemake")
 if workflow.is_main_process:

@@ -49,7 +49,7 @@ rule first_page:
     output:
         f"results/published/{STUDY['study']}/first_page.png",
     params:
-        tests=os.path.relpath(Path(workflow.basedir, "tests")),
+        tests=os.path.relpath(Path(workflow.basedir, "trials")),
         python=sys.executable,
         folder=f"results/published/{STUDY['study']}",
     message:
@@ -73,7 +73,7 @@ rule publish_faults:
 
 
 rule publish_cluster:
-    # After a run of tests/cluster, whose table this is. Only on request:
+    # After a run of trials/cluster, whose table this is. Only on request:
     #   snakemake --cores 1 publish_cluster
     input:
         table="results/cluster/cluster.csv",

@@ -11,7 +11,7 @@ for name, (category, data) in FIGURES.items():
             name
         input:
             **data,
-            code=code("figure", f"figures.{name}"),
+            code=code("figure", f"reporting.figures.{name}"),
         output:
             f"<results>/figures/{name}.pdf",
             f"<results>/figures/{name}.svg",
@@ -43,7 +43,7 @@ for name, data in TABLES.items():
             name
         input:
             **data,
-            code=code("table", f"tables.{name}"),
+            code=code("table", f"reporting.tables.{name}"),
         output:
             f"<results>/{name}.csv",
         params:

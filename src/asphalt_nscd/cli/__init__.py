@@ -20,8 +20,9 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
 
 import click  # noqa: E402
 
-from asphalt_nscd import __version__, digests  # noqa: E402
-from asphalt_nscd.errors import WITHIN_WORKFLOW, DamagedFile, InputError  # noqa: E402
+from asphalt_nscd import __version__  # noqa: E402
+from asphalt_nscd.files import digests  # noqa: E402
+from asphalt_nscd.files.errors import WITHIN_WORKFLOW, DamagedFile, InputError  # noqa: E402
 
 _MENDS = {
     errno.ENOSPC: "free some space and run the same command again",

@@ -12,7 +12,7 @@ from typing import Any
 
 import click
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 
 
 class Data(click.ParamType):
@@ -42,8 +42,10 @@ def made_from(data: Iterable[tuple[str, Path]], make: Callable[..., Any]) -> Any
 
 
 def part(package: str, name: str) -> ModuleType:
-    """Module `name` of the figures or tables."""
+    """Module `name` of a package: of the figures, say."""
     names = sorted(module.name for module in iter_modules(import_module(f"asphalt_nscd.{package}").__path__))
     if name not in names:
-        raise InputError(f"{name!r} is not among the {package}; give one of {', '.join(names)}.")
+        raise InputError(
+            f"{name!r} is not among the {package.rpartition('.')[2]}; give one of {', '.join(names)}."
+        )
     return import_module(f"asphalt_nscd.{package}.{name}")

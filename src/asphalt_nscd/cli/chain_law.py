@@ -32,6 +32,6 @@ def command(
     factor: float, output: Path,
 ) -> None:  # fmt: skip
     """Turn a law of all temperatures into the Kelvin chain that bonds follow at one."""
-    from asphalt_nscd.chain_law import chain_law
+    from asphalt_nscd.rheology.chain_law import chain_law
 
     chain_law(spectrum, temperature_c, lowest_hz, highest_hz, tolerance, factor, output)

@@ -12,7 +12,7 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(tests: tuple[Path, ...], output: Path) -> None:
     """Collect test files into one table, a row for each."""
-    from asphalt_nscd.collect import collect
-    from asphalt_nscd.store import write_table
+    from asphalt_nscd.bending.collect import collect
+    from asphalt_nscd.files.store import write_table
 
     write_table(output, collect(tests))

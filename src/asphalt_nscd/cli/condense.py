@@ -24,6 +24,6 @@ def command(
     specimen: Path, head: str, poisson: float, yield_pa: float, friction: float, output: Path
 ) -> None:  # fmt: skip
     """Assemble the bonded system of a specimen and its reduced form, which serves every test on it."""
-    from asphalt_nscd.bending import condense
+    from asphalt_nscd.bending.bending_test import condense
 
     condense(specimen, head, poisson, yield_pa, friction, output)

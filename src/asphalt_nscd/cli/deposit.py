@@ -31,7 +31,7 @@ def command(
     vibration_hz: float, vibration_s: float, time_step_s: float, output: Path,
 ) -> None:  # fmt: skip
     """Pour spheres from a random lattice by gravity, then vibrate the layer with the top wall."""
-    from asphalt_nscd.preparation import deposit
+    from asphalt_nscd.specimen.preparation import deposit
 
     with _progress.bars("s") as progress:
         deposit(

@@ -13,8 +13,8 @@ from asphalt_nscd.cli import _data, _options
 @_options.output
 def command(data: tuple[tuple[str, Path], ...], title: str, output: Path) -> None:
     """Show a diagnosis as an HTML page, from diagnosis=FILE map=PNG and, where there is one, table4=CSV."""
-    from asphalt_nscd.diagnosis.page import render, sections
-    from asphalt_nscd.store import atomic_path
+    from asphalt_nscd.files.store import atomic_path
+    from asphalt_nscd.reporting.pages.diagnosis_page import render, sections
 
     content = render(_data.made_from(data, sections), title)
     with atomic_path(output) as path:

@@ -20,7 +20,8 @@ def command(files: tuple[Path, ...], tolerance: float, output: Path | None) -> N
     is that of Siconos and FCLIB; the scaled one does not depend on units. Iterations: Gauss-Seidel
     sweeps and steps of the interior path and of Newton's method.
     """
-    from asphalt_nscd import fclib, store
+    from asphalt_nscd.files import store
+    from asphalt_nscd.verification import fclib
 
     outcomes = fclib.solve_files(files, tolerance)
     for outcome in outcomes:

@@ -18,6 +18,6 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(measured: Path, temperature_c: float, output: Path) -> None:
     """Fit one Burgers law to the reduced measurements at one temperature, Eqs. (27)-(29)."""
-    from asphalt_nscd.fitted_laws import fit_temperature
+    from asphalt_nscd.rheology.fitted_laws import fit_temperature
 
     fit_temperature(measured, temperature_c, output)

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from asphalt_nscd.cli import _options
-from asphalt_nscd.ownstudy.quantities import MEASURED, SIEVES, spellings
+from asphalt_nscd.table_import.quantities import MEASURED, SIEVES, spellings
 
 
 class Choice(click.ParamType):
@@ -63,7 +63,7 @@ def command(
     measured_in: str, grading: Path | None, small: bool,
 ) -> None:  # fmt: skip
     """Write config/NAME.yaml, a study of your own measurements, and say what was understood of them."""
-    from asphalt_nscd.ownstudy.write import Wishes, new_study
+    from asphalt_nscd.table_import.write import Wishes, new_study
 
     given = Path(geometry) if isinstance(geometry, str) else geometry
     wishes = Wishes(given, grading, measured_in != "bending", small, sheet, dict(columns))

@@ -13,8 +13,8 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(table: Path, title: str, output: Path) -> None:
     """Show a CSV table as an HTML page."""
-    from asphalt_nscd.page import page
-    from asphalt_nscd.store import atomic_path
+    from asphalt_nscd.files.store import atomic_path
+    from asphalt_nscd.reporting.pages.style import page
 
     content = page(table, title)
     with atomic_path(output) as path:

@@ -12,6 +12,6 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(study: Path | None, output: Path) -> None:
     """Write down what made the results: STUDY, where there is one, commit, versions."""
-    from asphalt_nscd.store import provenance, read_json, write_json
+    from asphalt_nscd.files.store import provenance, read_json, write_json
 
     write_json(output, provenance() | ({} if study is None else {"study": read_json(study)}))

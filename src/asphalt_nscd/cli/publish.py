@@ -19,7 +19,7 @@ def command(
     files: tuple[Path, ...], root: Path, output: Path, document: Path, block: tuple[tuple[str, Path], ...]
 ) -> None:
     """Copy results to be committed, with checksums, and fill their tables into a document."""
-    from asphalt_nscd.publish import fill_blocks, publish
+    from asphalt_nscd.reporting.publish import fill_blocks, publish
 
     fill_blocks(document, dict(block))
     publish(files, root, output)

@@ -19,6 +19,6 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(table: Path, temperature_c: float, unit: str, output: Path) -> None:
     """Take one Burgers law from a published table."""
-    from asphalt_nscd.published_laws import published_law
+    from asphalt_nscd.rheology.published_laws import published_law
 
     published_law(table, temperature_c, unit, output)

@@ -42,7 +42,7 @@ def command(
     laws_table: Path, output: Path, frequencies_hz: tuple[float, ...], amplitude_m: float, **options: object
 ) -> None:
     """Draw measurements about the smooth law behind a published table of Burgers laws."""
-    from asphalt_nscd.reconstruct import reconstruct_table
+    from asphalt_nscd.rheology.reconstruct import reconstruct_table
 
     reconstruct_table(
         laws_table,

@@ -18,6 +18,6 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(measurements: Path, geometry: object, cycles: int | None, output: Path) -> None:
     """Reduce measured peaks, records or moduli to complex moduli, Eqs. (1)-(5)."""
-    from asphalt_nscd.measurements import reduce_table
+    from asphalt_nscd.measurements.reduction import reduce_table
 
     reduce_table(measurements, geometry, output, cycles=cycles)

@@ -40,9 +40,9 @@ def command(
 ) -> None:  # fmt: skip
     """Put all results of a study into one HTML file, behind a first page made from measured=CSV
     simulations=CSV samples=CSV diagnosis=JSON map=PNG."""
-    from asphalt_nscd.report.assemble import Entry, assemble
-    from asphalt_nscd.report.first_page import first_page
-    from asphalt_nscd.store import atomic_path
+    from asphalt_nscd.files.store import atomic_path
+    from asphalt_nscd.reporting.pages.assemble import Entry, assemble
+    from asphalt_nscd.reporting.pages.first_page import first_page
 
     page = _data.made_from(data, first_page)
     content = assemble(study, page, [Entry(part, path) for part, path in entries], captions)

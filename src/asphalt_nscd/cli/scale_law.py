@@ -14,6 +14,6 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(law: Path, parameter: str, factor: float, output: Path) -> None:
     """Change one parameter of a Burgers law, for the sensitivity study."""
-    from asphalt_nscd.sensitivity import scale_law
+    from asphalt_nscd.rheology.scaled_laws import scale_law
 
     scale_law(law, parameter, factor, output)

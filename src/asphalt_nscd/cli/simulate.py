@@ -94,7 +94,7 @@ def command(
         )
     if checkpoint is not None and tests > 1:
         raise click.UsageError("--checkpoint keeps one test; give one --frequency-hz.")
-    from asphalt_nscd.bending import read_model, simulate
+    from asphalt_nscd.bending.bending_test import read_model, simulate
 
     specimen = read_model(model)
     for law, frequency, output in zip(laws * (tests // len(laws)), frequencies, outputs, strict=True):

@@ -13,8 +13,8 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(study: str, output: Path) -> None:
     """Write down STUDY, the complete configuration as JSON."""
-    from asphalt_nscd.errors import InputError
-    from asphalt_nscd.store import write_json
+    from asphalt_nscd.files.errors import InputError
+    from asphalt_nscd.files.store import write_json
 
     try:
         content = json.loads(study)

@@ -13,7 +13,7 @@ from asphalt_nscd.cli import _data, _options
 @_options.output
 def command(name: str, data: tuple[tuple[str, Path], ...], output: Path) -> None:
     """Make table NAME from DATA, each kind=path."""
-    from asphalt_nscd.store import write_table
+    from asphalt_nscd.files.store import write_table
 
-    make = _data.part("tables", name).make
+    make = _data.part("reporting.tables", name).make
     write_table(output, _data.made_from(data, make))

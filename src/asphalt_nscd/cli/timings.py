@@ -14,8 +14,8 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(benchmarks: tuple[Path, ...], folder: Path, markdown: Path, output: Path) -> None:
     """Sum BENCHMARKS, files of Snakemake, by rule: where the time goes."""
-    from asphalt_nscd.store import atomic_path, write_table
-    from asphalt_nscd.timings import as_markdown, by_rule, elapsed
+    from asphalt_nscd.files.store import atomic_path, write_table
+    from asphalt_nscd.reporting.timings import as_markdown, by_rule, elapsed
 
     table = by_rule(benchmarks, folder)
     write_table(output, table)

@@ -25,6 +25,6 @@ def command(
     deposit: Path, geometry: Any, volume_reduction: float, gap_max_mm: float, output: Path
 ) -> None:  # fmt: skip
     """Cut the specimen from a deposit, turn it upright, shrink its spheres and bond them."""
-    from asphalt_nscd.preparation import trim_deposit
+    from asphalt_nscd.specimen.preparation import trim_deposit
 
     trim_deposit(deposit, geometry, volume_reduction, gap_max_mm * 1e-3, output)

@@ -15,7 +15,7 @@ from asphalt_nscd.cli import _options
 @click.option("--summary", is_flag=True, help="Write one row for each theme.")
 def command(tables: tuple[Path, ...], output: Path | None, summary: bool) -> None:
     """Judge TABLES of the verification: exit status 2, naming them, if any row has failed."""
-    from asphalt_nscd.store import write_table
+    from asphalt_nscd.files.store import write_table
     from asphalt_nscd.verification.study import joined, require_passed, summarised
 
     if output is None:

@@ -15,7 +15,7 @@ from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.ladder import CHANCE, Ladder, climb
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.measurements import require_enough
+from asphalt_nscd.measurements.reduction import require_enough
 
 DRAWS = 4000
 LEAST_ISOTHERMS = (

@@ -22,15 +22,15 @@ from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
 from asphalt_nscd.diagnosis.simulated import read_specimen
-from asphalt_nscd.errors import InputError
-from asphalt_nscd.measurements import LEAST_TESTS
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import read_json, write_json
+from asphalt_nscd.measurements.reduction import LEAST_TESTS
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.fitting import Fit
 from asphalt_nscd.rheology.laws_io import write_chain
 from asphalt_nscd.rheology.spectrum import Spectrum
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
-from asphalt_nscd.store import read_json, write_json
 
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]

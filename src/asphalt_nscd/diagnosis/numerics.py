@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from asphalt_nscd.errors import InputError
-from asphalt_nscd.results import read_tests
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.tables import read_tests
 
 Vector = NDArray[np.float64]
 # A study simulates the nominal conditions of what was measured.

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from asphalt_nscd.csvinput import Limits, Table, read_csv
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.errors import InputError
-from asphalt_nscd.geometry_input import read_geometry
-from asphalt_nscd.measurements import FORMS, KEYS, REDUCED_COLUMNS, reduced_frame
-from asphalt_nscd.twopoint import form_factor, mass_factor
+from asphalt_nscd.files.csvinput import Limits, Table, read_csv
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.geometry import read_geometry
+from asphalt_nscd.measurements.reduction import FORMS, KEYS, REDUCED_COLUMNS, reduced_frame
+from asphalt_nscd.measurements.twopoint import form_factor, mass_factor
 
 SYNONYMS = {"T_C": "temperature_C", "f_Hz": "frequency_Hz", "phi_deg": "phase_deg"}
 OPTIONAL = {

@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from asphalt_nscd.agreement import mean_relative_error
 from asphalt_nscd.diagnosis import heldout
 from asphalt_nscd.diagnosis.bases import LN10, FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
@@ -19,6 +18,7 @@ from asphalt_nscd.diagnosis.ladder import Rung
 from asphalt_nscd.diagnosis.scatter import STATED
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import CONFIDENCE, NOTABLE, SCHEMA_VERSION
+from asphalt_nscd.measurements.agreement import mean_relative_error
 
 Logarithm = NDArray[np.complex128]  # ln E* (n,)
 

@@ -16,9 +16,9 @@ from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.reading import read_observations
 from asphalt_nscd.diagnosis.simulated import read_specimen
 from asphalt_nscd.diagnosis.written import CONFIDENCE, UNJUDGED
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
-from asphalt_nscd.store import provenance, write_json, write_table
 
 VERDICTS = {
     "explained": "explained: what is left is replicate scatter.",

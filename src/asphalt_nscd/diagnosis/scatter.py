@@ -11,7 +11,7 @@ from scipy.stats import f as fisher
 
 from asphalt_nscd.diagnosis.joint import Noise
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 
 Vector = NDArray[np.float64]
 STATED = 10**6  # degrees of freedom of a scatter that is known

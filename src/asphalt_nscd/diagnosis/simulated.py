@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from asphalt_nscd.errors import InputError
-from asphalt_nscd.store import load, save
-from asphalt_nscd.twopoint import Geometry, form_factor, mass_factor
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import load, save
+from asphalt_nscd.measurements.twopoint import Geometry, form_factor, mass_factor
 
 KIND = "reduced specimen"
 SHIPPED = "specimen.h5"
@@ -45,8 +45,8 @@ class NumericalSpecimen:
 
 def reduce_model(model_file: str | Path, output: str | Path) -> None:
     """Keep of a condensed model what a diagnosis needs; write it."""
-    from asphalt_nscd.bending import read_model
-    from asphalt_nscd.nscd.reduced import ReducedModel
+    from asphalt_nscd.bending.bending_test import read_model
+    from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
 
     model = read_model(model_file)
     reduced = ReducedModel(model.system, model.basis)

@@ -13,10 +13,10 @@ import yaml
 from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
 
-from asphalt_nscd.csvinput import read_csv
-from asphalt_nscd.errors import InputError
-from asphalt_nscd.results import averages, the_only
-from asphalt_nscd.store import read_json
+from asphalt_nscd.files.csvinput import read_csv
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import read_json
+from asphalt_nscd.measurements.tables import averages, the_only
 
 SCHEMA_VERSION = 2
 DIAGNOSIS_SCHEMA = Path(__file__).with_name("diagnosis.schema.yaml")

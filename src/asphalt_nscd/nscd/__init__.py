@@ -8,7 +8,7 @@ opening, reaction on the second body positive = repulsion.
 def __getattr__(name: str):
     """`solve_contacts`, imported when asked for: the other kernels do without scipy.sparse."""
     if name == "solve_contacts":
-        from asphalt_nscd.nscd.friction import solve_contacts
+        from asphalt_nscd.nscd.contacts.friction import solve_contacts
 
         return solve_contacts
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

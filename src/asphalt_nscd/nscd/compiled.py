@@ -16,7 +16,7 @@ from platformdirs import user_cache_dir
 
 def _cache_folder() -> str:
     digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.glob("*.py")):
+    for source in sorted(Path(__file__).parent.rglob("*.py")):
         digest.update(source.read_bytes())
     base = os.environ.get("ASPHALT_NSCD_CACHE") or user_cache_dir("asphalt-nscd")
     return str(Path(base) / f"core-{digest.hexdigest()[:16]}")

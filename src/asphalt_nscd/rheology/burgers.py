@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.chain import KelvinChain
 
 

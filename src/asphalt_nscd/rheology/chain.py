@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import stats
 from scipy.optimize import OptimizeResult, least_squares
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.spectrum import parameters
 

@@ -8,10 +8,10 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
-from asphalt_nscd.store import read_json, write_json
 
 _BURGERS_KEYS = {
     "modulus_m": "Em_Pa",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 
 GAS_CONSTANT = 8.314462618  # J/(mol K)
 ZERO_CELSIUS = 273.15  # K

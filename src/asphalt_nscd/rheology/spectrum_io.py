@@ -6,11 +6,11 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import write_json
 from asphalt_nscd.rheology.laws_io import content_of, numbers_of, renamed
 from asphalt_nscd.rheology.shift import SHIFTS
 from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameter_names, parameters
-from asphalt_nscd.store import write_json
 
 _KEYS = {
     "static_modulus": "E_static_Pa",

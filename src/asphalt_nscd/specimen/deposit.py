@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from asphalt_nscd.nscd import granular, neighbours
+from asphalt_nscd.nscd.spheres import granular, neighbours
 
 REST_SPEED = 1e-3  # m/s, root mean square of all spheres
 MANY = 20_000  # spheres, of which the sweeps of a step leave overlaps everywhere

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 
 
 def random_lattice(

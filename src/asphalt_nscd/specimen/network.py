@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from asphalt_nscd.nscd.neighbours import find_pairs
+from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 
 
 @dataclass(frozen=True)

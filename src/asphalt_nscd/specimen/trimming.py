@@ -8,9 +8,9 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.specimen.network import Network, bond_network
-from asphalt_nscd.twopoint import Geometry
 
 FEWEST_BONDS = 3
 """Below three bonds a sphere can still move freely: such grains fall out when the layer is cut."""

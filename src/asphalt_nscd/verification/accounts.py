@@ -6,15 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds import BondedSystem
-from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
-from asphalt_nscd.nscd.energy import Energies
-from asphalt_nscd.nscd.harmonic import driving_force
-from asphalt_nscd.nscd.head import RIGID, HeadDevices
-from asphalt_nscd.nscd.marching import March
-from asphalt_nscd.nscd.reduced import ReducedModel, ritz_basis
-from asphalt_nscd.nscd.reduced_stepping import ReducedStepper
-from asphalt_nscd.nscd.scheme import Scheme
+from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices
+from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.stepping.energy import Energies
+from asphalt_nscd.nscd.stepping.harmonic import driving_force
+from asphalt_nscd.nscd.stepping.integrator import March
+from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
+from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
+from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.verification.methods import beam
 from asphalt_nscd.verification.row import Checks, Row
 from asphalt_nscd.verification.specimens import QUICK_LAW, elastic

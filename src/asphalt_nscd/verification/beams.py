@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 from scipy.integrate import quad
 
-from asphalt_nscd.nscd.bonds import opening_operator
-from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
-from asphalt_nscd.nscd.harmonic import actuator_stiffness, driving_force
-from asphalt_nscd.nscd.head import HeadDevices
-from asphalt_nscd.nscd.law import BondLaw
-from asphalt_nscd.nscd.marching import March
-from asphalt_nscd.nscd.scheme import Scheme
+from asphalt_nscd.measurements.twopoint import Geometry, form_factor, mass_factor
+from asphalt_nscd.nscd.bonds.head import HeadDevices
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.system import opening_operator
+from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.stepping.harmonic import actuator_stiffness, driving_force
+from asphalt_nscd.nscd.stepping.integrator import March
+from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.specimen.system import bending_system
-from asphalt_nscd.twopoint import Geometry, form_factor, mass_factor
 from asphalt_nscd.verification.row import Checks, Row, order
 from asphalt_nscd.verification.specimens import QUICK_LAW, chain, elastic, jittered_beam, laminated_beam
 

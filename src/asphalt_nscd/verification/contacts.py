@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from asphalt_nscd.nscd import solve_contacts
-from asphalt_nscd.nscd.bonds import BondedSystem, opening_operator
-from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
+from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.verification.row import Checks, Row
 from asphalt_nscd.verification.specimens import elastic, system_of
 

@@ -15,10 +15,10 @@ from pathlib import Path
 
 import numpy as np
 
-from asphalt_nscd.bending import Model, run_test
-from asphalt_nscd.checkpoint import Checkpoint
-from asphalt_nscd.nscd.reduced import ritz_basis, shifted_factor
-from asphalt_nscd.nscd.standby import StandBy
+from asphalt_nscd.bending.bending_test import Model, run_test
+from asphalt_nscd.bending.checkpoint import Checkpoint
+from asphalt_nscd.nscd.stepping.break_modes import StandBy
+from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
 from asphalt_nscd.verification.methods import beam
 from asphalt_nscd.verification.row import Checks, Row
 from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam
@@ -31,7 +31,7 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 def digest() -> str:
     """Of the states of a pile in motion, of a condensed run with breaking bonds, a reduced one, and contacts."""
     from asphalt_nscd.nscd import solve_contacts
-    from asphalt_nscd.nscd.scheme import VARIABLES
+    from asphalt_nscd.nscd.stepping.scheme import VARIABLES
     from asphalt_nscd.specimen.deposit import PouringNumerics
     from asphalt_nscd.specimen.lattice import random_lattice
     from asphalt_nscd.verification.assemblies import box_stack

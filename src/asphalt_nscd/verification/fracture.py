@@ -11,14 +11,14 @@ from functools import cache
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds import BondedSystem
-from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
-from asphalt_nscd.nscd.energy import Energies
-from asphalt_nscd.nscd.marching import March
-from asphalt_nscd.nscd.reduced import ritz_basis, shifted_factor
-from asphalt_nscd.nscd.reduced_stepping import FullSystemNeeded, ReducedStepper
-from asphalt_nscd.nscd.scheme import History, Scheme
-from asphalt_nscd.nscd.standby import StandBy
+from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.stepping.break_modes import StandBy
+from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.stepping.energy import Energies
+from asphalt_nscd.nscd.stepping.integrator import March
+from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
+from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, ReducedStepper
+from asphalt_nscd.nscd.stepping.scheme import History, Scheme
 from asphalt_nscd.verification.methods import beam
 from asphalt_nscd.verification.row import Checks, Row
 from asphalt_nscd.verification.specimens import QUICK_LAW

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.verification.row import Checks, Row, order
 

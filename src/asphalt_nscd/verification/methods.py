@@ -7,15 +7,15 @@ from functools import cache
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds import BondedSystem
-from asphalt_nscd.nscd.condensed import CondensedState, CondensedStepper
-from asphalt_nscd.nscd.harmonic import driving_force
-from asphalt_nscd.nscd.law import BondLaw
-from asphalt_nscd.nscd.marching import March
-from asphalt_nscd.nscd.reduced import ReducedModel, ritz_basis
-from asphalt_nscd.nscd.reduced_stepping import ReducedStepper
-from asphalt_nscd.nscd.scheme import Scheme
-from asphalt_nscd.nscd.sweeping import SweepingStepper
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
+from asphalt_nscd.nscd.stepping.harmonic import driving_force
+from asphalt_nscd.nscd.stepping.integrator import March
+from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
+from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
+from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.verification.row import Checks, Row, order
 from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam

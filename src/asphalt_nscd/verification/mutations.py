@@ -11,39 +11,39 @@ import tempfile
 from functools import cache, partial
 from pathlib import Path
 
-from asphalt_nscd.sources import PACKAGE
 from asphalt_nscd.verification.row import Checks, Row
+from asphalt_nscd.workflow_support.sources import PACKAGE
 
 LONGEST = 200  # s of CPU for the rows of a theme: ten times what they need, so that more means without end
 MUTANTS = [
     # what, theme that must notice, file, right, wrong
-    ("dashpot in the compliance of a bond", "law", "nscd/law.py", "+ 1.0 / self.dashpot +", "- 1.0 / self.dashpot +"),
-    ("recall of the Kelvin element", "law", "nscd/law.py", "recall=springs / damped", "recall=-springs / damped"),
-    ("growth of the Kelvin element", "law", "nscd/law.py", "* kelvin - self.gain", "* kelvin + self.gain"),
-    ("memory of the spring", "law", "nscd/law.py", "memory=1.0 / (dt * self.spring)", "memory=-1.0 / (dt * self.spring)"),
-    ("lever arm of a bond", "beams", "nscd/bonds.py", "arm[k1] * frame[b, c, k2] - arm", "arm[k1] * frame[b, c, k2] + arm"),
-    ("history of the bonds in the condensed equations", "beams", "nscd/condensed.py", "impulse += scale *", "impulse -= scale *"),
-    ("load in the force of the head", "beams", "nscd/condensed.py", "inertia - system.load", "inertia + system.load"),
-    ("guide spring at the head", "beams", "nscd/head.py", "/ dt + spring * x)", "/ dt - spring * x)"),
-    ("inertia in the frequency domain", "beams", "nscd/harmonic.py", "-(omega**2)", "+(omega**2)"),
-    ("form factor of the trapezoid", "beams", "twopoint.py", "(-np.log1p(-x) - x", "(-np.log1p(-x) + x"),
-    ("stress of the reduced model", "methods", "nscd/reduced_stepping.py", "(explicit[a] - new_v[a])", "(explicit[a] + new_v[a])"),
-    ("opening in a sweep over bonds", "methods", "nscd/bond_sweeps.py", "mx -= motion[j, 0]", "mx += motion[j, 0]"),
-    ("extrapolation of the two-step scheme", "methods", "nscd/scheme.py", "v + share * (v - earlier", "v - share * (v - earlier"),
-    ("dissipation of the dashpots", "accounts", "nscd/energy.py", "sums.dashpots += dt * strain", "sums.dashpots -= dt * strain"),
-    ("slip in the natural map", "coupled", "nscd/contact_sweeps.py", "shifted = u0 + friction", "shifted = u0 - friction"),
-    ("other contacts in a sweep", "coupled", "nscd/contact_sweeps.py", "u0 += w[0, 0] * n + w[0, 1] * t + w[0, 2] * s\n                u1", "u0 += w[0, 0] * n - w[0, 1] * t + w[0, 2] * s\n                u1"),
-    ("normal reaction of a sticking contact", "coupled", "nscd/contact_sweeps.py", "n = stopping - b1 * x", "n = stopping + b1 * x"),
-    ("slip in Newton's method", "coupled", "nscd/contact_newton.py", "z[:, 0] -= rho", "z[:, 0] += rho"),
-    ("derivative of the projection", "coupled", "nscd/contact_newton.py", "np.eye(2) - direction", "np.eye(2) + direction"),
-    ("slip on the interior path", "coupled", "nscd/contact_interior.py", "residual[:, 0] += slip", "residual[:, 0] -= slip"),
-    ("derivative of the slip on it", "coupled", "nscd/contact_interior.py", "keep[:, 0, 1:] -= share", "keep[:, 0, 1:] += share"),
-    ("velocity of a proximal point", "coupled", "nscd/contact_proximal.py", "problem.free_velocity - each * r", "problem.free_velocity + each * r"),
-    ("impulse in the condensed contact", "accounts", "nscd/condensed.py", "+= response @ impulse", "-= response @ impulse"),
-    ("gravity of a sphere", "spheres", "nscd/granular.py", "+= dt * gravity[k]", "-= dt * gravity[k]"),
-    ("moment of a contact on a sphere", "spheres", "nscd/granular_sweeps.py", "motion[j, 4] -= wj * tx", "motion[j, 4] += wj * tx"),
-    ("spin in the slip of two spheres", "spheres", "nscd/granular_sweeps.py", "(vx - (sy * nz - sz * ny))", "(vx + (sy * nz - sz * ny))"),
-    ("restitution of an impact", "spheres", "nscd/granular.py", "= -restitution * opening", "= restitution * opening"),
+    ("dashpot in the compliance of a bond", "law", "nscd/bonds/law.py", "+ 1.0 / self.dashpot +", "- 1.0 / self.dashpot +"),
+    ("recall of the Kelvin element", "law", "nscd/bonds/law.py", "recall=springs / damped", "recall=-springs / damped"),
+    ("growth of the Kelvin element", "law", "nscd/bonds/law.py", "* kelvin - self.gain", "* kelvin + self.gain"),
+    ("memory of the spring", "law", "nscd/bonds/law.py", "memory=1.0 / (dt * self.spring)", "memory=-1.0 / (dt * self.spring)"),
+    ("lever arm of a bond", "beams", "nscd/bonds/system.py", "arm[k1] * frame[b, c, k2] - arm", "arm[k1] * frame[b, c, k2] + arm"),
+    ("history of the bonds in the condensed equations", "beams", "nscd/stepping/condensed.py", "impulse += scale *", "impulse -= scale *"),
+    ("load in the force of the head", "beams", "nscd/stepping/condensed.py", "inertia - system.load", "inertia + system.load"),
+    ("guide spring at the head", "beams", "nscd/bonds/head.py", "/ dt + spring * x)", "/ dt - spring * x)"),
+    ("inertia in the frequency domain", "beams", "nscd/stepping/harmonic.py", "-(omega**2)", "+(omega**2)"),
+    ("form factor of the trapezoid", "beams", "measurements/twopoint.py", "(-np.log1p(-x) - x", "(-np.log1p(-x) + x"),
+    ("stress of the reduced model", "methods", "nscd/stepping/reduced_stepping.py", "(explicit[a] - new_v[a])", "(explicit[a] + new_v[a])"),
+    ("opening in a sweep over bonds", "methods", "nscd/bonds/gauss_seidel.py", "mx -= motion[j, 0]", "mx += motion[j, 0]"),
+    ("extrapolation of the two-step scheme", "methods", "nscd/stepping/scheme.py", "v + share * (v - earlier", "v - share * (v - earlier"),
+    ("dissipation of the dashpots", "accounts", "nscd/stepping/energy.py", "sums.dashpots += dt * strain", "sums.dashpots -= dt * strain"),
+    ("slip in the natural map", "coupled", "nscd/contacts/gauss_seidel.py", "shifted = u0 + friction", "shifted = u0 - friction"),
+    ("other contacts in a sweep", "coupled", "nscd/contacts/gauss_seidel.py", "u0 += w[0, 0] * n + w[0, 1] * t + w[0, 2] * s\n                u1", "u0 += w[0, 0] * n - w[0, 1] * t + w[0, 2] * s\n                u1"),
+    ("normal reaction of a sticking contact", "coupled", "nscd/contacts/gauss_seidel.py", "n = stopping - b1 * x", "n = stopping + b1 * x"),
+    ("slip in Newton's method", "coupled", "nscd/contacts/newton.py", "z[:, 0] -= rho", "z[:, 0] += rho"),
+    ("derivative of the projection", "coupled", "nscd/contacts/newton.py", "np.eye(2) - direction", "np.eye(2) + direction"),
+    ("slip on the interior path", "coupled", "nscd/contacts/interior.py", "residual[:, 0] += slip", "residual[:, 0] -= slip"),
+    ("derivative of the slip on it", "coupled", "nscd/contacts/interior.py", "keep[:, 0, 1:] -= share", "keep[:, 0, 1:] += share"),
+    ("velocity of a proximal point", "coupled", "nscd/contacts/proximal.py", "problem.free_velocity - each * r", "problem.free_velocity + each * r"),
+    ("impulse in the condensed contact", "accounts", "nscd/stepping/condensed.py", "+= response @ impulse", "-= response @ impulse"),
+    ("gravity of a sphere", "spheres", "nscd/spheres/granular.py", "+= dt * gravity[k]", "-= dt * gravity[k]"),
+    ("moment of a contact on a sphere", "spheres", "nscd/spheres/gauss_seidel.py", "motion[j, 4] -= wj * tx", "motion[j, 4] += wj * tx"),
+    ("spin in the slip of two spheres", "spheres", "nscd/spheres/gauss_seidel.py", "(vx - (sy * nz - sz * ny))", "(vx + (sy * nz - sz * ny))"),
+    ("restitution of an impact", "spheres", "nscd/spheres/granular.py", "= -restitution * opening", "= restitution * opening"),
 ]  # fmt: skip
 
 checks = Checks()

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from scipy import sparse
 
-from asphalt_nscd.nscd.bonds import BondedSystem, opening_operator
-from asphalt_nscd.nscd.law import BondLaw
+from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.specimen.network import bond_network
 from asphalt_nscd.specimen.trimming import Specimen
-from asphalt_nscd.twopoint import Geometry
 
 # Moduli of Table 3 at 15 degC, viscosities lowered until transients die within two cycles at 40 Hz
 # (relaxation times below 3 ms), so that a short test reaches its steady state to 1e-9.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from asphalt_nscd.errors import InputError
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.verification.row import FAILED, PASSED, Row
 
 THEMES = ("spheres", "contacts", "coupled", "law", "beams", "methods", "accounts", "fracture", "determinism")

@@ -1,0 +1,80 @@
+"""The rig of a test: what stands between specimen and record that the reduction does not know."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import read_json, write_json
+from asphalt_nscd.nscd.bonds.head import HeadDevices
+
+KEYS = {
+    "clamp_compliance": "clamp_compliance_m_N",
+    "guide_stiffness": "guide_stiffness_N_m",
+    "guide_friction": "guide_friction_N",
+    "head_mass": "head_mass_kg",
+    "channel_delay": "channel_delay_s",
+    "phase_offset": "phase_offset_rad",
+}
+SIGNED = ("channel_delay", "phase_offset", "head_mass")
+
+
+@dataclass(frozen=True)
+class Rig(HeadDevices):
+    """Devices at the head and the measuring channel; all zero: the test as the reduction takes it.
+
+    clamp_compliance [m/N]: of the clamp between actuator, which is driven and measured, and head;
+    guide_stiffness [N/m], guide_friction [N]: spring and Coulomb slider between head and ground;
+    head_mass [kg]: moves with the head beside the mobile mass of the geometry, negative where that was
+    taken too large, which a compliant clamp does not allow; channel_delay [s]:
+    of the displacement behind the force; phase_offset [rad]: the same as a constant angle. Both of
+    the channel, of either sign, add to the phase: E_apparent = E exp(i (omega delay + offset)).
+    """
+
+    channel_delay: float = 0.0
+    phase_offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in KEYS:
+            value = getattr(self, name)
+            if not math.isfinite(value) or (value < 0.0 and name not in SIGNED):
+                wanted = "finite" if name in SIGNED else "zero or positive"
+                raise InputError(f"rig: {KEYS[name]} = {value:g} must be {wanted}.")
+        if self.head_mass < 0.0 < self.clamp_compliance:
+            raise InputError(
+                f"rig: head_mass_kg = {self.head_mass:g} behind a compliant clamp; give one of the two, or a "
+                "smaller mobile mass."
+            )
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether the specimen's head is driven itself, with nothing beside it."""
+        return not any(self.of_head)
+
+    def columns(self) -> dict[str, float]:
+        """Values by KEYS, as files and tables name them."""
+        return {KEYS[name]: float(value) for name, value in asdict(self).items()}
+
+
+def write_rig(path: str | Path, rig: Rig) -> None:
+    """Write a rig as JSON."""
+    write_json(path, rig.columns())
+
+
+def read_rig(path: str | Path) -> Rig:
+    """Read a rig; keys that are absent are zero, unknown ones are refused."""
+    content = read_json(path)
+    if not isinstance(content, dict):
+        raise InputError(f"{path}: not a rig; give an object with keys among {', '.join(KEYS.values())}.")
+    names = {key: name for name, key in KEYS.items()}
+    for key, value in content.items():
+        if key not in names:
+            raise InputError(f"{path}: key {key!r} is not known; give keys among {', '.join(names)}.")
+        if not isinstance(value, int | float) or isinstance(value, bool):
+            raise InputError(f"{path}: key {key!r} is {value!r}; give a number.")
+    try:
+        return Rig(**{names[key]: float(value) for key, value in content.items()})
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None

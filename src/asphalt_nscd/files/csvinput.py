@@ -1,0 +1,178 @@
+"""CSV tables from people: read strictly, refused with one sentence that says where and how to mend.
+
+Column names carry their unit after the last underscore (`E_MPa`); the reader recognises the same
+quantity under another unit or spelling and says which column it wants instead.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.files.errors import InputError, unreadable
+from asphalt_nscd.files.paths import require_readable
+
+_CONVERSIONS = {
+    ("GPa", "MPa"): "multiply by 1000",
+    ("kPa", "MPa"): "divide by 1000",
+    ("Pa", "MPa"): "divide by 1e6",
+    ("rad", "deg"): "multiply by 180/pi",
+    ("mm", "m"): "divide by 1000",
+    ("um", "m"): "divide by 1e6",
+    ("m", "mm"): "multiply by 1000",
+    ("cm", "mm"): "multiply by 10",
+    ("kN", "N"): "multiply by 1000",
+    ("g", "kg"): "divide by 1000",
+    ("K", "C"): "subtract 273.15",
+    ("ms", "s"): "divide by 1000",
+    ("rad/s", "Hz"): "divide by 2 pi",
+}
+_AS_CSV = (
+    "save it as UTF-8 CSV with commas and decimal points, or have `asphalt-nscd new-study` read it as it is"
+)
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Closed range in which a value is plausible, and what to do about one that is not."""
+
+    low: float
+    high: float
+    mend: str
+
+
+@dataclass(frozen=True)
+class Table:
+    """A CSV file as text: columns by name, and for each row its line number in the file (from 1)."""
+
+    path: Path
+    columns: dict[str, list[str]]
+    lines: list[int]
+
+    def error(self, row: int, problem: str) -> InputError:
+        """InputError that names the file and the line of a row (from 0)."""
+        return InputError(f"{self.path}, line {self.lines[row]}: {problem}")
+
+    def require(self, names: Iterable[str]) -> None:
+        """Refuse the table unless it has all the columns."""
+        names = list(names)
+        for name in names:
+            if name in self.columns:
+                continue
+            lookalike = self.lookalike(name, names)
+            if lookalike is None:
+                found = ", ".join(self.columns)
+                raise InputError(f"{self.path}: column {name!r} is missing (found: {found}); add it.")
+            unit = name.rpartition("_")[2]
+            advice = _CONVERSIONS.get((_stem_and_unit(lookalike)[1], unit), f"give it in {unit}")
+            raise InputError(f"{self.path}: column {lookalike!r} must be {name!r}; {advice} and rename it.")
+
+    def lookalike(self, name: str, wanted: Iterable[str] = ()) -> str | None:
+        """Column that holds the quantity of `name` under another unit or spelling."""
+        stem = name.rpartition("_")[0] or name
+        for column in self.columns:
+            found = _stem_and_unit(column)[0]
+            # One-letter symbols differ by case: e is a thickness, E a modulus.
+            same = found == stem if len(stem) == 1 else found.casefold() == stem.casefold()
+            if same and column not in wanted:
+                return column
+        return None
+
+    def text(self, name: str) -> list[str]:
+        """A column of non-empty text. It goes into tables that are opened again in spreadsheets."""
+        for row, value in enumerate(self.columns[name]):
+            if not value:
+                raise self.error(row, f"{name} is empty; fill it in or remove the line.")
+            if value[0] in "=+-@":
+                raise self.error(row, f"{name} {value!r} would be a formula in a spreadsheet; rename it.")
+        return self.columns[name]
+
+    def numbers(self, name: str, limits: Limits | None = None) -> NDArray[np.float64]:
+        """A column of finite numbers, within limits where these are given."""
+        values = np.array([self._number(name, row) for row in range(len(self.lines))])
+        if limits is not None:
+            outside = np.flatnonzero((values < limits.low) | (values > limits.high))
+            if outside.size:
+                row = int(outside[0])
+                raise self.error(
+                    row,
+                    f"{name} = {values[row]:g} is outside {limits.low:g} to {limits.high:g}; {limits.mend}.",
+                )
+        return values
+
+    def numbers_or_nan(self, name: str) -> NDArray[np.float64]:
+        """A column that may be absent or have empty fields, which become NaN."""
+        if name not in self.columns:
+            return np.full(len(self.lines), np.nan)
+        return np.array(
+            [self._number(name, row) if text else np.nan for row, text in enumerate(self.columns[name])]
+        )
+
+    def _number(self, name: str, row: int) -> float:
+        text = self.columns[name][row]
+        try:
+            value = plain_number(text)
+        except ValueError:
+            problem = f"{name} is empty" if not text else f"{name} = {text!r} is not a number"
+            raise self.error(
+                row, f"{problem}; write a number with a decimal point or remove the line."
+            ) from None
+        if not math.isfinite(value):
+            raise self.error(row, f"{name} = {text} is not finite; write a number or remove the line.")
+        return value
+
+
+def read_csv(path: str | Path) -> Table:
+    """Read a CSV file with one header line; blank lines and lines that begin with # are passed over."""
+    path = Path(path)
+    require_readable(path, "check the path")
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            # A comment line becomes a blank one, so that line numbers stay those of the file.
+            reader = csv.reader(("\n" if line.startswith("#") else line for line in file), strict=True)
+            rows = [(reader.line_num, [field.strip() for field in row]) for row in reader]
+    except (UnicodeDecodeError, csv.Error, OSError) as error:
+        raise unreadable(path, f"cannot be read as CSV text ({error})", _AS_CSV) from None
+    rows = [(line, fields) for line, fields in rows if any(fields)]
+    if not rows:
+        raise unreadable(path, "the file is empty", "give a header line and one line for each row")
+    header = rows[0][1]
+    if len(header) == 1 and re.search("[;\t]", header[0]):
+        raise InputError(f"{path}: columns are not separated by commas; {_AS_CSV}.")
+    if len(set(header)) < len(header) or "" in header:
+        raise InputError(
+            f"{path}: a column name is empty or stands twice in the header; name each column once."
+        )
+    if len(rows) == 1:
+        raise unreadable(path, "the table has a header but no rows", "add at least one")
+    for line, fields in rows[1:]:
+        if len(fields) != len(header):
+            raise unreadable(
+                path, f"line {line}: {len(fields)} fields under {len(header)} column names",
+                "separate with commas and write decimals with a point",
+            )  # fmt: skip
+    columns = {name: [fields[i] for _, fields in rows[1:]] for i, name in enumerate(header)}
+    return Table(path, columns, [line for line, _ in rows[1:]])
+
+
+def plain_number(text: str) -> float:
+    """The number a cell holds; ValueError for none, and for what only Python takes for one, such as `17_715`."""
+    if "_" in text or not text.isascii():
+        raise ValueError(f"{text!r} is not a number")
+    return float(text)
+
+
+def _stem_and_unit(column: str) -> tuple[str, str]:
+    """Quantity and unit of a column name such as E_GPa, E (GPa), |E*| [GPa] or phase."""
+    bracketed = re.fullmatch(r"(.*?)[\s_]*[(\[](.*)[)\]]", column)
+    stem, unit = (
+        bracketed.groups() if bracketed else (column.rpartition("_")[0] or column, column.rpartition("_")[2])
+    )
+    return re.sub(r"[|*\s]", "", stem), unit.strip()

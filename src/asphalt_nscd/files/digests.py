@@ -1,0 +1,74 @@
+"""Digests of what a workflow makes, each in a hidden file beside it: a bit may turn, or lines be lost.
+
+HDF5 files hold their own (`store`).
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+
+from asphalt_nscd.files.errors import DamagedFile, is_result
+from asphalt_nscd.files.paths import is_file
+
+SUFFIX = ".sha256"
+WHOLE = 64  # characters of a digest that was written to its end
+
+
+def forget(path: Path) -> bool:
+    """Remove the digest of a file that is about to be replaced, which may be another user's; whether there was one."""
+    beside = _beside(path)
+    standing = beside.exists()
+    beside.unlink(missing_ok=True)
+    return standing
+
+
+def keep(path: Path, standing: bool) -> None:
+    """Write down the digest of a result; of other files none, but where one stood: a step repeated by hand."""
+    if standing or (is_result(path) and path.suffix != ".h5"):
+        _beside(path).write_text(_digest(path) + "\n")
+
+
+def require_unchanged(arguments: Iterable[str]) -> None:
+    """Refuse a result among the arguments of a step, `path` or `kind=path`, that is not what was written."""
+    for argument in arguments:
+        path = Path(argument.rpartition("=")[2])
+        if is_result(path) and is_file(path) and is_file(_beside(path)):
+            kept = _beside(path).read_bytes().strip()
+            if len(kept) == WHOLE and kept != _digest(path).encode():
+                raise DamagedFile(
+                    path,
+                    "content is not what was written: damaged, or changed by hand (to have that taken, put it back "
+                    f"and delete {_beside(path).name})",
+                )
+
+
+def damaged(folder: str | Path) -> list[DamagedFile]:
+    """What is wrong with tables, figures and pages below a folder, which nothing may ever read again."""
+    found = []
+    for beside in sorted(Path(folder).rglob(f".*{SUFFIX}")):
+        try:
+            with suppress(OSError):  # what cannot be read is for the step that needs it
+                require_unchanged([str(beside.with_name(beside.name[1 : -len(SUFFIX)]))])
+        except DamagedFile as error:
+            found.append(error)
+    return found
+
+
+def set_aside(error: DamagedFile) -> str:
+    """Move a damaged file out of the way of the workflow, which takes what it finds for good; the sentence on it."""
+    aside = error.path.with_name(f".{error.path.name}.damaged")
+    with suppress(FileNotFoundError):  # another job has just done so
+        error.path.replace(aside)
+    return f"{error.path}: {error.problem}; it was set aside as {aside.name}, run the workflow again to make it anew."
+
+
+def _beside(path: Path) -> Path:
+    return path.with_name(f".{path.name}{SUFFIX}")
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

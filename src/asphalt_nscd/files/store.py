@@ -1,0 +1,188 @@
+"""Files: HDF5 and CSV that are written whole or not at all, and refused when damaged."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import os
+import platform
+import subprocess
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from asphalt_nscd.files import digests
+from asphalt_nscd.files.errors import DamagedFile, InputError, unreadable
+from asphalt_nscd.files.paths import require_readable
+
+if TYPE_CHECKING:
+    import pandas as pd  # a quarter of the time in which a step starts
+
+FORMAT_VERSION = 1
+_PACKAGES = ("asphalt-nscd", "numpy", "scipy", "numba", "pandas", "h5py", "matplotlib", "snakemake")
+
+
+@contextmanager
+def atomic_path(path: str | Path) -> Iterator[Path]:
+    """Yield a temporary path beside `path`; move it into place only when the block succeeds."""
+    path = Path(path)
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: not a regular file, so it is not replaced; choose another path.")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
+    os.close(handle)
+    temporary = Path(name)
+    try:
+        yield temporary
+        temporary.chmod(0o644)
+        with temporary.open("rb") as written:
+            os.fsync(written.fileno())
+        standing = digests.forget(path)  # a kill between leaves no digest, never that of another content
+        temporary.replace(path)
+        digests.keep(path, standing)
+    except (OSError, RuntimeError) as error:
+        # h5py and most libraries do not name the file that they could not write, nor would a
+        # temporary name help.
+        if getattr(error, "filename", None) in (None, name):
+            error.filename = str(path)  # type: ignore[union-attr]
+        raise
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def write_table(path: str | Path, frame: pd.DataFrame) -> None:
+    """Write a CSV table; column names carry the units."""
+    with atomic_path(path) as temporary:
+        frame.to_csv(temporary, index=False, float_format="%.10g", lineterminator="\n")
+
+
+def write_json(path: str | Path, content: Any) -> None:
+    """Write indented JSON."""
+    with atomic_path(path) as temporary:
+        temporary.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+
+
+def read_json(path: str | Path) -> Any:
+    """Read JSON, naming the file when it cannot be parsed."""
+    require_readable(path, "make it with its rule or check the path")
+    try:
+        return json.loads(Path(path).read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as error:  # no JSON, no UTF-8, a number or nesting without end
+        raise unreadable(path, f"not valid JSON ({error})", "delete it and make it again") from None
+
+
+@dataclass(frozen=True)
+class Record:
+    """Content of one result file: arrays by name, attributes by name."""
+
+    arrays: dict[str, np.ndarray]
+    attributes: dict[str, Any]
+
+
+def save(
+    path: str | Path,
+    kind: str,
+    arrays: Mapping[str, np.ndarray],
+    attributes: Mapping[str, float | int | str],
+) -> None:
+    """Write one HDF5 result file of the given kind.
+
+    Names may contain slashes (groups). The digest of all arrays and attributes is kept in the
+    file, so that a truncated or altered one is refused by `load`. Provenance (versions, commit)
+    stays outside the digest: it may differ between two machines with equal results.
+    """
+    import h5py
+
+    arrays = {name: np.ascontiguousarray(value) for name, value in arrays.items()}
+    content = io.BytesIO()  # HDF5 prints tracebacks of its own where a disk is full
+    with h5py.File(content, "w") as file:
+        for name, value in arrays.items():
+            file.create_dataset(name, data=value)
+        for name, attribute in attributes.items():
+            file.attrs[name] = attribute
+        file.attrs["kind"] = kind
+        file.attrs["format_version"] = FORMAT_VERSION
+        file.attrs["digest"] = _digest(kind, arrays, attributes)
+        file.attrs["provenance"] = json.dumps(provenance())
+    with atomic_path(path) as temporary:
+        temporary.write_bytes(content.getbuffer())
+
+
+def load(path: str | Path, kind: str) -> Record:
+    """Read one HDF5 result file, refusing another kind, another format or damaged content."""
+    import h5py
+
+    if not Path(path).is_file():
+        raise InputError(f"{path}: no such file; make it with its rule or check the path.")
+    arrays: dict[str, np.ndarray] = {}
+    try:
+        with h5py.File(path, "r") as file:
+            attributes = {name: _plain(value) for name, value in file.attrs.items()}
+            file.visititems(
+                lambda name, item: (
+                    arrays.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None
+                )
+            )
+    except Exception as error:  # h5py raises nearly any exception on a damaged file
+        raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None
+    found, format_version = attributes.pop("kind", None), attributes.pop("format_version", None)
+    digest = attributes.pop("digest", None)
+    attributes.pop("provenance", None)
+    if found != kind:
+        raise unreadable(path, f"holds {found or 'nothing of ours'!r}, not {kind!r}", "give the right file")
+    if format_version != FORMAT_VERSION:
+        raise DamagedFile(path, f"format {format_version}, this version reads {FORMAT_VERSION}")
+    if digest != _digest(kind, arrays, attributes):
+        raise DamagedFile(path, "content does not match its digest, so the file is damaged")
+    return Record(arrays, attributes)
+
+
+def provenance() -> dict[str, Any]:
+    """Git commit, package versions and Python of this run."""
+    return {
+        "git_commit": _git_commit(),
+        "python": platform.python_version(),
+        "packages": {name: _version(name) for name in _PACKAGES},
+    }
+
+
+def _digest(kind: str, arrays: Mapping[str, np.ndarray], attributes: Mapping[str, Any]) -> str:
+    digest = hashlib.sha256(kind.encode())
+    for name in sorted(arrays, key=str):  # of a damaged file, some may be bytes
+        value = np.ascontiguousarray(arrays[name])
+        digest.update(f"{name}{value.dtype.str}{value.shape}".encode())
+        digest.update(value.tobytes())
+    for name in sorted(attributes, key=str):
+        digest.update(f"{name}={_plain(attributes[name])!r}".encode())
+    return digest.hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _first_line(error: Exception) -> str:
+    return (str(error).splitlines() or [type(error).__name__])[0][:120]
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "absent"
+
+
+def _git_commit() -> str:
+    root = Path(__file__).resolve().parents[3]
+    run = subprocess.run(
+        ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=40"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    return run.stdout.strip() or "unknown"

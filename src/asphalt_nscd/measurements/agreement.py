@@ -1,0 +1,30 @@
+"""How far simulation lies from measurement, as Table 4 puts it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.files.errors import InputError
+
+KEYS = ["temperature_C", "frequency_Hz"]
+
+
+def mean_relative_error(measured: pd.DataFrame, simulated: pd.DataFrame) -> pd.DataFrame:
+    """Mean relative error of |E*| and phase for each temperature, in percent (Table 4).
+
+    Both tables have the columns temperature_C, frequency_Hz, E_MPa, phase_deg. As in the paper, the
+    average over specimens is compared with the average over samples, point by point, relative to
+    the measurement; the mean is over the frequencies that were simulated. Returns temperature_C,
+    mre_E_percent, mre_phase_percent.
+    """
+    columns = ["E_MPa", "phase_deg"]
+    experiment = measured.groupby(KEYS)[columns].mean()
+    simulation = simulated.groupby(KEYS)[columns].mean()
+    for temperature, frequency in simulation.index.difference(experiment.index):
+        raise InputError(f"no measurement at {temperature:g} degC, {frequency:g} Hz to compare with; add it.")
+    if simulation.empty:
+        raise InputError("the table of simulations is empty; simulate at least one test.")
+    errors = 100.0 * np.abs(simulation / experiment.loc[simulation.index] - 1.0)
+    errors.columns = ["mre_E_percent", "mre_phase_percent"]
+    return errors.groupby("temperature_C").mean().reset_index()

@@ -1,0 +1,244 @@
+"""Measurements of complex modulus tests: three forms in, one reduced table out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from asphalt_nscd.files.csvinput import Table, read_csv
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.paths import inside
+from asphalt_nscd.files.store import write_table
+from asphalt_nscd.measurements import signals, twopoint
+from asphalt_nscd.measurements.geometry import read_geometry
+from asphalt_nscd.measurements.limits import LIMITS, least_modulus
+
+LEAST_TESTS, LEAST_FREQUENCIES = 4, 2  # that a diagnosis takes
+ORIGINS = ("measured", "reconstructed", "synthetic")
+LABELS = ("replicate",)  # told apart, not measured
+KEYS = ("temperature_C", "frequency_Hz")
+FORMS = {"peaks": ("F0_N", "z0_m", "psi_deg"), "moduli": ("E_MPa", "phase_deg"), "records": ("record",)}
+RECORD_COLUMNS = ("time_s", "force_N", "displacement_m")
+REDUCED_COLUMNS = (
+    "specimen", "temperature_C", "frequency_Hz", "origin", "F0_N", "z0_m", "psi_deg",
+    "E_MPa", "phase_deg", "E_peak_MPa", "phase_peak_deg",
+)  # fmt: skip
+
+SHARE_LEFT_BY_MASS = 0.3  # of |E*|: in quadrature to the mass term stands its sine, of soft mixes above this
+# No mix below 15 GPa has all its phases under 90/57.3 deg, and none is glassy enough for less than 0.3 deg.
+LARGEST_PHASE_AT_LEAST = {"soft": np.pi / 2, "glassy": 0.3}  # deg
+GLASSY = 15e3  # MPa
+
+
+def reduce_table(
+    measurements: str | Path,
+    geometry: str | Path | Mapping[str, Any],
+    output: str | Path,
+    *,
+    cycles: int | None = None,
+) -> pd.DataFrame:
+    """Read a measurement table of any form, reduce it by Eqs. (1)-(5), write the reduced table.
+
+    measurements: CSV with `specimen, temperature_C, frequency_Hz`, optionally `origin`, and one of
+    FORMS; paths of records are relative to the table. geometry: see `read_geometry`; not looked at
+    for ready moduli. cycles: window for records, None for the last ten seconds.
+    """
+    frame = reduced_frame(read_csv(measurements), geometry, cycles=cycles)
+    frame = frame.reindex(columns=REDUCED_COLUMNS)
+    write_table(output, frame)
+    return frame
+
+
+def reduced_frame(
+    table: Table, geometry: str | Path | Mapping[str, Any], *, cycles: int | None = None,
+    tests: Sequence[str] = KEYS,
+) -> pd.DataFrame:  # fmt: skip
+    """The rows of a measurement table with E_MPa and phase_deg, as `reduce_table` describes them.
+
+    tests: columns which, with the specimen, tell one test from another.
+    """
+    frame, form = _tests(table, tests)
+    if form == "moduli":
+        for name in FORMS[form]:
+            frame[name] = table.numbers(name, LIMITS[name])
+        stiffness, softest = frame["E_MPa"], 1.0
+    else:
+        specimens = read_geometry(geometry, frame["specimen"])
+        if form == "peaks":
+            _reduce_peaks(table, frame, specimens)
+        else:
+            _reduce_records(table, frame, specimens, cycles)
+        _check_reduced(table, frame, form)
+        # Without the mass term, which would hide a force a thousand times too small, and which takes
+        # away no more than this from that of a true one.
+        gamma = frame["specimen"].map({name: twopoint.form_factor(g) for name, g in specimens.items()})
+        stiffness, softest = 1e-6 * gamma * frame["F0_N"] / frame["z0_m"], SHARE_LEFT_BY_MASS
+    _check_stiffness(table, frame, form, stiffness, softest)
+    _check_whole_table(table, frame, form)
+    return frame
+
+
+def require_enough(tests: int, frequencies: int) -> None:
+    """Refuse what is too little for a diagnosis; frequencies: how many different ones."""
+    if tests < LEAST_TESTS or frequencies < LEAST_FREQUENCIES:
+        raise InputError(
+            f"a diagnosis needs at least {LEAST_TESTS} tests and {LEAST_FREQUENCIES} frequencies, and these are "
+            f"{tests} at {frequencies}; measure more."
+        )
+
+
+def tests_measured(measurements: str | Path) -> tuple[pd.DataFrame, str]:
+    """Specimen, temperature, frequency and origin of each row of a table of any form, and which form."""
+    return _tests(read_csv(measurements), KEYS)
+
+
+def _tests(table: Table, tests: Sequence[str]) -> tuple[pd.DataFrame, str]:
+    frame, form = _read_keys(table, tests), _form_of(table)
+    table.require(FORMS[form])
+    return frame, form
+
+
+def read_reduced(path: str | Path) -> pd.DataFrame:
+    """Read a reduced table; specimen ids are strings, absent values NaN."""
+    table = read_csv(path)
+    frame = _read_keys(table)
+    table.require(FORMS["moduli"])
+    for name in FORMS["moduli"]:
+        frame[name] = table.numbers(name, LIMITS[name])
+    for name in REDUCED_COLUMNS:
+        if name not in frame:
+            frame[name] = table.numbers_or_nan(name)
+    return frame.reindex(columns=REDUCED_COLUMNS)
+
+
+def _read_keys(table: Table, tests: Sequence[str] = KEYS) -> pd.DataFrame:
+    """Specimen, temperature, frequency and origin of each row, each test once."""
+    table.require(["specimen", *KEYS])
+    frame = pd.DataFrame({"specimen": table.text("specimen")})
+    for name in tests:
+        frame[name] = table.text(name) if name in LABELS else table.numbers(name, LIMITS.get(name))
+    origin = table.text("origin") if "origin" in table.columns else ["measured"] * len(frame)
+    seen: dict[tuple, int] = {}
+    for row, test in enumerate(frame.itertuples(index=False, name=None)):
+        if origin[row] not in ORIGINS:
+            raise table.error(row, f"origin {origin[row]!r} is not known; write one of {', '.join(ORIGINS)}.")
+        first = seen.setdefault(test, row)
+        if first != row:
+            raise table.error(row, f"repeats the test of line {table.lines[first]}; keep one of the two.")
+    frame["origin"] = origin
+    return frame
+
+
+def _form_of(table: Table) -> str:
+    """The form of which columns are present, under whatever unit."""
+    present = [
+        form
+        for form, names in FORMS.items()
+        if any(name in table.columns or table.lookalike(name) is not None for name in names)
+    ]
+    forms = "; or ".join(", ".join(names) for names in FORMS.values())
+    if not present:
+        raise InputError(f"{table.path}: no measured quantity found; give the columns {forms}.")
+    if len(present) > 1:
+        raise InputError(f"{table.path}: holds {' and '.join(present)} together; keep one of {forms}.")
+    return present[0]
+
+
+def _reduce_peaks(table: Table, frame: pd.DataFrame, specimens: dict[str, twopoint.Geometry]) -> None:
+    for name in FORMS["peaks"]:
+        frame[name] = table.numbers(name, LIMITS[name])
+    for specimen, rows in frame.groupby("specimen").groups.items():
+        part = frame.loc[rows]
+        modulus = twopoint.complex_modulus(
+            specimens[specimen], part["frequency_Hz"], part["F0_N"], part["z0_m"], np.radians(part["psi_deg"])
+        )
+        frame.loc[rows, "E_MPa"], frame.loc[rows, "phase_deg"] = _in_table_units(modulus)
+
+
+def _reduce_records(
+    table: Table, frame: pd.DataFrame, specimens: dict[str, twopoint.Geometry], cycles: int | None
+) -> None:
+    """Reduce each record twice: by harmonic least squares, and by peak picking as in the paper."""
+    reduced = []
+    for row, name in enumerate(table.text("record")):
+        specimen, frequency = frame.at[row, "specimen"], frame.at[row, "frequency_Hz"]
+        try:
+            path = inside(table.path.parent, name)
+            record = read_csv(path)
+            record.require(RECORD_COLUMNS)
+            time, force, displacement = (record.numbers(column) for column in RECORD_COLUMNS)
+            try:
+                harmonic = signals.harmonic_response(time, force, displacement, frequency, cycles)
+                peak = signals.peak_response(time, force, displacement, frequency, cycles)
+            except InputError as error:
+                raise InputError(f"{path}: {error}") from None
+        except InputError as error:
+            raise table.error(row, f"record {error}") from None
+        values = [harmonic.force_amplitude, harmonic.displacement_amplitude, np.degrees(harmonic.phase)]
+        for response in (harmonic, peak):
+            modulus = twopoint.complex_modulus(
+                specimens[specimen],
+                frequency,
+                response.force_amplitude,
+                response.displacement_amplitude,
+                response.phase,
+            )
+            values.extend(_in_table_units(modulus))
+        reduced.append(values)
+    frame[list(REDUCED_COLUMNS[4:])] = np.array(reduced)
+
+
+def _in_table_units(modulus: NDArray[np.complex128]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    norm, phase = twopoint.norm_and_phase(modulus)
+    return norm * 1e-6, np.degrees(phase)
+
+
+def _check_reduced(table: Table, frame: pd.DataFrame, form: str) -> None:
+    """Refuse a row whose peaks or record give an impossible E*."""
+    for name in FORMS["moduli"]:
+        limits = LIMITS[name]
+        outside = np.flatnonzero(~frame[name].between(limits.low, limits.high))
+        if outside.size:
+            row = int(outside[0])
+            raise table.error(
+                row,
+                f"the {form} give {name} = {frame.at[row, name]:.4g}, outside {limits.low:g} to "
+                f"{limits.high:g}; check the units of force and displacement, the sign of the phase "
+                "and the geometry.",
+            )
+
+
+def _check_stiffness(
+    table: Table, frame: pd.DataFrame, form: str, stiffness: pd.Series, softest: float
+) -> None:
+    """Refuse a row softer [MPa] than any asphalt at its temperature and frequency."""
+    least = softest * least_modulus(frame["temperature_C"], frame["frequency_Hz"])
+    below = np.flatnonzero(stiffness < least)
+    if below.size:
+        row = int(below[0])
+        mend = "E_MPa looks like GPa, multiply by 1000" if form == "moduli" else "check F0 in N and z0 in m"
+        raise table.error(
+            row,
+            f"{stiffness[row]:.4g} MPa is softer than any asphalt at {frame.at[row, 'temperature_C']:g} degC and "
+            f"{frame.at[row, 'frequency_Hz']:g} Hz ({float(f'{least[row]:.2g}'):g} MPa); {mend}.",
+        )
+
+
+def _check_whole_table(table: Table, frame: pd.DataFrame, form: str) -> None:
+    """Refuse a table whose values make sense only in another unit."""
+    if frame["phase_deg"].median() < -0.5:  # an elastic reference beam may scatter about zero
+        raise InputError(
+            f"{table.path}: phases are mostly negative; give the angle by which the force leads."
+        )
+    largest = frame["phase_deg"].abs().max()
+    expected = LARGEST_PHASE_AT_LEAST["soft" if frame["E_MPa"].min() < GLASSY else "glassy"]
+    if form != "records" and largest <= expected:
+        raise InputError(
+            f"{table.path}: no {FORMS[form][-1]} exceeds {largest:.3g}, so the column looks like radians, or like an "
+            "elastic beam's, which says nothing of a mix; if radians, multiply it by 180/pi."
+        )

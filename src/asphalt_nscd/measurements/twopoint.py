@@ -1,0 +1,128 @@
+"""Two-point bending of a trapezoidal cantilever: Eqs. (1)-(5) of the paper, in SI units.
+
+Complex amplitudes go with exp(+i omega t). The force leads the displacement by `phase`.
+Sources: Quezada & Chazallon (2020); EN 12697-26 (whose factor 1e-6 on the mass term belongs to
+the units N, mm, g, MPa and has no place in SI).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asphalt_nscd.files.errors import InputError
+
+HEAD_SHARE_OF_MASS = 0.135  # part of the specimen's mass that moves with the head, Eq. (1)
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """Trapezoidal specimen, Fig. 1a.
+
+    b: width of the head [m]; B: width of the foot [m]; e: thickness [m]; h: height [m];
+    mass: specimen [kg]; mobile_mass: equipment that moves with the head [kg].
+    """
+
+    b: float
+    B: float
+    e: float
+    h: float
+    mass: float
+    mobile_mass: float
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if not np.isfinite(value) or value < 0 or (value == 0 and field.name != "mobile_mass"):
+                raise InputError(f"geometry: {field.name} = {value:g} must be positive; give it in m or kg.")
+        if self.b > self.B:
+            raise InputError(
+                f"geometry: the head b = {self.b:g} m is wider than the foot B = {self.B:g} m; "
+                "exchange b and B."
+            )
+
+
+def form_factor(geometry: Geometry) -> float:
+    """Form factor gamma [1/m], Eq. (3).
+
+    With x = 1 - b/B, Eq. (3) reads gamma = 12 h^3 / (e B^3) (-ln(1-x) - x - x^2/2) / x^3. The
+    quotient tends to 1/3 as b -> B (a prismatic cantilever: 4 h^3 / (e B^3)); near that limit it
+    is summed as the series 1/3 + x/4 + x^2/5 + ..., because the closed form cancels.
+
+    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    >>> round(form_factor(paper), 1)  # the paper prints 25.1 1/mm
+    25095.8
+    """
+    x = 1.0 - geometry.b / geometry.B
+    if x < 0.05:
+        shape = sum(x**n / (n + 3) for n in range(14))  # 0.05^14 is below rounding
+    else:
+        shape = (-np.log1p(-x) - x - 0.5 * x**2) / x**3
+    return float(12.0 * geometry.h**3 / (geometry.e * geometry.B**3) * shape)
+
+
+def mass_factor(geometry: Geometry) -> float:
+    """Mass factor mu = 0.135 M + m [kg].
+
+    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    >>> round(mass_factor(paper), 3)
+    0.316
+    """
+    return HEAD_SHARE_OF_MASS * geometry.mass + geometry.mobile_mass
+
+
+def complex_modulus(
+    geometry: Geometry,
+    frequency: ArrayLike,
+    force_amplitude: ArrayLike,
+    displacement_amplitude: ArrayLike,
+    phase: ArrayLike,
+) -> NDArray[np.complex128]:
+    """Complex modulus E* = E1 + i E2 [Pa] from peak values, Eqs. (1)-(2).
+
+    frequency [Hz], force_amplitude F0 [N], displacement_amplitude z0 [m], phase Psi [rad];
+    scalars or arrays of one shape.
+
+    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    >>> modulus = complex_modulus(paper, 10.0, force_amplitude=24.0, displacement_amplitude=63e-6, phase=0.3)
+    >>> print(f"{modulus / 1e9:.3f} GPa")
+    9.165+2.825j GPa
+    """
+    omega = 2.0 * np.pi * np.asarray(frequency)
+    stiffness = (
+        np.asarray(force_amplitude) / np.asarray(displacement_amplitude) * np.exp(1j * np.asarray(phase))
+    )
+    return form_factor(geometry) * (stiffness + mass_factor(geometry) * omega**2)
+
+
+def head_response(
+    geometry: Geometry, frequency: ArrayLike, modulus: ArrayLike, displacement_amplitude: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Force amplitude F0 [N] and phase Psi [rad] at the head: the exact inverse of Eqs. (1)-(2).
+
+    frequency [Hz], modulus E* [Pa], displacement_amplitude z0 [m]; scalars or arrays of one shape.
+
+    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    >>> force, phase = head_response(paper, frequency=10.0, modulus=10e9, displacement_amplitude=63e-6)
+    >>> print(f"{force:.2f} N, {phase:.1f} rad")
+    25.03 N, 0.0 rad
+    """
+    omega = 2.0 * np.pi * np.asarray(frequency)
+    stiffness = np.asarray(modulus) / form_factor(geometry) - mass_factor(geometry) * omega**2
+    return np.abs(stiffness) * np.asarray(displacement_amplitude), np.angle(stiffness)
+
+
+def norm_and_phase(modulus: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Norm [Pa] and phase [rad] of E*, Eqs. (4)-(5).
+
+    Eq. (5) prints arctan(E2/E1); the angle in (-pi, pi] agrees with it where E1 > 0 and does not
+    hide a negative E1.
+
+    >>> norm, phase = norm_and_phase(3e9 + 4e9j)
+    >>> print(f"{norm / 1e9:.0f} GPa, {phase:.4f} rad")
+    5 GPa, 0.9273 rad
+    """
+    modulus = np.asarray(modulus)
+    return np.abs(modulus), np.angle(modulus)

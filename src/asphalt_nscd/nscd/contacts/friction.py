@@ -1,0 +1,134 @@
+"""Signorini-Coulomb contacts coupled through a Delassus operator: the solver for all of them.
+
+Sweeps are cheap and end most problems. Those on which they stall are led to a solution along an
+interior path, with Newton's method trying to finish whenever the error has fallen to a tenth; where
+all paths end, proximal points go on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from asphalt_nscd.nscd.contacts.interior import interior_path
+from asphalt_nscd.nscd.contacts.newton import refine
+from asphalt_nscd.nscd.contacts.problem import ContactProblem
+from asphalt_nscd.nscd.contacts.proximal import proximal_points
+
+PATHS = ((3.0, 0.0), (10.0, 0.3), (10.0, 1.0), (100.0, 0.3), (1000.0, 0.0))
+"""Start and balance of the paths, tried in turn: no single choice leads through every rock pile."""
+
+FIRST_REFINEMENT = 1e-3  # error from which Newton's method may see the right statuses
+AGAIN = 10  # steps of a path after which Newton's method tries anew
+PATIENCE = 60  # steps of a path that may pass without the error falling to a half
+
+
+@dataclass(frozen=True)
+class ContactSolution:
+    """Reactions with their error. Only where `converged` are they a solution."""
+
+    reactions: np.ndarray  # r (3 c,) [N s]
+    velocities: np.ndarray  # u = W r + q (3 c,) [m/s]
+    error: float  # natural map in the given units, comparable with Siconos's
+    scaled_error: float  # natural map in units of energy
+    sweeps: int  # of Gauss-Seidel
+    steps: int  # of the interior path and of Newton's method: one factorisation each, or more
+    converged: bool  # both errors within the tolerance
+
+    @property
+    def iterations(self) -> int:
+        """Sweeps and steps together."""
+        return self.sweeps + self.steps
+
+    def require_converged(self) -> ContactSolution:
+        """Itself, or ArithmeticError that says how far it is."""
+        if not self.converged:
+            worst = max(self.error, self.scaled_error)
+            raise ArithmeticError(
+                f"contacts not solved: error {worst:.1e} after {self.iterations} iterations"
+            )
+        return self
+
+
+def solve_contacts(W, q, mu, tolerance: float = 1e-8, most_sweeps: int = 3000, most_steps: int = 200):
+    """Reactions r with u = W r + q, opening u_n >= 0, r_n >= 0, complementary, and Coulomb friction.
+
+    W (3 c, 3 c) [1/kg] positive semidefinite, sparse of any storage or dense; q (3 c,) [m/s]; mu, one
+    for all contacts or (c,); normal first. most_steps: of each interior path; there may be twice as many
+    proximal points. Returns a ContactSolution whose error is that of the natural map (see `natural_map`),
+    relative to the whole of what W couples; it is for the caller to look at `converged`. Where W is
+    indefinite there may be no solution, or several. Raises ValueError for input that is no such problem.
+
+    A body of 2 kg on the ground, after 1 ms of gravity, slides at 2 mm/s:
+
+    >>> W, q = np.eye(3) / 2.0, [-9.81e-3, 2e-3, 0.0]
+    >>> solve_contacts(W, q, mu=0.5).reactions.round(12).tolist()  # stops it
+    [0.01962, -0.004, 0.0]
+    >>> solve_contacts(W, q, mu=0.1).reactions.round(12).tolist()  # slows it down
+    [0.01962, -0.001962, 0.0]
+    """
+    if not 0.0 < tolerance < 1.0:
+        raise ValueError(f"tolerance {tolerance} is not between 0 and 1")
+    q = np.array(q, float).ravel()
+    if np.shape(W) == (0, 0) and not q.size:
+        return ContactSolution(q, q, 0.0, 0.0, 0, 0, True)
+    # a power of two changes no digit, and leaves room for squares
+    exponent = int(np.frexp(np.abs(q).max(initial=0.0))[1]) if np.isfinite(q).all() else 0
+    problem = ContactProblem.of(W, np.ldexp(q, -exponent), mu)
+    best, sweeps = problem.sweeps(tolerance, most_sweeps, np.zeros_like(q))
+    least, steps = max(problem.errors(best)), 0
+    for start, balance in PATHS:
+        if least <= tolerance:
+            break
+        with np.errstate(all="ignore"):  # a path without an end ends there
+            path = interior_path(problem, start, balance)
+            found, error, taken = _follow(problem, path, tolerance, most_steps)
+        steps += taken
+        if error < least:
+            best, least = found, error
+    if least > tolerance:
+        with np.errstate(all="ignore"):
+            best, swept, taken = proximal_points(problem, best, tolerance, 2 * most_steps)
+        sweeps, steps, least = sweeps + swept, steps + taken, max(problem.errors(best))
+    error, scaled = problem.errors(best)
+    reactions, velocities = np.ldexp(best, exponent), np.ldexp(problem.velocity(best), exponent)
+    return ContactSolution(reactions, velocities, error, scaled, sweeps, steps, bool(least <= tolerance))
+
+
+def _follow(problem, path, tolerance, most_steps):
+    """The best reactions along a path and by Newton's method from it, their error, and the steps."""
+    best, least, steps = np.zeros_like(problem.free_velocity), np.inf, 0
+    refined, refined_step, mark, mark_step = 10.0 * FIRST_REFINEMENT, 0, np.inf, 0
+    for step, r in zip(range(most_steps), path, strict=False):
+        error, steps = max(problem.errors(r)), steps + 1
+        candidates = [(error, r)]
+        if tolerance < error < 0.1 * refined or (error < refined and step - refined_step >= AGAIN):
+            refined, refined_step = error, step
+            sharper, r, taken = _sharpened(problem, r, error, tolerance)
+            steps += taken
+            candidates.append((sharper, r))
+        for candidate, reactions in candidates:
+            if candidate < least:
+                best, least = reactions, candidate
+        if least <= tolerance:
+            break
+        if error < 0.5 * mark:
+            mark, mark_step = error, step
+        elif step - mark_step > PATIENCE:
+            break
+    return best, least, steps
+
+
+def _sharpened(problem, r, error, tolerance):
+    """(error, reactions, steps) of Newton's method from r, begun anew as long as it halves the error."""
+    steps = 0
+    while True:
+        trial, taken = refine(problem, r, tolerance)
+        found, steps = max(problem.errors(trial)), steps + taken
+        if found >= error:
+            return error, r, steps
+        enough = found <= tolerance or found > 0.5 * error
+        r, error = trial, found
+        if enough:
+            return error, r, steps

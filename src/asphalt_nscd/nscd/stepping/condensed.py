@@ -1,0 +1,196 @@
+"""Full time stepping with the bonds condensed: one symmetric positive definite system per step.
+
+Putting sigma+ = (b - G v+)/S into the equations of motion gives
+
+    (M + dt/S K) v+ = M v- + dt f + dt/S G^T w b
+
+whose matrix is constant while no bond breaks. Broken bonds whose gap closes are frictional
+contacts, solved by Gauss-Seidel on their Delassus operator.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices, actuator_force, follow_actuator
+from asphalt_nscd.nscd.bonds.implicit_operator import ShiftedOperator
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.contacts.friction import solve_contacts
+
+CLOSED = 1e-12  # m, by which a gap in contact may differ from zero
+
+
+@dataclass
+class CondensedState:
+    """Motion and bond history at one instant; all zero at rest."""
+
+    displacement: np.ndarray  # (d,) m or rad
+    velocity: np.ndarray  # (d,)
+    sigma: np.ndarray  # (3 b,) Pa
+    kelvin: np.ndarray  # (k, 3 b) m
+    broken: list[int] = field(default_factory=list)  # bonds, in the order in which they broke
+
+    @classmethod
+    def at_rest(cls, system: BondedSystem, law: BondLaw) -> CondensedState:
+        """No motion, no stress."""
+        d, rows = system.mass.size, system.weight.size
+        kelvin = np.zeros((np.size(law.kelvin_springs), rows))
+        return cls(np.zeros(d), np.zeros(d), np.zeros(rows), kelvin)
+
+
+class CondensedStepper:
+    """Steps the full system at constant dt and law; breaks bonds and meets contacts on the way.
+
+    Of the last step: `missing` (d,) [N, N m], what the equations of motion lack, which is the driving
+    force where the motion is driven and rounding elsewhere; `utilisation`, the largest of a bond;
+    `contact`, (reactions [N], openings [m/s]) (3 c,) of the gaps that closed, or None.
+    """
+
+    def __init__(
+        self, system: BondedSystem, law: BondLaw, dt: float, state: CondensedState,
+        devices: HeadDevices = RIGID, actuator: float = 0.0,
+    ) -> None:  # fmt: skip
+        """actuator: its displacement [m] at `state`."""
+        self.system, self.step_law, self.dt, self.state = system, law.step(dt), dt, state
+        self.devices, self.actuator = devices, actuator
+        self._operator = ShiftedOperator(system, dt / self.step_law.compliance)
+        self._operator.remove(state.broken)
+        self._following = np.empty(0), -1
+
+    @property
+    def weight(self) -> np.ndarray:
+        """w (3 b,) [m] of the bonds, zero for the broken ones."""
+        return self._operator.weight
+
+    def move(self, start: float, end: float) -> float:
+        """One step in which the actuator goes from start to end [m]; its force [N]."""
+        self.actuator = start
+        force = self.advance((end - start) / self.dt)
+        self.actuator = end
+        return force
+
+    def advance(self, driven_velocity: float) -> float:
+        """One step with the actuator moving at driven_velocity [m/s]; the head with it if the clamp is rigid.
+
+        Returns the actuator's force [N]. Bonds that yield break one after another, the most
+        overstressed first, and the step is solved again until none is left.
+        """
+        system, state, dt, law = self.system, self.state, self.dt, self.step_law
+        explicit = law.explicit_part(state.sigma, state.kelvin)
+        while True:
+            velocity, contact_force, friction = self._solve(explicit, driven_velocity)
+            sigma, kelvin = law.update(explicit, system.operator @ velocity, state.kelvin)
+            utilisation = system.utilisation(self._operator.weight * sigma)
+            worst = int(np.argmax(utilisation))
+            if utilisation[worst] <= 1.0:
+                break
+            state.broken.append(worst)
+            self._operator.remove(state.broken)
+        inertia = system.mass * (velocity - state.velocity) / dt
+        reaction = system.operator.T @ (self._operator.weight * sigma)
+        self.missing = inertia - system.load - reaction - contact_force
+        self.utilisation = float(utilisation[worst])
+        head = system.driven
+        force = actuator_force(
+            self.devices.of_head, dt, self.missing[head], friction, state.displacement[head],
+            state.velocity[head], velocity[head],
+        )  # fmt: skip
+        self.actuator += dt * driven_velocity
+        state.displacement = state.displacement + dt * velocity
+        state.velocity, state.sigma, state.kelvin = velocity, sigma, kelvin
+        return float(force)
+
+    def _solve(self, explicit: np.ndarray, driven_velocity: float) -> tuple[np.ndarray, np.ndarray, float]:
+        """(velocity, contact forces, force of the slider) of the coming step while no bond breaks."""
+        system, state, dt = self.system, self.state, self.dt
+        scale = dt / self.step_law.compliance
+        impulse = system.mass * state.velocity + dt * system.load
+        impulse += scale * (system.operator.T @ (self._operator.weight * explicit))
+        if self.devices.clamp_compliance == 0.0:
+            slider = self.devices.guide_friction * float(np.sign(driven_velocity))
+            return *self._move(impulse, driven_velocity), slider
+        return self._move_by_clamp(impulse, driven_velocity)
+
+    def _move(self, impulse: np.ndarray, head_velocity: float) -> tuple[np.ndarray, np.ndarray]:
+        """(velocity, contact forces) under an impulse (d,) with the head moving at head_velocity."""
+        velocity = np.empty_like(impulse)
+        velocity[self.system.driven] = head_velocity
+        free = self.system.free
+        velocity[free] = self._operator.solve((impulse - head_velocity * self._coupling())[free])
+        return self._meet_contacts(velocity)
+
+    def _coupling(self) -> np.ndarray:
+        """Impulse (d,) that a unit velocity of the head alone takes by its bonds."""
+        system, scale = self.system, self.dt / self.step_law.compliance
+        opening = system.operator[:, [system.driven]].toarray()[:, 0]
+        return scale * (system.operator.T @ (self._operator.weight * opening))
+
+    def _follow_head(self) -> np.ndarray:
+        """Velocities (d,) for one of the head, all else at rest before; kept until bonds break."""
+        following, broken = self._following
+        if broken != len(self.state.broken):
+            following = np.zeros(self.system.mass.size)
+            following[self.system.driven] = 1.0
+            following[self.system.free] = -self._operator.solve(self._coupling()[self.system.free])
+            self._following = following, len(self.state.broken)
+        return following
+
+    def _move_by_clamp(
+        self, impulse: np.ndarray, driven_velocity: float
+    ) -> tuple[np.ndarray, np.ndarray, float]:
+        """As `_move`, with the head's velocity that of the balance in `head`; and the slider's force."""
+        system, state, dt = self.system, self.state, self.dt
+        head, following = system.driven, self._follow_head()
+        impedance = (system.mass[head] + float(self._coupling() @ following)) / dt
+
+        def follow(contact_force: np.ndarray) -> tuple[float, float]:
+            free_force = -float(following @ (impulse / dt + contact_force))
+            return follow_actuator(
+                self.devices.of_head, dt, free_force, impedance, self.actuator + dt * driven_velocity,
+                state.displacement[head], state.velocity[head],
+            )  # fmt: skip
+
+        def yields(head_velocity: float) -> float:
+            """How much faster the head would go under the contact forces of this head velocity."""
+            return follow(self._move(impulse, head_velocity)[1])[0] - head_velocity
+
+        velocity, _ = follow(np.zeros_like(impulse))
+        motion, contact_force = self._move(impulse, velocity)
+        resisted, slider = follow(contact_force)
+        excess = resisted - velocity
+        if excess:  # contacts resist motion, so the answer lies between
+            from scipy.optimize import brentq  # takes as long to import as a test to run
+
+            velocity = brentq(yields, velocity, velocity + excess, xtol=1e-14 * abs(excess))
+            velocity, slider = follow(self._move(impulse, velocity)[1])
+            motion, contact_force = self._move(impulse, velocity)
+        return motion, contact_force, slider
+
+    def _meet_contacts(self, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Correct the velocity by the impulses of all gaps that would close within the step."""
+        system, dt = self.system, self.dt
+        opening_rows = system.operator[::3]
+        gap = system.gap + opening_rows @ self.state.displacement
+        closing = np.flatnonzero(gap + dt * (opening_rows @ velocity) < 0.0)
+        touching: list[int] = []
+        force = np.zeros_like(velocity)
+        corrected, self.contact = velocity, None
+        while not np.isin(closing, touching).all():
+            touching = sorted({*touching, *closing.tolist()})
+            rows = (3 * np.asarray(touching)[:, None] + np.arange(3)).ravel()
+            normal = system.operator[rows]
+            response = self._operator.solve(normal[:, system.free].T.toarray())
+            delassus = normal[:, system.free] @ response
+            free_velocity = normal @ velocity
+            free_velocity[::3] += np.maximum(gap[touching], 0.0) / dt
+            solution = solve_contacts(delassus, free_velocity, system.friction, tolerance=1e-12)
+            impulse = solution.require_converged().reactions
+            corrected = velocity.copy()
+            corrected[system.free] += response @ impulse
+            force = normal.T @ impulse / dt
+            self.contact = impulse / dt, normal @ corrected
+            closing = np.flatnonzero(gap + dt * (opening_rows @ corrected) < -CLOSED)
+        return corrected, force

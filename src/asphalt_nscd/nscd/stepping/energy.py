@@ -1,0 +1,147 @@
+"""Where the work of the actuator goes: an account that closes to rounding, step by step.
+
+Each step satisfies, with the rates x' = (x+ - x*)/(dt/a) of its scheme (see `scheme`; implicit Euler:
+a = 1, x* = x),
+
+    M v' = f + G^T w sigma+ + r + e F,   q' = v+,   G v+ = -sigma'/E - sigma+/eta + sum kappa',
+    -sigma+ = Ek kappa+ + eta_k kappa'   for each Kelvin element.
+
+The first times dt v+, with the others put in for the work of the bonds, is exact in the discrete:
+
+    dt F z' = dt v+ M v' + dt <sigma+, sigma'>/E + sum dt Ek <kappa+, kappa'> - dt f q'
+            + dt <sigma+, sigma+>/eta + sum dt eta_k <kappa', kappa'> - dt r (G v+)
+
+with <x, y> = x^T w y over the bonds that are left. A store of energy H = x^2/2 takes dt x+ x' = H+ - H + N,
+and N, which is (x+ - x)^2/2 in implicit Euler, is the numerical dissipation of the scheme. A bond that breaks
+releases what it stores at the beginning of the step. Devices at the head add stores and a slider.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.stepping.scheme import History
+
+Form = Callable[[np.ndarray, np.ndarray], float]
+
+
+@dataclass
+class Energies:
+    """All in J. Stores at the present, the rest summed from the beginning."""
+
+    actuator: float = 0.0  # work of the actuator
+    kinetic: float = 0.0
+    springs: float = 0.0  # stored in the springs of the bonds
+    load: float = 0.0  # potential of the load
+    devices: float = 0.0  # stored in clamp, spring and mass at the head
+    dashpots: float = 0.0  # dissipated in the dashpots of the bonds
+    friction: float = 0.0  # dissipated by tangential forces of contacts and by the slider at the head
+    impact: float = 0.0  # dissipated by normal forces of contacts, where gaps close
+    fracture: float = 0.0  # stored by bonds when they broke
+    numerical: float = 0.0  # dissipated by the scheme
+
+    @property
+    def error(self) -> float:
+        """Work of the actuator less all the others [J]: rounding."""
+        return 2.0 * self.actuator - sum(asdict(self).values())
+
+    def columns(self) -> dict[str, float]:
+        """Values by the names that they have in result files; the error relative to the actuator's work."""
+        named = {f"energy_{name}_J": float(value) for name, value in asdict(self).items()}
+        relative = self.error / abs(self.actuator) if self.actuator else self.error
+        return named | {"energy_error": float(relative)}
+
+
+class EnergyAccount:
+    """Keeps the account of one run; the stepper may be exchanged between steps."""
+
+    def __init__(self, law: BondLaw) -> None:
+        self.law, self.sums = law, Energies()
+        self._broken = 0
+
+    def resume(self, sums: Energies, broken: int) -> None:
+        """Go on from these sums, so many bonds having broken."""
+        self.sums, self._broken = sums, broken
+
+    def count(
+        self, stepper: Any, dt: float, force: float, before: History, base: History, after: History
+    ) -> None:
+        """Add a step of length dt [s] that `stepper` made from `base` to `after`; force [N] of the actuator."""
+        strain, inertia, load, head = forms(stepper)
+        sums, scale = self.sums, dt / stepper.dt
+        old = self._stores(stepper, strain, inertia, load, head, before, before)
+        if len(stepper.state.broken) != self._broken:
+            sums.fracture += sums.springs - old["springs"]
+            self._broken = len(stepper.state.broken)
+        new = self._stores(stepper, strain, inertia, load, head, after, after)
+        taken = self._stores(stepper, strain, inertia, load, head, after, _difference(after, base), 1.0)
+        for name in new:
+            sums.numerical += scale * taken[name] - (new[name] - old[name])
+            setattr(sums, name, new[name])
+        sums.actuator += scale * force * (after.actuator - base.actuator)
+        sigma = after.values["sigma"]
+        sums.dashpots += dt * strain(sigma, sigma) / self.law.dashpot
+        for viscosity, now, then in zip(
+            np.atleast_1d(self.law.kelvin_dashpots),
+            after.values["kelvin"],
+            base.values["kelvin"],
+            strict=True,
+        ):
+            rate = (now - then) / stepper.dt
+            sums.dashpots += dt * viscosity * strain(rate, rate)
+        sums.friction += dt * stepper.devices.guide_friction * abs(after.values["velocity"][head])
+        contact = getattr(stepper, "contact", None)
+        if contact is not None:
+            reaction, opening = (part.reshape(-1, 3) for part in contact)
+            sums.impact -= dt * float((reaction[:, 0] * opening[:, 0]).sum())
+            sums.friction -= dt * float((reaction[:, 1:] * opening[:, 1:]).sum())
+
+    def _stores(
+        self, stepper: Any, strain: Form, inertia: Form, load: np.ndarray, head: int,
+        x: History, y: History, factor: float = 0.5,
+    ) -> dict[str, float]:  # fmt: skip
+        """factor times the bilinear form of each store at x and y; the linear one of the load at y."""
+        clamp, spring, _, mass = stepper.devices.of_head
+        one, other = x.values, y.values
+        springs = strain(one["sigma"], other["sigma"]) / self.law.spring
+        for modulus, a, b in zip(
+            np.atleast_1d(self.law.kelvin_springs), one["kelvin"], other["kelvin"], strict=True
+        ):
+            springs += modulus * strain(a, b)
+        places = [(h.values["displacement"][head], h.values["velocity"][head]) for h in (x, y)]
+        (at, speed), (at_other, speed_other) = places
+        devices = spring * at * at_other + mass * speed * speed_other
+        if clamp:
+            devices += (x.actuator - at) * (y.actuator - at_other) / clamp
+        return {
+            "kinetic": factor * inertia(one["velocity"], other["velocity"]),
+            "springs": factor * springs,
+            "load": -float(load @ other["displacement"]),
+            "devices": factor * devices,
+        }
+
+
+def forms(stepper: Any) -> tuple[Form, Form, np.ndarray, int]:
+    """(<,> over the bonds, kinetic form, load, coordinate of the head) of a stepper, full or reduced."""
+    model = getattr(stepper, "model", None)
+    if model is not None:
+        return _matrix_form(model.stiffness), _matrix_form(model.mass), model.load, 0
+    system = stepper.system
+    return _diagonal_form(stepper.weight), _diagonal_form(system.mass), system.load, system.driven
+
+
+def _matrix_form(matrix: np.ndarray) -> Form:
+    return lambda x, y: float(x @ matrix @ y)
+
+
+def _diagonal_form(weight: np.ndarray) -> Form:
+    return lambda x, y: float((x * weight) @ y)
+
+
+def _difference(after: History, base: History) -> History:
+    return History({n: v - base.values[n] for n, v in after.values.items()}, after.actuator - base.actuator)

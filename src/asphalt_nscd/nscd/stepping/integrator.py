@@ -1,0 +1,77 @@
+"""Runs a stepper, full or reduced, through a test by any scheme, and keeps the energy account."""
+
+from __future__ import annotations
+
+from dataclasses import astuple
+
+import numpy as np
+
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
+from asphalt_nscd.nscd.stepping.energy import Energies, EnergyAccount
+from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
+from asphalt_nscd.nscd.stepping.scheme import VARIABLES, History, Scheme
+
+Stepper = CondensedStepper | ReducedStepper
+
+
+class March:
+    """Steps of dt [s] from rest; the stepper is one of step length dt / scheme.a."""
+
+    def __init__(self, stepper: Stepper, scheme: Scheme, law: BondLaw, dt: float) -> None:
+        self.stepper, self.scheme, self.dt = stepper, scheme, dt
+        self.now = self.earlier = History.of(stepper.state, 0.0)
+        self.account = EnergyAccount(law)
+
+    def move_to(self, actuator: float) -> float:
+        """One step at whose end the actuator stands at `actuator` [m]; its force [N].
+
+        Where the reduced stepper cannot make the step, it is left in the state before it.
+        """
+        stepper = self.stepper
+        base = self.now.beyond(self.earlier, self.scheme.b / self.scheme.a)
+        base.put(stepper.state)
+        try:
+            force = stepper.move(base.actuator, actuator)
+        except Exception:
+            self._widen()
+            self.now.put(stepper.state)
+            raise
+        base = base.widened(stepper.state)
+        self._widen()
+        after = History.of(stepper.state, actuator)
+        self.account.count(stepper, self.dt, force, self.now, base, after)
+        self.earlier, self.now = self.now, after
+        return force
+
+    def go_on_with(self, full: CondensedStepper) -> None:
+        """Replace the reduced stepper by one of the full system, with the same bonds broken."""
+        reduced = self.stepper
+
+        def lifted(history: History) -> History:
+            history.put(reduced.state)
+            return History.of(reduced.full_state(), history.actuator)
+
+        self.earlier, self.now = lifted(self.earlier), lifted(self.now)
+        self.stepper = full
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Present, step before and account, by name, for a checkpoint."""
+        found = {"broken": np.array(self.stepper.state.broken, np.int64)}
+        for when in ("now", "earlier"):
+            history = getattr(self, when)
+            found |= {f"{when}/{name}": value for name, value in history.values.items()}
+            found[f"{when}/actuator"] = np.asarray(history.actuator)
+        return found | {"energies": np.array([float(value) for value in astuple(self.account.sums)])}
+
+    def put(self, arrays: dict[str, np.ndarray]) -> None:
+        """Go on where another one stood that gave these `arrays`; `stepper` is that of the time."""
+        for when in ("now", "earlier"):
+            values = {name: arrays[f"{when}/{name}"] for name in VARIABLES}
+            setattr(self, when, History(values, arrays[f"{when}/actuator"].item()))
+        self.now.put(self.stepper.state)
+        self.account.resume(Energies(*arrays["energies"].tolist()), arrays["broken"].size)
+
+    def _widen(self) -> None:
+        state = self.stepper.state
+        self.earlier, self.now = self.earlier.widened(state), self.now.widened(state)

@@ -1,0 +1,174 @@
+"""Reduced (Ritz/Krylov) form of the bonded system, with a certificate at every step.
+
+Since all bonds share one rheology, displacements, velocities, bond stresses and Kelvin
+displacements of the whole specimen live in the span of the same few vectors: u = Phi q,
+sigma = G Phi s, dk = G Phi kappa, whatever the law. The reduced equations are the Galerkin
+projection of the condensed ones and are stepped by the same scheme.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import LinearOperator, SuperLU, cg
+
+from asphalt_nscd.nscd.bonds.implicit_operator import factorise
+from asphalt_nscd.nscd.bonds.multigrid import Multigrid
+from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.compiled import compiled
+from asphalt_nscd.nscd.stepping.projection import Projection, rows_of
+
+DEPENDENT = 1e-9
+SHIFT = 1e-2
+"""m/kg, S/dt of a typical law: for it, the first step from rest or after a break is exact."""
+
+
+def shifted_factor(system: BondedSystem) -> SuperLU | Multigrid:
+    """What solves K + SHIFT M on the free degrees of freedom."""
+    free = system.free
+    matrix = (system.stiffness() + SHIFT * sparse.diags_array(system.mass)).tocsc()[free][:, free]
+    return factorise(matrix, system)
+
+
+def ritz_basis(
+    system: BondedSystem, iterations: int, shifted: SuperLU | Multigrid | None = None
+) -> np.ndarray:
+    """Phi (d, 2 + 2 iterations): the static response to the driven motion, then Krylov vectors.
+
+    Column 0 has unit motion of the driven degree of freedom; the others leave it at rest. They
+    come from the inertia of column 0 and from the constant load by repeated (K + SHIFT M)^-1 M;
+    `shifted`, where it stands already, is what solves that.
+    """
+    free, k = system.free, system.stiffness()
+    mass = system.mass[free]
+    stiffness = k[free][:, free]
+    coupling = k[free][:, [system.driven]].toarray()[:, 0]
+    shifted = shifted_factor(system) if shifted is None else shifted
+    close = shifted.cycle if isinstance(shifted, Multigrid) else shifted.solve
+    near = LinearOperator(stiffness.shape, matvec=close)
+
+    def static(force: np.ndarray) -> np.ndarray:
+        motion = cg(stiffness, force, rtol=1e-13, atol=0.0, M=near, maxiter=500)[0]
+        if np.linalg.norm(stiffness @ motion - force) > 1e-8 * np.linalg.norm(force):
+            raise ArithmeticError("static equations not solved: some body is not held by its bonds")
+        return motion
+
+    def embed(motion: np.ndarray) -> np.ndarray:
+        columns = np.zeros((system.mass.size, motion.shape[1]))
+        columns[free] = motion
+        return columns
+
+    basis = np.zeros((system.mass.size, 1))
+    basis[system.driven, 0] = 1.0
+    basis[free, 0] = static(-coupling)
+    basis = append_columns(system, basis, embed(static(system.load[free])[:, None]))
+    block = np.column_stack([mass * basis[free, 0], system.load[free]])
+    for _ in range(iterations):
+        known = basis.shape[1]
+        basis = append_columns(system, basis, embed(shifted.solve(block)))
+        block = mass[:, None] * basis[free, known:]  # of the orthonormal ones: they do not align
+    return basis
+
+
+def append_columns(system: BondedSystem, basis: np.ndarray, extra: np.ndarray) -> np.ndarray:
+    """Columns added after orthonormalising them in the stiffness of the unbroken system.
+
+    Directions of which no more than the part DEPENDENT is new are left out: normalised, they would
+    be rounding errors, and the projection would lose its condition.
+    """
+    root = np.sqrt(system.weight)[:, None]
+    known = root * (system.operator @ basis[:, 1:])
+    extra = extra[:, extra.any(axis=0)]
+    for _ in range(4):  # each pass removes what rounding left of the one before
+        if not extra.size:
+            break
+        stretched = root * (system.operator @ extra)
+        length = np.linalg.norm(stretched, axis=0)
+        share = known.T @ stretched
+        extra = (extra - basis[:, 1:] @ share) / length
+        stretched = (stretched - known @ share) / length
+        _, size, directions = np.linalg.svd(np.linalg.qr(stretched, mode="r"), full_matrices=False)
+        kept = size > DEPENDENT
+        extra = extra @ (directions[kept].T / size[kept])
+    return np.column_stack([basis, extra])
+
+
+class ReducedModel:
+    """A bonded system projected on a basis, with some bonds removed."""
+
+    def __init__(
+        self, system: BondedSystem, basis: np.ndarray, broken: Sequence[int] = (),
+        projection: Projection | None = None,
+    ) -> None:  # fmt: skip
+        """basis (d, k): column 0 moves the driven degree of freedom by one, the others leave it.
+
+        projection: that of the system without `broken` on this basis, where it is known already.
+        """
+        self.system, self.basis = system, basis
+        small = Projection.of(system, basis, broken) if projection is None else projection
+        self.mass, self.stiffness, self.load = small.mass, small.stiffness, small.load
+        self.residual_factor = small.residual_factor
+        self.head_norm, self.load_norm = small.head_norm, small.load_norm
+        self.weight = system.weight.copy()
+        self.weight[rows_of(broken)] = 0.0
+        self.opening = system.operator @ basis  # G Phi (3 b, k)
+        # of each bond, what a unit of each coordinate can at most contribute (b, k)
+        self._utilised, self._closed = _contributions(self.opening, self._share_of_strength, system.gap)
+
+    @property
+    def _share_of_strength(self) -> np.ndarray:
+        """Share of the strength that a unit of stress takes (b, 3)."""
+        return self.weight.reshape(-1, 3) / self.system.strength[:, None]
+
+    def reaction_of(self, bonds: np.ndarray) -> np.ndarray:
+        """Reactions (n, 3, k) of bonds (n,) over their strength, per unit s."""
+        return self._share_of_strength[bonds, :, None] * self.opening.reshape(-1, 3, self.load.size)[bonds]
+
+    def closing_of(self, bonds: np.ndarray) -> np.ndarray:
+        """Share (n, k) of the gaps of bonds (n,) that closes, per unit q."""
+        return -self.opening[3 * bonds] / self.system.gap[bonds, None]
+
+    def residual_norm(self, force: np.ndarray) -> float:
+        """The norm that `residual_factor` gives, of any residual (d,)."""
+        free = self.system.free
+        return float(np.linalg.norm(force[free] / np.sqrt(self.system.stiffness_diagonal[free])))
+
+    def with_basis(self, basis: np.ndarray, broken: Sequence[int]) -> ReducedModel:
+        """The same system on another basis with the bonds `broken` removed."""
+        return ReducedModel(self.system, basis, broken)
+
+    def utilisation_bound(self, sigma: np.ndarray) -> np.ndarray:
+        """Upper bound (b,) of the yield measure while |s| <= sigma (k,)."""
+        return self._utilised @ sigma
+
+    def smallest_gap(self, motion: np.ndarray) -> float:
+        """Lower bound [m] of all gaps while |q| <= motion (k,)."""
+        return float((self.system.gap * (1.0 - self._closed @ motion)).min())
+
+    def candidates(self, sigma: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Bonds that could yield, and gaps that could close, while |s| <= sigma and |q| <= motion."""
+        may_yield = np.flatnonzero(self.utilisation_bound(sigma) > 1.0)
+        may_close = np.flatnonzero(self._closed @ motion > 1.0)
+        return may_yield, may_close
+
+    def beyond_head(self, bonds: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+        """(n, 2) for bonds (n,): while |s| <= sigma, the yield measure is below [:, 0] |s_0| + [:, 1]."""
+        part = self._utilised[bonds]
+        return np.column_stack([part[:, 0], part[:, 1:] @ sigma[1:]])
+
+
+@compiled
+def _contributions(opening, share_of_strength, gap):
+    """Yield measure of each bond, and share of its gap that closes, for each coordinate alone."""
+    bonds, k = gap.shape[0], opening.shape[1]
+    utilised, closed = np.empty((bonds, k)), np.empty((bonds, k))
+    for b in range(bonds):
+        for a in range(k):
+            square = 0.0
+            for c in range(3):
+                square += (share_of_strength[b, c] * opening[3 * b + c, a]) ** 2
+            utilised[b, a] = np.sqrt(square)
+            closed[b, a] = abs(opening[3 * b, a]) / gap[b]
+    return utilised, closed

@@ -1,0 +1,54 @@
+"""Fig. 10 twice: the phase simulated with the paper's Burgers laws, and with the law the diagnosis names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from asphalt_nscd.measurements.tables import averages, origin_of, read_measured, read_tests
+from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures.isotherms import APART, AXIS, error_bars
+
+COLUMN, OF_THE_LAW = "phase_deg", "phase_law_deg"
+
+
+@style.journal
+def draw(simulations: list[Path], extended: list[Path], measured: list[Path]) -> Figure:
+    """(a) before, (b) after: simulated and measured means with standard deviations, the bonds' laws as lines."""
+    before, after, data = read_tests(simulations), read_tests(extended), read_measured(measured)
+    temperatures = sorted(set(before["temperature_C"]) | set(after["temperature_C"]))
+    frequencies = np.unique(np.concatenate([before["frequency_Hz"], after["frequency_Hz"]]))
+    figure, panels = style.new_figure(style.SINGLE, 165.0, rows=2, sharex=True, sharey=True)
+    for axes, panel, words, tests in zip(
+        panels, "ab", ("before: a Burgers law at each temperature", "after: extended as diagnosed"),
+        (before, after), strict=True,
+    ):  # fmt: skip
+        _isotherms(axes, temperatures, tests, data)
+        style.frequency_axis(axes, frequencies)
+        axes.set_ylabel(AXIS[COLUMN])
+        style.letter(axes, panel, words)
+    panels[0].set_xlabel("")
+    panels[0].set_ylim(bottom=min(0.0, panels[0].get_ylim()[0]))
+    point = {"ls": "", "marker": "o", "color": style.INK}
+    keys = [
+        Line2D([], [], **point, markerfacecolor="white", label=origin_of(data)),
+        Line2D([], [], **point, label="simulated"),
+        Line2D([], [], color=style.INK, lw=0.7, label="law of the bonds"),
+    ]
+    style.isotherm_legends(figure, keys, temperatures)
+    return figure
+
+
+def _isotherms(axes: Axes, temperatures: list[float], tests: pd.DataFrame, data: pd.DataFrame) -> None:
+    simulated, reference = averages(tests, columns=[COLUMN, OF_THE_LAW]), averages(data)
+    for temperature, (colour, marker) in zip(temperatures, style.series(len(temperatures)), strict=True):
+        points = simulated[simulated["temperature_C"] == temperature]
+        known = reference[reference["temperature_C"] == temperature]
+        axes.plot(points["frequency_Hz"], points[OF_THE_LAW], color=colour, lw=0.7, zorder=1)
+        error_bars(axes, COLUMN, known, 1.0 / APART, marker, colour, filled=False)
+        error_bars(axes, COLUMN, points, APART, marker, colour, filled=True)

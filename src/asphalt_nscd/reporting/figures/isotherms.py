@@ -1,0 +1,100 @@
+"""Isotherms of |E*| and phase: measurement, simulation and Burgers law (Figs. 9 and 10)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from asphalt_nscd.files.store import read_json
+from asphalt_nscd.measurements.tables import averages, origin_of, read_measured, read_tests
+from asphalt_nscd.measurements.twopoint import norm_and_phase
+from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.laws_io import read_law
+
+AXIS = {"E_MPa": "|E*| (GPa)", "phase_deg": "phase angle (°)"}
+SHOWN_PER_UNIT = {"E_MPa": 1e-3, "phase_deg": 1.0}
+APART = 1.025  # factor on the frequency, so that measured and simulated points do not hide each other
+
+
+def draw_isotherms(
+    column: str, simulations: Sequence[Path], measured: Sequence[Path], laws: Sequence[Path]
+) -> Figure:
+    """One isotherm of `column` ("E_MPa" or "phase_deg") for each simulated temperature."""
+    tests, data = read_tests(simulations), read_measured(measured)
+    simulated, reference = averages(tests), averages(data)
+    burgers = {read_json(path)["temperature_C"]: read_law(path) for path in laws}
+    temperatures = sorted(tests["temperature_C"].unique())
+    figure, axes = style.new_figure(style.SINGLE, 92.0)
+    shown = data[data["temperature_C"].isin(temperatures)]
+    frequencies = np.unique(np.concatenate([tests["frequency_Hz"], shown["frequency_Hz"]]))
+    ends, colours = [], []
+    for temperature, (colour, marker) in zip(temperatures, style.series(len(temperatures)), strict=True):
+        points = simulated[simulated["temperature_C"] == temperature]
+        known = reference[reference["temperature_C"] == temperature]
+        if temperature in burgers:
+            law_line(axes, column, burgers[temperature], frequencies[[0, -1]], colour)
+        error_bars(axes, column, known, 1.0 / APART, marker, colour, filled=False)
+        error_bars(axes, column, points, APART, marker, colour, filled=True)
+        ends.append(points[column].iloc[-1] * SHOWN_PER_UNIT[column])
+        colours.append(colour)
+    style.frequency_axis(axes, frequencies)
+    axes.set_ylabel(AXIS[column])
+    if column == "E_MPa":
+        axes.set_yscale("log")
+        style.plain_log_axis(axes.yaxis)
+    else:
+        axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+    figure.legend(
+        handles=keys(shown, tests, bool(burgers)), loc="outside upper left", ncols=1,
+        borderpad=0.1, labelspacing=0.3,
+    )  # fmt: skip
+    style.label_ends(
+        axes, tests["frequency_Hz"].max() * APART, ends, [style.celsius(t) for t in temperatures], colours
+    )
+    return figure
+
+
+def law_line(
+    axes: Axes, column: str, law: Burgers, limits: Sequence[float], colour: object, **look: object
+) -> None:
+    """The law as a line between two frequencies [Hz]."""
+    frequency = np.geomspace(*limits, 200)
+    norm, phase = norm_and_phase(law.complex_modulus(2.0 * np.pi * frequency))
+    values = {"E_MPa": norm / 1e6, "phase_deg": np.degrees(phase)}[column]
+    axes.plot(frequency, values * SHOWN_PER_UNIT[column], color=colour, **{"lw": 0.7, "zorder": 1} | look)
+
+
+def error_bars(
+    axes: Axes, column: str, points: pd.DataFrame, shift: float, marker: str, colour: object, filled: bool
+) -> None:
+    """Means with standard deviations; the bars are left out where there is one value only."""
+    spread = points[f"{column}_sd"] * SHOWN_PER_UNIT[column]
+    axes.errorbar(
+        points["frequency_Hz"] * shift, points[column] * SHOWN_PER_UNIT[column],
+        yerr=None if spread.isna().all() else spread.fillna(0.0), fmt=marker, color=colour,
+        markerfacecolor=colour if filled else "white", elinewidth=0.6, zorder=3 if filled else 2,
+    )  # fmt: skip
+
+
+def keys(measured: pd.DataFrame, tests: pd.DataFrame, law: bool) -> list[Line2D]:
+    """Legend: what open and filled markers and lines are."""
+    point = {"ls": "", "marker": "o", "color": style.INK}
+    handles = [Line2D([], [], **point, label=_of("simulated", tests, "sample"))]
+    if not measured.empty:
+        origin = _of(origin_of(measured), measured, "specimen")
+        handles.insert(0, Line2D([], [], **point, markerfacecolor="white", label=origin))
+    if law:
+        handles.append(Line2D([], [], color=style.INK, lw=0.7, label="Burgers law of the bonds"))
+    return handles
+
+
+def _of(what: str, frame: pd.DataFrame, unit: str) -> str:
+    count = frame["specimen"].nunique()
+    return f"{what}, one {unit}" if count == 1 else f"{what}, mean ± s.d. of {count} {unit}s"

@@ -1,0 +1,18 @@
+"""Histories of a test, cut for plotting."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asphalt_nscd.files.store import Record
+
+
+def last_cycle(record: Record) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Time from the start of the last whole cycle [s], displacement [m] and force [N] of a test file."""
+    time, frequency = record.arrays["time_s"], record.attributes["frequency_Hz"]
+    # A cycle that is no multiple of the time step may lack half a step at its end.
+    step = time[0]
+    whole = np.floor((time[-1] + step) * frequency)
+    start = (whole - 1.0) / frequency
+    taken = (time > start - 1e-9 * step) & (time < start + 1.0 / frequency + 1e-9 * step)
+    return time[taken] - start, record.arrays["displacement_m"][taken], record.arrays["force_N"][taken]

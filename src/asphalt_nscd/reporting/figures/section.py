@@ -1,0 +1,48 @@
+"""A plane cut through a specimen: the spheres that the plane meets, and the bonds between them."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import EllipseCollection, LineCollection
+from numpy.typing import NDArray
+
+from asphalt_nscd.files.store import Record
+from asphalt_nscd.reporting.figures import style
+
+WINDOW = 0.17  # width of the piece shown, of the specimen's height
+
+
+def draw_section(axes: Axes, specimen: Record, colours: NDArray[np.float64]) -> None:
+    """Middle plane y = 0 around half the height, on axes whose shape sets that of the piece shown."""
+    position, radius = specimen.arrays["position"], specimen.arrays["radius"]
+    box = axes.get_position()
+    shape = box.height * axes.figure.get_figheight() / (box.width * axes.figure.get_figwidth())
+    half = 0.5 * WINDOW * specimen.attributes["h"] * np.array([1.0, shape])
+    centre = np.array([0.0, 0.5 * specimen.attributes["h"]])
+    axes.set_xlim(centre[0] - half[0], centre[0] + half[0])
+    axes.set_ylim(centre[1] - half[1], centre[1] + half[1])
+
+    plane = position[:, [0, 2]]
+    met = np.abs(position[:, 1]) < radius
+    disc = np.sqrt(radius[met] ** 2 - position[met, 1] ** 2)
+    axes.add_collection(
+        EllipseCollection(
+            2.0 * disc, 2.0 * disc, np.zeros(disc.size), units="xy", offsets=plane[met],
+            transOffset=axes.transData, facecolors=colours[met], edgecolors=style.INK, linewidths=0.25,
+            zorder=2,
+        )
+    )  # fmt: skip
+    # Under the discs, so that a bond shows where mastic would be: in the gap.
+    first, second = specimen.arrays["network/first"], specimen.arrays["network/second"]
+    spheres = (first < radius.size) & (second < radius.size)  # the others lead to a plate
+    first, second = first[spheres], second[spheres]
+    shown = met[first] & met[second]
+    axes.add_collection(
+        LineCollection(
+            np.stack([plane[first[shown]], plane[second[shown]]], axis=1),
+            colors=style.INK,
+            linewidths=0.4,
+            zorder=1,
+        )
+    )

@@ -1,0 +1,200 @@
+"""A diagnosis as a page that a pavement engineer can act on, readable in the report and offline."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Sequence
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from jinja2 import Environment, StrictUndefined
+
+from asphalt_nscd.diagnosis.ladder import CHANCE
+from asphalt_nscd.diagnosis.written import (
+    CONFIDENCE,
+    UNJUDGED,
+    limits_by_place,
+    member_name,
+    place_name,
+    read_diagnosis,
+    shown,
+    three_digits,
+)
+from asphalt_nscd.files.csvinput import read_csv
+from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.reporting.pages.style import STYLE
+
+TEMPLATE = "diagnosis_page.html"
+LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
+HELD_OUT = {
+    "leave_one_isotherm_out": "each inner temperature predicted from the rest",
+    "leave_one_frequency_out": "each frequency predicted from the others",
+}
+ORIGINS = {
+    "measured": "The data are measured.",
+    "reconstructed": (
+        "This diagnosis rests on reconstructed data. They are not measurements: they were drawn about one smooth "
+        "law fitted to the published Burgers parameters, so that a cause found here is one of this reconstruction."
+    ),
+    "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
+}
+TABLE4 = (
+    "temperature_C",
+    *(f"mre_{q}_{k}_percent" for q in ("E", "phase") for k in ("published", "simulated")),
+)
+
+
+def render(content: dict[str, Any], title: str) -> str:
+    """HTML of the sections."""
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    template = environment.from_string(
+        (files("asphalt_nscd.reporting.pages") / TEMPLATE).read_text(encoding="utf-8")
+    )
+    return template.render(title=title, style=STYLE, **content)
+
+
+def sections(diagnosis: list[Path], map: list[Path], table4: Sequence[Path] = ()) -> dict[str, Any]:
+    """What the page says, as text and rows of text."""
+    content = read_diagnosis(diagnosis)
+    ladder = content["ladder"]
+    return {
+        "verdict": _verdict(content),
+        "origin": _origin(content["origin"]),
+        "scatter": _scatter(content),
+        "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
+        "diagnosis": content,
+        "ladder": [_rung(rung) | {"as_good": _members(rung["as_good"], content)} for rung in ladder],
+        "held_out": HELD_OUT,
+        "baseline": _baseline(content["baseline"]),
+        "map": b64encode(the_only(map, "map").read_bytes()).decode(),
+        "unexplained": [_unexplained(row) for row in content["unexplained"]],
+        "limits": _limits(content["detection_limits"]),
+        "not_testable": [
+            (*_members([row["cause"]], content), row["needs"]) for row in content["not_testable"]
+        ],
+        "alike": [_members(group, content) for group in content["indistinguishable"]],
+        "withdrawn": _members(content["withdrawn"], content),
+        "next": [(_cause(rung), rung["confirmed_by"]) for rung in ladder],
+    }
+
+
+def _verdict(content: dict[str, Any]) -> str:
+    """The verdict in one sentence; a cause that others match is the likeliest."""
+    causes = " and ".join(
+        f"{_cause(rung)}, or what fits no worse," if rung["as_good"] else _cause(rung)
+        for rung in content["ladder"]
+    )
+    if content["verdict"] == "nothing_to_explain" and not content["tested"]:
+        return f"Not judged: {UNJUDGED}."
+    if content["verdict"] == "nothing_to_explain":
+        return "Nothing to explain: the simulation misses these data by no more than their scatter."
+    if content["verdict"] == "explained":
+        return f"Explained: with {causes} in the simulation, what is left is the scatter of replicates."
+    left = content["largest_pattern_left"]
+    chances = [content["lack_of_fit_p_value"], *([left["p_value"]] if left else [])]
+    if causes and min(chances) > 0.5 * CHANCE:  # as `diagnose` judges either
+        return f"Not established: {causes} would explain these data, and so might what the catalogue lacks."
+    where = (
+        f", most of all at {left['pattern']} ({three_digits(left['z'])} standard deviations)" if left else ""
+    )
+    part = f"with {causes} in the simulation, " if causes else ""
+    return (
+        f"Not explained in full: {part}more than scatter is left that no cause of the catalogue fits{where}."
+    )
+
+
+def _scatter(content: dict[str, Any]) -> str:
+    scatter = content["scatter"]
+    sizes = f"From test to test they scatter by {scatter['modulus_percent']:.2g} % and {scatter['phase_deg']:.2g}°"
+    if scatter["from_replicates"]:
+        return f"{sizes}."
+    if content["provenance"].get("scatter_stated"):
+        return f"{sizes}, as was stated."
+    return f"{sizes} as far as a smooth law can tell, for nothing was repeated."
+
+
+def _origin(origin: str) -> list[str]:
+    return [sentence for word, sentence in ORIGINS.items() if word in origin] or [f"The data are {origin}."]
+
+
+def _table4(paths: Sequence[Path]) -> list[list[str]]:
+    """Published and predicted errors by temperature; empty where nothing was published."""
+    table = read_csv(the_only(paths, "table4"))
+    if TABLE4[1] not in table.columns:
+        return []
+    table.require(TABLE4)
+    frame = pd.DataFrame({name: table.numbers_or_nan(name) for name in TABLE4})
+    return [[place_name(row[0]), *map(_number, row[1:])] for row in frame.itertuples(index=False)]
+
+
+def _rung(rung: dict[str, Any]) -> dict[str, Any]:
+    gain = rung["gain"]
+    return {
+        "cause": _cause(rung), "sentence": rung["sentence"], "p": _chance(rung["p_value"]),
+        "parameters": [_estimate(name, value) for name, value in rung["parameters"].items()],
+        "in_sample": _gain(gain["in_sample"]),
+        "held_out": {name: _gain(gain["held_out"][name]) for name in HELD_OUT if name in gain["held_out"]},
+    }  # fmt: skip
+
+
+def _members(names: list[str], content: dict[str, Any]) -> list[str]:
+    return [member_name(name, content["detection_limits"]) for name in names]
+
+
+def _cause(rung: dict[str, Any]) -> str:
+    place = place_name(rung["where"])
+    return _words(rung["cause"]) + (f" ({place})" if place else "")
+
+
+def _estimate(name: str, estimate: dict[str, Any]) -> str:
+    size, unit = shown(estimate["value"], estimate["unit"])
+    text = f"{name.replace('_', ' ')} {_number(size)}"
+    if estimate["std_error"] is not None:
+        text += f" ± {_number(CONFIDENCE * shown(estimate['std_error'], estimate['unit'])[0])}"
+    return f"{text} {unit}".rstrip()
+
+
+def _gain(gain: dict[str, Any]) -> list[str]:
+    names = ("mre_E_percent", "mre_phase_percent", "rms_over_scatter")
+    return [" → ".join(_number(gain[name][when]) for when in ("before", "after")) for name in names]
+
+
+def _baseline(baseline: dict[str, Any]) -> list[list[str]]:
+    phase = baseline["mre_phase_percent"]
+    rows = sorted(baseline["mre_E_percent"].items(), key=lambda row: float(row[0]))
+    return [[place_name(float(at)), _number(error), _number(phase[at])] for at, error in rows]
+
+
+def _unexplained(row: dict[str, Any]) -> list[str]:
+    numbers = ("frequency_Hz", "residual_E_percent", "residual_phase_deg", "z")
+    specimen = f"specimen {row['specimen']}, set aside" if "specimen" in row else "mean"
+    return [place_name(row["temperature_C"]), *(_number(row[name]) for name in numbers), specimen]
+
+
+def _limits(limits: dict[str, Any]) -> list[tuple[str, str]]:
+    """Cause, and its limit in words; places that share one stand together."""
+    rows = []
+    for cause, limit in limits.items():
+        places: dict[str, list[str]] = {}
+        for place, value in limits_by_place(limit).items():
+            size, unit = shown(value, limit["unit"])
+            places.setdefault(f"{_number(size)} {unit}".rstrip(), []).append(place)
+        words = (size + (f" ({', '.join(names)})" if any(names) else "") for size, names in places.items())
+        rows.append((_words(cause), "; ".join(words)))
+    return rows
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def _number(value: float) -> str:
+    return "" if pd.isna(value) else three_digits(value).replace("-", "\N{MINUS SIGN}")
+
+
+def _chance(p: float) -> str:
+    return f"below {LEAST_P:g}" if p < LEAST_P else f"{p:.1g}"

@@ -1,0 +1,58 @@
+"""Table 4: mean relative error of |E*| and phase for each temperature."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pandas as pd
+
+from asphalt_nscd.files.csvinput import Limits, read_csv
+from asphalt_nscd.measurements.agreement import mean_relative_error
+from asphalt_nscd.measurements.tables import (
+    KEYS,
+    MODULUS,
+    OF_THE_LAW,
+    at_temperature,
+    origin_of,
+    read_measured,
+    read_tests,
+    the_only,
+)
+
+ERRORS = ["mre_E_percent", "mre_phase_percent"]
+PERCENT = Limits(0.0, 1e4, "give a percentage")
+
+
+def make(simulations: list[Path], measured: list[Path], published: Sequence[Path] = ()) -> pd.DataFrame:
+    """Simulation against measurement, the bonds' law against measurement, and the published errors.
+
+    The error of the law is what the simulation could at best reach: it knows nothing else.
+    """
+    tests, data = read_tests(simulations), read_measured(measured)
+    law = tests[[*KEYS, *OF_THE_LAW]].rename(columns=dict(zip(OF_THE_LAW, MODULUS, strict=True)))
+    simulated = _named(mean_relative_error(data, tests), "simulated")
+    table = simulated.merge(_named(mean_relative_error(data, law), "law"), on="temperature_C")
+    if published:
+        printed = read_errors(the_only(published, "published"))
+        table = table.merge(_named(printed, "published"), on="temperature_C", how="left")
+    kinds = ["published", "simulated", "law"] if published else ["simulated", "law"]
+    table["compared_with"] = [origin_of(at_temperature(data, t)) for t in table["temperature_C"]]
+    errors = [_name(error, kind) for error in ERRORS for kind in kinds]
+    return table[["temperature_C", "compared_with", *errors]]
+
+
+def read_errors(path: str | Path) -> pd.DataFrame:
+    """Published errors: temperature_C and ERRORS."""
+    table = read_csv(path)
+    table.require(["temperature_C", *ERRORS])
+    columns = {"temperature_C": table.numbers("temperature_C")}
+    return pd.DataFrame(columns | {name: table.numbers(name, PERCENT) for name in ERRORS})
+
+
+def _name(error: str, kind: str) -> str:
+    return error.replace("_percent", f"_{kind}_percent")
+
+
+def _named(errors: pd.DataFrame, kind: str) -> pd.DataFrame:
+    return errors.rename(columns={error: _name(error, kind) for error in ERRORS})

@@ -1,0 +1,72 @@
+"""Where the time goes: Snakemake's benchmark files summed by rule."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import pandas as pd
+
+from asphalt_nscd.files.errors import InputError
+
+
+def by_rule(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataFrame:
+    """One row for each rule, most time first.
+
+    benchmarks: files in `folder`, rule.tsv for a single job, rule/.../*.tsv for many; those of jobs that
+    were never timed may be absent. Columns: rule, jobs, wall_s (sum over jobs), cpu_s, longest_s (a single
+    job), memory_MB (largest resident set), share_percent (of wall_s).
+    """
+    rows = []
+    for path in map(Path, benchmarks):
+        if not path.exists():
+            continue
+        job = pd.read_csv(path, sep="\t", na_values="-").iloc[0]
+        rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
+        rows.append((rule, job["s"], job["cpu_time"], job["max_rss"]))
+    if not rows:
+        raise InputError(f"{folder}: no benchmark files; run the workflow first.")
+    jobs = pd.DataFrame(rows, columns=["rule", "s", "cpu", "memory"]).groupby("rule", as_index=False)
+    table = jobs.agg(
+        jobs=("s", "size"), wall_s=("s", "sum"), cpu_s=("cpu", "sum"),
+        longest_s=("s", "max"), memory_MB=("memory", "max"),
+    )  # fmt: skip
+    table["share_percent"] = 100.0 * table["wall_s"] / table["wall_s"].sum()
+    return table.sort_values("wall_s", ascending=False, ignore_index=True)
+
+
+def elapsed(benchmarks: Iterable[str | Path]) -> float:
+    """Seconds in which at least one of the jobs ran: a job ends when its file is written. Pauses do not count."""
+    spans = sorted(
+        (path.stat().st_mtime - float(pd.read_csv(path, sep="\t").loc[0, "s"]), path.stat().st_mtime)
+        for path in map(Path, benchmarks)
+        if path.exists()
+    )
+    total, end = 0.0, -float("inf")
+    for first, last in spans:
+        total += max(last - max(first, end), 0.0)
+        end = max(end, last)
+    return total
+
+
+def as_markdown(table: pd.DataFrame, elapsed_s: float) -> str:
+    """The rules that take a hundredth of the time or more, the others in one line, the sum, and how long it took."""
+    long = table["share_percent"] >= 1.0
+    lines = [
+        "| rule | jobs | wall time, s | CPU time, s | longest job, s | memory, MB | share, % |",
+        "|---|" + "---:|" * 6,
+        *(_line(rule, table[table["rule"] == rule]) for rule in table.loc[long, "rule"]),
+        _line("all others", table[~long]),
+        _line("sum", table),
+        "",
+        f"Jobs ran side by side, so that all this took {elapsed_s / 60.0:.1f} minutes.",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _line(name: str, rules: pd.DataFrame) -> str:
+    values = [
+        rules["jobs"].sum(), rules["wall_s"].sum(), rules["cpu_s"].sum(), rules["longest_s"].max(),
+        rules["memory_MB"].max(), rules["share_percent"].sum(),
+    ]  # fmt: skip
+    return f"| {name} | " + " | ".join("" if pd.isna(value) else f"{value:.0f}" for value in values) + " |"

@@ -1,0 +1,35 @@
+"""The law of the bonds at one temperature, taken from a law of all temperatures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.conversion import kelvin_chain
+from asphalt_nscd.rheology.laws_io import write_chain
+from asphalt_nscd.rheology.spectrum_io import read_spectrum
+
+
+def chain_law(
+    spectrum: str | Path, temperature: float, lowest_hz: float, highest_hz: float, tolerance: float,
+    factor: float, output: str | Path,
+) -> dict[str, Any]:  # fmt: skip
+    """Write the Kelvin chain of a continuous law at temperature [degC], its moduli times factor.
+
+    It follows the law within `tolerance`, |ln(E_chain / E)|, from lowest_hz to highest_hz [Hz].
+    """
+    law = read_spectrum(spectrum)
+    try:
+        chain, error = kelvin_chain(
+            lambda omega: law.complex_modulus(omega, temperature),
+            2.0 * np.pi * lowest_hz, 2.0 * np.pi * highest_hz, tolerance,
+        )  # fmt: skip
+    except InputError as refusal:
+        raise InputError(f"{spectrum} at {temperature:g} degC: {refusal}") from None
+    return write_chain(
+        output, chain.scaled(factor), source=str(spectrum), temperature=temperature, error=error,
+        lowest_hz=lowest_hz, highest_hz=highest_hz,
+    )  # fmt: skip

@@ -1,0 +1,30 @@
+"""The sensitivity study: one parameter of the bond law changed at a time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import read_json, write_json
+
+PARAMETERS = {"Em": "Em_Pa", "eta_m": "eta_m_Pa_s", "Ek": "Ek_Pa", "eta_k": "eta_k_Pa_s"}
+LEAST_FACTOR, LARGEST_FACTOR = 1e-6, 1e6
+
+
+def scale_law(law: str | Path, parameter: str, factor: float, output: str | Path) -> dict[str, Any]:
+    """Write the law with one parameter times factor; it says which, and drops what held for the fit."""
+    if parameter not in PARAMETERS:
+        raise InputError(f"{parameter!r} is no parameter of the law; give one of {', '.join(PARAMETERS)}.")
+    if not LEAST_FACTOR <= factor <= LARGEST_FACTOR:
+        raise InputError(
+            f"factor {factor:g} leaves no law; give a number from {LEAST_FACTOR:g} to {LARGEST_FACTOR:g}."
+        )
+    content = read_json(law)
+    key = PARAMETERS[parameter]
+    if not isinstance(content, dict) or not isinstance(content.get(key), float):
+        raise InputError(f"{law}: key {key!r} is missing or not a number; delete the file and make it again.")
+    content.update({key: content[key] * factor, "std_error": None, "rms_log_residual": None})
+    content["scaled"] = {"parameter": parameter, "factor": factor}
+    write_json(output, content)
+    return content

@@ -1,0 +1,112 @@
+"""Steps that make a numerical specimen, with files at both ends: deposit and trim."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from asphalt_nscd.files.store import load, save
+from asphalt_nscd.measurements.geometry import read_geometry, require_within
+from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.specimen.counts import read_counts
+from asphalt_nscd.specimen.deposit import REST_SPEED, Granulate, PouringNumerics, Progress, settle, vibrate
+from asphalt_nscd.specimen.lattice import random_lattice
+from asphalt_nscd.specimen.network import Network
+from asphalt_nscd.specimen.trimming import Specimen, layer_height, trim
+
+DENSITY = 2600.0  # kg/m3 while pouring, section 3.2.1
+LONGEST_POURING = 3.0  # s
+LONGEST_REST = 0.3  # s
+TOUCHING = 1e-6  # m, gap below which two spheres count as touching
+
+
+def deposit(
+    counts_table: str | Path, box: tuple[float, float, float], seed: int, friction: float, stroke: float,
+    vibration_frequency: float, vibration_time: float, time_step: float, output: str | Path,
+    progress: Progress = lambda stage, done, total: None,
+) -> None:  # fmt: skip
+    """Pour the spheres of counts_table into box (length, width, height) [m], vibrate, and save.
+
+    stroke [m] crest to crest at vibration_frequency [Hz] for vibration_time [s] (zero: none).
+    """
+    began = time.process_time()
+    diameters, counts = read_counts(counts_table)
+    position, radius = random_lattice(diameters, counts, box, np.random.default_rng(seed))
+    numerics = PouringNumerics.of(radius, time_step)
+    granulate = Granulate.in_box(position, radius, box, DENSITY, friction)
+    settle(granulate, numerics, REST_SPEED, LONGEST_POURING, progress, "pouring")
+    poured, poured_height = granulate.position.copy(), layer_height(granulate.position, radius)
+    if vibration_time > 0.0:
+        vibrate(granulate, numerics, stroke, vibration_frequency, vibration_time, progress)
+        settle(granulate, numerics, REST_SPEED, LONGEST_REST, progress, "coming to rest")
+    contacts, gap = granulate.contacts(TOUCHING)
+    attributes = {
+        "seed": seed, "friction": friction, "stroke_m": stroke, "vibration_Hz": vibration_frequency,
+        "vibration_s": vibration_time, "spheres": radius.size, "poured_height_m": poured_height,
+        "highest_point_m": granulate.top(), "steps": granulate.steps, "sweeps": granulate.sweeps,
+        **layer_statistics(granulate.position, radius, box, contacts),
+        "largest_penetration_m": float(max(0.0, -gap.min(initial=0.0))),
+        "kinetic_energy_J": granulate.kinetic_energy(),
+        **asdict(numerics), "cpu_s": time.process_time() - began,
+    }  # fmt: skip
+    arrays = {
+        "initial_position": position, "poured_position": poured, "position": granulate.position,
+        "radius": radius, "box": np.asarray(box, float),
+    }  # fmt: skip
+    save(output, "deposit", arrays, attributes)
+
+
+def layer_statistics(
+    position: np.ndarray, radius: np.ndarray, box: tuple[float, float, float], contacts: np.ndarray
+) -> dict[str, float]:
+    """Height, solid fraction, coordination and segregation of a layer on the floor of the box.
+
+    Segregation is the difference between the mean heights of the largest and of the smallest
+    spheres over the height of the layer: zero when mixed, positive when large spheres are on top.
+    """
+    n, height = radius.size, layer_height(position, radius)
+    between = contacts[(contacts < n).all(axis=1)]
+    largest, smallest = radius == radius.max(), radius == radius.min()
+    return {
+        "layer_height_m": height,
+        "solid_fraction": float((4.0 / 3.0 * np.pi * radius**3).sum() / (box[0] * box[1] * height)),
+        "coordination": 2.0 * len(between) / n,
+        "segregation": float((position[largest, 2].mean() - position[smallest, 2].mean()) / height),
+    }
+
+
+def trim_deposit(
+    deposit_file: str | Path, geometry: Mapping[str, float] | str | Path, volume_reduction: float,
+    gap_max: float, output: str | Path,
+) -> None:  # fmt: skip
+    """Cut a specimen from a deposit, bond pairs with a gap below gap_max [m], and save."""
+    record = load(deposit_file, "deposit")
+    shape = read_geometry(geometry, ["specimen"])["specimen"]
+    require_within(shape, record.arrays["box"])
+    specimen = trim(record.arrays["position"], record.arrays["radius"], shape, volume_reduction, gap_max)
+    network = specimen.network
+    attributes = {
+        **{name: record.attributes[name] for name in ("seed", "layer_height_m", "solid_fraction")},
+        **asdict(specimen.geometry),
+        "spheres": specimen.radius.size, "bonds": network.first.size, "density": specimen.density,
+        "volume_reduction": volume_reduction, "gap_max_m": gap_max,
+        "loose_grains": specimen.loose_grains, "smallest_gap_m": float(network.gap.min()),
+    }  # fmt: skip
+    arrays = {"position": specimen.position, "radius": specimen.radius}
+    arrays |= {f"network/{name}": value for name, value in network.arrays().items()}
+    save(output, "specimen", arrays, attributes)
+
+
+def read_specimen(path: str | Path) -> Specimen:
+    """The specimen in a file made by `trim_deposit`."""
+    arrays, attributes = (record := load(path, "specimen")).arrays, record.attributes
+    return Specimen(
+        geometry=Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__}),
+        position=arrays["position"], radius=arrays["radius"], density=attributes["density"],
+        network=Network(**{name: arrays[f"network/{name}"] for name in Network.__dataclass_fields__}),
+        loose_grains=attributes["loose_grains"],
+    )  # fmt: skip

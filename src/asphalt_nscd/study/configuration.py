@@ -1,0 +1,221 @@
+"""The configuration of a study: validated against its schema, completed by the schema's defaults."""
+
+from __future__ import annotations
+
+import copy
+import difflib
+import math
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+from jsonschema import Draft202012Validator
+from jsonschema.exceptions import ValidationError, best_match
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.paths import is_file, require_readable
+
+# YAML 1.1 reads 5e-5 as text, because it has no decimal point; the author meant a number.
+_SCIENTIFIC = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
+_TYPES = {
+    "object": "a mapping", "array": "a list", "string": "text",
+    "number": "a number", "integer": "a whole number",
+}  # fmt: skip
+# Folders of results/ that belong to no study.
+RESERVED = ("benchmark", "cluster", "faults", "published", "verification")
+_OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
+
+
+def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -> dict[str, Any]:
+    """Return `config` checked and with every default filled in; `source` names it in messages."""
+    rules = yaml.safe_load(Path(schema).read_text(encoding="utf-8"))
+    study = _numbers(copy.deepcopy(dict(config)))
+    if not study:
+        raise InputError(f"{source}: the study is empty; give one with --configfile config/paper.yaml.")
+    errors = [
+        part
+        for error in Draft202012Validator(rules).iter_errors(study)
+        for part in (_of_mapping(error) if isinstance(error.instance, dict) else ()) or (error,)
+    ]
+    if errors:
+        unknown = [error for error in errors if error.validator == "additionalProperties"]
+        raise InputError(f"{source}: {_sentence((unknown or [best_match(errors)])[0])}")
+    if study["study"] in RESERVED:
+        raise InputError(
+            f"{source}: study {study['study']!r} is a folder of other results; give it another name."
+        )
+    _fill(study, rules, rules)
+    _check(study, source)
+    return study
+
+
+def refuse_repeated_keys(path: str | Path) -> None:
+    """Refuse a study in which a key stands twice, of which YAML silently takes the last.
+
+    Anchors are refused too: a few lines of them can stand for more than any memory holds.
+    """
+
+    class Strict(yaml.SafeLoader):
+        def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+            if self.check_event(yaml.AliasEvent):
+                line = self.peek_event().start_mark.line + 1
+                raise InputError(f"{path}, line {line}: refers to an anchor; write out what it stands for.")
+            return super().compose_node(parent, index)
+
+        def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+            seen = set()
+            for name, _ in node.value:
+                line = name.start_mark.line + 1
+                if not isinstance(name, yaml.ScalarNode):
+                    raise InputError(f"{path}, line {line}: a key is no word; give the name of a key.")
+                if name.value in seen:
+                    raise InputError(
+                        f"{path}, line {line}: key {name.value!r} stands twice; keep one of the two."
+                    )
+                seen.add(name.value)
+            return super().construct_mapping(node, deep)
+
+    require_readable(path, "check the path")
+    try:
+        yaml.load(Path(path).read_text(encoding="utf-8"), Strict)
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        raise InputError(f"{path}: not valid YAML ({error}); compare it with config/paper.yaml.") from None
+
+
+def label(value: float) -> str:
+    """Temperature or frequency as it stands in file names: 15, -10, 12.5. Ten digits, as in tables."""
+    return f"{value:.10g}"
+
+
+def _numbers(value: Any) -> Any:
+    """Numbers as numbers, with the digits that file names and tables keep, so that all of them match."""
+    if isinstance(value, Mapping):
+        return {key: _numbers(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_numbers(item) for item in value]
+    if isinstance(value, str) and _SCIENTIFIC.fullmatch(value):
+        value = float(value)
+    return float(label(value)) if isinstance(value, float) else value
+
+
+def _of_mapping(error: ValidationError) -> list[ValidationError]:
+    """What is wrong with the mapping, where a mapping is one of the alternatives."""
+    alternatives = error.validator_value if error.validator == "anyOf" else ()
+    return [part for part in error.context if "$ref" in alternatives[part.schema_path[0]]]
+
+
+def _sentence(error: ValidationError) -> str:
+    where, schema = _path(error.absolute_path), error.schema
+    if error.validator == "additionalProperties":
+        key = next(key for key in error.instance if key not in schema["properties"])
+        close = difflib.get_close_matches(str(key), schema["properties"], n=1)
+        mend = f"did you mean {close[0]!r}?" if close else f"allowed are {', '.join(schema['properties'])}."
+        return f"unknown key {key!r} in {where}; {mend}"
+    if error.validator == "required":
+        key = next(key for key in schema["required"] if key not in error.instance)
+        return f"key {key!r} is missing from {where}; add it."
+    if error.validator in ("minProperties", "maxProperties"):
+        return f"{where} needs exactly one of {', '.join(schema['properties'])}."
+    wanted = _wanted(error)
+    if error.validator == "anyOf":
+        wanted = " or ".join(_TYPES[item.get("type", "object")] for item in error.validator_value)
+    meaning = f" ({schema['description'].rstrip('.')})" if "description" in schema else ""
+    return f"{where} is {error.instance!r}, but must be {wanted}{meaning}."
+
+
+def _wanted(error: ValidationError) -> str:
+    value = error.validator_value
+    return {
+        "type": lambda: _TYPES.get(value, value),
+        "enum": lambda: "one of " + ", ".join(map(str, value)),
+        "minimum": lambda: f"at least {value}",
+        "exclusiveMinimum": lambda: f"greater than {value}",
+        "maximum": lambda: f"at most {value}",
+        "exclusiveMaximum": lambda: f"less than {value}",
+        "minItems": lambda: f"a list of at least {value}",
+        "maxItems": lambda: f"a list of at most {value}",
+        "uniqueItems": lambda: "a list without repetitions",
+        "pattern": lambda: "letters, digits, - and _, the first a letter",
+    }.get(error.validator, lambda: f"{error.validator} {value}")()
+
+
+def _path(keys: Any) -> str:
+    path = ""
+    for key in keys:
+        path += f"[{key}]" if isinstance(key, int) else f".{key}" if path else str(key)
+    return path or "the study"
+
+
+def _fill(value: Any, schema: Mapping[str, Any], root: Mapping[str, Any]) -> None:
+    """Put the schema's defaults where `value` has nothing."""
+    if "$ref" in schema:
+        schema = root["$defs"][schema["$ref"].rsplit("/", 1)[1]]
+    if isinstance(value, dict):
+        for key, rule in schema.get("properties", {}).items():
+            if "default" in rule:
+                value.setdefault(key, copy.deepcopy(rule["default"]))
+            if key in value:
+                _fill(value[key], rule, root)
+
+
+def _check(study: dict[str, Any], source: str) -> None:
+    """What a schema cannot say: values against each other, and files."""
+    for path, value in _leaves(study):
+        if isinstance(value, float) and not math.isfinite(value):
+            raise InputError(f"{source}: {_path(path)} is {value}, but must be a finite number.")
+    _check_geometry(study, source)
+    published = study["laws"].get("published")
+    users = {
+        "laws.simulate": study["laws"]["simulate"] == "published",
+        "rheology.reconstruct": "reconstruct" in study["measurements"],
+        "audit": "audit" in study,
+    }
+    if not published and any(users.values()):
+        user = next(name for name, uses in users.items() if uses)
+        raise InputError(f"{source}: laws.published is missing, but {user} needs it; add its table and unit.")
+    choices = {
+        "seed": ("specimens.seeds", study["specimens"]["seeds"]),
+        "temperature_C": ("temperatures_C", study["temperatures_C"]),
+        "frequency_Hz": ("frequencies_Hz", study["frequencies_Hz"]),
+        "sweeps_frequency_Hz": ("frequencies_Hz", study["frequencies_Hz"]),
+    }
+    for section in _OPTIONAL:
+        for key, (where, allowed) in choices.items():
+            chosen = study.get(section, {}).get(key)
+            if chosen is not None and chosen not in allowed:
+                raise InputError(f"{source}: {section}.{key} {chosen:g} is not in {where}; use one of them.")
+    for where, path in {
+        "measurements.table": study["measurements"].get("table"),
+        "geometry": study["geometry"] if isinstance(study["geometry"], str) else None,
+        "laws.published.table": published and published["table"],
+        "specimens.counts_table": study["specimens"]["counts_table"],
+        **{f"published.{key}": path for key, path in study.get("published", {}).items()},
+    }.items():
+        if path is not None and not is_file(path):
+            raise InputError(f"{source}: {where} is {path!r}, but there is no such file; check the path.")
+
+
+def _check_geometry(study: dict[str, Any], source: str) -> None:
+    """The simulated trapezoid is the measured one where that is the same for all specimens."""
+    if "geometry" not in study["specimens"]:
+        if isinstance(study["geometry"], str):
+            raise InputError(
+                f"{source}: geometry is a table and the simulated trapezoid unknown; add specimens.geometry."
+            )
+        study["specimens"]["geometry"] = dict(study["geometry"])
+    for where, holder in (("geometry", study), ("specimens.geometry", study["specimens"])):
+        shape = holder["geometry"]
+        if isinstance(shape, dict) and not shape["b_mm"] <= shape["B_mm"]:
+            raise InputError(
+                f"{source}: {where}.b_mm must not be larger than B_mm; exchange them if they are swapped."
+            )
+
+
+def _leaves(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    if isinstance(value, (dict, list)):
+        for key, item in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from _leaves(item, (*path, key))
+    else:
+        yield path, value

@@ -1,0 +1,172 @@
+"""Tables as people have them, CSV, TSV or XLSX, as cells of text. Nothing in them is evaluated."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+import warnings
+import zipfile
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from asphalt_nscd.files.errors import InputError
+
+MOST_BYTES = 20_000_000
+MOST_UNPACKED = 50_000_000  # bytes of XML in an XLSX file
+MOST_ROWS, MOST_COLUMNS = 20_000, 300
+
+Row = tuple[int, list[str]]  # line in the file, from 1, and its fields
+
+
+@dataclass(frozen=True)
+class Cells:
+    """A header, and below it rows as long as it, with their line in the file; `notes` say how it was read."""
+
+    path: Path
+    header: list[str]
+    rows: list[Row]
+    notes: list[str] = field(default_factory=list)
+
+
+def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
+    """Cells of a CSV, TSV or XLSX file; blank rows and rows that begin with # are passed over.
+
+    sheet: name of the XLSX sheet, needed where several hold something.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise InputError(f"{path}: no such file; check the path.")
+    if path.stat().st_size > MOST_BYTES:
+        raise InputError(f"{path}: larger than {MOST_BYTES // 10**6} MB; give the table of results alone.")
+    start = path.read_bytes()[:8]
+    if start.startswith(b"PK"):
+        rows, notes = _workbook(path, sheet)
+    elif start.startswith(b"\xd0\xcf\x11\xe0"):
+        raise InputError(
+            f"{path}: an old or encrypted Excel file; save it as XLSX or CSV without a password."
+        )
+    else:
+        rows, notes = _text(path)
+    rows = [(line, _trimmed(cells)) for line, cells in rows]
+    rows = [(line, cells) for line, cells in rows if cells and not _first(cells).startswith("#")]
+    if len(rows) < 2:
+        raise InputError(f"{path}: holds no table; give one line of column names and a line for each test.")
+    if len(rows) > MOST_ROWS or max(len(cells) for _, cells in rows) > MOST_COLUMNS:
+        raise InputError(
+            f"{path}: more than {MOST_ROWS} rows or {MOST_COLUMNS} columns; give the table of results alone."
+        )
+    while len(rows) > 2 and len(rows[0][1]) == 1 < len(rows[1][1]):
+        notes.append(f"line {rows[0][0]} taken for a title: {rows[0][1][0]!r}")
+        rows.pop(0)
+    # A column without a name is called by its number.
+    header = [name or f"column {place}" for place, name in enumerate(rows[0][1], start=1)]
+    return Cells(path, header, _fitted(path, header, rows[1:]), notes)
+
+
+def _trimmed(cells: list[str]) -> list[str]:
+    """Cells without needless blanks, up to the last that holds something."""
+    cells = [" ".join(cell.split()) for cell in cells]
+    filled = [place for place, cell in enumerate(cells) if cell]
+    return cells[: filled[-1] + 1] if filled else []
+
+
+def _first(cells: list[str]) -> str:
+    return next(cell for cell in cells if cell)
+
+
+def _fitted(path: Path, header: list[str], rows: list[Row]) -> list[Row]:
+    """Rows filled up to the length of the header, which none may exceed."""
+    for line, cells in rows:
+        if len(cells) > len(header):
+            raise InputError(
+                f"{path}, line {line}: {len(cells)} fields under {len(header)} column names; if decimals are "
+                "written with a comma, separate the columns with semicolons."
+            )
+    return [(line, cells + [""] * (len(header) - len(cells))) for line, cells in rows]
+
+
+def _text(path: Path) -> tuple[list[Row], list[str]]:
+    text, notes = _decoded(path)
+    lines = io.StringIO(text, newline="").readlines()
+    # Comments and Excel's `sep=;` become blank lines, so that line numbers stay those of the file.
+    lines = ["\n" if re.match(r"\s*#|sep=.\s*$", line, re.IGNORECASE) else line for line in lines]
+    unquoted = [re.sub(r'"[^"]*"', "", line) for line in lines if line.strip()]
+    # Above the names there may be a title, in which anything stands.
+    separator, name = next(
+        (
+            (mark, name)
+            for mark, name in (("\t", "tabs"), (";", "semicolons"))
+            if unquoted and (mark in unquoted[0] or all(mark in line for line in unquoted[1:]))
+        ),
+        (",", "commas"),
+    )
+    reader = csv.reader(lines, delimiter=separator, strict=True)
+    try:
+        rows = [(reader.line_num, row) for row in reader]
+    except csv.Error as error:
+        raise InputError(f"{path}, line {reader.line_num}: not CSV ({error}); save it as CSV.") from None
+    return rows, [f"columns separated by {name}", *notes]
+
+
+def _decoded(path: Path) -> tuple[str, list[str]]:
+    data = path.read_bytes()
+    codec = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+    notes = []
+    try:
+        text = data.decode(codec)
+    except UnicodeDecodeError:
+        text = data.decode("cp1252", errors="replace")  # what Excel writes as plain CSV in the west of Europe
+        notes = ["not UTF-8, so read as Windows text (cp1252)"]
+    if "\0" in text:
+        raise InputError(f"{path}: not text; give CSV, TSV or XLSX.")
+    return text, notes
+
+
+def _workbook(path: Path, sheet: str | None) -> tuple[list[Row], list[str]]:
+    """Cells of one sheet. Formulas give the value that the spreadsheet stored, and are not computed.
+
+    Straight from openpyxl: pandas would read a sheet of 16 384 columns to its end before a bound holds.
+    """
+    import openpyxl
+
+    try:
+        with zipfile.ZipFile(path) as archive:
+            unpacked = sum(part.file_size for part in archive.infolist())
+        if unpacked > MOST_UNPACKED:
+            raise InputError(f"{path}: unpacks to {unpacked // 10**6} MB; give the table of results alone.")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of drop-down lists and the like, which openpyxl passes over
+            book = openpyxl.load_workbook(path, read_only=True, data_only=True, keep_links=False)
+            found = {name: _sheet_rows(book[name]) for name in book.sheetnames if sheet in (None, name)}
+            names = list(book.sheetnames)
+            book.close()
+    except InputError:
+        raise
+    except Exception as error:  # a damaged file raises nearly anything
+        raise InputError(f"{path}: cannot be read as XLSX ({type(error).__name__}); save it anew.") from None
+    filled = {name: rows for name, rows in found.items() if any(any(cells) for _, cells in rows)}
+    if sheet is not None and sheet not in names:
+        raise InputError(f"{path}: no sheet {sheet!r}; give one of {', '.join(names)}.")
+    if len(filled) > 1:
+        raise InputError(f"{path}: sheets {', '.join(filled)} all hold something; name one with --sheet.")
+    if not filled:
+        raise InputError(f"{path}: holds no table; give one line of column names and a line for each test.")
+    name, rows = filled.popitem()
+    return rows, [f"sheet {name}"]
+
+
+def _sheet_rows(sheet: object) -> list[Row]:
+    if not hasattr(sheet, "iter_rows"):  # a sheet that is only a chart
+        return []
+    rows: Iterable[tuple[object, ...]] = sheet.iter_rows(
+        max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1, values_only=True
+    )
+    return [(line, [_cell(value) for value in cells]) for line, cells in enumerate(rows, start=1)]
+
+
+def _cell(value: object) -> str:
+    if isinstance(value, float):
+        return f"{value:.12g}"  # 4.2, where the file holds 4.2000000000000002
+    return "" if value is None else str(value)

@@ -1,0 +1,42 @@
+"""Numbers as people write them, with a decimal point or a decimal comma, but one of them throughout."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from asphalt_nscd.files.csvinput import plain_number
+from asphalt_nscd.files.errors import InputError
+
+_COMMA = re.compile(r"[-+]?\d*,\d+([eE][-+]?\d+)?")
+_POINT = re.compile(r"[-+]?\d*\.\d*([eE][-+]?\d+)?")
+_GROUPED = re.compile(r"[-+]?\d{1,3}(?:[., '\u00a0\u202f]\d{3})+(?:[.,]\d+)?")
+
+
+def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
+    """`,` or `.`, from numbers with their lines; `where` names the file in a refusal."""
+    first: dict[str, tuple[int, str]] = {}
+    for line, text in numbers:
+        marks = sum(text.count(mark) for mark in "., '\u00a0\u202f")
+        if marks > 1 and _GROUPED.fullmatch(text):
+            raise InputError(
+                f"{where}, line {line}: {text!r} seems to group its digits in thousands; write it without."
+            )
+        for mark, pattern in ((",", _COMMA), (".", _POINT)):
+            if pattern.fullmatch(text):
+                first.setdefault(mark, (line, text))
+    if len(first) == 2:
+        (comma_line, comma), (point_line, point) = first[","], first["."]
+        raise InputError(
+            f"{where}: {comma!r} (line {comma_line}) and {point!r} (line {point_line}) have different decimal "
+            "marks; write all numbers with the same."
+        )
+    return "," if "," in first else "."
+
+
+def number(text: str, mark: str) -> float | None:
+    """The number that a cell holds, None if it holds none."""
+    try:
+        return plain_number(text.replace(",", ".") if mark == "," else text)
+    except ValueError:
+        return None

@@ -1,0 +1,155 @@
+"""What a column name says: `|E*| [GPa]`, `phi (deg)`, `delta_rad`, `Temp °C`, `z0 (µm)`, `f / Hz`."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from asphalt_nscd.files.errors import InputError
+
+# Spellings as `_spelled` leaves them: factor and offset that lead to the unit of our tables.
+_CELSIUS = {"C": (1.0, 0.0), "K": (1.0, -273.15), "F": (5 / 9, -160 / 9)}
+_HERTZ = {"Hz": (1.0, 0.0), "rad/s": (0.5 / math.pi, 0.0)}
+_PSI = 6.894757293e-3
+_MEGAPASCAL = {
+    "Pa": (1e-6, 0.0), "kPa": (1e-3, 0.0), "MPa": (1.0, 0.0), "GPa": (1e3, 0.0), "N/mm2": (1.0, 0.0),
+    "psi": (_PSI, 0.0), "ksi": (1e3 * _PSI, 0.0),
+}  # fmt: skip
+_DEGREE = {"deg": (1.0, 0.0), "rad": (180 / math.pi, 0.0), "mrad": (0.18 / math.pi, 0.0)}
+_NEWTON = {"N": (1.0, 0.0), "kN": (1e3, 0.0)}
+_METRE = {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "um": (1e-6, 0.0)}
+_MILLIMETRE = {"m": (1e3, 0.0), "mm": (1.0, 0.0), "um": (1e-3, 0.0)}
+_PERCENT = {"%": (1.0, 0.0), "percent": (1.0, 0.0)}
+
+# Column of our tables: names that people give it, and units. Names of one letter differ by case.
+MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
+    "specimen": (
+        "specimen sample specimenid sampleid specimenno sampleno eprouvette éprouvette prüfkörper probekörper probe",
+        {},
+    ),
+    "replicate": ("replicate rep repeat", {}),
+    "origin": ("origin", {}),
+    "temperature_C": ("T temp temperature testtemperature testtemp température temperatur prüftemperatur θ", _CELSIUS),
+    "frequency_Hz": ("f freq frequency loadingfrequency testfrequency fréquence frequenz prüffrequenz omega ω", _HERTZ),
+    "E_MPa": (
+        "E Estar modulus dynamicmodulus complexmodulus stiffness stiffnessmodulus norm module modulecomplexe "
+        "steifigkeit steifigkeitsmodul modul emodul komplexermodul dynamischermodul",
+        _MEGAPASCAL,
+    ),
+    "phase_deg": ("phi φ ϕ delta δ phase phaseangle phaselag angledephase déphasage phasenwinkel", _DEGREE),
+    "F0_N": ("F F0 force forceamplitude", _NEWTON),
+    "z0_m": ("z z0 displacement displacementamplitude deflection amplitude", _METRE),
+    "psi_deg": ("psi ψ", _DEGREE),
+}  # fmt: skip
+SIEVES = {
+    "diameter_mm": (
+        "d D diameter sieve sievesize size sieveopening opening siebweite maschenweite tamis",
+        _MILLIMETRE,
+    ),
+    "passing_percent": ("passing percentpassing masspassing passant durchgang siebdurchgang", _PERCENT),
+}
+_UNITS = {name for _, units in (MEASURED | SIEVES).values() for name in units}
+
+
+@dataclass(frozen=True)
+class Column:
+    """What a column holds: the column of our tables, and number * factor + offset in its unit.
+
+    `unit` as the header says it; empty for text, None where the header says none.
+    """
+
+    quantity: str
+    unit: str | None
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+def recognise(header: str, known: dict = MEASURED) -> Column | None:
+    """The column that a name stands for, None if it is none of those known; refuses another's unit."""
+    foreign = None
+    for stem, unit in _splits(header):
+        quantity = _quantity(stem, known, qualified=unit in _CELSIUS)
+        if quantity is None:
+            continue
+        units = known[quantity][1]
+        if not units and not unit:
+            return Column(quantity, "")
+        if unit in units:
+            return Column(quantity, unit, *units[unit])
+        if units and not unit:
+            return Column(quantity, None)
+        foreign = foreign or (quantity, unit)
+    if foreign:
+        quantity, unit = foreign
+        allowed = ", ".join(known[quantity][1])
+        raise InputError(f"column {header!r}: {unit!r} is no unit of it; give one of {allowed}.")
+    return None
+
+
+def spellings(known: dict = MEASURED) -> str:
+    """A line for each column: its name, those that people give it, and the units understood."""
+    return "\n".join(
+        f"{quantity}: {', '.join(names.split())}" + (f" [{', '.join(units)}]" if units else "")
+        for quantity, (names, units) in known.items()
+    )
+
+
+def is_unit(cell: str) -> bool:
+    """Whether a cell holds nothing but a unit, as in a second line below the names."""
+    return _spelled(cell.strip("()[]{} ")) in _UNITS
+
+
+def _splits(header: str) -> Iterator[tuple[str, str]]:
+    """Ways to read a name as quantity and unit, the likeliest first."""
+    bracketed = re.fullmatch(r"(.*?)[\s_]*[(\[{]([^)\]}]*)[)\]}]", header)
+    if bracketed:
+        yield bracketed[1], _spelled(bracketed[2])
+        return
+    parted = re.fullmatch(r"(.*\S)\s*/\s*(\S+)", header)
+    for match in (
+        re.fullmatch(r"(.+?)\s+in\s+(\S+)", header),
+        re.fullmatch(r"(.+?)\s*[\s_]\s*(\S+)", header),
+        re.fullmatch(r"(.*\S)\s*([°º]\s*[CF])", header),
+        parted,
+    ):
+        if match and _spelled(match[2]) in _UNITS:
+            yield match[1], _spelled(match[2])
+    if re.match(r"\s*%", header):
+        yield header.replace("%", ""), "%"
+    yield header, ""
+
+
+def _spelled(unit: str) -> str:
+    """A unit in one of the spellings that stand in the tables above."""
+    unit = re.sub(r"\s+", "", unit).replace("µ", "u").replace("μ", "u").replace("²", "2").replace("^", "")
+    unit = re.sub(r"^(?:[°º]|deg|Grad)(?=[CF]$)", "", unit)
+    words = {
+        "°": "deg", "º": "deg", "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad",
+        "celsius": "C", "kelvin": "K", "fahrenheit": "F", "micron": "um", "microns": "um", "hz": "Hz",
+        "kpa": "kPa", "mpa": "MPa", "gpa": "GPa", "Grad": "deg", "M-%": "%", "m.-%": "%",
+    }  # fmt: skip
+    key = unit.lower() if unit.islower() or len(unit) > 3 else unit  # mPa stays what it is
+    return words.get(unit, words.get(key, unit))
+
+
+def _quantity(stem: str, known: dict, qualified: bool) -> str | None:
+    """qualified: a temperature may carry a further word, as in `T set` beside `T core`."""
+    name, _, symbol = stem.strip().rpartition(" ")
+    alone = _named(stem, known, qualified)
+    if alone or not name:
+        return alone
+    both = {_named(part, known, qualified) for part in (name, symbol)}  # as in `Dynamic modulus |E*|`
+    return both.pop() if len(both) == 1 else None
+
+
+def _named(stem: str, known: dict, qualified: bool) -> str | None:
+    plain = re.sub(r"[|*.\s_-]", "", stem)
+    words = re.split(r"[\s_.-]+", stem)
+    for quantity, (names, _) in known.items():
+        for name in names.split():
+            same = plain == name if len(name) == 1 else plain.casefold() == name.casefold()
+            if same or (qualified and quantity == "temperature_C" and name in words):
+                return quantity
+    return None

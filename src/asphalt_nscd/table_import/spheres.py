@@ -1,0 +1,123 @@
+"""The spheres of a study and their box: the paper's, scaled to another specimen or made from a sieve table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.reporting.tables.table2 import PERCENT, SIEVE, counts_of_grading
+from asphalt_nscd.table_import.cells import read_cells
+from asphalt_nscd.table_import.decimals import decimal_mark, number
+from asphalt_nscd.table_import.quantities import SIEVES, recognise
+
+PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+PAPER_COUNTS = pd.Series({2.0: 11798, 4.0: 1588, 6.3: 492, 8.0: 211, 10.0: 71})
+SMALLEST_MM = 2.0  # of the paper's spheres; what is finer belongs to the mastic
+CELLS_FILLED = 2448 / 8000  # of the lattice from which the paper's spheres are poured
+MOST_SPHERES = 200_000
+
+
+@dataclass(frozen=True)
+class Spheres:
+    """counts: number by diameter [mm]; box: length, width, height [m] that holds them and the specimen."""
+
+    counts: pd.Series
+    box: tuple[float, float, float]
+
+
+def spheres_for(geometry: Geometry, grading: pd.Series | None = None) -> Spheres:
+    """Spheres of the paper's volume per volume of specimen, of its sizes or those of a sieve curve.
+
+    grading: per cent passing by sieve [mm].
+    """
+    room = _block(geometry) / _block(PAPER)
+    if grading is None:
+        counts = (PAPER_COUNTS * room).round().astype(int)
+    else:
+        curve = np.array(grading.index, np.float64), np.array(grading, np.float64)
+        shares = counts_of_grading(*curve, SMALLEST_MM, 1_000_000)
+        mean = float((shares * shares.index**3).sum()) / 1e6
+        total = round(room * float((PAPER_COUNTS * PAPER_COUNTS.index**3).sum()) / mean)
+        counts = counts_of_grading(*curve, SMALLEST_MM, total)
+    counts = counts[counts > 0]
+    if counts.sum() > MOST_SPHERES:
+        raise InputError(
+            f"the specimen takes {counts.sum()} spheres, more than {MOST_SPHERES}; give a smaller one."
+        )
+    return Spheres(counts, _box(geometry, counts))
+
+
+def _block(geometry: Geometry) -> float:
+    return geometry.h * geometry.e * geometry.B
+
+
+def _box(geometry: Geometry, counts: pd.Series) -> tuple[float, float, float]:
+    """As long and wide as the specimen, and so high that the lattice (`random_lattice`) is as loose as the paper's."""
+    diameter = counts.index.to_numpy(float) * 1e-3
+    if diameter.max() > geometry.e:
+        raise InputError(
+            f"spheres of {1e3 * diameter.max():g} mm do not fit into a specimen {1e3 * geometry.e:g} mm thick; give a "
+            "thicker one or a finer grading."
+        )
+    across = [int(np.floor(size / diameter.max() + 1e-9)) for size in (geometry.h, geometry.e)]
+    shared = 2.0 * diameter <= diameter.max()
+    number_of = counts.to_numpy()
+    cells = number_of[~shared].sum() + np.ceil(number_of[shared].sum() / 8)
+    layers = int(np.ceil(cells / CELLS_FILLED / (across[0] * across[1]) - 1e-9))
+    return geometry.h, geometry.e, round(layers * float(diameter.max()), 6)
+
+
+def read_grading(path: str | Path, sheet: str | None = None) -> pd.Series:
+    """Per cent passing by sieve [mm], from a table of any kind that `read_cells` reads."""
+    cells = read_cells(path, sheet)
+    places = {}
+    for place, name in enumerate(cells.header):
+        try:
+            column = recognise(name, SIEVES)
+        except InputError as error:
+            raise InputError(f"{path}: {error}") from None
+        if column is not None and column.quantity in places:
+            raise InputError(f"{path}: two columns may be {column.quantity}; remove one.")
+        if column is not None:
+            if column.unit is None:
+                raise InputError(
+                    f"{path}: column {name!r} does not say its unit; write sieve (mm), passing (%)."
+                )
+            places[column.quantity] = place, column
+    if set(places) != set(SIEVES):
+        raise InputError(
+            f"{path}: give two columns, sieve (mm) and passing (%); found {', '.join(cells.header)}."
+        )
+    mark = decimal_mark(
+        str(path), ((line, row[place]) for line, row in cells.rows for place, _ in places.values())
+    )
+    curve = {}
+    for line, row in cells.rows:
+        values = {}
+        for (name, (place, column)), limits in zip(sorted(places.items()), (SIEVE, PERCENT), strict=True):
+            value = number(row[place], mark)
+            if value is None or not limits.low <= value * column.factor <= limits.high:
+                raise InputError(
+                    f"{path}, line {line}: {cells.header[place]} is {row[place]!r}; {limits.mend}."
+                )
+            values[name] = value * column.factor
+        if values["diameter_mm"] in curve:
+            raise InputError(
+                f"{path}, line {line}: sieve {values['diameter_mm']:g} mm stands twice; keep one."
+            )
+        curve[values["diameter_mm"]] = values["passing_percent"]
+    grading = pd.Series(curve)
+    if grading.max() <= 1.0:
+        raise InputError(f"{path}: passes at most {grading.max():g} %, as fractions would; give per cent.")
+    try:
+        counts_of_grading(
+            np.array(grading.index, np.float64), np.array(grading, np.float64), SMALLEST_MM, 1000
+        )
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    return grading

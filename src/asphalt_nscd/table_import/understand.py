@@ -1,0 +1,209 @@
+"""Tests from cells: which column is what and in which unit. What is ambiguous is refused."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import chain
+
+from asphalt_nscd.files.csvinput import Table
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.reduction import FORMS, ORIGINS
+from asphalt_nscd.table_import.cells import Cells
+from asphalt_nscd.table_import.decimals import decimal_mark, number
+from asphalt_nscd.table_import.quantities import MEASURED, Column, is_unit, recognise
+from asphalt_nscd.table_import.wide import melted
+
+TEXTS = ("specimen", "replicate", "origin")
+KEYS = ("temperature_C", "frequency_Hz")
+# Form, the angle that it lacks, the other one that stands there, and whose phase is wanted.
+_ANGLES = (
+    ("moduli", "phase_deg", "psi_deg", "E*"),
+    ("peaks", "psi_deg", "phase_deg", "force over displacement"),
+)
+Place = tuple[int, Column]  # of a column, and what it holds
+
+
+@dataclass(frozen=True)
+class Understood:
+    """A table in our columns and units, its form (a key of FORMS), and sentences on how it was read."""
+
+    table: Table
+    form: str
+    notes: list[str]
+
+
+def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Understood:
+    """Tests of a user's table.
+
+    chosen: names of columns by what they hold, `{"E_GPa": "Steifigkeit"}`, where a name does not tell.
+    """
+    cells, notes = melted(_with_units(cells))
+    notes = [*cells.notes, *notes]
+    columns = _columns(cells, chosen or {})
+    form = _form(cells, columns)
+    kept = {
+        name: _single(cells, name, places)
+        for name, places in columns.items()
+        if name in (*TEXTS, *KEYS, *FORMS[form])
+    }
+    values, mark = _values(cells, kept)
+    notes.append("decimals written with a " + ("comma" if mark == "," else "point"))
+    values["specimen"], note = _specimens(cells, values)
+    for name, (place, column) in kept.items():
+        unit = f", converted from {column.unit}" if (column.factor, column.offset) != (1.0, 0.0) else ""
+        notes.append(f"{name} from column {cells.header[place]!r}{unit}")
+    notes.append(note)
+    read = {place for place, _ in kept.values()}
+    if ignored := [name for place, name in enumerate(cells.header) if place not in read]:
+        notes.append(f"ignored: {', '.join(map(repr, ignored))}")
+    wanted = ["specimen", *KEYS, *FORMS[form], *(["origin"] if "origin" in values else [])]
+    table = Table(cells.path, {name: values[name] for name in wanted}, [line for line, _ in cells.rows])
+    return Understood(table, form, notes)
+
+
+def _with_units(cells: Cells) -> Cells:
+    """Units in a line of their own below the names are put behind these."""
+    line, units = cells.rows[0]
+    if not all(is_unit(unit) for unit in units if unit) or not any(units):
+        return cells
+    header = [
+        f"{name} ({unit.strip('()[]')})" if unit else name
+        for name, unit in zip(cells.header, units, strict=True)
+    ]
+    if len(cells.rows) == 1:
+        raise InputError(f"{cells.path}: no line with numbers; add a line for each test.")
+    return Cells(cells.path, header, cells.rows[1:], [*cells.notes, f"units from line {line}"])
+
+
+def _columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
+    """Columns by what they hold; several, where names do not tell them apart."""
+    found: dict[str, list[Place]] = {}
+    for wanted, name in chosen.items():
+        column = recognise(wanted)
+        if column is None or column.unit is None:
+            names = ", ".join(MEASURED)
+            raise InputError(
+                f"--column {wanted}: not known; give one of {names}, with the unit of your column."
+            )
+        if cells.header.count(name) != 1:
+            raise InputError(f"{cells.path}: no column {name!r}; its columns are {', '.join(cells.header)}.")
+        found[column.quantity] = [(cells.header.index(name), column)]
+    settled, taken = set(found), {place for ((place, _),) in found.values()}
+    for place, name in enumerate(cells.header):
+        try:
+            column = recognise(name)
+        except InputError as error:
+            raise InputError(f"{cells.path}: {error}") from None
+        if column is not None and place not in taken and column.quantity not in settled:
+            found.setdefault(column.quantity, []).append((place, column))
+    return found
+
+
+def _single(cells: Cells, name: str, places: list[Place]) -> Place:
+    """The one column of a quantity, with its unit."""
+    (place, column), *others = places
+    if others:
+        names = [cells.header[place] for place, _ in places]
+        if len(set(names)) < len(names):
+            raise InputError(f"{cells.path}: column {names[0]!r} stands twice; remove one or rename it.")
+        both = " and ".join(map(repr, names))
+        raise InputError(
+            f"{cells.path}: columns {both} may each be {name}; say which with "
+            f'--column {_as_written(name, column)}="{cells.header[place]}", or remove the others.'
+        )
+    if column.unit is None:
+        stem, _, unit = name.rpartition("_")
+        raise InputError(
+            f"{cells.path}: column {cells.header[place]!r} does not say its unit; write it behind the name, "
+            f"as in {stem} ({unit})."
+        )
+    return place, column
+
+
+def _as_written(name: str, column: Column) -> str:
+    """Our name of a quantity with the unit that a column has: E_GPa."""
+    return f"{name.rpartition('_')[0]}_{column.unit}" if column.unit else name
+
+
+def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> str:
+    """Moduli where they are complete, else peaks."""
+    missing = {
+        form: [name for name in (*KEYS, *FORMS[form]) if name not in columns] for form in ("moduli", "peaks")
+    }
+    for form, names in missing.items():
+        if not names:
+            return form
+    for form, wanted, angle, of in _ANGLES:
+        if missing[form] == [wanted] and angle in columns:
+            place, column = columns[angle][0]
+            raise InputError(
+                f"{cells.path}: column {cells.header[place]!r} does not tell whose phase it is; if it is that of "
+                f'{of}, say so with --column {_as_written(wanted, column)}="{cells.header[place]}".'
+            )
+    form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant
+    raise InputError(
+        f"{cells.path}: no column for {' and '.join(missing[form])} (found: {', '.join(cells.header)}); write names "
+        f'with units, or name a column of yours with --column {missing[form][0]}="its name".'
+    )
+
+
+def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[str, list[str]], str]:
+    """Columns as text in our units, and the decimal mark of the table."""
+    numeric = [place for name, (place, _) in columns.items() if name not in TEXTS]
+    mark = decimal_mark(
+        str(cells.path),
+        chain.from_iterable(((line, row[place]) for place in numeric) for line, row in cells.rows),
+    )
+    values: dict[str, list[str]] = {name: [] for name in columns}
+    for line, row in cells.rows:
+        for name, (place, column) in columns.items():
+            if name in TEXTS:
+                values[name].append(_word(cells, line, name, row[place]))
+                continue
+            value = number(row[place], mark)
+            if value is None:
+                problem = (
+                    f"{row[place]!r} is not a number"
+                    if row[place]
+                    else "the cell is empty (a formula not computed?)"
+                )
+                raise InputError(
+                    f"{cells.path}, line {line}: {cells.header[place]}: {problem}; write a number or remove the line."
+                )
+            converted = value * column.factor + column.offset
+            values[name].append(f"{converted:.10g}")
+    return values, mark
+
+
+def _word(cells: Cells, line: int, name: str, text: str) -> str:
+    """Names go into tables that are opened again in spreadsheets, where =, +, - or @ would begin a formula."""
+    if name == "origin" and text not in ORIGINS:
+        raise InputError(f"{cells.path}, line {line}: origin {text!r} is not one of {', '.join(ORIGINS)}.")
+    if not re.fullmatch(r"[^\W_][\w .,:/()+#-]{0,63}", text):
+        raise InputError(
+            f"{cells.path}, line {line}: {name} {text!r} must begin with a letter or digit and hold at most 64 "
+            "letters, digits and . , : / ( ) + # -; rename it."
+        )
+    return text
+
+
+def _specimens(cells: Cells, values: dict[str, list[str]]) -> tuple[list[str], str]:
+    """A specimen for each test, and how it was told."""
+    if "specimen" in values and "replicate" in values:
+        pairs = zip(values["specimen"], values["replicate"], strict=True)
+        return [f"{one}-{two}" for one, two in pairs], "each replicate of a specimen is taken as a specimen"
+    if "specimen" in values:
+        return values["specimen"], f"{len(set(values['specimen']))} specimens"
+    if "replicate" in values:
+        return values["replicate"], f"{len(set(values['replicate']))} replicates, taken as specimens"
+    first: dict[tuple[str, str], int] = {}
+    for (line, _), *test in zip(cells.rows, values["temperature_C"], values["frequency_Hz"], strict=True):
+        earlier = first.setdefault((test[0], test[1]), line)
+        if earlier != line:
+            raise InputError(
+                f"{cells.path}, line {line}: repeats the test of line {earlier}, and no column tells specimens "
+                "apart; add a column specimen or replicate."
+            )
+    return ["1"] * len(cells.rows), "no column of specimens, so all tests are taken as of one specimen"

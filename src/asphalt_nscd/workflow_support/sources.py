@@ -1,0 +1,83 @@
+"""Source files that a module depends on, read from its import statements."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import os
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+from asphalt_nscd.files.store import atomic_path
+
+PACKAGE = Path(__file__).resolve().parents[1]
+
+
+def source_files(*modules: str) -> list[Path]:
+    """Files of `modules` (dotted, relative to the package) and of all they import from it, sorted.
+
+    Imports inside functions count. A package's `__init__.py` counts only where it is itself imported.
+    """
+    found: set[Path] = set()
+    waiting = []
+    for module in modules:
+        file = _file(("asphalt_nscd", *module.split(".")))
+        if file is None:
+            raise ValueError(f"no module asphalt_nscd.{module}")
+        waiting.append(file)
+    while waiting:
+        path = waiting.pop()
+        if path not in found:
+            found.add(path)
+            waiting.extend(_imported(path))
+    return sorted(found)
+
+
+def stamp(folder: str | Path, name: str, files: Sequence[Path]) -> Path:
+    """A file that stands for the content of many, rewritten only when one of them changed.
+
+    Snakemake looks at each input of each waiting job whenever a job ends, so one is better than thirty.
+    """
+    digest = hashlib.sha256()
+    for file in files:
+        digest.update(f"{file.relative_to(PACKAGE)}\n".encode() + file.read_bytes())
+    path = Path(folder, name)
+    if not path.is_file() or path.read_text() != digest.hexdigest():
+        with atomic_path(path) as temporary:
+            temporary.write_text(digest.hexdigest())
+        newest = max(file.stat().st_mtime_ns for file in files)
+        os.utime(path, ns=(newest, newest))  # a lost stamp must not look like a change
+    return path
+
+
+def modules_of(package: str) -> list[str]:
+    """Modules of a package (dotted, relative to this one) that finds them by itself, without an import statement."""
+    folder = PACKAGE.joinpath(*package.split("."))
+    return [f"{package}.{path.stem}" for path in sorted(folder.glob("*.py")) if path.name != "__init__.py"]
+
+
+@cache
+def _imported(path: Path) -> frozenset[Path]:
+    package = ("asphalt_nscd", *path.relative_to(PACKAGE).parent.parts)
+    files: set[Path | None] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            files.update(_file(tuple(name.name.split("."))) for name in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else ()
+            base += tuple((node.module or "").split(".")) if node.module else ()
+            for name in node.names:
+                files.add(_file((*base, name.name)) or _file(base))
+    return frozenset(file for file in files if file is not None)
+
+
+def _file(module: tuple[str, ...]) -> Path | None:
+    """File of a dotted module name; None if it is not a module of this package."""
+    if module[:1] != ("asphalt_nscd",):
+        return None
+    place = PACKAGE.joinpath(*module[1:])
+    for path in (place.with_suffix(".py"), place / "__init__.py"):
+        if path.is_file():
+            return path
+    return None

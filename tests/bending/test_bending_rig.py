@@ -1,0 +1,153 @@
+"""What a rig does to the modulus that a simulated test reports, against Eqs. (1)-(2) and the devices' own effects."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.bending.bending_test import condense, read_model, run_test, simulate
+from asphalt_nscd.bending.rig import Rig, write_rig
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import load, save
+from asphalt_nscd.measurements.twopoint import form_factor, mass_factor
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.rheology.chain import KelvinChain
+from asphalt_nscd.rheology.laws_io import write_chain
+
+CHAIN = KelvinChain(24.3e9, 0.06e9, (48.4e9, 90e9), (0.077e9, 0.02e9))
+FREQUENCY, DT, OMEGA = 40.0, 2.5e-5, 80 * np.pi
+LINEAR = Rig(
+    clamp_compliance=1e-6, guide_stiffness=5e4, head_mass=0.5, channel_delay=3e-4, phase_offset=-0.15
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, beam):
+    """A model and the file of a chain law."""
+    folder = tmp_path_factory.mktemp("rig")
+    arrays = {"position": beam.position, "radius": beam.radius}
+    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
+    attributes = {name: float(value) for name, value in asdict(beam.geometry).items()}
+    save(folder / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
+    condense(folder / "beam.h5", "free", 0.35, 2.7e6, 0.7, folder / "model.h5")
+    write_chain(folder / "law.json", CHAIN, source="", temperature=15, error=0.0, lowest_hz=3, highest_hz=40)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def model(folder):
+    return read_model(folder / "model.h5")
+
+
+def simulated(folder, rig, method, amplitude=1e-6, cycles=4.0):
+    """(E* [Pa], attributes) of a simulated test."""
+    if rig is not None:
+        write_rig(folder / "rig.json", rig)
+    simulate(
+        folder / "model.h5", folder / "law.json", 15.0, FREQUENCY, amplitude, cycles, DT, 20, folder / "test.h5",
+        method=method, rig_file=None if rig is None else folder / "rig.json",
+    )  # fmt: skip
+    columns = load(folder / "test.h5", "test").attributes
+    return columns["E_MPa"] * 1e6 * np.exp(1j * np.radians(columns["phase_deg"])), columns
+
+
+def apparent(modulus, rig, model, amplitude=1e-6):
+    """E* that the reduction takes for that of the specimen."""
+    gamma, mu = form_factor(model.geometry), mass_factor(model.geometry)
+    head = modulus / gamma - mu * OMEGA**2 + rig.guide_stiffness - rig.head_mass * OMEGA**2
+    head += 4j * rig.guide_friction / (np.pi * amplitude)
+    stiffness = 1 / (rig.clamp_compliance + 1 / head)
+    return gamma * (stiffness * np.exp(1j * (OMEGA * rig.channel_delay + rig.phase_offset)) + mu * OMEGA**2)
+
+
+@pytest.mark.parametrize(
+    "rig",
+    [
+        *(Rig(**{name: value}) for name, value in asdict(LINEAR).items() if value),
+        LINEAR,
+        replace(LINEAR, channel_delay=-3e-4, phase_offset=0.15),
+        Rig(head_mass=-0.2),
+    ],
+)
+@pytest.mark.parametrize(("method", "accuracy"), [("harmonic", 1e-9), ("reduced", 3e-3)])
+def test_apparent_modulus(folder, model, rig, method, accuracy):
+    """In the frequency domain exactly, in time to the step length; each rig counts for 3 % and more."""
+    bare, _ = simulated(folder, None, method)
+    found, columns = simulated(folder, rig, method)
+    expected = apparent(bare, rig, model)
+    assert abs(expected / bare - 1) > 0.03
+    assert abs(found / expected - 1) < accuracy
+    assert {name: columns[name] for name in rig.columns()} == rig.columns()
+
+
+def test_slider_on_a_rigid_clamp(folder, model):
+    """Describing function i 4 F_s / (pi z0), to the step length."""
+    bare, _ = simulated(folder, None, "reduced")
+    found, _ = simulated(folder, Rig(guide_friction=0.02), "reduced")
+    expected = apparent(bare, Rig(guide_friction=0.02), model)
+    assert abs(expected / bare - 1) > 0.03
+    assert abs(found / expected - 1) < 3e-3
+
+
+@pytest.mark.parametrize("rig", [LINEAR, replace(LINEAR, guide_friction=1.0)])
+def test_reduced_and_condensed_agree(model, rig):
+    law = BondLaw(24.3e9, 0.06e9, np.array([48.4e9, 90e9]), np.array([0.077e9, 0.02e9]))
+    one, two = (
+        run_test(model, law, FREQUENCY, 1e-4, 1.0, 1e-4, 20, method, rig=rig)
+        for method in ("reduced", "condensed")
+    )
+    assert one.broken == two.broken != []
+    np.testing.assert_allclose(one.force, two.force, rtol=0, atol=1e-6 * np.abs(two.force).max())
+    np.testing.assert_array_equal(one.displacement, two.displacement)
+    assert one.residual < 1e-6
+
+
+def test_a_closing_gap_hands_over_to_the_full_system(model):
+    """Tiny gaps: the full system goes on with the actuator where it is."""
+    strength = np.full_like(model.system.strength, np.inf)
+    narrow = replace(model, system=replace(model.system, gap=1e-3 * model.system.gap, strength=strength))
+    law = BondLaw(24.3e9, 0.06e9, np.array([48.4e9]), np.array([0.077e9]))
+    one, two = (
+        run_test(narrow, law, FREQUENCY, 8e-5, 0.2, 1e-4, 20, method, rig=LINEAR)
+        for method in ("reduced", "condensed")
+    )
+    assert 5 < one.details["full_steps"] < 45
+    np.testing.assert_allclose(one.force, two.force, rtol=0, atol=1e-6 * np.abs(two.force).max())
+
+
+def test_chain_law_gives_the_ratio_of_burgers(folder, model):
+    """Simulated over analytic modulus is the packing's alone: that of a chain and that of one element."""
+    ratio = []
+    for law in (CHAIN, KelvinChain(24.3e9, 0.06e9, (48.4e9,), (0.077e9,))):
+        write_chain(
+            folder / "law.json", law, source="", temperature=15, error=0.0, lowest_hz=3, highest_hz=40
+        )
+        modulus, columns = simulated(folder, None, "harmonic")
+        analytic = columns["E_law_MPa"] * 1e6 * np.exp(1j * np.radians(columns["phase_law_deg"]))
+        assert analytic == pytest.approx(law.complex_modulus(OMEGA), rel=1e-12)
+        ratio.append(modulus / analytic)
+    write_chain(folder / "law.json", CHAIN, source="", temperature=15, error=0.0, lowest_hz=3, highest_hz=40)
+    assert ratio[0] == pytest.approx(ratio[1], rel=1e-3)
+
+
+def test_before_the_channel_catches_up_it_shows_rest(model):
+    law = BondLaw(24.3e9, 0.06e9, np.array([48.4e9]), np.array([0.077e9]))
+    record = run_test(model, law, FREQUENCY, 1e-6, 1.0, 1e-4, 5, rig=Rig(channel_delay=1.05e-3))
+    assert not record.displacement[:10].any() and record.displacement[10:12].all()
+    assert record.force[:10].all()
+    delayed = 1e-6 * np.sin(OMEGA * (record.time[10:] - 1.05e-3))
+    np.testing.assert_allclose(record.displacement[10:], delayed, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("method", "rig", "words"),
+    [
+        ("harmonic", Rig(guide_friction=1.0), "no steady harmonic oscillation"),
+        ("sweeps", Rig(head_mass=1.0), "knows no devices at the head"),
+    ],
+)
+def test_methods_that_cannot_take_a_rig(folder, method, rig, words):
+    with pytest.raises(InputError, match=words):
+        simulated(folder, rig, method)

@@ -1,1 +1,0 @@
-"""The report as a reader sees it, in Chromium: `PYTHONPATH=tests python -m browser results/smoke/report.html`."""

@@ -1,0 +1,357 @@
+from __future__ import annotations
+
+import errno
+import os
+import pickle
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+
+import click
+import pytest
+
+from asphalt_nscd import cli
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import save
+
+
+def run(*arguments, **options):
+    command = [sys.executable, "-c", "from asphalt_nscd.cli import main; main()", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, **options)
+
+
+def test_every_step_is_listed_and_explains_itself():
+    steps = cli.group.list_commands(None)
+    assert {"reconstruct", "reduce", "fit", "published-law"} <= set(steps)
+    for step in steps:
+        command = cli.group.get_command(None, step)
+        assert command.help, step
+        assert all(option.help for option in command.params if isinstance(option, click.Option)), step
+
+
+def test_help_imports_nothing_heavy():
+    script = (
+        "import sys; from asphalt_nscd.cli import group\n"
+        "[group.get_command(None, name) for name in group.list_commands(None)]\n"
+        "heavy = {'numpy', 'pandas', 'scipy', 'numba', 'h5py', 'matplotlib'}; print(heavy & set(sys.modules))"
+    )
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout == "set()\n"
+
+
+def test_unknown_step_is_refused():
+    done = run("simulat")
+    assert done.returncode == 2
+    assert "No such command 'simulat'" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "sentence"),
+    [
+        (InputError("m.csv: row 3: no."), 2, "error: m.csv: row 3: no.\n"),
+        (
+            OSError(errno.ENOSPC, "No space left on device", "out.h5"),
+            2,
+            "error: out.h5: no space left on device; free some space and run the same command again.\n",
+        ),
+        (
+            RuntimeError("Unable to flush cached information (errno = 28, error message = 'No space left')"),
+            2,
+            "error: output file: no space left on device; free some space and run the same command again.\n",
+        ),
+        (KeyboardInterrupt(), 130, "error: interrupted; nothing half-written is left.\n"),
+        *(
+            (
+                error,
+                2,
+                "error: the memory is used up; end other programs, or run fewer jobs at a time (--cores 1).\n",
+            )
+            for error in (MemoryError(), ImportError("x.so: failed to map segment from shared object"))
+        ),
+    ],
+)
+def test_trouble_is_one_sentence(capsys, error, status, sentence):
+    def step():
+        raise error
+
+    assert cli._status(step) == status
+    assert capsys.readouterr().err == sentence
+
+
+@pytest.mark.parametrize("error", [pickle.UnpicklingError("pickle data was truncated"), EOFError()])
+def test_damaged_compiled_core_is_removed(capsys, monkeypatch, tmp_path, error):
+    (core := tmp_path / "core").mkdir()
+    (core / "kernel.nbi").write_bytes(b"half")
+    monkeypatch.setattr("numba.config.CACHE_DIR", str(core))
+
+    def step():
+        raise error
+
+    assert cli._status(step) == 2
+    assert capsys.readouterr().err.startswith(f"error: {core}: the compiled core was damaged; it was removed")
+    assert not core.exists()
+
+
+@pytest.mark.parametrize("error", [RuntimeError("ours"), ValueError("too"), ImportError("no module")])
+def test_mistakes_in_the_program_keep_their_traceback(error):
+    def step():
+        raise error
+
+    with pytest.raises(type(error)):
+        cli._status(step)
+
+
+def test_input_that_is_not_there():
+    done = run("fit", "gone.csv", "--temperature-c", 15, "--output", "law.json")
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: gone.csv: ")
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "geometry",
+    ["b_mm=25", "b_mm=25,B_mm=wide", "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.2,x=1"],
+)
+def test_geometry_that_is_incomplete_or_no_number(geometry):
+    done = run("reduce", "m.csv", "--geometry", geometry, "--output", "o.csv")
+    assert done.returncode == 2
+    assert "'--geometry'" in done.stderr and "Traceback" not in done.stderr
+
+
+def test_table_or_figure_that_does_not_exist_and_data_without_a_kind():
+    done = run("table", "packin", "tests=a.h5", "--output", "o.csv")
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: 'packin' is not among the tables; give one of ")
+    assert "packing" in done.stderr and done.stderr.count("\n") == 1
+    done = run("figure", "fig07", "a.h5", "--output-stem", "o")
+    assert done.returncode == 2
+    assert "'a.h5' is not of the form kind=path" in done.stderr
+
+
+def write_large(path, kind):
+    """A step that writes a megabyte, in a shell where files may have ten kilobytes."""
+    script = (
+        "import sys, numpy, pandas; from asphalt_nscd import cli; from asphalt_nscd.files import store\n"
+        "from asphalt_nscd.reporting.figures.save import save_figure\n"
+        "def drawing():\n"
+        "    from matplotlib.figure import Figure\n"
+        "    (figure := Figure()).subplots().scatter(*numpy.random.default_rng(1).random((2, 5000)))\n"
+        "    return figure\n"
+        "steps = {'h5': lambda p: store.save(p, 'test', {f'x{n}': numpy.arange(300) for n in range(9)}, {}),\n"
+        "         'pdf': lambda p: save_figure(drawing(), p.removesuffix('.pdf')),\n"
+        "         'csv': lambda p: store.write_table(p, pandas.DataFrame({'x': range(100000)}))}\n"
+        f"sys.exit(cli._status(lambda: steps[{kind!r}]({str(path)!r})))"
+    )
+    limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))  # noqa: E731
+    return subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, preexec_fn=limit)
+
+
+@pytest.mark.parametrize("kind", ["h5", "csv", "pdf"])
+def test_file_that_cannot_be_written_in_full_is_not_left(tmp_path, kind):
+    done = write_large(tmp_path / f"out.{kind}", kind)
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.startswith(f"error: {tmp_path}/out.{kind}: ") and done.stderr.count("\n") == 1
+    assert "file too large" in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks the kernel of Linux")
+def test_step_of_the_workflow_ends_with_its_parent(tmp_path):
+    step = (
+        "import time; from asphalt_nscd import cli\n"
+        "cli.group.main = lambda *a, **k: (print('runs', flush=True), time.sleep(60))\n"
+        "cli.main([])"
+    )
+    parent = (
+        "import subprocess, sys, time\n"
+        f"child = subprocess.Popen([sys.executable, '-c', {step!r}])\n"
+        "print(child.pid, flush=True); time.sleep(60)"
+    )
+    environment = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
+    process = subprocess.Popen(
+        [sys.executable, "-c", parent], stdout=subprocess.PIPE, text=True, env=environment
+    )
+    child, state = int(process.stdout.readline()), process.stdout.readline()
+    assert state == "runs\n"
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait()
+    for _ in range(100):
+        if not _lives(child):
+            return
+        time.sleep(0.05)
+    os.kill(child, signal.SIGKILL)
+    pytest.fail("the step outlived its parent")
+
+
+def _lives(process: int) -> bool:
+    """Whether a process still runs; one that ended but was not yet reaped counts as dead."""
+    try:
+        with open(f"/proc/{process}/stat") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["simulate", "m.h5", "--law", "l.json", "--temperature-c", "15", "--frequency-hz", value, "--output", "x"]
+        for value in ("0", "-10", "nan", "inf", "three")
+    ]
+    + [
+        ["deposit", "--counts", "c.csv", "--box-m", "1,1,1", "--seed", "1", "--output", "x", option, value]
+        for option, value in (
+            ("--friction", "nan"), ("--friction", "-1"), ("--time-step-s", "0"), ("--time-step-s", "-1e-4"),
+            ("--stroke-mm", "-5"), ("--vibration-hz", "0"), ("--vibration-s", "nan"), ("--seed", "-1"),
+        )
+    ]
+    + [
+        ["reconstruct", "t.csv", "--geometry", "g.csv", "--seed", "1", "--output", "x", "--frequencies-hz", *more]
+        for more in (
+            ["3,x"], ["nan"], ["3,3"], ["0"], [""], ["3", "--phase-scatter-deg", "nan"],
+            ["3", "--modulus-scatter", "-1"], ["3", "--amplitude-m", "0"], ["3", "--specimens", "0"],
+        )
+    ]
+    + [["reduce", "m.csv", "--geometry", "g.csv", "--output", "x", "--cycles", "-3"]]
+    + [["scale-law", "l.json", "--parameter", "Em", "--output", "x", "--factor", "nan"]]
+    + [["fit", "m.csv", "--output", "x", "--temperature-c", "nan"]]
+    + [["trim", "d.h5", "--geometry", "g.csv", "--output", "x", "--volume-reduction", "1"]]
+    + [["condense", "s.h5", "--output", "x", "--poisson", "2"]],
+)  # fmt: skip
+def test_number_out_of_its_range_is_refused_before_anything_is_read(arguments, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as stop:
+        cli.main(arguments)
+    assert stop.value.code == 2
+    assert re.search("must be a number|range|positive numbers joined by commas", capsys.readouterr().err)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["table", "table4", "--output", "x.csv"], "data simulations, measured: missing"),
+        (["figure", "fig09", "laws=l", "--output-stem", "x"], "data simulations, measured: missing"),
+        (["table", "table4", "simulation=s", "--output", "x.csv"], "data simulation: not known"),
+    ],
+)
+def test_data_that_a_table_or_figure_does_not_take_is_named(
+    arguments, sentence, capsys, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as stop:
+        cli.main(arguments)
+    assert stop.value.code == 2 and sentence in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_study_that_is_no_json(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as stop:
+        cli.main(["study", "{bad", "--output", "x.json"])
+    assert stop.value.code == 2
+    said = capsys.readouterr().err
+    assert said.startswith("error: STUDY is not valid JSON") and said.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "damage", [lambda whole: whole[:-200], lambda whole: whole[:700] + b"x" + whole[701:], lambda _: b""]
+)
+def test_damaged_result_is_set_aside_within_the_workflow_only(tmp_path, damage):
+    save(path := tmp_path / "f3.h5", "test", {"force_N": [1.0, 2.0]}, {"specimen": "s1"})
+    path.write_bytes(damage(path.read_bytes()))
+    done = run("collect", path, "--output", tmp_path / "x.csv")
+    assert done.returncode == 2 and path.exists()
+    assert done.stderr.startswith(f"error: {path}: ") and done.stderr.count("\n") == 1
+    assert done.stderr.endswith("; delete it and run the workflow again.\n")
+    done = run("collect", path, "--output", tmp_path / "x.csv", env={**os.environ, cli.WITHIN_WORKFLOW: "1"})
+    assert done.returncode == 2 and not path.exists()
+    assert done.stderr.endswith(
+        "; it was set aside as .f3.h5.damaged, run the workflow again to make it anew.\n"
+    )
+    assert done.stderr.count("\n") == 1 and [file.name for file in tmp_path.iterdir()] == [".f3.h5.damaged"]
+
+
+def test_input_that_is_no_result_of_ours_is_never_removed(tmp_path):
+    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
+    (geometry := tmp_path / "g.json").write_text("{")
+    assert run("trim", "d.h5", "--geometry", geometry, "--output", "x", env=inside).returncode == 2
+    assert run("reduce", geometry, "--geometry", geometry, "--output", "x", env=inside).returncode == 2
+    save(model := tmp_path / "m.h5", "model", {}, {})
+    assert run("collect", model, "--output", tmp_path / "x.csv", env=inside).returncode == 2
+    assert geometry.exists() and model.exists()
+
+
+@pytest.mark.parametrize(
+    "content", ["", "specimen,E_MPa\n", "specimen,E_MPa\n1\n", "specimen,E_MPa\n\x80", '"']
+)
+def test_a_cut_table_is_made_anew_where_the_workflow_made_it_and_left_where_a_user_did(tmp_path, content):
+    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
+    for place, made in (("results/mine", True), ("results/published/mine", False), ("data", False)):
+        (table := tmp_path / place / "measured.csv").parent.mkdir(parents=True)
+        table.write_text(content, encoding="latin-1")
+        tables = (f"{kind}={place}/measured.csv" for kind in ("measured", "simulations", "published"))
+        done = run("table", "table4", *tables, "--output", "x.csv", env=inside, cwd=tmp_path)
+        assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
+        assert table.exists() != made, done.stderr
+        assert done.stderr.endswith(", run the workflow again to make it anew.\n") == made
+    assert not (tmp_path / "x.csv").exists()
+
+
+@pytest.mark.parametrize(
+    "damage", [lambda text: text.replace("5000", "5001"), lambda text: text[: text[:-1].rfind("\n") + 1]]
+)
+def test_a_digit_changed_or_a_line_lost_is_noticed_within_the_workflow(tmp_path, damage):
+    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
+    (tmp_path / "geometry.csv").write_text(
+        "b_mm,B_mm,e_mm,h_mm,mass_kg,mobile_mass_kg\n25,56,25,250,0.6,0.1\n"
+    )
+    (tmp_path / "m.csv").write_text(
+        "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\na,10,3,5000,20\nb,10,3,5100,21\n"
+    )
+    reduce = ("reduce", "m.csv", "--geometry", "geometry.csv", "--output", "results/mine/measured.csv")
+    assert run(*reduce, env=inside, cwd=tmp_path).returncode == 0
+    page = ("page", "results/mine/measured.csv", "--title", "t", "--output", "page.html")
+    assert run(*page, env=inside, cwd=tmp_path).returncode == 0
+    table = tmp_path / "results/mine/measured.csv"
+    assert damage(table.read_text()) != table.read_text()
+    table.write_text(changed := damage(table.read_text()))
+    done = run(*page, env=inside, cwd=tmp_path)
+    assert done.returncode == 2 and not table.exists() and "content is not what was written" in done.stderr
+    assert table.with_name(".measured.csv.damaged").read_text() == changed
+    assert (
+        run(*reduce, env=inside, cwd=tmp_path).returncode
+        == run(*page, env=inside, cwd=tmp_path).returncode
+        == 0
+    )
+
+
+def test_a_step_repeated_by_hand_is_no_damage_and_a_digest_cut_short_no_verdict(tmp_path):
+    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
+    table, digest = tmp_path / "results/mine/m.csv", tmp_path / "results/mine/.m.csv.sha256"
+    table.parent.mkdir(parents=True)
+    page = ("page", "results/mine/m.csv", "--title", "t", "--output", "results/mine/page.html")
+    table.write_text("a\n1\n")
+    digest.write_text("0" * 63)
+    assert run(*page, env=inside, cwd=tmp_path).returncode == 0
+    digest.write_text("0" * 64)
+    assert run(*page, env=inside, cwd=tmp_path).returncode == 2
+
+    made = tmp_path / "results/mine/.page.html.sha256"
+    before = made.read_text()
+    table.write_text("a\n2\n")
+    assert run(*page, cwd=tmp_path).returncode == 0
+    assert made.read_text() != before
+    made.unlink()
+    assert run(*page, cwd=tmp_path).returncode == 0
+    assert not made.exists()
+
+
+def test_a_result_of_another_kind_is_made_anew(tmp_path):
+    save(path := tmp_path / "results/mine/f3.h5", "model", {}, {})
+    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
+    done = run("collect", "results/mine/f3.h5", "--output", "x.csv", env=inside, cwd=tmp_path)
+    assert done.returncode == 2 and not path.exists() and "holds 'model', not 'test'" in done.stderr

@@ -1,1 +1,0 @@
-"""A study on a real Slurm of one node: `PYTHONPATH=tests:src python -m cluster`, or `make cluster`."""

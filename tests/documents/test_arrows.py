@@ -1,0 +1,66 @@
+"""Which folder of the package may import from which: the arrows of ARCHITECTURE.md, as data."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from asphalt_nscd.workflow_support.sources import PACKAGE
+
+# In the order of the work, from what knows nothing of the others to what knows most. Each folder may
+# import from those named, and from itself.
+ARROWS = {
+    "files": [],
+    "workflow_support": ["files"],
+    "nscd": [],
+    "measurements": ["files"],
+    "rheology": ["files", "measurements"],
+    "specimen": ["files", "measurements", "nscd"],
+    "bending": ["files", "measurements", "nscd", "rheology", "specimen"],
+    "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
+    "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis"],
+    "study": ["files", "measurements", "rheology", "specimen", "reporting"],
+    "table_import": ["files", "measurements", "study", "reporting"],
+    "verification": ["files", "workflow_support", "measurements", "nscd", "rheology", "specimen", "bending"],
+    "cli": [
+        "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "reporting", "study",
+        "table_import", "verification", "nscd",
+    ],
+}  # fmt: skip
+
+
+def folders() -> list[str]:
+    return sorted(path.name for path in PACKAGE.iterdir() if path.is_dir() and path.name != "__pycache__")
+
+
+def imported(file: Path) -> set[str]:
+    """Folders of the package that a file imports from, imports inside functions included."""
+    found = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("asphalt_nscd"):
+            names = [f"{node.module}.{alias.name}" for alias in node.names]
+        elif isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names if alias.name.startswith("asphalt_nscd")]
+        else:
+            continue
+        found |= {name.split(".")[1] for name in names}
+    return found & set(folders())
+
+
+def test_every_folder_has_its_arrows():
+    assert folders() == sorted(ARROWS)
+
+
+@pytest.mark.parametrize("folder", ARROWS)
+def test_arrows_run_one_way(folder):
+    earlier = list(ARROWS)[: list(ARROWS).index(folder)]
+    assert set(ARROWS[folder]) <= set(earlier), f"{folder} may only import from folders listed before it"
+    for file in sorted((PACKAGE / folder).rglob("*.py")):
+        beyond = imported(file) - {folder, *ARROWS[folder]}
+        assert not beyond, f"{file.relative_to(PACKAGE)} imports from {', '.join(sorted(beyond))}"
+
+
+def test_few_modules_lie_loose():
+    assert [path.name for path in PACKAGE.glob("*.py")] == ["__init__.py"]

@@ -1,0 +1,111 @@
+"""What the benchmarks write apart from times: exponents of growth, and rows of peers that are absent."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from asphalt_nscd.files.store import save, write_table
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.laws_io import write_law
+
+BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+
+
+def run(folder, script, *arguments, **environment):
+    command = [sys.executable, str(BENCHMARKS / script), *map(str, arguments)]
+    subprocess.run(command, cwd=folder, check=True, env=environment or None)
+
+
+def test_exponents_are_those_of_the_powers(tmp_path):
+    """cpu ~ n^1.5 and memory ~ n of one stage; a stage done at one size has none. The last is that
+    between the two largest."""
+    rows = [
+        {"topic": "growth", "case": "pour", "spheres": n, "cpu_s": 1e-4 * n**1.5, "memory_MB": 0.1 * n}
+        for n in (1000, 4000, 16000)
+    ]
+    rows += [{"topic": "growth", "case": "cut", "spheres": 1000, "cpu_s": 1.0, "memory_MB": 2.0}]
+    rows += [{"topic": "growth", "case": "cut", "spheres": 4000, "remark": "not done within 16 GiB"}]
+    rows += [
+        {"topic": "growth", "case": "test", "spheres": n, "cpu_s": cpu, "memory_MB": 8.0}
+        for n, cpu in ((16000, 4.0), (1000, 1.0), (4000, 1.0))
+    ]
+    columns = ["topic", "case", "spheres", "time_step_s", "cpu_s", "memory_MB", "remark"]
+    for k, row in enumerate([*rows, {"topic": "pouring", "case": "yade", "remark": "absent"}]):
+        write_table(tmp_path / f"{k}.csv", pd.DataFrame([row], columns=columns))
+    files = sorted(tmp_path.glob("*.csv"))
+    run(
+        tmp_path,
+        "collect.py",
+        *files,
+        "--output",
+        "table.csv",
+        "--beside",
+        "beside.csv",
+        "--growth",
+        "growth.csv",
+    )
+    assert pd.read_csv(tmp_path / "table.csv").topic.tolist() == ["growth"] * 8 + ["pouring"]
+    assert pd.read_csv(tmp_path / "beside.csv").topic.tolist() == ["pouring"]
+    growth = pd.read_csv(tmp_path / "growth.csv").set_index("stage")
+    assert growth.exponent_of_time["pour"] == pytest.approx(1.5)
+    assert growth.exponent_of_memory["pour"] == pytest.approx(1.0)
+    assert growth.last_exponent_of_time["test"] == pytest.approx(1.0)
+    assert growth.exponent_of_time["test"] == pytest.approx(0.5)
+    assert growth.loc["pour", "from"] == 1000 and growth.loc["pour", "to"] == 16000
+    assert pd.isna(growth.exponent_of_time["cut"]) and growth.cpu_s_of_largest["cut"] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("script", "arguments", "said"),
+    [
+        ("pouring.py", ["liggghts", "counts.csv"], "absent: no program liggghts"),
+        ("pouring.py", ["yade", "counts.csv"], "absent: no program yade"),
+        ("cycle.py", ["yade", "m.h5", "l.json", "--specimen", "s.h5"], "absent: no program yade"),
+        ("fclib.py", [], "absent: no files given, make benchmark FCLIB=..."),
+    ],
+)
+def test_what_is_absent_is_said(tmp_path, script, arguments, said):
+    run(tmp_path, script, *arguments, "--output", tmp_path / "row.csv", PATH=str(tmp_path))
+    row = pd.read_csv(tmp_path / "row.csv").iloc[0]
+    assert row.remark == said and pd.isna(row.cpu_s) and pd.notna(row.topic)
+
+
+def test_stages_of_growth(tmp_path, beam):
+    """A test on a specimen: each stage with its cost, and the modulus beside that of the law."""
+    arrays = {"position": beam.position, "radius": beam.radius}
+    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
+    attributes = {name: float(value) for name, value in asdict(beam.geometry).items()}
+    save(tmp_path / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
+    write_law(
+        tmp_path / "law.json", Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9), source="fitted", temperature=15.0
+    )
+    run(tmp_path, "growth.py", "test", 700, "beam.h5", "law.json", "--output", "rows.csv")
+    rows = pd.read_csv(tmp_path / "rows.csv").set_index("case")
+    assert rows.index.tolist() == ["condense", "reduced, a cycle", "condensed, factors", "condensed, a step"]
+    assert (rows.cpu_s > 0.0).all() and (rows.memory_MB > 50.0).all() and (rows.spheres == 700).all()
+    assert rows.remark["condensed, a step"] == "factors"
+    ratio = float(re.search(r"E over law ([\d.]+)", rows.remark["reduced, a cycle"])[1])
+    assert 0.2 < ratio < 2.0
+
+
+def test_a_stage_beyond_memory_says_so(monkeypatch):
+    """In its row, with those that need it; nothing is raised."""
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    import growth
+
+    row = growth.alone("condense", np.ones, 4 * growth.MOST_MEMORY)[0]
+    assert row["case"] == "condense" and row["remark"].startswith("not done within 16 GiB: MemoryError")
+    assert "cpu_s" not in row
+    monkeypatch.setattr(growth, "alone", lambda case, *rest: [{"case": case, "remark": "not done"}])
+    assert [r["remark"] for r in growth.test("s.h5", "l.json")] == [
+        "not done",
+        *["not done: needs condense"] * 2,
+    ]

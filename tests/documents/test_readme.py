@@ -1,0 +1,61 @@
+"""The documents for readers: what they name exists."""
+
+from __future__ import annotations
+
+import re
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+EQUATIONS = re.findall(
+    r"^\| Eqs?\. \((\d+)\)(?:-\((\d+)\))?.*?\|(.*)\|$",
+    README.split("## From equation to code")[1],
+    re.MULTILINE,
+)
+PAGES = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "docs/tutorial.md"]
+
+
+@pytest.mark.parametrize("name", [name for *_, cell in EQUATIONS for name in re.findall(r"`([\w.]+)`", cell)])
+def test_name_behind_an_equation_can_be_imported(name):
+    parts = name.split(".")
+    modules = [part for part in parts if part.islower()]
+    for end in range(len(modules), 0, -1):
+        try:
+            found = import_module(".".join(["asphalt_nscd", *modules[:end]]))
+        except ModuleNotFoundError:
+            continue
+        for part in parts[end:]:
+            found = getattr(found, part)
+        assert found is not None
+        return
+    raise AssertionError(f"no module of {name}")
+
+
+def test_every_equation_of_the_paper_is_there():
+    numbers = [n for first, last, _ in EQUATIONS for n in range(int(first), int(last or first) + 1)]
+    assert numbers == list(range(1, 34))
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_lead_somewhere(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)#]+)", text):
+        assert "://" in target or (ROOT / page).parent.joinpath(target).exists(), target
+
+
+@pytest.mark.parametrize("page", PAGES[1:3])
+def test_files_named_exist(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for path in re.findall(r"`((?:src|tests|workflow|tools|\.ci)/[\w./]+)`", text):
+        assert (ROOT / path.replace("NAME", "fig01")).exists(), path
+
+
+def test_citation_and_catalogue_can_be_read():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
+    assert citation["references"][0]["doi"] == "10.1016/j.compgeo.2019.103255"
+    assert f'version = "{citation["version"]}"' in (ROOT / "pyproject.toml").read_text()
+    assert yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]["report"] is True

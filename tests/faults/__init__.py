@@ -1,1 +1,0 @@
-"""What must not lose, damage or falsify a result: `PYTHONPATH=tests python -m faults`, or `make faults`."""

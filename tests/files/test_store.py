@@ -1,0 +1,112 @@
+"""Result files: written whole or not at all, refused when damaged."""
+
+from __future__ import annotations
+
+import os
+
+import h5py
+import numpy as np
+import pytest
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import atomic_path, load, read_json, save
+
+ARRAYS = {"a/b": np.arange(6.0).reshape(2, 3), "c": np.array([1, 2])}
+ATTRIBUTES = {"name": "s1", "value": 0.5, "count": 3}
+
+
+@pytest.fixture
+def file(tmp_path):
+    save(path := tmp_path / "x.h5", "kind", ARRAYS, ATTRIBUTES)
+    return path
+
+
+def test_what_is_saved_is_loaded(file):
+    record = load(file, "kind")
+    assert record.attributes == ATTRIBUTES
+    assert set(record.arrays) == set(ARRAYS)
+    for name, value in ARRAYS.items():
+        np.testing.assert_array_equal(record.arrays[name], value)
+        assert record.arrays[name].dtype == value.dtype
+
+
+def test_another_kind_and_a_missing_file_are_refused(file, tmp_path):
+    with pytest.raises(InputError, match="holds 'kind', not 'model'"):
+        load(file, "model")
+    with pytest.raises(InputError, match="no such file"):
+        load(tmp_path / "none.h5", "kind")
+
+
+def test_truncated_file_is_refused(file):
+    file.write_bytes(file.read_bytes()[:-200])
+    with pytest.raises(InputError, match="damaged"):
+        load(file, "kind")
+
+
+def test_file_that_is_not_hdf5_is_refused(file):
+    file.write_text("not HDF5")
+    with pytest.raises(InputError, match="damaged or not HDF5"):
+        load(file, "kind")
+
+
+@pytest.mark.parametrize("change", ["array", "attribute", "dropped"])
+def test_altered_content_is_refused(file, change):
+    with h5py.File(file, "r+") as content:
+        if change == "array":
+            content["a/b"][0, 0] = 1e-9
+        elif change == "attribute":
+            content.attrs["value"] = 0.50001
+        else:
+            del content["c"]
+    with pytest.raises(InputError, match="does not match its digest"):
+        load(file, "kind")
+
+
+def test_every_flipped_byte_is_refused_or_harmless(file):
+    whole = file.read_bytes()
+    for place in range(0, len(whole), 37):
+        changed = bytearray(whole)
+        changed[place] ^= 0xFF
+        file.write_bytes(bytes(changed))
+        try:
+            record = load(file, "kind")
+        except InputError:
+            continue
+        assert record.attributes == ATTRIBUTES
+        for name, value in ARRAYS.items():
+            np.testing.assert_array_equal(record.arrays[name], value)
+
+
+def test_nothing_is_left_of_a_write_that_fails(tmp_path):
+    path = tmp_path / "folder" / "x.txt"
+    with pytest.raises(RuntimeError), atomic_path(path) as temporary:
+        temporary.write_text("half")
+        raise RuntimeError
+    assert list(path.parent.iterdir()) == []
+    path.write_text("before")
+    with pytest.raises(RuntimeError), atomic_path(path) as temporary:
+        temporary.write_text("half")
+        raise RuntimeError
+    assert path.read_text() == "before" and len(list(path.parent.iterdir())) == 1
+
+
+@pytest.mark.parametrize("error", [OSError(28, "No space left on device"), RuntimeError("errno = 28")])
+def test_error_of_a_library_that_names_no_file_gets_the_name(tmp_path, error):
+    with pytest.raises(type(error)) as raised, atomic_path(tmp_path / "x.h5"):
+        raise error
+    assert raised.value.filename == str(tmp_path / "x.h5")
+
+
+def test_device_is_not_replaced(tmp_path):
+    os.mkfifo(pipe := tmp_path / "pipe")
+    with pytest.raises(InputError, match="not a regular file"), atomic_path(pipe):
+        pass
+    assert pipe.is_fifo()
+
+
+def test_json_that_cannot_be_read_is_named(tmp_path):
+    (path := tmp_path / "x.json").write_text("{")
+    with pytest.raises(InputError, match="not valid JSON"):
+        read_json(path)
+    with pytest.raises(InputError, match="no such file"):
+        read_json(tmp_path / "none.json")

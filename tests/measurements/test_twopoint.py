@@ -1,0 +1,82 @@
+"""Eqs. (1)-(5): limits, an independent quadrature, and the exact inverse."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.twopoint import (
+    Geometry,
+    complex_modulus,
+    form_factor,
+    head_response,
+    mass_factor,
+    norm_and_phase,
+)
+
+PAPER = Geometry(b=25e-3, B=56e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
+
+
+def with_foot(foot: float) -> Geometry:
+    return Geometry(b=25e-3, B=foot, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
+
+
+def test_form_and_mass_factor_of_the_paper():
+    assert form_factor(PAPER) * 1e-3 == pytest.approx(25.0957774, rel=1e-8)  # 1/mm
+    assert mass_factor(PAPER) == pytest.approx(0.316, rel=1e-12)
+
+
+@pytest.mark.parametrize("foot", [0.056, 0.030, 0.0264, 0.0263, 0.0251, 0.025 * (1 + 1e-9), 0.025])
+def test_form_factor_is_the_deflection_of_a_tapered_cantilever(foot):
+    """gamma = E z/F = integral of x^2/I(x) dx from the head, I the local second moment of area."""
+    geometry = with_foot(foot)
+
+    def second_moment(x: float) -> float:
+        width = geometry.b + (geometry.B - geometry.b) * x / geometry.h
+        return geometry.e * width**3 / 12
+
+    deflection, _ = quad(lambda x: x**2 / second_moment(x), 0, geometry.h, epsrel=1e-13)
+    assert form_factor(geometry) == pytest.approx(deflection, rel=1e-11)
+
+
+def test_prismatic_limit():
+    geometry = with_foot(0.025)
+    assert form_factor(geometry) == pytest.approx(4 * 0.25**3 / (0.025 * 0.025**3), rel=1e-14)
+
+
+def test_printed_equations_in_their_own_units():
+    """Eqs. (1)-(2) as printed, in N, mm, g, MPa, where the factor 1e-6 belongs."""
+    force, displacement_mm, psi, frequency = 60.0, 63e-3, np.radians(20.0), 25.0
+    gamma_mm, mu_g, omega = 25.0957774, 316.0, 2 * np.pi * frequency
+    e1 = gamma_mm * (force / displacement_mm * np.cos(psi) + 1e-6 * mu_g * omega**2)
+    e2 = gamma_mm * force / displacement_mm * np.sin(psi)
+    modulus = complex_modulus(PAPER, frequency, force, displacement_mm * 1e-3, psi)
+    assert modulus * 1e-6 == pytest.approx(e1 + 1j * e2, rel=1e-7)
+
+
+def test_head_response_inverts_complex_modulus():
+    frequency = np.array([3.0, 6, 10, 25, 40])
+    modulus = np.array([39e9, 20e9, 5e9, 1e9, 50e6]) * np.exp(1j * np.radians([1.0, 10, 30, 45, 80]))
+    force, phase = head_response(PAPER, frequency, modulus, 63e-6)
+    assert phase[-1] > np.pi / 2  # soft and fast: inertia outweighs the stiffness
+    np.testing.assert_allclose(complex_modulus(PAPER, frequency, force, 63e-6, phase), modulus, rtol=1e-12)
+
+
+def test_norm_and_phase():
+    norm, phase = norm_and_phase(3 + 4j)
+    assert norm == pytest.approx(5) and phase == pytest.approx(np.arctan2(4, 3))
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"h": 0.0}, "h = 0"),
+        ({"mass": -1.0}, "mass = -1"),
+        ({"e": np.nan}, "e = nan"),
+        ({"b": 0.06}, "exchange b and B"),
+    ],
+)
+def test_impossible_geometry_is_refused(change, words):
+    values = {"b": 0.025, "B": 0.056, "e": 0.025, "h": 0.25, "mass": 0.6, "mobile_mass": 0.235}
+    with pytest.raises(InputError, match=words):
+        Geometry(**(values | change))

@@ -1,0 +1,110 @@
+"""The cell list against a look at all pairs, and reactions carried from list to list."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from naive.granular import all_pairs
+
+from asphalt_nscd.nscd.spheres.neighbours import (
+    carry_reactions,
+    closing_speeds,
+    find_pairs,
+    find_pairs_within,
+)
+
+NO_PLANES = np.empty((0, 3))
+
+
+def listed(start, other):
+    return list(zip(np.repeat(np.arange(start.size - 1), np.diff(start)).tolist(), other.tolist()))
+
+
+def cloud(rng, n, size, spread):
+    """n spheres in a box of `size` [m]; radii over a factor `spread`, some of them equal."""
+    radius = 1e-3 * rng.uniform(1.0, spread, n)
+    radius[rng.random(n) < 0.3] = 1e-3
+    return rng.uniform(0.0, size, (n, 3)), radius
+
+
+@pytest.mark.parametrize("reach", [0.0, 5e-4, 4e-3])
+@pytest.mark.parametrize(
+    ("n", "size", "spread"),
+    [(1, 1e-2, 1.0), (120, 1.5e-2, 1.0), (120, 3e-2, 5.0), (60, 0.3, 5.0), (80, (0.2, 2e-3, 1e-2), 3.0)],
+)
+def test_pairs_are_those_of_brute_force(n, size, spread, reach):
+    """Same pairs, same owner, same order: dense and sparse clouds, elongated boxes, five-fold sizes."""
+    rng = np.random.default_rng(n)
+    position, radius = cloud(rng, n, size, spread)
+    position -= 0.01  # cells must not depend on the origin
+    normal = rng.normal(size=(4, 3))
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    normal[0] = [0.0, 0.0, 1.0]
+    point = position.mean(axis=0) - 0.3 * np.asarray(size) * normal
+    for planes in (NO_PLANES, NO_PLANES), (point, normal):
+        start, other = find_pairs(position, radius, *planes, reach)
+        assert start[0] == 0 and start[-1] == other.size and start.size == n + 1
+        expected = all_pairs(position, radius, *planes, reach)
+        assert listed(start, other) == expected
+    if n > 100:
+        assert len(expected) > 150
+
+
+def test_pairs_touching_across_cells():
+    """A lattice whose neighbours lie exactly one cell apart, where rounding decides the cell."""
+    cells = np.stack(np.meshgrid(*[np.arange(5)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    position, radius = 2.2e-3 * cells, np.full(125, 1e-3)
+    start, other = find_pairs(position, radius, NO_PLANES, NO_PLANES, 2.0001e-4)
+    assert other.size == 3 * 5 * 5 * 4
+    start, other = find_pairs(position, radius, NO_PLANES, NO_PLANES, 1.9999e-4)
+    assert other.size == 0
+
+
+def test_reactions_follow_their_pairs():
+    """Spheres move, pairs come and go: old pairs keep their reaction, new ones start from zero."""
+    rng = np.random.default_rng(2)
+    position, radius = cloud(rng, 150, 2e-2, 4.0)
+    point, normal = np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])
+    start, other = find_pairs(position, radius, point, normal, 1e-3)
+    reaction = rng.normal(size=(other.size, 3))
+    kept = dict(zip(listed(start, other), reaction))
+    moved = position + rng.normal(0, 5e-4, position.shape)
+    new_start, new_other = find_pairs(moved, radius, point, normal, 1e-3)
+    carried = carry_reactions(start, other, reaction, new_start, new_other)
+    pairs = listed(new_start, new_other)
+    for pair, value in zip(pairs, carried):
+        np.testing.assert_array_equal(value, kept.get(pair, np.zeros(3)))
+    came, stayed = len(set(pairs) - set(kept)), len(set(pairs) & set(kept))
+    assert came > 50 and stayed > 200 and len(kept) > stayed + 50
+
+
+def test_each_sphere_with_a_reach_of_its_own():
+    """The reach of the larger sphere of a pair counts; planes have one for all."""
+    rng = np.random.default_rng(6)
+    position, radius = cloud(rng, 150, 2e-2, 4.0)
+    point, normal = np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])
+    reach = rng.uniform(0.0, 4e-3, 150)
+    found = set(listed(*find_pairs_within(position, radius, point, normal, reach, 1e-3)))
+    far = all_pairs(position, radius, point, normal, 4e-3)
+
+    def gap(i, j):
+        if j == 150:
+            return position[i, 2] - radius[i]
+        return np.linalg.norm(position[j] - position[i]) - radius[i] - radius[j]
+
+    expected = {(i, j) for i, j in far if gap(i, j) < (1e-3 if j == 150 else reach[i])}
+    assert found == expected
+    assert 100 < len(expected) < 0.8 * len(far)
+
+
+def test_no_sphere_closes_in_faster_than_the_bound():
+    """Grains that rain fast onto slow ones: the bound holds for every pair, and is small far from the slow."""
+    rng = np.random.default_rng(7)
+    position, radius = cloud(rng, 200, (1e-2, 1e-2, 0.1), 3.0)
+    velocity = rng.normal(0.0, 0.01, (200, 3))
+    velocity[position[:, 2] > 0.05, 2] -= 5.0
+    bound = closing_speeds(position, radius, velocity, 4e-3)
+    for i, j in all_pairs(position, radius, NO_PLANES, NO_PLANES, 4e-3):
+        assert np.linalg.norm(velocity[j] - velocity[i]) <= bound[i] * (1 + 1e-14)
+    assert (bound > 4.9).sum() > 20
+    assert (bound < 0.1).sum() > 100

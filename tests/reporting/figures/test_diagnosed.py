@@ -1,0 +1,154 @@
+"""Figures of the diagnosis: what is marked, which unit, which origin, and what stands where nothing can be drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from jsonschema import Draft202012Validator
+from matplotlib.container import ErrorbarContainer
+from matplotlib.patches import Rectangle
+from tiny_results import LAWS, modulus
+
+from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import read_json, write_table
+from asphalt_nscd.reporting.figures import fig10_extended, fig_black, fig_limits, fig_master, fig_residual_map
+
+
+def texts_of(figure):
+    legends = [
+        text.get_text() for legend in figure.legends for text in (legend.get_title(), *legend.get_texts())
+    ]
+    return legends + [text.get_text() for axes in figure.axes for text in axes.texts]
+
+
+def outlined(axes):
+    return {patch.get_xy() for patch in axes.patches if isinstance(patch, Rectangle) and not patch.get_fill()}
+
+
+def test_tiny_diagnosis_is_what_the_schema_says(results):
+    schema = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text())
+    (path,) = results.diagnosis()["diagnosis"]
+    assert not list(Draft202012Validator(schema).iter_errors(read_json(path)))
+
+
+def test_map_marks_what_scatter_does_not_explain(results):
+    figure = fig_residual_map.draw(**results.diagnosis())
+    before, after, phase_before, phase_after = figure.axes[:4]
+    corners = {(k + 0.06, 1.06) for k in range(3)}  # the row of 20 degC
+    assert outlined(before) == outlined(phase_before) == corners
+    # 1 % is sqrt(2) standard deviations of the mean of two specimens.
+    assert not outlined(after) and not outlined(phase_after)
+    assert [text.get_text() for text in before.texts] == 3 * ["0.0"] + 3 * ["20"]
+    assert [text.get_text() for text in phase_after.texts] == 6 * ["0.0"]
+    norms = [axes.collections[0].norm for axes in figure.axes[:4]]
+    assert norms[0] is norms[1] and norms[2] is norms[3] and norms[0].vmax >= 20.0
+    assert "reconstructed data, means over specimens" in texts_of(figure)
+
+
+def test_residual_of_three_standard_deviations_of_the_mean_is_the_edge(results):
+    data = results.diagnosis()
+    table = pd.read_csv(data["residuals"][0], dtype={"specimen": str})
+    edge = 3.0 / np.sqrt(2.0)
+    table["residual_E_after_percent"] = np.where(table["frequency_Hz"] == 3.0, 1.01 * edge, 0.99 * edge)
+    write_table(data["residuals"][0], table)
+    after = fig_residual_map.draw(**data).axes[1]
+    assert outlined(after) == {(0.06, 0.06), (0.06, 1.06)}
+
+
+def test_condition_that_was_not_tested_is_left_empty(results):
+    data = results.diagnosis()
+    table = pd.read_csv(data["residuals"][0], dtype={"specimen": str})
+    write_table(data["residuals"][0], table[(table["temperature_C"] == 0.0) | (table["frequency_Hz"] > 3.0)])
+    assert [len(axes.texts) for axes in fig_residual_map.draw(**data).axes[:4]] == [5, 5, 5, 5]
+
+
+def test_planes_hold_the_same_points(results):
+    figure = fig_black.draw(**results.diagnosis(origin="measured"))
+    black, cole = figure.axes
+    for axes in (black, cole):
+        assert len(axes.lines) == 3 * len(LAWS)
+    norm, phase = modulus(LAWS[20.0], 10.0)
+    points = [line for line in black.lines if line.get_linestyle() == "None"][1]
+    assert (points.get_xdata()[1], points.get_ydata()[1]) == pytest.approx((phase, norm / 1e3))
+    points = [line for line in cole.lines if line.get_linestyle() == "None"][1]
+    expected = norm / 1e3 * np.exp(1j * np.radians(phase))
+    assert (points.get_xdata()[1], points.get_ydata()[1]) == pytest.approx((expected.real, expected.imag))
+    before = black.lines[4]
+    assert before.get_xdata()[1] == pytest.approx(phase - 4.0)
+    assert {"measured", "simulated before", "simulated after", "0 °C", "20 °C"} <= set(texts_of(figure))
+
+
+def test_master_curve_stands_on_frequency_times_shift_factor(results):
+    figure = fig_master.draw(**results.diagnosis())
+    norm, _, off_norm, _, shifts = figure.axes
+    cold, warm = (line for line in norm.lines if line.get_marker() != "None")
+    assert cold.get_xdata() == pytest.approx([300.0, 1000.0, 4000.0])
+    assert warm.get_xdata() == pytest.approx([3.0, 10.0, 40.0])
+    assert off_norm.lines[2].get_ydata() == pytest.approx(20.0) and off_norm.lines[
+        3
+    ].get_ydata() == pytest.approx(1.0)
+    assert [(*line.get_xdata(), *line.get_ydata()) for line in shifts.lines] == [(0.0, 2.0), (20.0, 0.0)]
+    assert "at 20 °C" in figure.axes[3].get_xlabel() and "a, b: reconstructed" in texts_of(figure)
+
+
+def test_without_a_common_law_a_sentence_stands_for_the_master_curve(results):
+    assert "No law common to all temperatures" in texts_of(fig_master.draw(**results.diagnosis(ladder=[])))[0]
+
+
+def test_limits_stand_in_units_of_use_beside_what_was_found(results):
+    figure = fig_limits.draw(diagnosis=results.diagnosis()["diagnosis"])
+    delay, clamp, bias = figure.axes
+    assert [axes.get_title(loc="left") for axes in figure.axes] == [
+        "channel delay (ms)", "loose clamp (1/TPa)", "temperature bias (K)",
+    ]  # fmt: skip
+    assert [bar.get_width() for bar in delay.patches] == pytest.approx([0.03])
+    assert [bar.get_width() for bar in clamp.patches] == pytest.approx([0.9, 0.8])
+    assert [label.get_text() for label in clamp.get_yticklabels()] == ["specimen 1", "specimen 2"]
+    assert [label.get_text() for label in bias.get_yticklabels()] == ["0 °C", "20 °C"]
+    found, *others = [c for axes in figure.axes for c in axes.containers if isinstance(c, ErrorbarContainer)]
+    assert not others and found in clamp.containers
+    assert (found[0].get_xdata()[0], found[0].get_ydata()[0]) == pytest.approx((3.0, 1))
+    (bar,) = found[2][0].get_segments()
+    assert bar[:, 0] == pytest.approx([3.0 - 1.96 * 0.2, 3.0 + 1.96 * 0.2])
+    assert "reconstructed data" in texts_of(figure)
+
+
+def test_no_limit_is_a_sentence(results):
+    figure = fig_limits.draw(diagnosis=results.diagnosis(detection_limits={})["diagnosis"])
+    assert texts_of(figure) == [fig_limits.NONE]
+
+
+def test_before_and_after_share_their_axes(results):
+    after = results.simulations(name="after", samples=("s1", "s2"))
+    table = pd.read_csv(after[0]).assign(phase_deg=lambda frame: frame["phase_deg"] + 5.0)
+    write_table(after[0], table)
+    figure = fig10_extended.draw(
+        simulations=results.simulations(), extended=after, measured=results.measured()
+    )
+    first, second = figure.axes
+    assert first.get_ylim() == second.get_ylim() and first.get_ylim()[0] <= 0.0
+    filled = [[bars[0].get_ydata() for bars in axes.containers][1::2] for axes in (first, second)]
+    for before, later in zip(*filled, strict=True):
+        assert later - before == pytest.approx(5.0)
+    assert {"reconstructed", "simulated", "law of the bonds"} <= set(texts_of(figure))
+
+
+def test_damaged_diagnosis_is_refused(results):
+    with pytest.raises(InputError, match="scatter is damaged, not as the schema says; delete it"):
+        fig_limits.draw(diagnosis=results.diagnosis(scatter={"modulus_percent": 1.0})["diagnosis"])
+
+
+def test_diagnosis_of_another_version_is_refused(results):
+    with pytest.raises(InputError, match="not a diagnosis of version 2; make it with `diagnose`"):
+        fig_limits.draw(diagnosis=results.diagnosis(schema_version=1)["diagnosis"])
+
+
+@pytest.mark.parametrize("draw", [fig_residual_map.draw, fig_black.draw, fig_master.draw])
+def test_table_without_a_column_is_refused(results, draw):
+    data = results.diagnosis()
+    data["residuals"][0].write_text(data["residuals"][0].read_text().replace("E_after_MPa", "after"))
+    with pytest.raises(InputError, match="column 'E_after_MPa' is missing"):
+        draw(**data)

@@ -1,0 +1,142 @@
+"""The page of a diagnosis says what diagnosis.json says, and never more."""
+
+import json
+import re
+
+import pandas as pd
+import pytest
+
+from asphalt_nscd.reporting.pages.diagnosis_page import render, sections
+
+
+@pytest.fixture
+def page(results, tmp_path):
+    (picture := tmp_path / "map.png").write_bytes(b"picture")
+
+    def make(table4=(), **changes):
+        diagnosis = results.diagnosis(**changes)["diagnosis"]
+        html = render(sections(diagnosis, [picture], table4), "A diagnosis")
+        return re.sub(r"\s+", " ", re.sub(r"<style>.*</style>", "", html, flags=re.DOTALL))
+
+    return make
+
+
+def test_causes_stand_with_size_unit_chance_and_gains(page):
+    html = page()
+    assert "Explained: with relaxation spectrum and loose clamp (specimen 2) in the simulation" in html
+    assert "compliance 3 ± 0.392 1/TPa" in html and "<td>below 1e-06</td>" in html
+    assert "<td>fitted</td><td>8 → 2</td>" in html
+    assert "<td>each frequency predicted from the others</td><td>8 → 2</td>" in html
+    assert "each temperature predicted" not in html
+    assert "<li>To confirm loose clamp (specimen 2): c.</li>" in html
+    assert "data:image/png;base64,cGljdHVyZQ==" in html
+
+
+def test_what_could_not_be_seen_stands_beside(page):
+    html = page()
+    assert "<td>channel delay</td><td>0.03 ms</td>" in html
+    assert "<td>loose clamp</td><td>0.9 1/TPa (specimen 1); 0.8 1/TPa (specimen 2)</td>" in html
+    assert "<td>temperature bias</td><td>0.9 K (0 °C); 0.3 K (20 °C)</td>" in html
+    assert "<td>damage</td><td>the order of the tests</td>" in html
+    assert "<li>loose clamp of all specimens – relaxation spectrum</li>" in html
+
+
+@pytest.mark.parametrize(
+    ("origin", "sentence"),
+    [
+        ("reconstructed", "rests on reconstructed data"),
+        ("measured", "The data are measured."),
+        ("synthetic", "The data are synthetic"),
+        (
+            "mixed: measured, reconstructed",
+            "The data are measured. This diagnosis rests on reconstructed data",
+        ),
+        ("borrowed", "The data are borrowed."),
+    ],
+)
+def test_origin_is_said(page, origin, sentence):
+    html = page(origin=origin)
+    assert sentence in html
+    assert ("rests on reconstructed data" in html) == ("reconstructed" in origin)
+
+
+def test_published_table_is_the_check_of_reconstructed_data_only(page, tmp_path):
+    table = pd.DataFrame({
+        "temperature_C": [0.0], "compared_with": ["reconstructed"], "mre_E_published_percent": [1.33],
+        "mre_E_simulated_percent": [12.52], "mre_E_law_percent": [2.8], "mre_phase_published_percent": [9.75],
+        "mre_phase_simulated_percent": [12.12], "mre_phase_law_percent": [12.1],
+    })  # fmt: skip
+    table.to_csv(path := tmp_path / "table4.csv", index=False)
+    row = "<td>0 °C</td><td>1.33</td><td>12.5</td><td>9.75</td><td>12.1</td>"
+    assert row in page([path]) and "independent check" in page([path])
+    assert "independent check" not in page([path], origin="measured")
+    table.drop(columns=[name for name in table if "published" in name]).to_csv(path, index=False)
+    assert "independent check" not in page([path])
+
+
+def test_what_stays_unexplained_is_said(page):
+    miss = {
+        "temperature_C": 20.0, "frequency_Hz": 3.0, "residual_E_percent": -15.13, "residual_phase_deg": -2.77,
+        "z": 6.94,
+    }  # fmt: skip
+    left = {"pattern": "20 degC, slope", "p_value": 1e-9, "z": 11.7}
+    html = page(
+        verdict="unexplained_structure", largest_pattern_left=left, unexplained=[miss, {**miss, "specimen": "2"}],
+        withdrawn=["secondary_process"],
+    )  # fmt: skip
+    assert "Not explained in full: with relaxation spectrum" in html
+    assert "most of all at 20 degC, slope (11.7 standard deviations)." in html
+    assert "<td>20 °C</td><td>3</td><td>−15.1</td><td>−2.77</td><td>6.94</td><td>mean</td>" in html
+    assert "<td>specimen 2, set aside</td>" in html
+    assert "Considered but not named" in html and "secondary process" in html
+    assert "Nothing beyond scatter" not in html and "Nothing beyond scatter" in page()
+
+
+def test_rivals_and_text_from_the_table_are_shown_as_text(page):
+    html = page()
+    assert "one of these" not in html
+    ladder = [{
+        "cause": "loose_clamp", "where": "<b>", "p_value": 0.004,
+        "as_good": ["loose_clamp @ <i>", "temperature_bias @ -10.0"],
+        "sentence": "s", "confirmed_by": "c", "gain": {"in_sample": GAIN, "held_out": {}},
+        "parameters": {"compliance": {"value": 3e-12, "std_error": None, "unit": "1/Pa"}},
+    }]  # fmt: skip
+    html = page(ladder=ladder)
+    assert (
+        "Fits no better than loose clamp (specimen &lt;i&gt;), temperature bias (−10 °C): one of these."
+        in html
+    )
+    assert "with loose clamp (specimen &lt;b&gt;), or what fits no worse, in the simulation" in html
+    assert "loose clamp (specimen &lt;b&gt;)" in html and "<td>0.004</td>" in html
+
+
+def test_without_replicates_nothing_is_called_right_or_established(page, results):
+    alone = {
+        "modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": False,
+    }  # fmt: skip
+    assert "scatter by 1 % and 0.5°. Everything" in page()
+    html = page(verdict="nothing_to_explain", ladder=[], tested=False, scatter=alone)
+    assert "Not judged: nothing found" in html and "Nothing to explain" not in html
+    assert "scatter by 1 % and 0.5° as far as a smooth law can tell, for nothing was repeated." in html
+    made = json.loads(results.diagnosis()["diagnosis"][0].read_text())["provenance"]
+    stated = page(scatter=alone, provenance=made | {"scatter_stated": [0.01, 0.5]})
+    assert "scatter by 1 % and 0.5°, as was stated." in stated
+    html = page(verdict="unexplained_structure", lack_of_fit_p_value=0.5, largest_pattern_left=None)
+    assert (
+        "Not established: relaxation spectrum and loose clamp (specimen 2) would explain these data" in html
+    )
+    html = page(verdict="unexplained_structure", lack_of_fit_p_value=1e-4, largest_pattern_left=None)
+    assert "Not explained in full" in html
+
+
+GAIN = {
+    **dict.fromkeys(
+        ("mre_E_percent", "mre_phase_percent", "rms_over_scatter"), {"before": 2.0, "after": 1.0}
+    ),
+    "averages_by_temperature": {},
+}
+
+
+def test_without_a_cause_nothing_is_explained(page):
+    html = page(verdict="nothing_to_explain", ladder=[])
+    assert "Nothing to explain" in html and "no cause of the catalogue beats chance" in html

@@ -1,0 +1,158 @@
+"""Figs. 6, 7 and 8: what is taken from a test file and how it is named."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import Record, load, save
+from asphalt_nscd.measurements.twopoint import Geometry, form_factor
+from asphalt_nscd.reporting.figures import fig06, fig07, fig08
+from asphalt_nscd.reporting.figures.beam import deflection
+from asphalt_nscd.reporting.figures.records import last_cycle
+
+
+def legend_of(axes):
+    return [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+def test_last_cycle_begins_where_the_displacement_rises_through_zero(results):
+    (path,) = results.test(cycles=3)
+    time, displacement, force = last_cycle(load(path, "test"))
+    assert time.size in (1000, 1001) and time[-1] == pytest.approx(0.5)
+    assert displacement[-1] == pytest.approx(0.0, abs=1e-12)
+    assert displacement[np.argmin(np.abs(time - 0.125))] == pytest.approx(50e-6)
+    assert force[-1] == pytest.approx(40.0 * np.sin(0.3))
+
+
+def test_broken_last_cycle_is_left_out(results):
+    (path,) = results.test(cycles=3)
+    record = load(path, "test")
+    for name in ("time_s", "displacement_m", "force_N"):
+        record.arrays[name] = record.arrays[name][:2700]
+    time, displacement, _ = last_cycle(record)
+    assert time[-1] == pytest.approx(0.5) and displacement[-1] == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(("frequency", "step"), [(3.0, 2e-5), (3.0, 2e-4), (6.0, 1e-4), (40.0, 5e-5)])
+def test_last_cycle_where_the_time_step_does_not_divide_it(frequency, step):
+    time = step * np.arange(1, round(2.0 / frequency / step) + 1)
+    angle = 2.0 * np.pi * frequency * time
+    arrays = {
+        "time_s": time,
+        "displacement_m": np.sin(angle),
+        "force_N": np.where(time * frequency < 1.0, 1, 2),
+    }
+    cycle, displacement, force = last_cycle(Record(arrays, {"frequency_Hz": frequency}))
+    assert cycle[0] < 1.01 * step and cycle[-1] > 1.0 / frequency - 1.01 * step
+    assert (force[1:] == 2).all()
+    assert displacement == pytest.approx(np.sin(2.0 * np.pi * frequency * cycle), abs=1e-9)
+
+
+def steps_of(results, name, tests):
+    return [results.test(f"{name}{step}", force=force, time_step_s=step)[0] for step, force in tests.items()]
+
+
+def test_time_steps_one_line_each_named_and_compared(results):
+    converged = steps_of(results, "c", {2e-4: 40.0, 2e-5: 40.4})
+    figure = fig06.draw(converged=converged, stopped=steps_of(results, "s", {2e-5: 20.0, 1e-4: 12.0}))
+    left, right = figure.axes
+    assert left.get_ylabel() == "force at the head (N)" and left.get_xlabel() == "time in the last cycle (ms)"
+    steps = [rf"$dt$ = ${n}\times10^{{{power}}}$ s" for n, power in ((2, -4), (1, -4), (2, -5))]
+    assert legend_of(left) == [steps[0], steps[2]]
+    assert legend_of(right) == [steps[1], steps[2], "solved, finest $dt$"]
+    assert left.texts[0].get_text() == "amplitudes agree to 1 %"
+    assert right.texts[0].get_text() == "amplitudes agree to 67 %"
+    assert left.get_ylim() == right.get_ylim()
+    assert right.lines[-1].get_ydata().max() == pytest.approx(40.4, rel=1e-4)
+
+
+def test_forces_that_are_not_comparable_have_a_scale_of_their_own(results):
+    stopped = steps_of(results, "s", {2e-5: 2.0, 1e-4: 0.5})
+    figure = fig06.draw(converged=steps_of(results, "c", {2e-5: 40.0}), stopped=stopped)
+    left, right = figure.axes
+    assert right.texts[0].get_text() == "amplitudes differ by a factor of 4"
+    assert right.get_ylim()[1] < 3.0 and left.get_ylim()[1] > 40.0
+    assert len(legend_of(right)) == 2
+
+
+def test_one_panel_or_none(results):
+    assert len(fig06.draw(stopped=steps_of(results, "s", {2e-5: 2.0})).axes) == 1
+    with pytest.raises(InputError, match="no test to draw"):
+        fig06.draw()
+
+
+def test_displacement_and_force_with_their_amplitudes(results):
+    figure = fig07.draw(test=results.test(lead=0.3))
+    left, right = figure.axes
+    assert (
+        left.get_ylabel() == "displacement of the head (µm)" and right.get_ylabel() == "force at the head (N)"
+    )
+    assert left.lines[0].get_ydata().max() == pytest.approx(50.0)
+    assert right.lines[0].get_ydata().max() == pytest.approx(40.0, rel=1e-4)
+    legend = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert legend == ["displacement, $z_0$ = 50 µm", "force, $F_0$ = 40 N"]
+    assert [text.get_text() for text in right.texts] == [f"$\\Psi$ = {np.degrees(0.3):.1f}°"]
+    bracket = right.lines[-1].get_xdata()  # from the crest of the force to that of the displacement, ms
+    assert bracket == pytest.approx([125.0 - 1e3 * 0.3 / (4.0 * np.pi), 125.0], abs=0.6)
+
+
+def test_profiles_at_instants_and_histories_at_heights(results):
+    figure = fig08.draw(test=results.test(), specimen=results.specimen())
+    left, right = figure.axes
+    assert left.get_xlabel() == "mean velocity of the spheres (mm/s)"
+    assert [text.get_text() for text in left.texts] == ["0", "T/8", "T/4", "3T/8", "T/2"]
+    profiles = [line for line in left.lines if line.get_marker() != "None" and len(line.get_xdata()) > 1]
+    assert len(profiles) == 5
+    head = 1e3 * 2.0 * np.pi * 2.0 * 50e-6
+    # The empty layer in the middle is left out; the last instant is half a cycle after the first.
+    assert profiles[0].get_ydata() == pytest.approx([10.0, 30.0, 70.0, 90.0])
+    assert profiles[0].get_xdata() == pytest.approx(head * np.array([0.1, 0.3, 0.7, 0.9]), rel=2e-3)
+    assert profiles[-1].get_xdata() == pytest.approx(-head * np.array([0.1, 0.3, 0.7, 0.9]), rel=2e-3)
+    assert right.texts[-1].get_text() == "90 mm"
+
+
+def test_last_cycle_that_begins_a_step_early(results):
+    (path,) = results.test()
+    record = load(path, "test")
+    arrays = record.arrays | {
+        "profile/time_s": record.arrays["profile/time_s"] - 1.5 * record.arrays["time_s"][0]
+    }
+    save(path, "test", arrays, record.attributes)
+    _, right = fig08.draw(test=[path], specimen=results.specimen()).axes
+    assert right.lines[0].get_xdata()[0] == pytest.approx(-0.0005, abs=1e-9)
+
+
+def test_test_without_velocities_is_refused(results):
+    (path,) = results.test()
+    record = load(path, "test")
+    arrays = {name: value for name, value in record.arrays.items() if not name.startswith("profile")}
+    save(path, "test", arrays, record.attributes)
+    with pytest.raises(InputError, match="holds no velocities"):
+        fig08.draw(test=[path], specimen=results.specimen())
+
+
+def test_prismatic_cantilever_bends_as_in_the_textbook():
+    geometry = Geometry(0.02, 0.02, 0.02, 0.2, 1.0, 0.0)
+    x = np.linspace(0.0, 0.2, 401)
+    assert deflection(geometry, x) == pytest.approx((0.6 * x**2 - x**3) / (2.0 * 0.2**3), abs=1e-5)
+
+
+def test_tapered_cantilever_against_the_unit_load_method():
+    geometry = Geometry(0.025, 0.056, 0.025, 0.25, 0.6, 0.235)
+
+    def compliance(at):
+        """Deflection at height `at` under 1 N at the head, times the modulus [1/m]."""
+
+        def integrand(s):
+            width = geometry.B - (geometry.B - geometry.b) * s / geometry.h
+            return (geometry.h - s) * (at - s) * 12.0 / (geometry.e * width**3)
+
+        return quad(integrand, 0.0, at, epsrel=1e-10)[0]
+
+    assert compliance(geometry.h) == pytest.approx(form_factor(geometry), rel=1e-8)
+    x = np.linspace(0.0, geometry.h, 1001)
+    half = deflection(geometry, x)[500]
+    assert half == pytest.approx(compliance(0.125) / compliance(0.25), rel=1e-5)

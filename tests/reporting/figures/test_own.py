@@ -1,0 +1,108 @@
+"""Figures beside the paper's: ratio to the law, packing, readings that fail."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from tiny_results import LAWS, modulus
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import load
+from asphalt_nscd.reporting.figures import fig_forces, fig_packing, fig_ratio, fig_readings
+
+
+def test_ratio_and_phase_difference_of_every_test(results):
+    simulations = results.simulations(samples=("s1", "s2"), ratios={"s1": 1.02, "s2": 0.98}.get)
+    figure = fig_ratio.draw(simulations=simulations)
+    ratio, lead = figure.axes
+    points = [line for line in ratio.lines if line.get_marker() != "None"]
+    assert sum(len(line.get_ydata()) for line in points) == 2 * 2 * 3
+    values = sorted({round(float(value), 9) for line in points for value in line.get_ydata()})
+    assert values == [0.98, 1.02]
+    for line in (line for line in lead.lines if line.get_marker() != "None"):
+        assert line.get_ydata() == pytest.approx(0.01, abs=1e-8)
+    assert ratio.get_ylabel() == "|E*| simulated / law" and lead.get_ylabel().endswith("(°)")
+    assert [label.get_text() for label in lead.get_xticklabels()] == ["sample s1", "sample s2"]
+
+
+def test_broken_bonds_are_open_markers(results):
+    figure = fig_ratio.draw(simulations=results.simulations())
+    open_points = [line for line in figure.axes[0].lines if line.get_markerfacecolor() == "white"]
+    (points,) = open_points
+    # Those of 0 degC, which stand left of the sample's middle.
+    assert len(points.get_xdata()) == 3 and points.get_xdata().max() < 0.0
+    assert "bonds broken" in [text.get_text() for text in figure.legends[0].get_texts()]
+    intact = results.simulations(name="intact")
+    table = pd.read_csv(intact[0]).assign(broken_bonds=0)
+    table.to_csv(intact[0], index=False)
+    legend = fig_ratio.draw(simulations=intact).legends[0]
+    assert "bonds broken" not in [text.get_text() for text in legend.get_texts()]
+
+
+def test_packing_one_point_per_deposit(results):
+    packing = results.simulations(name="a", frequencies=[3.0], friction=0.2, solid_fraction=0.65)
+    packing += results.simulations(
+        name="b", frequencies=[3.0], ratios=lambda s: 0.9, friction=0.5, solid_fraction=0.62
+    )
+    (axes,) = fig_packing.draw(packing=packing).axes
+    points = {
+        float(line.get_xdata()[0]): line.get_ydata()[0] for line in axes.lines if line.get_marker() != "None"
+    }
+    assert points == pytest.approx({0.65: 1.0, 0.62: 0.9})
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["0.2", "0.5"]
+    assert axes.get_xlabel() == "solid fraction of the deposit"
+
+
+def readings(results):
+    pascal = results.simulations(name="p", ratios=lambda s: 0.4, head="free", law_source="pascal")
+    blocked = results.simulations(name="b", ratios=lambda s: 2.2, head="blocked", law_source="published")
+    for path in (*pascal, *blocked):  # of one temperature, as the audit's tests are
+        table = pd.read_csv(path)
+        table[table["temperature_C"] == 20.0].to_csv(path, index=False)
+    return [*pascal, *blocked]
+
+
+def test_readings_are_told_apart(results):
+    figure = fig_readings.draw(
+        readings=readings(results), simulations=results.simulations(law_source="published")
+    )
+    left, right = figure.axes
+    drawn = {line.get_label(): line for line in left.lines}
+    expected = {
+        "Table 3 in kPa, head free": 1.0,
+        "Table 3 in Pa, head free": 0.4,
+        "Table 3 in kPa, head blocked": 2.2,
+    }
+    for label, ratio in expected.items():
+        assert drawn[label].get_ydata() == pytest.approx([ratio] * 3)
+    law = next(line for line in right.lines if line.get_label().startswith("Burgers law"))
+    assert law.get_ydata() == pytest.approx([modulus(LAWS[20.0], f)[1] for f in (3.0, 10.0, 40.0)])
+    assert left.get_ylabel() == "|E*| simulated / law" and right.get_ylabel() == "phase angle (°)"
+
+
+def test_readings_without_their_specimen_are_refused(results):
+    with pytest.raises(InputError, match="no simulation of the specimen"):
+        fig_readings.draw(
+            readings=readings(results), simulations=results.simulations(samples=("s9",), law_source="fitted")
+        )
+
+
+def test_stretched_bonds_pull_and_the_head_moves_by_one(results):
+    speed, force = fig_forces.slow_deflection(load(results.model()[0], "model"))
+    assert speed == pytest.approx([0.5, 0.75, 0.0, 0.0, 1.0])
+    # 4 x (0.75 - 0.5), 2 x (0 - 0.5), 2 x (1 - 0.5), whose mean size is one.
+    assert force == pytest.approx([1.0, -1.0, 1.0])
+
+
+def test_chains_leave_out_plates_and_what_lies_off_the_middle(results):
+    pulled, pushed, *_ = fig_forces.draw(model=results.model(), specimen=results.specimen()).axes
+    (chains,) = pulled.collections
+    assert np.asarray(chains.get_segments()) == pytest.approx(np.array([[[0.0, 30.0], [3.0, 30.0]]]))
+    (chains,) = pushed.collections
+    assert np.asarray(chains.get_segments()) == pytest.approx(np.array([[[0.0, 30.0], [0.0, 30.0]]]))
+
+
+def test_model_of_another_specimen_is_refused(results):
+    with pytest.raises(InputError, match="is of another specimen"):
+        fig_forces.draw(model=results.model("s2"), specimen=results.specimen())

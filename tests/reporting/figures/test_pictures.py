@@ -1,0 +1,106 @@
+"""Figs. 1 and 5: the shaded spheres, the section, and the drawing of the specimen."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from matplotlib.collections import EllipseCollection, LineCollection
+
+from asphalt_nscd.files.store import load
+from asphalt_nscd.reporting.figures import fig01, fig05, style
+from asphalt_nscd.reporting.figures.section import draw_section
+from asphalt_nscd.reporting.figures.spheres import View, picture
+
+FRONT = View(0.0, 0.0)
+RED, BLUE = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
+
+
+def test_untilted_view_shows_x_to_the_right_and_z_up():
+    assert FRONT.project(np.eye(3)) == pytest.approx(np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]))
+
+
+def test_any_view_is_a_rotation():
+    turned = View(-31.0, 17.0).project(np.eye(3))
+    assert turned @ turned.T == pytest.approx(np.eye(3))
+    assert np.linalg.det(turned) == pytest.approx(1.0)
+    # Seen from above, what is higher appears higher and what is farther away appears higher too.
+    assert turned[2, 1] > 0.0 and View(0.0, 17.0).project([0.0, 1.0, 0.0])[1] > 0.0
+
+
+def test_one_sphere_is_a_disc_of_its_size():
+    image, (left, right, bottom, top) = picture(np.zeros((1, 3)), np.array([0.01]), RED[None], FRONT, 10000.0)
+    covered = image[..., 3].sum() / 10000.0**2
+    assert covered == pytest.approx(np.pi * 0.01**2, rel=2e-3)
+    assert (right - left, top - bottom) == pytest.approx((0.02, 0.02), abs=4e-4)
+    assert 0.5 * (left + right) == pytest.approx(0.0, abs=1e-4)
+    middle = image[image.shape[0] // 2, image.shape[1] // 2]
+    assert middle[0] > 0.5 and middle[1] == middle[2] == 0.0 and middle[3] == 1.0
+    assert image.min() >= 0.0 and image.max() <= 1.0
+
+
+def test_light_comes_from_above():
+    image, _ = picture(np.zeros((1, 3)), np.array([0.01]), np.ones((1, 3)), FRONT, 4000.0)
+    upper, lower = np.split(image[: image.shape[0] // 2 * 2], 2)
+    assert upper[..., :3].sum() > 1.2 * lower[..., :3].sum()
+
+
+@pytest.mark.parametrize("order", [[0, 1], [1, 0]])
+def test_nearer_sphere_hides_the_farther_one(order):
+    position = np.array([[0.0, -0.03, 0.0], [0.0, 0.03, 0.0]])[order]  # the viewer is at negative y
+    colour = np.stack([RED, BLUE])[order]
+    image, _ = picture(position, np.array([0.01, 0.01]), colour, FRONT, 2000.0)
+    assert image[..., 0].max() > 0.5 and image[..., 2].max() == 0.0
+
+
+def test_stages_and_sizes(results):
+    figure = fig05.draw(deposit=results.deposit(), specimen=results.specimen())
+    titles = [text.get_text() for text in figure.texts]
+    assert [title[5] for title in titles] == ["a", "b", "c", "d", "e"]
+    assert titles[1].endswith("poured, 24.0 mm high") and titles[2].endswith("vibrated, 20.3 mm high")
+    labels = [text.get_text() for axes in figure.axes for text in axes.texts]
+    assert labels == ["diameter", "5 mm", "2 mm"]
+    assert sum(len(axes.images) for axes in figure.axes) == 4
+    assert figure.get_size_inches()[0] * 25.4 == pytest.approx(style.WIDE)
+    for axes in figure.axes:  # nothing beyond the paper
+        box = axes.get_position()
+        assert min(box.x0, box.y0) > 0.0 and max(box.x1, box.y1) < 1.0
+    legend = figure.axes[-1]
+    figure.draw_without_rendering()
+    for item in (*legend.patches, *legend.texts):  # nor beyond its own place, however low the section is
+        inside = item.get_window_extent().transformed(legend.transAxes.inverted())
+        assert min(inside.x0, inside.y0) > -0.01 and max(inside.x1, inside.y1) < 1.01
+
+
+def test_shades_grow_darker_with_the_diameter():
+    sizes = np.array([1e-3, 2e-3, 3.15e-3, 4e-3, 5e-3])
+    grey = fig05._shades(sizes, sizes) @ [0.299, 0.587, 0.114]
+    assert (np.diff(grey) < -0.05).all()
+
+
+def test_section_cuts_spheres_and_leaves_out_bonds_to_plates(results):
+    figure, axes = style.new_figure(90, 90)
+    specimen = load(results.specimen()[0], "specimen")
+    draw_section(axes, specimen, np.ones((4, 3)))
+    discs = next(item for item in axes.collections if isinstance(item, EllipseCollection))
+    bonds = next(item for item in axes.collections if isinstance(item, LineCollection))
+    radius = 1e-3 * 0.9 ** (1.0 / 3.0)
+    # The third sphere lies beside the plane; the second is met 0.4 mm off its middle.
+    assert discs.get_widths() == pytest.approx(
+        2.0 * np.array([radius, np.sqrt(radius**2 - 4e-4**2), radius]), rel=1e-9
+    )
+    assert [segment.tolist() for segment in bonds.get_segments()] == [[[0.0, 0.03], [0.003, 0.03]]]
+
+
+def test_drawing_carries_the_numbers_of_the_study(tmp_path):
+    geometry = {"b_mm": 10, "B_mm": 20, "e_mm": 12, "h_mm": 60, "mass_kg": 0.021, "mobile_mass_kg": 0.008}
+    study = {"specimens": {"geometry": geometry}, "test": {"amplitude_m": 1e-5}}
+    (path := tmp_path / "study.json").write_text(json.dumps(study))
+    texts = " ".join(text.get_text() for axes in fig01.draw(study=[path]).axes for text in axes.texts)
+    for words in (
+        "$b$ = 10 mm", "$B$ = 20 mm", "$e$ = 12 mm", "$h$ = 60 mm",
+        "$M$ = 0.021 kg", "$m$ = 0.008 kg", "10 µm",
+        "clamped", "free to rotate",
+    ):  # fmt: skip
+        assert words in texts, words

@@ -1,0 +1,85 @@
+"""The report's first page says what its tables say; every figure and table stands behind it."""
+
+from __future__ import annotations
+
+import pandas as pd
+import pytest
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.reporting.pages.assemble import Entry, assemble
+from asphalt_nscd.reporting.pages.first_page import first_page
+
+
+@pytest.fixture
+def page(results, tmp_path):
+    (picture := tmp_path / "map.png").write_bytes(b"picture")
+    samples = tmp_path / "samples.csv"
+    pd.DataFrame({"sample": ["s1", "s2"], "spheres": [90, 110], "E_over_law": [1.1, 1.2]}).to_csv(
+        samples, index=False
+    )
+
+    def make(**changes):
+        diagnosis = results.diagnosis(**changes)["diagnosis"]
+        return first_page(
+            results.measured(),
+            results.simulations(("s1", "s2"), ratios=lambda sample: 1.1),
+            [samples],
+            diagnosis,
+            [picture],
+        )
+
+    return make
+
+
+def test_first_page_says_what_was_done_and_found(page):
+    said = page()
+    assert said["measured"][0].startswith("12 complex moduli of 2 specimens, 0 to 20 °C, 3 to 40 Hz: |E*| ")
+    assert "rests on reconstructed data" in said["measured"][1]
+    assert "they scatter by 1 % and 0.5°" in said["measured"][-1]
+    assert said["simulated"][0].startswith("2 samples of 90 to 110 bonded spheres")
+    assert said["simulated"][0].endswith("at 6 conditions: 12 tests.")
+    assert "|E*| times 1.1 to 1.2" in said["simulated"][1]
+    assert "do not stand for the mix" in said["simulated"][2]
+    assert "most at 20 °C" in said["wrong"][0]
+    assert "(Table 4): |E*| by 10 %, the phase by 0.165 %." in said["wrong"][1]
+    assert said["verdict"].startswith("Explained: with relaxation spectrum and loose clamp (specimen 2)")
+    assert said["gained"][0] == ("error of |E*|, %", "8", "2")
+
+
+def test_what_to_beware_of_stands_on_the_first_page(page, tmp_path):
+    html = assemble("mine", page(notes=["Only one specimen."]), [], tmp_path)
+    assert html.index("<h3>Why") < html.index("Only one specimen.") < html.index("<h3>What was gained")
+
+
+def test_nothing_gained_where_no_cause_is_named(page):
+    said = page(ladder=[], verdict="nothing_to_explain")
+    assert said["gained"] == [] and said["held_out"] is None and said["causes"] == []
+
+
+def test_entries_stand_in_their_parts_by_number_with_captions(page, tmp_path):
+    captions = {
+        "fig10": "**Fig. 10: b**\n\nWith *words* < 3.\n",
+        "fig9": "**Fig. 9: a**\n",
+        "t": "**T: |E\\*|**\n\nText.\n",
+    }
+    for name, text in captions.items():
+        (tmp_path / f"{name}.rst").write_text(text)
+        (tmp_path / f"{name}.png").write_bytes(b"picture")
+    (tmp_path / "t.html").write_text("<html><body><table>cells</table></body></html>")
+    entries = [Entry("2 Late", tmp_path / "fig10.png"), Entry("2 Late", tmp_path / "fig9.png")]
+    html = assemble("<mine>", page(), [*entries, Entry("1 Early", tmp_path / "t.html")], tmp_path)
+    places = [
+        html.index(words)
+        for words in (
+            "<h2>Early",
+            "<summary>T: |E*|",
+            "<table>cells</table>",
+            "<h2>Late",
+            'id="fig9"',
+            'id="fig10"',
+        )
+    ]
+    assert places == sorted(places)
+    assert "With <em>words</em> &lt; 3." in html and "“&lt;mine&gt;”" in html
+    with pytest.raises(InputError, match=r"gone\.rst: no such file"):
+        assemble("mine", page(), [Entry("1 Early", tmp_path / "gone.png")], tmp_path)

@@ -1,0 +1,32 @@
+from __future__ import annotations
+
+import pandas as pd
+import pytest
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.reporting.pages.style import page
+
+
+@pytest.fixture
+def table(tmp_path):
+    frame = pd.DataFrame({
+        "specimen": ["01", "s<2>"], "E_MPa": [24300.123456, float("nan")], "bonds": [12, 70_000_000],
+    })  # fmt: skip
+    frame.to_csv(tmp_path / "table.csv", index=False)
+    return tmp_path / "table.csv"
+
+
+def test_cells_say_what_the_table_says(table):
+    html = page(table, "E & phase")
+    assert "<caption>E &amp; phase</caption>" in html
+    assert "<th>specimen</th><th>E_MPa</th><th>bonds</th>" in html
+    assert '<td>01</td><td class="number">24300.1</td><td class="number">12</td>' in html
+    assert '<td>s&lt;2&gt;</td><td class="number"></td><td class="number">70000000</td>' in html
+
+
+def test_table_that_is_none(tmp_path):
+    with pytest.raises(InputError, match="gone.csv: no such file"):
+        page(tmp_path / "gone.csv", "t")
+    (tmp_path / "empty.csv").touch()
+    with pytest.raises(InputError, match="empty.csv: not a CSV table"):
+        page(tmp_path / "empty.csv", "t")

@@ -1,0 +1,32 @@
+from __future__ import annotations
+
+import pytest
+
+from asphalt_nscd.bending.collect import COLUMNS
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import save
+from asphalt_nscd.reporting.tables import packing
+
+
+def test_each_test_stands_beside_its_own_deposit(tmp_path):
+    layer = {"layer_height_m": 0.06, "coordination": 5.0}
+    for name, friction, fraction in (("s1", 0.2, 0.64), ("s1-friction0.5", 0.5, 0.60)):
+        own = {"friction": friction, "solid_fraction": fraction}
+        save(tmp_path / f"deposits/{name}.h5", "deposit", {}, layer | own)
+        row = {column: 1.0 for column in COLUMNS} | {"specimen": name, "law_source": "published"}
+        save(tmp_path / f"tests/{name}.h5", "test", {}, row)
+    # the order of deposits must not matter
+    deposits = sorted(tmp_path.glob("deposits/*.h5"), reverse=True)
+    table = packing.make(tests=sorted(tmp_path.glob("tests/*.h5")), deposits=deposits)
+    expected = {"s1-friction0.5": (0.5, 0.60), "s1": (0.2, 0.64)}
+    found = table.set_index("specimen")[["friction", "solid_fraction"]]
+    assert {name: tuple(row) for name, row in found.iterrows()} == expected
+
+
+def test_deposit_that_is_missing_is_noticed(tmp_path):
+    row = {column: 1.0 for column in COLUMNS} | {"specimen": "s9", "law_source": ""}
+    save(tmp_path / "s9.h5", "test", {}, row)
+    layer = {"layer_height_m": 0.06, "coordination": 5.0, "friction": 0.2, "solid_fraction": 0.6}
+    save(tmp_path / "s1.h5", "deposit", {}, layer)
+    with pytest.raises(InputError, match="no deposit s9.h5"):
+        packing.make(tests=[tmp_path / "s9.h5"], deposits=[tmp_path / "s1.h5"])

@@ -1,0 +1,67 @@
+import hashlib
+
+import pytest
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.reporting.publish import CHECKSUMS, altered, fill_blocks, publish
+
+
+def test_files_are_copied_with_their_checksums(tmp_path):
+    root, output = tmp_path / "study", tmp_path / "published"
+    (root / "figures").mkdir(parents=True)
+    (root / "figures/a.png").write_bytes(b"picture")
+    (root / "b.csv").write_text("x\n1\n")
+    publish([root / "figures/a.png", root / "b.csv"], root, output)
+    assert (output / "figures/a.png").read_bytes() == b"picture"
+    lines = (output / CHECKSUMS).read_text().splitlines()
+    assert lines == [
+        f"{hashlib.sha256(b'x' + bytes([10]) + b'1' + bytes([10])).hexdigest()}  b.csv",
+        f"{hashlib.sha256(b'picture').hexdigest()}  figures/a.png",
+    ]
+    (output / "c.png").write_bytes(b"another")
+    publish([output / "c.png"], output, output)  # what stands there already is listed too
+    assert (output / CHECKSUMS).read_text().splitlines() == [
+        *lines[:1], f"{hashlib.sha256(b'another').hexdigest()}  c.png", lines[1]
+    ]  # fmt: skip
+
+
+def test_blocks_are_replaced_and_the_rest_is_left(tmp_path):
+    document, table, text = tmp_path / "README.md", tmp_path / "t.csv", tmp_path / "t.md"
+    document.write_text(
+        "before\n<!-- one -->\nold\n<!-- end one -->\nbetween\n<!-- two -->\n<!-- end two -->\nafter\n"
+    )
+    table.write_text("name,value,spheres\na,1.23456,14160\nb,,\n")
+    text.write_text("| as it is |\n")
+    fill_blocks(document, {"one": table, "two": text})
+    lines = document.read_text().splitlines()
+    assert lines[0] == "before" and lines[-1] == "after" and "between" in lines
+    assert "| a      |   1.235 |     14160 |" in lines and "old" not in lines
+    assert "| b      |         |           |" in lines
+    assert lines[lines.index("<!-- two -->") + 1] == "| as it is |"
+    again = document.read_text()
+    fill_blocks(document, {"one": table, "two": text})
+    assert document.read_text() == again
+
+
+def test_missing_block_is_named(tmp_path):
+    document, table = tmp_path / "README.md", tmp_path / "t.csv"
+    document.write_text("<!-- one -->\n")
+    table.write_text("x\n1\n")
+    with pytest.raises(InputError, match="no block <!-- one -->"):
+        fill_blocks(document, {"one": table})
+    assert document.read_text() == "<!-- one -->\n"
+
+
+def test_what_differs_from_the_checksums_is_named(tmp_path):
+    for name in "abc":
+        (tmp_path / f"{name}.csv").write_text(f"x\n{name}\n")
+    publish([], tmp_path, tmp_path)
+    assert altered(tmp_path) == []
+    (tmp_path / "a.csv").write_text("x\n1\n")
+    (tmp_path / "b.csv").unlink()
+    (tmp_path / "d.csv").touch()
+    assert [sentence.split(": ")[0][-5:] for sentence in altered(tmp_path)] == ["a.csv", "b.csv", "d.csv"]
+    (tmp_path / CHECKSUMS).write_text("0123 a.csv\n")
+    assert altered(tmp_path) == [f"{tmp_path / CHECKSUMS}: a line is no checksum, two spaces and a name"]
+    (tmp_path / CHECKSUMS).unlink()
+    assert altered(tmp_path) == [f"{tmp_path / CHECKSUMS}: is missing"]

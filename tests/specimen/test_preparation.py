@@ -1,0 +1,123 @@
+"""From a table of counts to a specimen file: one short pour, cut and read back."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import load
+from asphalt_nscd.specimen.preparation import deposit, layer_statistics, read_specimen, trim_deposit
+from asphalt_nscd.specimen.trimming import layer_height
+
+BOX = (0.06, 0.01, 0.14)
+GEOMETRY = {"b_mm": 8, "B_mm": 14, "e_mm": 10, "h_mm": 60, "mass_kg": 0.014, "mobile_mass_kg": 0.005}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("preparation")
+    (folder / "counts.csv").write_text("diameter_mm,count\n2,300\n3,160\n4,70\n")
+    return folder
+
+
+def pour(folder, name, seed, told=None):
+    deposit(
+        folder / "counts.csv", BOX, seed, friction=0.2, stroke=1e-3, vibration_frequency=30.0,
+        vibration_time=0.05, time_step=4e-4, output=folder / name,
+        progress=lambda *args: told.append(args) if told is not None else None,
+    )  # fmt: skip
+    return load(folder / name, "deposit")
+
+
+@pytest.fixture(scope="module")
+def told():
+    return []
+
+
+@pytest.fixture(scope="module")
+def poured(folder, told):
+    return pour(folder, "deposit.h5", 1, told)
+
+
+def test_what_was_poured(poured, told):
+    arrays, attributes = poured.arrays, poured.attributes
+    position, radius = arrays["position"], arrays["radius"]
+    assert [(radius == size).sum() for size in (1e-3, 1.5e-3, 2e-3)] == [300, 160, 70]
+    inside = (position > radius[:, None] - 2e-5) & (position < np.array(BOX) - radius[:, None] + 2e-5)
+    assert inside.all()
+    np.testing.assert_array_equal(arrays["box"], BOX)
+    assert attributes["spheres"] == 530 and attributes["seed"] == 1
+    assert attributes["layer_height_m"] == pytest.approx(layer_height(position, radius), rel=1e-14)
+    assert attributes["highest_point_m"] == pytest.approx((position[:, 2] + radius).max(), rel=1e-14)
+    assert 0.45 < attributes["solid_fraction"] < 0.70
+    assert 2.5 < attributes["coordination"] < 6.0
+    assert 0.0 <= attributes["largest_penetration_m"] < 2e-5
+    assert attributes["kinetic_energy_J"] < 1e-8  # 50 g at 1 mm/s
+    assert arrays["initial_position"][:, 2].max() > 3 * position[:, 2].max()  # it has come down
+    assert np.abs(arrays["poured_position"] - position).max() > 1e-5  # and was shaken
+    assert attributes["poured_height_m"] == pytest.approx(
+        layer_height(arrays["poured_position"], radius), rel=1e-14
+    )
+    assert {stage for stage, *_ in told} == {"pouring", "vibrating", "coming to rest"}
+
+
+def test_a_seed_stands_for_one_deposit(folder, poured):
+    """To the last bit; another seed gives another packing."""
+    again, other = pour(folder, "again.h5", 1), pour(folder, "other.h5", 2)
+    assert again.arrays.keys() == poured.arrays.keys()
+    for name, value in poured.arrays.items():
+        assert again.arrays[name].tobytes() == value.tobytes()
+    timeless = [record.attributes | {"cpu_s": None} for record in (poured, again)]
+    assert timeless[0] == timeless[1]
+    assert other.arrays["position"].tobytes() != poured.arrays["position"].tobytes()
+
+
+def test_specimen_from_deposit(folder, poured):
+    trim_deposit(folder / "deposit.h5", GEOMETRY, 0.1, 2e-3, folder / "specimen.h5")
+    specimen, record = read_specimen(folder / "specimen.h5"), load(folder / "specimen.h5", "specimen")
+    assert specimen.geometry.h == pytest.approx(0.06) and specimen.geometry.mobile_mass == 0.005
+    assert specimen.density * (4 / 3 * np.pi * specimen.radius**3).sum() == pytest.approx(0.014, rel=1e-13)
+    attributes = record.attributes
+    assert attributes["spheres"] == specimen.radius.size > 100
+    assert attributes["bonds"] == specimen.network.first.size > 3 * specimen.radius.size
+    assert attributes["smallest_gap_m"] == specimen.network.gap.min() > 0.0
+    assert attributes["gap_max_m"] == 2e-3 > specimen.network.gap.max()
+    assert attributes["solid_fraction"] == poured.attributes["solid_fraction"]
+    assert attributes["loose_grains"] == specimen.loose_grains
+    network = specimen.network
+    for name, value in network.arrays().items():
+        assert record.arrays[f"network/{name}"].tobytes() == value.tobytes()
+    # indices survive as integers
+    assert network.first.dtype.kind == "i" and specimen.position.shape == (specimen.radius.size, 3)
+
+
+def test_a_layer_too_low_for_the_geometry(folder, poured):
+    with pytest.raises(InputError, match=r"mm high, less than the foot of the specimen \(30.0 mm\)"):
+        trim_deposit(folder / "deposit.h5", GEOMETRY | {"B_mm": 30}, 0.1, 2e-3, folder / "none.h5")
+    assert not (folder / "none.h5").exists()
+
+
+@pytest.mark.parametrize("change", [{"h_mm": 61}, {"e_mm": 10.1}])
+def test_a_specimen_larger_than_the_box(folder, poured, change):
+    with pytest.raises(InputError, match=r"the specimen is .* mm (high|thick), but the box only (60|10) mm"):
+        trim_deposit(folder / "deposit.h5", GEOMETRY | change, 0.1, 2e-3, folder / "none.h5")
+    assert not (folder / "none.h5").exists()
+
+
+def test_another_file_is_not_a_deposit(folder, poured):
+    with pytest.raises(InputError, match="holds 'deposit', not 'specimen'"):
+        read_specimen(folder / "deposit.h5")
+
+
+def test_statistics_of_a_made_up_layer():
+    """Four spheres on the floor, one large one above them."""
+    radius = np.array([1.0, 1, 1, 1, 2])
+    position = np.array([[1.0, 1, 1], [3, 1, 1], [1, 3, 1], [3, 3, 1], [2, 2, 3]])
+    contacts = np.array([[0, 1], [0, 2], [0, 7], [3, 7], [4, 3]])  # two with the floor
+    found = layer_statistics(position, radius, (4.0, 4.0, 9.0), contacts)
+    height = 2 * (4 * 1 + 8 * 3) / 12
+    assert found["layer_height_m"] == pytest.approx(height)
+    assert found["solid_fraction"] == pytest.approx(4 / 3 * np.pi * 12 / (16 * height))
+    assert found["coordination"] == pytest.approx(2 * 3 / 5)
+    assert found["segregation"] == pytest.approx(2 / height)

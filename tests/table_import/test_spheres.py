@@ -1,0 +1,103 @@
+"""Spheres and box of a study: the paper's where nothing else is said, by volume otherwise."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.specimen.counts import read_counts
+from asphalt_nscd.specimen.lattice import random_lattice
+from asphalt_nscd.table_import.spheres import PAPER, PAPER_COUNTS, read_grading, spheres_for
+from asphalt_nscd.table_import.write import SMALL, SMALL_SPHERES, _as_mapping
+
+ROOT = Path(__file__).parents[2]
+FINE = pd.Series({0.063: 6.0, 2.0: 30.0, 4.0: 55.0, 8.0: 85.0, 11.2: 97.0, 16.0: 100.0})
+
+
+def volume(counts):
+    return float((counts * np.asarray(counts.index, float) ** 3).sum())
+
+
+@pytest.mark.parametrize(
+    ("study", "geometry", "counts", "box"),
+    [
+        ("paper", PAPER, PAPER_COUNTS, spheres_for(PAPER).box),
+        ("smoke", SMALL, SMALL_SPHERES.counts, SMALL_SPHERES.box),
+    ],
+)
+def test_paper_and_smoke_study_are_the_same_here_as_in_their_files(study, geometry, counts, box):
+    config = yaml.safe_load((ROOT / f"config/{study}.yaml").read_text())
+    assert _as_mapping(geometry) == config["geometry"]
+    assert list(box) == config["specimens"]["box_m"]
+    diameters, numbers = read_counts(ROOT / config["specimens"]["counts_table"])
+    assert np.allclose(1e3 * diameters, counts.index, rtol=1e-12) and numbers.tolist() == counts.tolist()
+
+
+def test_paper_specimen_takes_the_paper_counts():
+    assert spheres_for(PAPER).counts.to_dict() == PAPER_COUNTS.to_dict()
+
+
+@pytest.mark.parametrize("grading", [None, FINE])
+def test_volume_of_spheres_goes_with_that_of_the_specimen(grading):
+    prism = replace(PAPER, b=0.07, B=0.07, e=0.05, h=0.3)
+    ratio = (0.07 * 0.05 * 0.3) / (0.056 * 0.025 * 0.25)
+    assert volume(spheres_for(prism, grading).counts) == pytest.approx(ratio * volume(PAPER_COUNTS), rel=2e-3)
+
+
+def test_masses_follow_the_sieve_curve():
+    counts = spheres_for(PAPER, FINE).counts
+    share = counts * np.asarray(counts.index, float) ** 3
+    # retained on 2, 4, 8 and 11.2 mm
+    assert (100 * share / share.sum()).to_numpy() == pytest.approx(
+        100 * np.array([25, 30, 12, 3]) / 70, abs=0.3
+    )
+
+
+@pytest.mark.parametrize("grading", [None, FINE])
+def test_lattice_of_the_box_holds_the_spheres(grading):
+    geometry = replace(PAPER, e=0.03, h=0.2, B=0.05, b=0.05)
+    spheres = spheres_for(geometry, grading)
+    diameters = 1e-3 * np.asarray(spheres.counts.index, float)
+    position, radius = random_lattice(
+        diameters, spheres.counts.to_numpy(), spheres.box, np.random.default_rng(1)
+    )
+    assert len(position) == spheres.counts.sum()
+
+
+def test_spheres_that_do_not_fit_are_refused():
+    with pytest.raises(InputError, match="spheres of 10 mm do not fit into a specimen 8 mm thick"):
+        spheres_for(replace(PAPER, e=0.008))
+    with pytest.raises(InputError, match="more than 200000"):
+        spheres_for(replace(PAPER, e=0.15, B=0.15))
+
+
+def test_sieve_table_with_decimal_commas(tmp_path):
+    (tmp_path / "s.csv").write_text("Sieve (mm);passing (%)\n2;30,5\n6,3;60\n10;100\n")
+    assert read_grading(tmp_path / "s.csv").to_dict() == {2.0: 30.5, 6.3: 60.0, 10.0: 100.0}
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        ("Sieve (mm),passing (%)\n2,130\n4,140\n", "line 2: passing .* is '130'; give a percentage"),
+        (
+            "Sieve (mm),passing (%)\n2,0.3\n4,1\n",
+            "s.csv: passes at most 1 %, as fractions would; give per cent",
+        ),
+        ("Sieve (mm),passing (%)\n2,30\n2,40\n", "line 3: sieve 2 mm stands twice"),
+        ("Sieve (mm),passing (%)\n2,30\n4,20\n", "s.csv: the sieve curve falls"),
+        ("Sieve (mm),passing (%)\n0.5,30\n1,100\n", "s.csv: the sieve curve retains nothing from 2 mm"),
+        ("Sieve,passing (%)\n2,30\n", "'Sieve' does not say its unit"),
+        ("Sieve (mm),mass\n2,30\n", "give two columns"),
+    ],
+)
+def test_bad_sieve_table_is_refused(tmp_path, content, sentence):
+    (tmp_path / "s.csv").write_text(content)
+    with pytest.raises(InputError, match=sentence):
+        read_grading(tmp_path / "s.csv")

@@ -1,0 +1,169 @@
+"""What is understood of a user's columns, and what is refused as ambiguous."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.cells import Cells
+from asphalt_nscd.table_import.quantities import SIEVES, recognise
+from asphalt_nscd.table_import.understand import understand
+
+
+def table(header, *rows):
+    return Cells(Path("t.csv"), header.split(";"), [(n, row.split(";")) for n, row in enumerate(rows, 2)])
+
+
+def columns(header, *rows, **chosen):
+    return understand(table(header, *rows), chosen).table.columns
+
+
+def refusal(header, *rows, **chosen):
+    with pytest.raises(InputError) as error:
+        understand(table(header, *rows), chosen)
+    assert str(error.value).startswith("t.csv") and "\n" not in str(error.value)
+    return str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "quantity", "one"),
+    [
+        ("E (MPa)", "E_MPa", 1), ("|E*| [GPa]", "E_MPa", 1e3), ("E_Pa", "E_MPa", 1e-6), ("E / MPa", "E_MPa", 1),
+        ("Dynamic Modulus, ksi", None, None), ("Dynamic Modulus (ksi)", "E_MPa", 6.894757293),
+        ("E* (N/mm²)", "E_MPa", 1), ("phi (deg)", "phase_deg", 1), ("delta_rad", "phase_deg", 180 / math.pi),
+        ("Phase angle (°)", "phase_deg", 1), ("φ [mrad]", "phase_deg", 0.18 / math.pi), ("psi_deg", "psi_deg", 1),
+        ("Temp °C", "temperature_C", 1), ("T_C", "temperature_C", 1), ("T(K)", "temperature_C", -272.15),
+        ("Test temperature (°F)", "temperature_C", -155 / 9), ("Temp°C", "temperature_C", 1),
+        ("T core [°C]", "temperature_C", 1), ("f_Hz", "frequency_Hz", 1),
+        ("omega (rad/s)", "frequency_Hz", 0.5 / math.pi),
+        ("Loading frequency [Hz]", "frequency_Hz", 1), ("F0 (N)", "F0_N", 1), ("F [kN]", "F0_N", 1e3),
+        ("z0 (µm)", "z0_m", 1e-6), ("z0 (μm)", "z0_m", 1e-6), ("displacement mm", "z0_m", 1e-3),
+        ("Steifigkeitsmodul |E*| [GPa]", "E_MPa", 1e3), ("Komplexer Modul (MPa)", "E_MPa", 1),
+        ("Dynamic modulus E* (MPa)", "E_MPa", 1), ("Phase angle δ (°)", "phase_deg", 1),
+        ("Phasenwinkel (Grad)", "phase_deg", 1), ("Temperatur (Grad C)", "temperature_C", 1),
+        ("Frequenz in Hz", "frequency_Hz", 1), ("Dynamic modulus E' (MPa)", None, None),
+        ("Phase angle E* (°)", None, None), ("Operator", None, None),
+        ("E' (MPa)", None, None), ("E'' (MPa)", None, None), ("|G*| (MPa)", None, None), ("e (mm)", None, None),
+        ("t (s)", None, None),
+    ],
+)  # fmt: skip
+def test_names_and_units(name, quantity, one):
+    column = recognise(name)
+    assert (column and column.quantity) == quantity
+    if column:
+        assert column.factor + column.offset == pytest.approx(one, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "name", ["E (mPa)", "E (deg)", "phi (Hz)", "phi (grad)", "f (1/min)", "specimen (mm)"]
+)
+def test_foreign_units_are_refused(name):
+    with pytest.raises(InputError, match="is no unit of it"):
+        recognise(name)
+
+
+@pytest.mark.parametrize(
+    ("name", "quantity"),
+    [
+        ("Sieve (mm)", "diameter_mm"),
+        ("% passing", "passing_percent"),
+        ("Passing (%)", "passing_percent"),
+        ("Siebweite (mm)", "diameter_mm"),
+        ("Durchgang (M.-%)", "passing_percent"),
+    ],
+)
+def test_sieves(name, quantity):
+    assert recognise(name, SIEVES).quantity == quantity
+
+
+def test_decimal_commas_giga_pascals_and_radians():
+    read = columns("Sample;Temp °C;f (Hz);|E*| [GPa];delta_rad", "A;-10;0,1;19,864;0,1", "A;12,5;25;8;0,5")
+    assert read == {
+        "specimen": ["A", "A"], "temperature_C": ["-10", "12.5"], "frequency_Hz": ["0.1", "25"],
+        "E_MPa": ["19864", "8000"], "phase_deg": ["5.729577951", "28.64788976"],
+    }  # fmt: skip
+
+
+def test_peaks_with_micrometres_and_extra_columns():
+    read = understand(
+        table("replicate;T (°C);f (Hz);F0 (N);z0 (µm);psi (°);operator;E' (MPa)", "1;15;10;100;63;20;me;9000")
+    )
+    assert read.form == "peaks"
+    assert read.table.columns["z0_m"] == ["6.3e-05"]
+    assert "ignored: 'operator', \"E' (MPa)\"" in read.notes
+    assert "1 replicates, taken as specimens" in read.notes
+
+
+def test_moduli_are_taken_where_peaks_stand_beside_them():
+    read = understand(table("T_C;f_Hz;E_MPa;phi_deg;F0_N;z0_m;psi_deg", "15;10;9000;20;100;6e-5;19"))
+    assert read.form == "moduli" and "F0_N" not in read.table.columns
+    assert "ignored: 'F0_N', 'z0_m', 'psi_deg'" in read.notes
+
+
+def test_units_in_a_line_of_their_own():
+    read = columns("T;f;E*;phi", "°C;Hz;GPa;deg", "15;10;9;20")
+    assert read["E_MPa"] == ["9000"]
+
+
+def test_replicates_of_specimens_are_told_apart():
+    read = columns("specimen;replicate;T_C;f_Hz;E_MPa;phi_deg", "A;1;15;10;9000;20", "A;2;15;10;9100;20")
+    assert read["specimen"] == ["A-1", "A-2"]
+
+
+def test_wide_table_becomes_long():
+    read = columns(
+        "f (Hz);E (GPa) at -10 °C;phi (deg) at -10 °C;E (GPa) at 12,5 °C;phi (deg) at 12,5 °C",
+        "10;27,5;4;9;20",
+        "1;25;5;;",
+    )
+    assert read["temperature_C"] == ["-10", "-10", "12.5"]
+    assert read["E_MPa"] == ["27500", "25000", "9000"] and read["phase_deg"] == ["4", "5", "20"]
+    assert read["frequency_Hz"] == ["10", "1", "10"]
+
+
+LONG = "T_C;f_Hz;E_MPa;phi_deg"
+
+
+@pytest.mark.parametrize(
+    ("header", "row", "sentence"),
+    [
+        ("T set (°C);T core (°C);f_Hz;E_MPa;phi_deg", "15;15.1;10;9;2",
+         "columns 'T set (°C)' and 'T core (°C)' may each be temperature_C"),
+        ("T_C;f_Hz;E_MPa;E_MPa;phi_deg", "15;10;9000;9001;20", "column 'E_MPa' stands twice; remove one"),
+        ("T_C;f_Hz;E;phi_deg", "15;10;9000;20",
+         "column 'E' does not say its unit; write it behind the name, as in E (MPa)."),
+        ("T_C;f_Hz;F0_N;z0_m;phi_rad", "15;10;9;9;2",
+         'if it is that of force over displacement, say so with --column psi_rad="phi_rad"'),
+        ("T_C;f_Hz;E_MPa", "15;10;9000", "no column for phase_deg (found: T_C, f_Hz, E_MPa)"),
+        ("f_Hz;E_MPa at 15 °C;phi_deg at 20 °C", "10;9000;20", "but not alike for all quantities"),
+        ("T_C;f_Hz;E_MPa at 15 °C;phi_deg at 15 °C", "10;9;9000;20", "but not alike for all quantities"),
+        (LONG, "15;10;9000,5;20.1", "'9000,5' (line 2) and '20.1' (line 2) have different decimal marks"),
+        (LONG, "15;10;1.234,5;20", "'1.234,5' seems to group its digits in thousands"),
+        (LONG, "15;10;;20", "line 2: E_MPa: the cell is empty"),
+        (LONG, "15;10;9e3x;20", "'9e3x' is not a number"),
+        (LONG, "15;10;9_000;20", "'9_000' is not a number"),
+        ("specimen;" + LONG, "=cmd();15;10;9000;20", "specimen '=cmd()' must begin with a letter or digit"),
+        ("origin;" + LONG, "guess;15;10;9000;20", "origin 'guess' is not one of measured"),
+    ],
+)  # fmt: skip
+def test_ambiguous_tables_are_refused(header, row, sentence):
+    assert sentence in refusal(header, row)
+
+
+def test_tests_that_repeat_need_specimens():
+    assert "line 3: repeats the test of line 2, and no column tells specimens apart" in refusal(
+        LONG, "15;10;9000;20", "15;10;9100;20"
+    )
+
+
+def test_columns_can_be_named():
+    header, row = "T set (°C);T core (°C);f_Hz;Steifigkeit;phi", "15;15.1;10;9;0.3"
+    chosen = {"temperature_C": "T set (°C)", "E_GPa": "Steifigkeit", "phase_rad": "phi"}
+    read = columns(header, row, **chosen)
+    assert (read["temperature_C"], read["E_MPa"], read["phase_deg"]) == (["15"], ["9000"], ["17.18873385"])
+    assert "no column 'Temp'" in refusal(header, row, temperature_C="Temp")
+    with pytest.raises(InputError, match="--column stiffness: not known"):
+        columns(header, row, stiffness="Steifigkeit")

@@ -1,0 +1,133 @@
+"""Data that say little, or are wrong: a clear sentence or a diagnosis that states its limits, no wrong name."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from blind.design import factorial
+from blind.generator import Hidden, draw
+from blind.sealed import open_case
+
+from asphalt_nscd.diagnosis.causes import CATALOGUE as NAMEABLE
+from asphalt_nscd.files.errors import InputError
+
+NO_REPLICATE = "No condition was repeated on another specimen"
+
+
+def diagnosed(table, geometry, **options):
+    found = open_case(table, geometry, **options)
+    return found, {(rung["cause"], rung["where"]) for rung in found["ladder"]} - {
+        ("relaxation_spectrum", None)
+    }
+
+
+@pytest.fixture(scope="module")
+def full():
+    return draw(5, form="moduli")
+
+
+SMALL = {
+    "one specimen": {"specimens": "A"},
+    "one temperature": {"temperatures": (15.0,)},
+    "two frequencies": {"frequencies": (3.0, 40.0)},
+    "one specimen, two frequencies": {"specimens": "A", "frequencies": (3.0, 40.0)},
+    "one specimen, one temperature": {"specimens": "A", "temperatures": (15.0,)},
+    "four tests": {"specimens": "AB", "temperatures": (15.0,), "frequencies": (3.0, 40.0)},
+}
+
+
+@pytest.mark.parametrize("design", SMALL.values(), ids=SMALL)
+def test_small_designs_name_nothing_that_is_not_there(design):
+    empty = draw(1, design=factorial(**design))
+    found, named = diagnosed(empty.table, empty.geometry)
+    assert named == set() and found["verdict"] != "unexplained_structure"
+    assert found["detection_limits"]
+    if design.get("specimens") or len(empty.table) < 9:
+        assert any(NO_REPLICATE in note for note in found["notes"])
+
+
+@pytest.mark.parametrize("design", SMALL.values(), ids=SMALL)
+def test_small_designs_find_what_is_there_or_nothing(design):
+    late = draw(1, [Hidden("channel_delay", amplitude=3e-4)], design=factorial(**design))
+    assert diagnosed(late.table, late.geometry)[1] <= {("channel_delay", None)}
+
+
+@pytest.mark.parametrize("temperatures", [(15.0,), (0.0, 15.0)])
+def test_on_few_temperatures_a_name_is_the_likeliest_and_never_sure(temperatures):
+    """A gain over the logarithm of the frequency, which the catalogue lacks, passes for an offset of the phase."""
+    drawn = draw(5, design=factorial(temperatures=temperatures), form="moduli")
+    gain = 1.0 + 0.04 * np.log10(drawn.table["frequency_Hz"])
+    found, named = diagnosed(drawn.table.assign(E_MPa=drawn.table["E_MPa"] * gain), drawn.geometry)
+    assert named and found["verdict"] == "unexplained_structure"
+    assert any("not established" in note and "temperatures" in note for note in found["notes"])
+
+
+def test_one_specimen_makes_no_sure_name():
+    """A part in phase with E*, the same in all tests, passes for friction at the guide."""
+    for seed in (1, 2, 3):
+        drawn = draw(seed, design=factorial(specimens="A"), form="moduli")
+        modulus = drawn.table["E_MPa"]
+        found, named = diagnosed(drawn.table.assign(E_MPa=modulus * (1.0 + 60.0 / modulus)), drawn.geometry)
+        assert not named or found["verdict"] == "unexplained_structure"
+        assert not named or any("nothing was repeated" in note for note in found["notes"])
+
+
+def test_two_frequencies_that_no_common_law_fits_are_not_all_right():
+    table = draw(1, design=factorial(frequencies=(3.0, 40.0)), form="moduli")
+    phase = table.table["phase_deg"] + 5.0
+    found, named = diagnosed(table.table.assign(phase_deg=phase), table.geometry)
+    assert named == set() and found["verdict"] == "unexplained_structure"
+
+
+def test_limits_beyond_what_is_physical_are_none(full):
+    for design in ({"frequencies": (3.0, 40.0)}, {"temperatures": (15.0,)}):
+        drawn = draw(1, design=factorial(**design))
+        limits = diagnosed(drawn.table, drawn.geometry)[0]["detection_limits"]
+        for cause in NAMEABLE:
+            most = max(abs(cause.parameters[0].low), abs(cause.parameters[0].high))
+            assert limits.get(cause.name, {"value": 0.0})["value"] <= most
+
+
+def test_copies_are_no_replicates(full):
+    one = full.table[full.table["specimen"] == "A"]
+    copies = pd.concat([one, one.assign(specimen="E"), full.table[full.table["specimen"] == "B"]])
+    with pytest.raises(InputError, match=r"specimens A and E have the same modulus at all 30 conditions"):
+        diagnosed(copies, full.geometry)
+
+
+@pytest.mark.parametrize(
+    ("column", "change"), [("E_MPa", lambda v: 3.0 * v), ("phase_deg", lambda v: v + 20.0)]
+)
+def test_an_outlier_is_set_aside_and_not_named(full, column, change):
+    table = full.table.copy()
+    table.loc[37, column] = change(table.loc[37, column])
+    found, named = diagnosed(table, full.geometry)
+    assert named == set() and found["verdict"] == "explained"
+
+
+def test_an_outlier_without_replicates_is_not_named(full):
+    table = full.table[full.table["specimen"] == "A"].reset_index(drop=True)
+    table.loc[12, "E_MPa"] *= 1.5
+    assert diagnosed(table, full.geometry)[1] == set()
+
+
+WRONG = {
+    "NaN": (lambda t: t.assign(E_MPa=t["E_MPa"].where(t.index != 3)), r"line 5: E_MPa is empty"),
+    "radians": (lambda t: t.assign(phase_deg=np.radians(t["phase_deg"])), "if radians, multiply it by 180/pi"),
+    "GPa": (lambda t: t.assign(E_MPa=t["E_MPa"] / 1000.0), "E_MPa looks like GPa, multiply by 1000"),
+    "Pa": (lambda t: t.assign(E_MPa=t["E_MPa"] * 1e6), "give a positive norm of E\\* in MPa"),
+    "repeated rows": (lambda t: pd.concat([t, t]), "line 122: repeats the test of line 2"),
+    "three tests": (lambda t: t.head(3), "at least 4 tests and 2 frequencies"),
+    "one frequency": (lambda t: t[t["frequency_Hz"] == 10.0], "at least 4 tests and 2 frequencies"),
+    "the same everywhere": (lambda t: t.assign(E_MPa=1e4, phase_deg=10.0), "copies are no replicates"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("spoil", "sentence"), WRONG.values(), ids=WRONG)
+def test_wrong_tables_are_refused_in_a_sentence(full, spoil, sentence):
+    with pytest.raises(InputError, match=sentence):
+        diagnosed(spoil(full.table.copy()), full.geometry)
+
+
+def test_one_modulus_for_all_temperatures_gets_no_name(full):
+    table = full.table[full.table["specimen"] == "A"].assign(E_MPa=1e4, phase_deg=10.0)
+    assert diagnosed(table, full.geometry)[1] == set()

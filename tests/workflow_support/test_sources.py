@@ -1,0 +1,88 @@
+from __future__ import annotations
+
+import pytest
+
+from asphalt_nscd.workflow_support import sources
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    root = tmp_path / "asphalt_nscd"
+    (root / "core").mkdir(parents=True)
+    files = {
+        "__init__.py": "",
+        "step.py": "def command():\n    from asphalt_nscd.core.solver import solve\n",
+        "core/__init__.py": "from asphalt_nscd import plotting\n",
+        "core/solver.py": "import numpy\nfrom . import kernel\nfrom ..errors import InputError as E\n",
+        "core/kernel.py": "",
+        "errors.py": "",
+        "plotting.py": "import asphalt_nscd.files.errors\nfrom asphalt_nscd.core import solver\n",
+    }
+    for name, content in files.items():
+        (root / name).write_text(content)
+    monkeypatch.setattr(sources, "PACKAGE", root)
+    sources._imported.cache_clear()
+    return root
+
+
+def names(root, *modules):
+    return [str(path.relative_to(root)) for path in sources.source_files(*modules)]
+
+
+def test_follows_imports_in_functions_and_relative_ones_but_not_the_packages_around(package):
+    assert names(package, "step") == ["core/kernel.py", "core/solver.py", "errors.py", "step.py"]
+
+
+def test_module_that_imports_its_importer_ends(package):
+    assert names(package, "plotting") == ["core/kernel.py", "core/solver.py", "errors.py", "plotting.py"]
+
+
+def test_package_counts_where_it_is_named(package):
+    assert "plotting.py" in names(package, "core")
+
+
+def test_unknown_module_is_refused(package):
+    with pytest.raises(ValueError, match="no module asphalt_nscd.setp"):
+        sources.source_files("setp")
+
+
+def test_fits_are_no_concern_of_tests_with_published_laws():
+    """Editing the fit, or how measurements are read, must not make a hundred tests run again."""
+    steps = ("published-law", "scale-law", "deposit", "trim", "condense", "simulate")
+    for step in steps:
+        behind = {path.name for path in sources.source_files(f"cli.{step.replace('-', '_')}")}
+        assert not {"fitting.py", "fitted_laws.py", "reduction.py", "reconstruct.py"} & behind, step
+    assert "fitting.py" in {path.name for path in sources.source_files("cli.fit")}
+
+
+def test_plots_are_no_concern_of_the_tests_and_the_core_is():
+    def behind(*modules):
+        return {str(path.relative_to(sources.PACKAGE)) for path in sources.source_files(*modules)}
+
+    simulate, figure = behind("cli.simulate"), behind("cli.figure", "reporting.figures.fig09")
+    assert not [name for name in simulate if name.startswith("reporting/")]
+    assert {
+        "nscd/stepping/reduced_model.py",
+        "nscd/bonds/system.py",
+        "rheology/burgers.py",
+        "bending/bending_test.py",
+    } <= simulate
+    assert "nscd/spheres/granular.py" in behind("cli.deposit")
+    assert "reporting/figures/fig09.py" in figure and "reporting/figures/fig07.py" not in figure
+    assert not [name for name in figure if name.startswith("nscd/")]
+
+
+def test_modules_that_a_package_finds_by_itself(package):
+    assert sources.modules_of("core") == ["core.kernel", "core.solver"]
+    assert names(package, *sources.modules_of("core")) == ["core/kernel.py", "core/solver.py", "errors.py"]
+
+
+def test_a_stamp_changes_with_the_content_only(tmp_path, package):
+    files = sources.source_files("plotting")
+    path = sources.stamp(tmp_path, "plotting", files)
+    first, kept = path.read_text(), path.stat().st_mtime_ns
+    files[0].touch()
+    assert sources.stamp(tmp_path, "plotting", files).stat().st_mtime_ns == kept
+    files[0].write_text(files[0].read_text() + "# changed\n")
+    assert sources.stamp(tmp_path, "plotting", files).read_text() != first
+    assert path.stat().st_mtime_ns == max(file.stat().st_mtime_ns for file in files)

@@ -1,0 +1,50 @@
+"""Look at reports in Chromium; each trouble is a line, and the exit status 1.
+
+PYTHONPATH=trials python -m browser results/smoke/report.html
+PYTHONPATH=trials python -m browser results/paper/report.html --picture first-page.png
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from base64 import b64decode
+from pathlib import Path
+
+from browser.chromium import Page, find
+from browser.look import WIDTHS, look
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("report", type=Path)
+    parser.add_argument("--picture", type=Path, help="PNG file for a picture of the first page")
+    given = parser.parse_args()
+    program = find()
+    if program is None:
+        print("skipped: no Chromium on PATH (Debian: apt install chromium); CHROMIUM names another.")
+        return 0
+    found = []
+    for width in WIDTHS:
+        with Page(program) as page:
+            found += look(page, given.report, width)
+    if given.picture:
+        picture(program, given.report, given.picture)
+    print("\n".join(found) or f"{given.report}: nothing to complain of at {WIDTHS[0]} and {WIDTHS[1]} px.")
+    return 1 if found else 0
+
+
+def picture(program: str, report: Path, output: Path) -> None:
+    """What stands above the navigation of the report, as a picture."""
+    with Page(program) as page:
+        page.open(report.resolve().as_uri(), WIDTHS[0])
+        page.evaluate("document.fonts.ready.then(() => true)")
+        page.evaluate("Promise.all([...document.images].map(image => image.decode().catch(() => null)))")
+        height = page.evaluate("document.querySelector('nav').getBoundingClientRect().top + scrollY")
+        clip = {"x": 0, "y": 0, "width": WIDTHS[0], "height": height, "scale": 1}
+        shot = page.call("Page.captureScreenshot", format="png", clip=clip, captureBeyondViewport=True)
+        output.write_bytes(b64decode(shot["data"]))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
