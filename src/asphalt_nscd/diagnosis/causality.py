@@ -38,7 +38,7 @@ def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list
     left = observed.logarithm - fitted.modelled
     found, tried = [], 0
     for temperature in observed.isotherms:
-        at = observed.temperature == temperature
+        at = observed.isotherm == temperature
         frequencies = np.unique(observed.frequency[at])
         for low, high in zip(frequencies[:-1], frequencies[1:], strict=True):
             first, second = (_mean(left, at & (observed.frequency == f)) for f in (low, high))

@@ -110,12 +110,12 @@ def structures(observed: Observations) -> list[Structure]:
         patterns[f"{f:g} Hz"] = observed.frequency == f
         patterns[f"above {f:g} Hz"] = observed.frequency > f
     for t in observed.isotherms:
-        patterns[f"{t:g} degC"] = observed.temperature == t
-        patterns[f"{t:g} degC, slope over frequency"] = (observed.temperature == t) * log_f
+        patterns[f"{t:g} degC"] = observed.isotherm == t
+        patterns[f"{t:g} degC, slope over frequency"] = (observed.isotherm == t) * log_f
     for cell in range(observed.cell.max() + 1):
         at = observed.cell == cell
         row = int(np.flatnonzero(at)[0])
-        patterns[f"{observed.temperature[row]:g} degC, {observed.frequency[row]:g} Hz"] = at
+        patterns[f"{observed.isotherm[row]:g} degC, {observed.frequency[row]:g} Hz"] = at
     return _both(patterns) + specimen_structures(observed)
 
 

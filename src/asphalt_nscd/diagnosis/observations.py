@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +20,10 @@ class Observations:
     (n,): gamma mu [kg/m], of which the reduction added omega^2 to force over displacement, Eq. (1);
     amplitude (n,) [m], order (n,), cycles (n,), time_step (n,) [s]: None where the table has no such column.
     static_modulus: modulus at long times [Pa], known from another test, or None. whole: the table these
-    are rows of, None if they are all.
+    are rows of, None if they are all. nominal_temperature (n,): temperature of the isotherm each test belongs
+    to [degC], where the measured ones differ within it; strain (n,): amplitude of the strain, where measured.
+    quality: columns of the testing machine by name, (n,) each, NaN where it gave none (see
+    `diagnosis.quality`). test_type: "bending" (two-point) or "tension-compression" (a cylinder).
     """
 
     specimen: NDArray[np.int64]
@@ -35,6 +39,10 @@ class Observations:
     time_step: Vector | None = None
     static_modulus: float | None = None
     whole: Observations | None = None
+    nominal_temperature: Vector | None = None
+    strain: Vector | None = None
+    quality: Mapping[str, Vector] = field(default_factory=dict)
+    test_type: str = "bending"
 
     @property
     def table(self) -> Observations:
@@ -56,9 +64,14 @@ class Observations:
         return 2.0 * np.pi * self.frequency
 
     @property
+    def isotherm(self) -> Vector:
+        """Nominal temperature (n,) [degC] of the isotherm each test belongs to."""
+        return self.temperature if self.nominal_temperature is None else self.nominal_temperature
+
+    @property
     def isotherms(self) -> Vector:
-        """Temperatures tested [degC], ascending."""
-        return np.unique(self.temperature)
+        """Nominal temperatures tested [degC], ascending."""
+        return np.unique(self.isotherm)
 
     @property
     def frequencies(self) -> Vector:
@@ -68,7 +81,7 @@ class Observations:
     @property
     def cell(self) -> NDArray[np.int64]:
         """(n,) number of the condition (temperature, frequency, amplitude) each row repeats."""
-        conditions = [self.temperature, self.frequency]
+        conditions = [self.isotherm, self.frequency]
         if self.amplitude is not None:
             conditions.append(self.amplitude)
         return np.unique(np.column_stack(conditions), axis=0, return_inverse=True)[1].ravel()
@@ -77,11 +90,12 @@ class Observations:
         """The rows of a mask or index; names stay, so that numbers keep their meaning."""
         optional = {
             name: None if (value := getattr(self, name)) is None else value[rows]
-            for name in ("amplitude", "order", "cycles", "time_step")
+            for name in ("amplitude", "order", "cycles", "time_step", "nominal_temperature", "strain")
         }
         return replace(
             self, specimen=self.specimen[rows], temperature=self.temperature[rows],
             frequency=self.frequency[rows], modulus=self.modulus[rows],
             form_factor=self.form_factor[rows],
-            inertia=self.inertia[rows], whole=self.table, **optional,
+            inertia=self.inertia[rows], whole=self.table,
+            quality={name: column[rows] for name, column in self.quality.items()}, **optional,
         )  # fmt: skip

@@ -142,7 +142,7 @@ def _pair(diagnosis: Diagnosis, before: Logarithm, after: Logarithm, inner: bool
     inner: single tests at the temperatures between others only; an isotherm at an end, left out, is
     extrapolated, which tells of the law's end and of no cause.
     """
-    temperature = diagnosis.observed.temperature
+    temperature = diagnosis.observed.isotherm
     rows = np.full(temperature.size, True)
     if inner:
         rows = (temperature > temperature.min()) & (temperature < temperature.max())
@@ -162,7 +162,7 @@ def _rung(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen) -> dict
     gain: dict[str, Any] = {"in_sample": _pair(diagnosis, *in_sample)}
     held_out = {}
     for name, label in (
-        ("leave_one_isotherm_out", observed.temperature),
+        ("leave_one_isotherm_out", observed.isotherm),
         ("leave_one_frequency_out", observed.frequency),
     ):
         if np.unique(label).size > 2:
@@ -208,7 +208,7 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
     held_out = {}
     if observed.isotherms.size > 2:
         # A Burgers law says nothing of another temperature: before is its fit, which has seen the data.
-        predicted = heldout.predictions(ladder.joint, ladder.start, observed.temperature)
+        predicted = heldout.predictions(ladder.joint, ladder.start, observed.isotherm)
         held_out["leave_one_isotherm_out"] = _pair(diagnosis, before, predicted, inner=True)
     if observed.frequencies.size > 2:
         label = observed.frequency

@@ -56,7 +56,7 @@ def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise
     block = _blocks(observed)
     factors, sigmas = [], []
     for residual in (modulus, phase):
-        size = _by_isotherm(residual, observed.temperature, share)
+        size = _by_isotherm(residual, observed.isotherm, share)
         within, shared = _components(residual / size, block, share)
         within = max(within, FLOOR**2)
         variance = within * np.eye(observed.size) + shared * (block[:, None] == block)
@@ -75,7 +75,7 @@ def stated(
 
 
 def _blocks(observed: Observations) -> NDArray[np.int64]:
-    pairs = np.column_stack([observed.specimen, observed.temperature])
+    pairs = np.column_stack([observed.specimen, observed.isotherm])
     return np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
 
 

@@ -57,7 +57,7 @@ def fit_burgers_at_each(observed: Observations, noise: Noise) -> tuple[Joint, Fi
     base = BurgersAtEach(observed.isotherms)
     law = [
         _first_burgers(observed.omega[at], observed.modulus[at])
-        for at in (observed.temperature == temperature for temperature in observed.isotherms)
+        for at in (observed.isotherm == temperature for temperature in observed.isotherms)
     ]
     joint = Joint(observed, base, noise)
     return joint, joint.fit(np.log(np.concatenate(law)), np.zeros(len(observed.names)))

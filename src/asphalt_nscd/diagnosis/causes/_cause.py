@@ -62,7 +62,7 @@ class Cause(ABC):
             return np.ones(observed.size, bool)
         if isinstance(place, str):
             return observed.specimen == observed.names.index(place)
-        return observed.temperature == place
+        return observed.isotherm == place
 
     def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
         """Temperature of the mix above the one stated [K], (n,)."""
