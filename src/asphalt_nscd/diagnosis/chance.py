@@ -13,12 +13,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import norm
 
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
 ABSORBED = 3e-3  # share of a direction's square that the law must leave for it to be seen at all
+CHANCE = 0.005  # of naming anything at one rung of an empty table, over the whole catalogue
+USUAL_THRESHOLD = 3.7  # standard errors that the largest of a usual catalogue reaches with that chance
 POWER = 1.645  # normal quantile of 95 %: an effect at its detection limit is found so often
 
 
@@ -32,12 +35,12 @@ class Structure:
 
 @dataclass(frozen=True)
 class Scores:
-    """z (k,) of k directions; information (k,): d.A d; roots (2n, k): A^1/2 d over its norm."""
+    """z (k,) of k directions; information (k,): d.A d; correlation (k, k) of the z where nothing is hidden."""
 
     z: Vector
     information: Vector
     seen: NDArray[np.bool_]
-    roots: NDArray
+    correlation: NDArray
 
 
 def scores(
@@ -45,25 +48,36 @@ def scores(
 ) -> Scores:
     """Score tests of the columns of directions (n, k); confined (k,): to a specimen, so no law takes them."""
     d = joint.noise.whiten(directions)
-    j, residual = fitted.jacobian, fitted.residual
-    operator = np.eye(residual.size) - j @ np.linalg.solve(fitted.precision, j.T)
-    value, vector = np.linalg.eigh(0.5 * (operator + operator.T))
-    root = (vector * np.sqrt(np.maximum(value, 0.0))) @ (vector.T @ d)
-    information = (root**2).sum(axis=0)
+    taken = fitted.jacobian.T @ d
+    gram = d.T @ d - taken.T @ np.linalg.solve(fitted.precision, taken)
+    information = np.diag(gram)
     least = np.where(confined, 1e-9, ABSORBED)
     seen = information > least * np.maximum((d**2).sum(axis=0), 1e-300)
     norm = np.sqrt(np.where(seen, information, 1.0))
-    return Scores(np.where(seen, d.T @ residual / norm, 0.0), information, seen, root / norm * seen)
+    z = np.where(seen, d.T @ fitted.residual / norm, 0.0)
+    correlation = gram / norm[:, None] / norm * (seen[:, None] & seen)
+    return Scores(z, information, seen, 0.5 * (correlation + correlation.T))
 
 
 def largest_by_chance(
     found: Scores, one_sided: NDArray[np.bool_], freedom: int, draws: int, random: np.random.Generator
 ) -> Vector:
     """(draws,) largest of the z, in absolute value or upwards only, that chance alone gives."""
-    normal = random.standard_normal((draws, found.roots.shape[0])) @ found.roots
+    value, vector = np.linalg.eigh(found.correlation)
+    root = vector * np.sqrt(np.maximum(value, 0.0))
+    normal = random.standard_normal((draws, value.size)) @ root.T
     normal = np.where(one_sided, normal, np.abs(normal))
     student = np.sqrt(freedom / random.chisquare(freedom, draws))
     return np.maximum(normal.max(axis=1, initial=0.0), 0.0) * student
+
+
+def tail(by_chance: Vector, z: float) -> float:
+    """Chance of z or more: the share of draws, and beyond them the normal tail scaled to meet them."""
+    share = float(np.mean(by_chance >= z))
+    if share * by_chance.size >= 10:
+        return share
+    edge = float(np.quantile(by_chance, 0.99))
+    return float(min(0.01, 0.01 * norm.sf(z) / norm.sf(edge)))
 
 
 def effective(found: Scores, one_sided: NDArray[np.bool_]) -> Vector:

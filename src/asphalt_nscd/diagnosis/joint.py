@@ -7,10 +7,11 @@ it; so every candidate is refitted jointly. All residuals are whitened by the re
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg import LinAlgError, cho_factor, cho_solve, solve_triangular
 
 from asphalt_nscd.diagnosis.bases import Base
 from asphalt_nscd.diagnosis.causes._cause import Cause, Place
@@ -19,6 +20,7 @@ from asphalt_nscd.diagnosis.observations import Observations
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 ITERATIONS = 60
+MOST_DAMPED = 1e9  # a step damped more than this moves nothing
 CONVERGED = 1e-6  # change of the objective, in units of the replicate scatter squared
 
 
@@ -44,34 +46,74 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Noise:
-    """Replicate scatter: whitening factors (n, n) of ln|E*| and of the phase, and the specimens' scale.
+    """Replicate scatter of ln|E*| and of the phase, the specimens' scale, and any discrepancy beside them.
 
-    sigma: scatter of one test of ln|E*| and of the phase [rad], mean over the table; scale: standard
-    deviation of ln|E*| between specimens; freedom: degrees of freedom of the estimate.
+    within, shared (2, n): standard deviations of ln|E*| and of the phase [rad], of single tests and of what
+    the tests of one block share; block (n,): number of the specimen's isotherm a test belongs to. sigma:
+    scatter of one test, mean over the table; scale: standard deviation of ln|E*| between specimens; freedom:
+    degrees of freedom of the estimate. discrepancy: covariances (n, n) of both, added where a table holds
+    more than scatter.
     """
 
-    whiten_modulus: NDArray
-    whiten_phase: NDArray
+    within: NDArray
+    shared: NDArray
+    block: NDArray[np.int64]
     sigma: tuple[float, float]
     scale: float
     freedom: int
+    discrepancy: tuple[NDArray, NDArray] | None = None
 
     def subset(self, rows: NDArray) -> Noise:
         """The noise of some of the rows."""
-        parts = []
-        for whitening in (self.whiten_modulus, self.whiten_phase):
-            variance = np.linalg.inv(whitening.T @ whitening)[np.ix_(rows, rows)]
-            parts.append(np.linalg.inv(np.linalg.cholesky(variance)))
-        return replace(self, whiten_modulus=parts[0], whiten_phase=parts[1])
+        beside = self.discrepancy and tuple(part[np.ix_(rows, rows)] for part in self.discrepancy)
+        block = np.unique(self.block[rows], return_inverse=True)[1]
+        return replace(
+            self, within=self.within[:, rows], shared=self.shared[:, rows], block=block, discrepancy=beside
+        )
 
     def whiten(self, values: Complex) -> NDArray[np.float64]:
         """(n, ...) complex to (2 n, ...) real of unit scatter."""
-        return np.concatenate([self.whiten_modulus @ values.real, self.whiten_phase @ values.imag])
+        parts = (values.real, values.imag)
+        if self.discrepancy is None:
+            return np.concatenate([self._whitened(k, part) for k, part in enumerate(parts)])
+        return np.concatenate([
+            solve_triangular(lower, part, lower=True, check_finite=False)
+            for lower, part in zip(self._factors, parts, strict=True)
+        ])  # fmt: skip
+
+    def _whitened(self, part: int, values: NDArray) -> NDArray:
+        """By the symmetric root of a variance and a share common to each block."""
+        scaled = values / self.within[part].reshape(-1, *[1] * (values.ndim - 1))
+        common = (self.shared[part] / self.within[part]) ** 2
+        if not common.any():
+            return scaled
+        count = np.bincount(self.block)
+        # Within a block the two have one ratio, for both follow the scatter of their isotherm.
+        ratio = np.bincount(self.block, common) / count
+        pull = (1.0 - 1.0 / np.sqrt(1.0 + count * ratio)) / count
+        membership = np.eye(count.size)[self.block]
+        sums = membership.T @ scaled
+        return scaled - (membership * pull) @ sums
+
+    @cached_property
+    def _factors(self) -> list[NDArray]:
+        """Lower factors of both covariances."""
+        assert self.discrepancy is not None
+        same = self.block[:, None] == self.block
+        return [
+            np.linalg.cholesky(np.diag(w**2) + np.outer(s, s) * same + extra)
+            for w, s, extra in zip(self.within, self.shared, self.discrepancy, strict=True)
+        ]
+
+    @property
+    def log_determinant(self) -> float:
+        """Of the covariance with its discrepancy."""
+        return 2.0 * float(sum(np.log(np.diag(lower)).sum() for lower in self._factors))
 
 
 @dataclass(frozen=True)
 class Fitted:
-    """A joint fit. residual (2n,), jacobian (2n, p): whitened; precision (p, p): of the parameters."""
+    """A joint fit. residual (2n,), jacobian (2n, p): whitened; precision (p, p), gradient (p,): of the parameters."""
 
     law: Vector  # parameters of the base
     scales: Vector  # (S,) ln of the specimens' scales
@@ -81,6 +123,7 @@ class Fitted:
     residual: Vector
     jacobian: NDArray
     precision: NDArray
+    gradient: Vector  # (p,) of half the objective, downwards; zero at the best fit
 
     @property
     def covariance(self) -> NDArray:
@@ -155,7 +198,12 @@ class Joint:
             first += len(candidate.values)
         assert first == total
         objective = residual @ residual + prior @ prior + (scales @ scales) / self.noise.scale**2
-        return Fitted(law, scales, active, float(objective), modelled, residual, jacobian, precision)
+        gradient = jacobian.T @ residual
+        gradient[:p] -= prior_slope.T @ prior
+        gradient[p : p + s] -= scales / self.noise.scale**2
+        return Fitted(
+            law, scales, active, float(objective), modelled, residual, jacobian, precision, gradient
+        )
 
     def predict(self, fitted: Fitted) -> Complex:
         """ln E* (n,) of these observations from a fit to others of the same specimens."""
@@ -170,22 +218,24 @@ class Joint:
         return part.fit(fitted.law, fitted.scales, active)
 
     def fit(self, law: Vector, scales: Vector, active: tuple[Candidate, ...] = ()) -> Fitted:
-        """Levenberg-Marquardt from where the parameters stand; bounds of causes are respected."""
+        """Levenberg-Marquardt from where the parameters stand; bounds of causes are respected.
+
+        A step to where the model overflows counts as one that gains nothing.
+        """
         now = self.linearise(law, scales, active)
         damping = 1e-3
         for _ in range(ITERATIONS):
-            prior, prior_slope = self.base.prior(now.law)
-            gradient = now.jacobian.T @ now.residual
-            gradient[: law.size] -= prior_slope.T @ prior
-            gradient[law.size : law.size + scales.size] -= now.scales / self.noise.scale**2
-            while True:
-                damped = now.precision + damping * np.diag(np.diag(now.precision) + 1e-9)
-                step = cho_solve(cho_factor(damped), gradient)
-                trial = self._moved(now, np.clip(step, -3.0, 3.0) if active == () else step)
-                gained = now.objective - trial.objective
-                if gained >= 0.0 or damping > 1e8:
-                    break
-                damping *= 8.0
+            gained, trial = -np.inf, now
+            while gained < 0.0 and damping < MOST_DAMPED:
+                step = _damped_step(now, damping)
+                if step is not None:
+                    limited = np.clip(step, -3.0, 3.0) if active == () else step
+                    trial = self._moved(now, limited)
+                    gained = now.objective - trial.objective
+                if not np.isfinite(gained):
+                    gained = -np.inf
+                if gained < 0.0:
+                    damping *= 8.0
             if gained < 0.0:
                 break
             now, damping = trial, max(damping / 5.0, 1e-9)
@@ -205,3 +255,14 @@ class Joint:
             active.append(candidate.with_values(np.clip(values, low, high)))
             first += size
         return self.linearise(law, fitted.scales + step[p : p + s], tuple(active))
+
+
+def _damped_step(now: Fitted, damping: float) -> Vector | None:
+    """None where the precision is no positive definite matrix of finite numbers."""
+    damped = now.precision + damping * np.diag(np.diag(now.precision) + 1e-9)
+    if not (np.isfinite(damped).all() and np.isfinite(now.gradient).all()):
+        return None
+    try:
+        return cho_solve(cho_factor(damped), now.gradient)
+    except LinAlgError:
+        return None

@@ -7,15 +7,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.stats import f as fisher
-from scipy.stats import norm
 
 from asphalt_nscd.diagnosis import chance, limits
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
+from asphalt_nscd.diagnosis.chance import CHANCE
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.start import fit_spectrum, marginal_likelihood
 
-CHANCE = 0.005  # of naming anything at one rung of an empty table, over the whole catalogue
 RUNGS = 4
 SHORTLIST = 0.4  # candidates whose score gain is above this share of the best are refitted
 MOST_REFITS = 8
@@ -88,7 +87,7 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
         if not gains.size or len(ladder.rungs) == RUNGS:
             break
         begun = None if ladder.rungs else _begun_with(joint, fitted, candidates, gains.max())
-        p_value = _tail(by_chance, float(np.sqrt(begun[0] if begun else gains.max())))
+        p_value = chance.tail(by_chance, float(np.sqrt(begun[0] if begun else gains.max())))
         if p_value > CHANCE:
             break
         if begun:
@@ -118,15 +117,6 @@ def _scores(joint: Joint, fitted: Fitted, candidates: list[Candidate]):
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     found = chance.scores(joint, fitted, directions, confined)
     return found, one_sided, chance.effective(found, one_sided) ** 2
-
-
-def _tail(by_chance: np.ndarray, z: float) -> float:
-    """Chance of z or more: the share of draws, and beyond them the normal tail scaled to meet them."""
-    share = float(np.mean(by_chance >= z))
-    if share * by_chance.size >= 10:
-        return share
-    edge = float(np.quantile(by_chance, 0.99))
-    return float(min(0.01, 0.01 * norm.sf(z) / norm.sf(edge)))
 
 
 def _best(joint, fitted, candidates, gains, p_value, least) -> Rung:
@@ -182,7 +172,7 @@ def _remaining(joint: Joint, fitted: Fitted, draws: int, random: np.random.Gener
     by_chance = chance.largest_by_chance(found, anywhere, joint.noise.freedom, draws, random)
     k = int(np.argmax(np.abs(found.z)))
     largest = float(abs(found.z[k]))
-    alone = Remaining(_tail(by_chance, largest), patterns[k].name, largest**2)
+    alone = Remaining(chance.tail(by_chance, largest), patterns[k].name, largest**2)
     least = min([alone, *_interactions(joint, fitted)], key=lambda remaining: remaining.p_value)
     return replace(least, simple=largest**2)
 
@@ -199,7 +189,7 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
         found = chance.scores(
             joint, fitted, unit * np.eye(members.max() + 1)[members], np.ones(members.max() + 1, bool)
         )
-        value, vector = np.linalg.eigh(found.roots.T @ found.roots)
+        value, vector = np.linalg.eigh(found.correlation)
         kept = value > 1e-3
         square = float((((vector.T @ found.z)[kept]) ** 2 / value[kept]).sum())
         rank = int(kept.sum())

@@ -63,7 +63,7 @@ def alike(
     candidates: Sequence[Candidate], found: Scores, as_good: float
 ) -> list[tuple[Candidate, Candidate]]:
     """Pairs that even three times the detection limit does not tell apart; as_good: gain they may differ by."""
-    correlation = found.roots.T @ found.roots
+    correlation = found.correlation
     out = {}
     for i, one in enumerate(candidates):
         for k in range(i):

@@ -54,24 +54,25 @@ def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise
         return None
     share = 2.0 * observed.size / freedom
     block = _blocks(observed)
-    factors, sigmas = [], []
+    within, shared, sigmas = [], [], []
     for residual in (modulus, phase):
         size = _by_isotherm(residual, observed.isotherm, share)
-        within, shared = _components(residual / size, block, share)
-        within = max(within, FLOOR**2)
-        variance = within * np.eye(observed.size) + shared * (block[:, None] == block)
-        variance *= size[:, None] * size
-        factors.append(np.linalg.inv(np.linalg.cholesky(variance)))
-        sigmas.append(float(np.sqrt(within + shared)))
-    return Noise(factors[0], factors[1], (sigmas[0], sigmas[1]), _scale(scales), freedom)
+        single, common = _components(residual / size, block, share)
+        single = max(single, FLOOR**2)
+        within.append(np.sqrt(single) * size)
+        shared.append(np.sqrt(common) * size)
+        sigmas.append(float(np.sqrt(single + common)))
+    return Noise(
+        np.array(within), np.array(shared), block, (sigmas[0], sigmas[1]), _scale(scales), freedom
+    )
 
 
 def stated(
     observed: Observations, modulus: float, phase: float, scale: float, freedom: int = STATED
 ) -> Noise:
     """Noise of stated size: relative scatter of |E*|, scatter of the phase [rad], of whole specimens."""
-    one = np.eye(observed.size)
-    return Noise(one / modulus, one / phase, (modulus, phase), scale, freedom)
+    within = np.tile([[modulus], [phase]], observed.size)
+    return Noise(within, np.zeros_like(within), _blocks(observed), (modulus, phase), scale, freedom)
 
 
 def _blocks(observed: Observations) -> NDArray[np.int64]:

@@ -1,0 +1,293 @@
+"""The ladder of a table that holds more than its law, its causes and its scatter.
+
+Every cause is tested, sized and limited beside a discrepancy (`discrepancy`), whose size is estimated with
+that cause in the model. What one isotherm, one frequency or one specimen carries alone is no established
+cause: each is left out in turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis import chance, discrepancy, limits
+from asphalt_nscd.diagnosis.causes._cause import Cause
+from asphalt_nscd.diagnosis.chance import CHANCE, Scores
+from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
+from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.start import ROUGHNESS, marginal_likelihood
+
+Vector = NDArray[np.float64]
+RUNGS = 4
+REFITS = 4  # candidates that are refitted at each rung
+LEAST_GAIN = 6.0  # of -2 ln likelihood over a discrepancy without a name: 20 times as likely
+AS_GOOD = 6.0  # gains closer than this are not told apart
+SURVIVES = 2.0  # standard errors that an estimate must keep where something is left out
+SETTLED = 2  # rounds of fitting law and discrepancy in turn
+
+
+@dataclass(frozen=True)
+class State:
+    """A fit of law and causes beside the discrepancy, and the model linearised there.
+
+    plain: the joint model whose noise is the scatter alone; wide: with the discrepancy; fitted: under wide.
+    """
+
+    plain: Joint
+    wide: Joint
+    fitted: Fitted
+    linear: Fitted
+    model: Reduced
+    variances: Vector
+
+    @property
+    def misfit(self) -> float:
+        """-2 ln of the likelihood with the law integrated out (Laplace), the causes at their best."""
+        law = self.fitted.law.size + self.fitted.scales.size
+        usual = self.model.processes.usual
+        return (
+            self.fitted.objective
+            + float(np.linalg.slogdet(self.fitted.precision[:law, :law])[1])
+            + self.wide.noise.log_determinant
+            + 2.0 * float(np.log1p(self.variances / usual**2).sum())
+        )
+
+
+@dataclass(frozen=True)
+class Found:
+    """One cause taken: how likely by chance, the states before and after, and who did as well."""
+
+    candidate: Candidate
+    p_value: float
+    before: State
+    after: State
+    rivals: tuple[Candidate, ...]
+
+
+def begin(plain: Joint, fitted: Fitted) -> State:
+    """Law and discrepancy without any cause."""
+    found = discrepancy.processes(plain.observed, plain.noise)
+    start = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances
+    return _smoothed(_settle(plain, found, fitted, (), start))
+
+
+def climb(
+    state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
+) -> tuple[list[Found], State]:
+    """Causes that beat both chance and a discrepancy without a name, one after the other; the last state."""
+    taken: list[Found] = []
+    while len(taken) < RUNGS:
+        found = _next(state, catalogue, draws, random)
+        if found is None:
+            break
+        taken.append(found)
+        state = _smoothed(found.after)
+    return taken, state
+
+
+def _settle(plain: Joint, found: Processes, at: Fitted, active: tuple[Candidate, ...], variances: Vector) -> State:
+    """Law, causes and discrepancy fitted in turn from where they stand."""
+    law, scales = at.law, at.scales
+    for _ in range(SETTLED):
+        noise = replace(plain.noise, discrepancy=found.covariance(variances))
+        wide = Joint(plain.observed, plain.base, noise)
+        fitted = wide.fit(law, scales, active)
+        law, scales, active = fitted.law, fitted.scales, fitted.active
+        linear = plain.linearise(law, scales, active)
+        model = discrepancy.reduce(found, linear)
+        variances = discrepancy.estimate(model, start=variances).variances
+    return State(plain, wide, fitted, linear, model, variances)
+
+
+def _smoothed(state: State) -> State:
+    """The same with the roughness of the law that is likeliest beside the discrepancy."""
+    scored = []
+    for roughness in ROUGHNESS:
+        base = replace(state.plain.base, roughness=roughness)
+        wide = Joint(state.plain.observed, base, state.wide.noise)
+        fitted = wide.fit(state.fitted.law, state.fitted.scales, state.fitted.active)
+        scored.append((marginal_likelihood(wide, fitted), base, fitted))
+    _, base, fitted = max(scored, key=lambda item: item[0])
+    plain = Joint(state.plain.observed, base, state.plain.noise)
+    return _settle(plain, state.model.processes, fitted, fitted.active, state.variances)
+
+
+def _next(
+    state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
+) -> Found | None:
+    candidates, pointing = _pointing(state, catalogue)
+    if not candidates:
+        return None
+    nothing = discrepancy.estimate(state.model, start=state.variances)
+    estimates = [
+        discrepancy.estimate(state.model, pointing.column(k), state.variances) for k in range(len(candidates))
+    ]
+    one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
+    z = np.array([estimate.z for estimate in estimates])
+    z = np.where(one_sided, np.maximum(z, 0.0), np.abs(z))
+    gains = np.array([nothing.misfit - estimate.misfit for estimate in estimates])
+    by_chance = _by_chance(state, pointing, one_sided, draws, random)
+    eligible = (z > np.quantile(by_chance, 1.0 - CHANCE)) & (gains > LEAST_GAIN)
+    shortlist: dict[tuple, int] = {}
+    for k in np.argsort(-np.where(eligible, gains, -np.inf)):
+        if eligible[k] and len(shortlist) < REFITS:
+            shortlist.setdefault(candidates[k].key, int(k))
+    refits = []
+    for k in shortlist.values():
+        amplitude = estimates[k].amplitude * candidates[k].typical[0]
+        first = candidates[k].cause.parameters[0]
+        values = np.array([np.clip(amplitude, first.low, first.high), *candidates[k].values[1:]])
+        active = (*state.fitted.active, candidates[k].with_values(values))
+        after = _settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
+        gain = state.misfit - after.misfit - 2.0 * (len(candidates[k].values) - 1)
+        refits.append((gain, k, after))
+    refits = [refit for refit in refits if refit[0] > LEAST_GAIN]
+    if not refits:
+        return None
+    most = max(gain for gain, _, _ in refits)
+    as_good = [refit for refit in refits if most - refit[0] < AS_GOOD]
+    gain, k, after = min(as_good, key=lambda refit: (len(candidates[refit[1]].values), -refit[0]))
+    rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
+    return Found(after.fitted.active[-1], chance.tail(by_chance, float(z[k])), state, after, rivals)
+
+
+def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate], Direction]:
+    """Candidates that are not taken yet and that the table can show, with their directions."""
+    taken = {candidate.key for candidate in state.fitted.active}
+    candidates = [
+        c for c in chance.catalogue_candidates(state.plain.observed, catalogue) if c.key not in taken
+    ]
+    if not candidates:
+        return [], Direction(np.zeros((0, 0)), np.zeros((0, 0)), np.zeros(0))
+    d = state.plain.noise.whiten(chance.candidate_directions(state.plain, state.fitted, candidates))
+    pointing = discrepancy.directions(state.model, state.linear, d)
+    confined = np.array([isinstance(c.place, str) for c in candidates])
+    left, size = np.diag(pointing.own), (d**2).sum(axis=0)
+    seen = np.flatnonzero(left > np.where(confined, 1e-9, chance.ABSORBED) * np.maximum(size, 1e-300))
+    kept = Direction(pointing.cross[:, seen], pointing.own[np.ix_(seen, seen)], pointing.along[seen])
+    return [candidates[k] for k in seen], kept
+
+
+def _by_chance(
+    state: State, pointing: Direction, one_sided: NDArray, draws: int, random: np.random.Generator
+) -> Vector:
+    correlation, _ = discrepancy.correlation(state.model, pointing, state.variances)
+    k = one_sided.size
+    scores = Scores(np.zeros(k), np.ones(k), np.ones(k, bool), correlation)
+    return chance.largest_by_chance(scores, one_sided, state.plain.noise.freedom, draws, random)
+
+
+def of_taken(state: State, candidate: Candidate, rows: NDArray | None = None) -> Estimate:
+    """Amplitude of a cause that is in the fit, in typical units, from all rows or from some."""
+    first = state.fitted.law.size + state.fitted.scales.size
+    for active in state.fitted.active:
+        if active.key == candidate.key:
+            break
+        first += len(active.values)
+    plain, model, linear = state.plain, state.model, state.linear
+    if rows is not None:
+        plain = Joint(plain.observed.subset(rows), plain.base, plain.noise.subset(rows))
+        linear = plain.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
+    d = linear.jacobian[:, [first]]
+    rest = replace(
+        linear, jacobian=np.delete(linear.jacobian, first, axis=1),
+        precision=np.delete(np.delete(linear.precision, first, axis=0), first, axis=1),
+        gradient=np.delete(linear.gradient, first),
+    )  # fmt: skip
+    found, start = model.processes, state.variances
+    if rows is not None:
+        found, start = _of_rows(found, plain, rows, start)
+    model = discrepancy.reduce(found, rest)
+    found_value = discrepancy.estimate(model, discrepancy.directions(model, rest, d), start)
+    stands = active.values[0] / active.typical[0]
+    return replace(found_value, amplitude=found_value.amplitude + stands)
+
+
+def _of_rows(found: Processes, plain: Joint, rows: NDArray, variances: Vector) -> tuple[Processes, Vector]:
+    """The processes of some rows, those that reach none of them left out."""
+    kept = [k for k, root in enumerate(found.roots) if np.abs(root[rows]).max() > 0.0]
+    roots = tuple(found.roots[k][rows] for k in kept)
+    factor = np.hstack([plain.noise.whiten(root) for root in roots])
+    block = np.repeat(np.arange(len(kept)), [root.shape[1] for root in roots])
+    names = tuple(found.names[k] for k in kept)
+    return Processes(names, roots, factor, block, found.usual[kept]), variances[kept]
+
+
+def hangs_on(state: State, candidate: Candidate) -> list[str]:
+    """What must not be left out for the cause to be seen: isotherms, frequencies, specimens; best none."""
+    observed = state.plain.observed
+    sign, carried = np.sign(candidate.values[0]), []
+    for name, label, words in _parts(observed):
+        for value in np.unique(label):
+            rows = np.flatnonzero(label != value)
+            rest = observed.subset(rows)
+            if not candidate.cause.rows(rest, candidate.place).any() or not _enough(rest, name):
+                continue
+            if sign * of_taken(state, candidate, rows).z < SURVIVES:
+                carried.append(words(value))
+    return carried
+
+
+def _parts(observed: Observations):
+    yield "isotherm", observed.isotherm, lambda t: f"{t:g} degC"
+    yield "frequency", observed.frequency, lambda f: f"{f:g} Hz"
+    yield "specimen", observed.specimen, lambda s: f"specimen {observed.names[s]}"
+
+
+def _enough(rest: Observations, name: str) -> bool:
+    """Whether what is left still is a table that can show a cause."""
+    left = {"isotherm": rest.isotherms.size, "frequency": rest.frequencies.size}
+    left["specimen"] = np.unique(rest.specimen).size
+    return left[name] > (0 if name == "specimen" else 1)
+
+
+def estimates(state: State, catalogue: Sequence[Cause]) -> dict[tuple, tuple[float, float]]:
+    """Amplitude of every cause at every place and its standard error, in physical units.
+
+    Of a cause that is in the fit, and of each other as if it were the next one. Of several shapes, the one
+    that the table sees best.
+    """
+    out: dict[tuple, tuple[float, float]] = {}
+    for active in state.fitted.active:
+        own = of_taken(state, active)
+        out[active.key] = (own.amplitude * active.typical[0], own.std_error * active.typical[0])
+    candidates, pointing = _pointing(state, catalogue)
+    for k, candidate in enumerate(candidates):
+        one = discrepancy.estimate(state.model, pointing.column(k), state.variances)
+        typical = candidate.typical[0]
+        if candidate.key not in out or one.std_error * typical < out[candidate.key][1]:
+            out[candidate.key] = (one.amplitude * typical, one.std_error * typical)
+    return out
+
+
+def detection_limits(
+    state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
+) -> tuple[dict[tuple, float], list[Candidate], list[tuple[Candidate, Candidate]]]:
+    """Limits beside the discrepancy of this table, causes never seen in it, and pairs that look alike."""
+    candidates, pointing = _pointing(state, catalogue)
+    sizes: dict[tuple, float] = {}
+    unseen: list[Candidate] = []
+    alike: list[tuple[Candidate, Candidate]] = []
+    one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
+    threshold = chance.USUAL_THRESHOLD
+    if candidates:
+        by_chance = _by_chance(state, pointing, one_sided, draws, random)
+        threshold = float(np.quantile(by_chance, 1.0 - CHANCE))
+        errors = np.array([
+            discrepancy.estimate(state.model, pointing.column(k), state.variances).std_error
+            for k in range(len(candidates))
+        ])  # fmt: skip
+        correlation, _ = discrepancy.correlation(state.model, pointing, state.variances)
+        found = Scores(np.zeros(errors.size), errors**-2, np.ones(errors.size, bool), correlation)
+        sizes, unseen = limits.detection_limits(
+            state.wide, state.fitted, candidates, found, threshold + chance.POWER
+        )
+        alike = limits.alike(candidates, found, AS_GOOD)
+    for active in state.fitted.active:
+        own = of_taken(state, active)
+        sizes[active.key] = (threshold + chance.POWER) * own.std_error * float(active.typical[0])
+    return sizes, unseen, alike
