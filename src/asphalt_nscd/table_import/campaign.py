@@ -12,11 +12,12 @@ from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.table_import.cells import NotTests, as_cells, read_rows
 from asphalt_nscd.table_import.exports import blocks
-from asphalt_nscd.table_import.understand import FURTHER, Understood, understand
+from asphalt_nscd.table_import.understand import FURTHER, MAY_BE_ABSENT, Understood, understand
 
 TABLES = (".csv", ".tsv", ".txt", ".dat", ".xlsx", ".xlsm")
 MOST_FILES = 500
 _FIGURES = 4  # digits in which two files that hold the same tests agree
+_MEASURED = ("temperature_C", "nominal_temperature_C", "E_MPa", "phase_deg")
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,10 @@ def read_campaign(
         )
     kind = test_type or ("tension-compression" if exported else "bending")
     table = _joined(paths, parts, notes)
+    specimens = list(dict.fromkeys(table.columns["specimen"]))
+    notes.append(
+        f"{len(specimens)} specimens: {', '.join(specimens[:12])}{', ...' if len(specimens) > 12 else ''}"
+    )
     files = tuple(dict.fromkeys(part.path for part in parts))
     return Campaign(table, files, kind, (*_said(parts), *notes)), forms[0]
 
@@ -146,13 +151,14 @@ def _tests(part: _Part) -> list[tuple[str, ...]]:
     columns = part.read.table.columns
     temperature = "nominal_temperature_C" if "nominal_temperature_C" in columns else "temperature_C"
     names = ["specimen", temperature, "frequency_Hz", "replicate", "amplitude_m", "order", "cycles"]
-    return list(zip(*(map(_short, columns[name]) for name in names if name in columns), strict=True))
+    present = [name for name in names if name in columns]
+    return list(zip(*([_short(text, 9) for text in columns[name]] for name in present), strict=True))
 
 
-def _short(text: str) -> str:
-    """A number to the digits in which two files agree; other text as it is."""
+def _short(text: str, figures: int = _FIGURES) -> str:
+    """A number to so many digits; other text as it is."""
     try:
-        return f"{float(text):.{_FIGURES}g}"
+        return f"{float(text):.{figures}g}"
     except ValueError:
         return text
 
@@ -187,11 +193,21 @@ def _called(paths: Sequence[Path]) -> str:
     return str(paths[0]) if len(paths) == 1 else ", ".join(path.name for path in paths)
 
 
+def _sources(part: _Part) -> list[str]:
+    """Which of the user's columns became which of ours; an export's in one sentence."""
+    sources = part.read.sources
+    if not part.exported:
+        return [f"{name} from column {source}" for name, source in sources.items()]
+    measured = ", ".join(f"{name} from {sources[name]}" for name in _MEASURED if name in sources)
+    kept = ", ".join(name for name in MAY_BE_ABSENT if name in sources)
+    return [f"machine export: {measured}" + (f"; kept for judging the tests: {kept}" if kept else "")]
+
+
 def _said(parts: list[_Part]) -> list[str]:
     """How the files were read: what is true of all files is said once."""
     by_note: dict[str, list[str]] = {}
     for part in parts:
-        for note in part.read.notes:
+        for note in (*part.read.notes, *_sources(part)):
             files = by_note.setdefault(note, [])
             if part.path.name not in files:
                 files.append(part.path.name)

@@ -153,7 +153,7 @@ def _filled(path: Path, line: int, row: list[str], count: int) -> list[str]:
 
 def _as_block(path: Path, header: _Header, results: Cells, notes: list[str]) -> Block:
     """The results with what the header says of all of them: specimen, target temperature, origin."""
-    notes = [*notes, "machine export"]
+    notes = [note for note in notes if not note.startswith("columns separated")]
     columns = [_recognised(name) for name in results.header]
     held = {column.quantity: place for place, column in enumerate(columns) if column}
     measured = [place for name in ("E_MPa", "phase_deg") if (place := held.get(name)) is not None]
@@ -175,7 +175,7 @@ def _as_block(path: Path, header: _Header, results: Cells, notes: list[str]) -> 
             raise InputError(
                 f"{path}: no temperature; add a line 'Target test temperature (°C)' above the frequencies."
             )
-        target, temperature_label = name.temperature, "Target temperature (°C)"
+        target, temperature_label = name.temperature, "target temperature (°C)"
         notes.append("temperature taken from the name of the specimen")
     if name.contradicts:
         notes.append(
@@ -211,7 +211,8 @@ def _temperature(header: _Header, reading: Column | None) -> tuple[str | None, s
     if match is None:
         return None, ""
     unit = header.units.get(label) or match[2] or (reading.unit if reading and reading.unit else "C")
-    return match[1].replace("−", "-"), f"Target temperature ({unit})"
+    name = f"{label} ({unit})" if label in _TARGET else f"target temperature ({unit})"
+    return match[1].replace("−", "-"), name
 
 
 def _degrees(text: str) -> float:

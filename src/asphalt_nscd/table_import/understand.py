@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import chain
 
 from asphalt_nscd.files.csvinput import Table
@@ -29,11 +29,15 @@ Place = tuple[int, Column]  # of a column, and what it holds
 
 @dataclass(frozen=True)
 class Understood:
-    """A table in our columns and units, its form (a key of FORMS), and sentences on how it was read."""
+    """A table in our columns and units, its form (a key of FORMS), and sentences on how it was read.
+
+    sources: for each of our columns the user's, and the unit it was converted from.
+    """
 
     table: Table
     form: str
     notes: list[str]
+    sources: dict[str, str] = field(default_factory=dict)
 
 
 def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Understood:
@@ -55,17 +59,23 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
     values, mark = _values(cells, kept)
     notes.append("decimals written with a " + ("comma" if mark == "," else "point"))
     note = _specimens(cells, values)
-    for name, (place, column) in kept.items():
-        unit = f", converted from {column.unit}" if (column.factor, column.offset) != (1.0, 0.0) else ""
-        notes.append(f"{name} from column {cells.header[place]!r}{unit}")
-    notes.append(note)
+    sources = {
+        name: repr(cells.header[place]) + (f", converted from {column.unit}" if _converts(column) else "")
+        for name, (place, column) in kept.items()
+    }
+    if note:
+        notes.append(note)
     read = {place for place, _ in kept.values()}
     if ignored := [name for place, name in enumerate(cells.header) if place not in read]:
         notes.append(f"ignored: {', '.join(map(repr, ignored))}")
     order = ["specimen", "replicate", *KEYS, *FORMS[form], "origin", *FURTHER, *MAY_BE_ABSENT]
     wanted = [name for name in order if name in values]
     table = Table(cells.path, {name: values[name] for name in wanted}, [line for line, _ in cells.rows])
-    return Understood(table, form, notes)
+    return Understood(table, form, notes, sources)
+
+
+def _converts(column: Column) -> bool:
+    return (column.factor, column.offset) != (1.0, 0.0)
 
 
 def _own(cells: Cells) -> Understood | None:
@@ -208,9 +218,8 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
                 raise InputError(
                     f"{cells.path}, line {line}: {cells.header[place]}: {problem}; write a number or remove the line."
                 )
-            as_it_is = (column.factor, column.offset) == (1.0, 0.0)
-            converted = value * column.factor + column.offset
-            values[name].append(row[place].replace(",", ".") if as_it_is else f"{converted:.10g}")
+            converted = f"{value * column.factor + column.offset:.10g}"
+            values[name].append(converted if _converts(column) else row[place].replace(",", "."))
     return values, mark
 
 
@@ -229,7 +238,7 @@ def _word(cells: Cells, line: int, name: str, text: str) -> str:
 def _specimens(cells: Cells, values: dict[str, list[str]]) -> str:
     """Put a specimen to each test, and say how it was told."""
     if "specimen" in values:
-        return f"{len(set(values['specimen']))} specimens"
+        return ""
     if "replicate" in values:
         values["specimen"] = values.pop("replicate")
         return f"{len(set(values['specimen']))} replicates, taken as specimens"
