@@ -99,7 +99,11 @@ def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
         "isotherms_C": observed.isotherms.tolist(),
         "quality_columns": [name for name in quality.COLUMNS if name in observed.quality],
         "limits_exceeded": above,
-        "notes": [*notes, *isotherm_notes(observed.temperature, observed.isotherm), *_quality_notes(above, observed.size)],
+        "notes": [
+            *notes,
+            *isotherm_notes(observed.temperature, observed.isotherm),
+            *_quality_notes(above, observed.size),
+        ],
     }
 
 

@@ -72,11 +72,10 @@ def blocks(path: Path, rows: list[Row], notes: list[str]) -> list[Block]:
             taken = _results(path, rows[at + 1 :], len(frequencies))
             found.append(_as_block(path, header, _turned(line, cells, taken), notes))
             at += 1 + len(taken)
-        elif found == [] and _names_columns(cells) and header.first((*_IDENTIFICATION, *_TARGET)):
-            taken = [row for row in rows[at + 1 :] if sum(map(bool, row[1])) > 1]
-            table = Cells(path, cells, [(n, _filled(path, n, row, len(cells))) for n, row in taken])
+        elif _names_columns(cells) and header.first((*_IDENTIFICATION, *_TARGET)):
+            table = _listed(path, cells, rows[at + 1 :])
             found.append(_as_block(path, header, table, notes))
-            return found
+            at += 1 + len(table.rows)
         else:
             header.take(cells)
             at += 1
@@ -143,12 +142,21 @@ def _turned(line: int, frequencies: list[str], rows: list[Row]) -> Cells:
     return Cells(Path(), header, turned)
 
 
-def _filled(path: Path, line: int, row: list[str], count: int) -> list[str]:
-    if len(row) > count:
-        raise InputError(
-            f"{path}, line {line}: {len(row)} fields under {count} column names; remove what is too much."
-        )
-    return [*row, *[""] * (count - len(row))]
+def _listed(path: Path, names: list[str], rows: list[Row]) -> Cells:
+    """Results with a line for each frequency, down to the first line with neither frequency nor modulus."""
+    wanted = [n for n, name in enumerate(names) if _holds(name, "frequency_Hz") or _holds(name, "E_MPa")]
+    taken: list[Row] = []
+    for line, cells in rows:
+        filled = [*cells, *[""] * (len(names) - len(cells))]
+        if not any(_HERTZ.fullmatch(filled[place]) for place in wanted):
+            break
+        if len(filled) > len(names):
+            raise InputError(
+                f"{path}, line {line}: {len(cells)} fields under {len(names)} column names; if decimals are written "
+                "with a comma, separate the columns with semicolons."
+            )
+        taken.append((line, filled))
+    return Cells(path, names, taken)
 
 
 def _as_block(path: Path, header: _Header, results: Cells, notes: list[str]) -> Block:
