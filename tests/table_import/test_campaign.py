@@ -89,6 +89,23 @@ def test_damaged_results_in_a_folder_are_refused_not_passed_over(tmp_path):
         read_campaign([tmp_path])
 
 
+@pytest.mark.parametrize("name", ["notes.txt", "notes.csv"])
+def test_running_text_is_passed_over(tmp_path, name):
+    save(tmp_path, a=export("A", 4))
+    (tmp_path / name).write_text("Tests of May\nWe found E*, phase, and more, at 4 C\nas planned\n")
+    campaign, _ = read_campaign([tmp_path])
+    assert len(campaign.table.lines) == 2 and said(campaign, f"skipped {name} (")
+
+
+def test_a_wide_table_that_is_damaged_is_refused(tmp_path):
+    save(tmp_path, a=export("A", 4), b="specimen;T (°C);E (GPa) at 10 Hz;phi (°) at 10 Hz\nB;4;9;20;7\n")
+    with pytest.raises(InputError, match=r"b\.csv, line 2: 5 fields under 4 column names"):
+        read_campaign([tmp_path])
+    (tmp_path / "b.csv").write_bytes(b"PK rubbish")
+    with pytest.raises(InputError, match=r"b\.csv: cannot be read as XLSX"):
+        read_campaign([tmp_path])
+
+
 def test_a_table_that_holds_the_tests_of_the_exports_is_passed_over(tmp_path):
     rows = [
         "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg",

@@ -93,6 +93,9 @@ def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
         }
         for one in quality.exceeded(observed)
     ]  # fmt: skip
+    together = isotherm_notes(observed.temperature, observed.isotherm)
+    if together:
+        together.append("The law is fitted to the measured temperatures.")
     return {
         "test_type": observed.test_type,
         "specimens": list(observed.names),
@@ -101,7 +104,7 @@ def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
         "limits_exceeded": above,
         "notes": [
             *notes,
-            *isotherm_notes(observed.temperature, observed.isotherm),
+            *together,
             *_quality_notes(above, observed.size),
         ],
     }

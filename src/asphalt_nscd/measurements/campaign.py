@@ -80,9 +80,7 @@ def isotherm_notes(temperature: NDArray[np.float64], nominal: NDArray[np.float64
         for value in changed:
             measured = temperature[nominal == value]
             parts.append(f"{value:g} (measured {measured.min():g} to {measured.max():g})")
-        notes.append(
-            "Isotherms in degC: " + ", ".join(parts) + ". The law is fitted to the measured temperatures."
-        )
+        notes.append(f"Isotherms in degC: {', '.join(parts)}.")
     off = np.abs(temperature - nominal) > OFF_TARGET + 1e-9
     if off.any():
         worst = int(np.argmax(np.abs(temperature - nominal)))

@@ -12,7 +12,13 @@ from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.table_import.cells import NotTests, as_cells, read_rows
 from asphalt_nscd.table_import.exports import blocks
-from asphalt_nscd.table_import.understand import FURTHER, MAY_BE_ABSENT, Understood, understand
+from asphalt_nscd.table_import.understand import (
+    FURTHER,
+    MAY_BE_ABSENT,
+    Understood,
+    names_force_or_modulus,
+    understand,
+)
 
 TABLES = (".csv", ".tsv", ".txt", ".dat", ".xlsx", ".xlsm")
 MOST_FILES = 500
@@ -98,7 +104,9 @@ def _folder(
         else:
             try:
                 parts += _file(path, sheet, chosen)
-            except NotTests as error:
+            except InputError as error:
+                if not isinstance(error, NotTests) and _meant(path, sheet):
+                    raise
                 reason = str(error).removeprefix(f"{path}: ").partition(" (found:")[0].partition("; ")[0]
                 skipped.append(f"{path.name} ({reason})")
     if not parts:
@@ -108,6 +116,18 @@ def _folder(
         )
     notes += [f"skipped {one}" for one in skipped]
     return parts
+
+
+def _meant(path: Path, sheet: str | None) -> bool:
+    """Whether a file that is refused was meant to hold tests: some cell names a modulus or a force with its unit.
+
+    A CSV or XLSX file that cannot even be opened may hold tests; running text may not.
+    """
+    try:
+        rows, _ = read_rows(path, sheet)
+    except InputError:
+        return path.suffix.lower() not in (".txt", ".dat")
+    return any(names_force_or_modulus(cell) for _, cells in rows for cell in cells)
 
 
 def _without_copies(parts: list[_Part], notes: list[str]) -> list[_Part]:

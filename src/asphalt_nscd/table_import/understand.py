@@ -13,7 +13,7 @@ from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, REDUCED_COLUMNS
 from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.decimals import decimal_mark, number
 from asphalt_nscd.table_import.quantities import ABSENT, MEASURED, QUALITY, Column, is_unit, recognise
-from asphalt_nscd.table_import.wide import melted
+from asphalt_nscd.table_import.wide import melted, without_condition
 
 TEXTS = ("specimen", "replicate", "origin")
 KEYS = ("temperature_C", "frequency_Hz")
@@ -141,6 +141,15 @@ def _columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
     if "temperature_C" not in found and "nominal_temperature_C" in found:
         found["temperature_C"] = found.pop("nominal_temperature_C")
     return found
+
+
+def names_force_or_modulus(cell: str) -> bool:
+    """Whether a cell is the name of a column with moduli or forces and says their unit, also of a wide table."""
+    try:
+        column = recognise(without_condition(cell))
+    except InputError:  # a unit that the quantity does not have
+        return True
+    return column is not None and column.quantity in ("E_MPa", "F0_N") and column.unit is not None
 
 
 def _single(cells: Cells, name: str, places: list[Place]) -> Place:
