@@ -79,6 +79,11 @@ def blocks(path: Path, rows: list[Row], notes: list[str]) -> list[Block]:
         else:
             header.take(cells)
             at += 1
+    if not found and header.first(_IDENTIFICATION) and header.first(_TARGET):
+        raise InputError(
+            f"{path}: a machine export without its line of frequencies; export it anew, or write a line such as "
+            "`,25 Hz,10 Hz,1 Hz` above the moduli."
+        )
     return found
 
 
