@@ -92,7 +92,7 @@ def test_damaged_results_in_a_folder_are_refused_not_passed_over(tmp_path):
 @pytest.mark.parametrize("name", ["notes.txt", "notes.csv"])
 def test_running_text_is_passed_over(tmp_path, name):
     save(tmp_path, a=export("A", 4))
-    (tmp_path / name).write_text("Tests of May\nWe found E*, phase, and more, at 4 C\nas planned\n")
+    (tmp_path / name).write_text("Tests of May\nas planned\nWe found E*, phase, and more, at 4 C\n")
     campaign, _ = read_campaign([tmp_path])
     assert len(campaign.table.lines) == 2 and said(campaign, f"skipped {name} (")
 
