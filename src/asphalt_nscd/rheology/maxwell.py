@@ -12,6 +12,8 @@ from scipy.optimize import brentq
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.chain import KelvinChain
 
+SAME_RATE = 1e-8  # relative: between closer rates no zero is found by numbers of sixteen digits
+
 
 @dataclass(frozen=True)
 class MaxwellSeries:
@@ -101,9 +103,11 @@ def of_chain(chain: KelvinChain) -> MaxwellSeries:
 def _merged(chain: KelvinChain) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Springs and dashpots by rising retardation rate; elements of one rate are one element."""
     springs, dashpots = np.array(chain.kelvin_springs), np.array(chain.kelvin_dashpots)
-    rates, group = np.unique(springs / dashpots, return_inverse=True)
-    together = 1.0 / np.bincount(group, weights=1.0 / springs, minlength=rates.size)
-    return together, together / rates
+    order = np.argsort(springs / dashpots)
+    springs, rates = springs[order], (springs / dashpots)[order]
+    first = np.concatenate([[True], np.diff(rates) > SAME_RATE * rates[1:]])[: rates.size]
+    together = 1.0 / np.bincount(np.cumsum(first) - 1, weights=1.0 / springs, minlength=first.sum())
+    return together, together / rates[first]
 
 
 def _zero_after(function: Callable[[float], float], start: float, end: float) -> float:

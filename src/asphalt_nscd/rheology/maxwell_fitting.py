@@ -49,7 +49,8 @@ def fit_series(
     moduli are positive, so that the series is passive. Relaxation times start evenly spaced on a
     logarithmic scale with moduli from non-negative least squares (as in `conversion.kelvin_chain`).
     From the number that suffices so, branches are taken away while times and moduli, refined
-    together, still meet the error. Outside the band the series is whatever follows from within.
+    together, still meet the error: first from even spacing, then with two neighbours merged.
+    Outside the band the series is whatever follows from within.
     """
     if not 0.0 < lowest_omega <= highest_omega < np.inf:
         raise InputError(
@@ -76,13 +77,29 @@ def fit_series(
             f"{allowed.degrees:g} deg from {lowest_omega:g} to {highest_omega:g} rad/s, the best to "
             f"{best.percent:.2g} % and {best.degrees:.2g} deg; allow a larger error."
         )
-    for terms in range(len(found[0].moduli), 0, -1):
-        series = _refined(starts[terms], omega, target, allowed)
-        error = _miss_of(series, tested, dense)
-        if not error.within(allowed):
-            break
-        found = series, error
+    terms = len(found[0].moduli)
+    while terms:
+        for start in (starts[terms], _merged(found[0], terms)):
+            series = _refined(start, omega, target, allowed)
+            error = _miss_of(series, tested, dense)
+            if error.within(allowed):
+                found = series, error
+                break
+        else:
+            return found
+        terms = len(found[0].moduli) - 1
     return found
+
+
+def _merged(series: MaxwellSeries, terms: int) -> MaxwellSeries:
+    """The series with the neighbours nearest in log time merged, until so many terms are left."""
+    moduli, times = list(series.moduli), list(series.times)
+    while len(moduli) > terms:
+        first = int(np.argmin(np.diff(np.log(times))))
+        share = moduli[first] / (moduli[first] + moduli[first + 1])
+        times[first : first + 2] = [times[first] ** share * times[first + 1] ** (1.0 - share)]
+        moduli[first : first + 2] = [moduli[first] + moduli[first + 1]]
+    return MaxwellSeries(series.long_term, tuple(moduli), tuple(times))
 
 
 def _spaced(
