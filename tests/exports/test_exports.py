@@ -447,3 +447,17 @@ def test_a_spring_alone_is_refused(tmp_path):
     )  # fmt: skip
     with pytest.raises(InputError, match="does not relax"):
         export_law(read_law_file(tmp_path / "law.json"), Settings(), "abaqus", tmp_path / "law.inp")
+
+
+def test_parameters_that_the_tests_hardly_determine_are_named(tmp_path):
+    law = SPECTRA["FD"][0]
+    error = {"glassy_modulus": 20e9, "k": 0.01, "delta": 0.1}
+    write_spectrum(
+        tmp_path / "law.json", law, source="fitted", rms_log_residual=0.03, std_error=error, unseen=["beta"]
+    )
+    read = read_law_file(tmp_path / "law.json", *CAMPAIGN)
+    assert "hardly determine E_glassy_Pa, beta:" in read.loose()
+    for form, name in (("csv", "law.csv"), ("mepdg", "E.csv")):
+        export_law(read, Settings(), form, tmp_path / name)
+        joined = re.sub(r"\n#\s+", " ", (tmp_path / name).read_text())
+        assert read.loose() in joined

@@ -95,7 +95,7 @@ class Card:
             f"Linear viscoelastic law of an asphalt mix, written by asphalt-nscd {__version__} from {law.path.name}.",
             f"Law: {law.name}; source: {law.source}.",
             "Parameters: " + ", ".join(f"{key} = {value:.6g}" for key, value in law.parameters.items()) + ".",
-            self._tests(),
+            f"{self._tests()} {law.loose()}",
             f"Units: {units.name}; temperature in degC.",
             f"Series: {self.achieved()}, against the law"
             + (" (the law's own exact form)." if self.exact else "."),

@@ -31,6 +31,7 @@ NAMES = {
     "2s2p1d": "2S2P1D",
     "huet-sayegh": "Huet-Sayegh",
 }
+LOOSE = 0.5  # standard error over value, from which a parameter is hardly determined
 # Where neither the file nor the user says what was tested.
 USUAL_TEMPERATURES = (-10.0, 0.0, 10.0, 20.0, 30.0, 40.0)  # degC
 USUAL_FREQUENCIES = (0.1, 1.0, 10.0, 40.0)  # Hz
@@ -68,12 +69,24 @@ class ExportedLaw:
     parameters: dict[str, float]  # under the keys of the file, which carry the units
     std_error: dict[str, float]  # of some of them
     rms_log_residual: float | None  # of the fit to tests
+    unseen: tuple[str, ...] = ()  # parameters that the tests do not determine at all
 
     @property
     def name(self) -> str:
         """Kind of law and of shift, in words."""
         shift = {WLF: ", WLF shift", Arrhenius: ", Arrhenius shift"}.get(type(self.shift), "")
         return f"{NAMES[self.kind]}{shift}"
+
+    def loose(self) -> str:
+        """A sentence on parameters that the tests do not determine; empty where there are none."""
+        found = [
+            key
+            for key, value in self.parameters.items()
+            if key in self.unseen or self.std_error.get(key, 0.0) > LOOSE * abs(value)
+        ]
+        if not found:
+            return ""
+        return f"The tests hardly determine {', '.join(found)}: do not trust the law beyond them."
 
     def at_reference(self, omega: Vector) -> Complex:
         """E* [Pa] at angular frequencies omega [rad/s] and `temperature`."""
@@ -152,6 +165,7 @@ def read_law_file(
     return ExportedLaw(
         path, kind, str(content.get("source")), law, temperature, shift, band, _numbers(content),
         _numbers(content.get("std_error")), rms if isinstance(rms, float) else None,
+        tuple(str(name) for name in content.get("unseen") or ()),
     )  # fmt: skip
 
 

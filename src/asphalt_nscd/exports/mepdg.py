@@ -123,7 +123,7 @@ def text(table: Table) -> str:
         "log10 a_T from 70 degF: "
         + ", ".join(f"{t:g} degF {x:.5f}" for t, x in zip(TEMPERATURES_F, table.log_shift, strict=True))
         + ("; nan: the shift of the law is not defined so cold." if np.isnan(table.log_shift).any() else "."),
-        _extrapolated(table),
+        f"{_extrapolated(table)} {law.loose()}",
     ]
     lines = [
         f"# {line}".encode("ascii", "replace").decode()
