@@ -20,13 +20,14 @@ ARROWS = {
     "specimen": ["files", "measurements", "nscd"],
     "bending": ["files", "measurements", "nscd", "rheology", "specimen"],
     "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
+    "exports": ["files", "measurements", "rheology", "diagnosis"],
     "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis"],
     "study": ["files", "measurements", "rheology", "specimen", "reporting"],
     "table_import": ["files", "measurements", "study", "reporting"],
     "verification": ["files", "workflow_support", "measurements", "nscd", "rheology", "specimen", "bending"],
     "cli": [
-        "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "reporting", "study",
-        "table_import", "verification", "nscd",
+        "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
+        "study", "table_import", "verification", "nscd",
     ],
 }  # fmt: skip
 

@@ -122,6 +122,8 @@ if STUDY["study"] == "paper":
 if COMMON_LAW:
     PAGES["extended"] = "0 Diagnosis"
     PAGES["gain"] = "0 Diagnosis"
+    PAGES["prony"] = "0 Diagnosis"
+    PAGES["dynamic_modulus"] = "0 Diagnosis"
     FIGURES["fig10_extended"] = (
         "0 Diagnosis",
         {"simulations": SIMULATIONS, "extended": ["<results>/extended.csv"], "measured": MEASURED},
@@ -137,6 +139,7 @@ if COMMON_LAW:
 COMPUTED = [
     DIAGNOSED,
     [f"<results>/{name}.csv" for name in PAGES if name != "timings"],
+    EXPORTED,
     [f"<results>/figures/{name}.{kind}" for name in FIGURES for kind in ("pdf", "png", "svg")],
 ]
 RESULTS = [

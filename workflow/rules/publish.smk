@@ -12,7 +12,7 @@ rule publish:
         *BLOCKS,
         files=[
             *(f"<results>/figures/{name}.png" for name in FIGURES),
-            *(f"<results>/{name}.csv" for name in PAGES),
+            *(table for name in PAGES if (table := f"<results>/{name}.csv") not in EXPORTED),
             *DIAGNOSED,
             *COMMON_LAW,
             "<results>/provenance.json",

@@ -71,12 +71,12 @@ NOT_NEGATIVE = Number(low=0.0)
 
 
 class Numbers(click.ParamType):
-    """`0.25,0.025,1.6` as positive numbers, all different or so many as `size` says."""
+    """`0.25,0.025,1.6` as numbers above `low`, all different or so many as `size` says."""
 
     name = "number,..."
 
-    def __init__(self, size: int | None = None) -> None:
-        self.size = size
+    def __init__(self, size: int | None = None, low: float = 0.0) -> None:
+        self.size, self.low = size, low
 
     def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
         try:
@@ -84,9 +84,10 @@ class Numbers(click.ParamType):
         except ValueError:
             numbers = ()
         fits = len(set(numbers)) == len(numbers) if self.size is None else len(numbers) == self.size
-        if not numbers or not fits or not all(0 < number < float("inf") for number in numbers):
+        if not numbers or not fits or not all(self.low < number < float("inf") for number in numbers):
             wanted = "different" if self.size is None else str(self.size)
-            self.fail(f"{value!r} is not {wanted} positive numbers joined by commas.", param, context)
+            sort = "positive numbers" if self.low == 0.0 else f"numbers greater than {self.low:g}"
+            self.fail(f"{value!r} is not {wanted} {sort} joined by commas.", param, context)
         return numbers
 
 

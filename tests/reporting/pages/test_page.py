@@ -30,3 +30,10 @@ def test_table_that_is_none(tmp_path):
     (tmp_path / "empty.csv").touch()
     with pytest.raises(InputError, match="empty.csv: not a CSV table"):
         page(tmp_path / "empty.csv", "t")
+
+
+def test_comment_lines_at_the_beginning_stand_above_the_table(tmp_path):
+    (tmp_path / "t.csv").write_text("# largest error 0.8 % < 1 %\n#   of |E*|\nspecimen,E_MPa\n#2,1\n")
+    html = page(tmp_path / "t.csv", "t")
+    assert "<pre>largest error 0.8 % &lt; 1 %\n  of |E*|</pre><table>" in html
+    assert '<td>#2</td><td class="number">1</td>' in html

@@ -1,0 +1,43 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _options
+
+
+@click.command()
+@click.argument("law", type=_options.File)
+@click.option(
+    "--format", "form", required=True, help="Program that will read it.",
+    type=click.Choice(["abaqus", "ansys", "comsol", "csv", "xlsx", "mepdg"]),
+)  # fmt: skip
+@click.option(
+    "--error-percent", default=1.0, type=_options.POSITIVE, help="Largest error of |E*| of the Prony series."
+)
+@click.option("--error-deg", default=0.5, type=_options.POSITIVE, help="Largest error of its phase, degrees.")
+@click.option(
+    "--temperatures-c", type=_options.Numbers(low=-273.15),
+    help="Tested temperatures, degrees Celsius; else as the law's folder says.",
+)  # fmt: skip
+@click.option(
+    "--frequencies-hz", type=_options.Numbers(), help="Tested frequencies; else as the law's folder says."
+)
+@click.option("--poisson", type=_options.Number(), help="Poisson's ratio; else 0.35, said to be assumed.")
+@click.option("--units", default="SI", type=click.Choice(["SI", "mm-N-MPa"]), help="Units of the file.")
+@click.option("--name", default="ASPHALT", help="Name of the material (abaqus).")
+@_options.output
+def command(
+    law: Path, form: str, error_percent: float, error_deg: float, temperatures_c: tuple[float, ...] | None,
+    frequencies_hz: tuple[float, ...] | None, poisson: float | None, units: str, name: str, output: Path,
+) -> None:  # fmt: skip
+    """Write a law for another program: Prony series with shift, workbook, or table of |E*|."""
+    from asphalt_nscd.exports.card import UNITS, Settings
+    from asphalt_nscd.exports.export import export_law, require_ending
+    from asphalt_nscd.exports.law import read_law_file
+    from asphalt_nscd.rheology.maxwell_fitting import Miss
+
+    require_ending(form, output)
+    settings = Settings(Miss(error_percent, error_deg), poisson, UNITS[units], name)
+    click.echo(export_law(read_law_file(law, temperatures_c, frequencies_hz), settings, form, output))

@@ -1,0 +1,1 @@
+"""Laws in the files of other programs: one module for each format."""

@@ -1,0 +1,43 @@
+"""ABAQUS: a *MATERIAL with *ELASTIC, *VISCOELASTIC, TIME=PRONY and *TRS.
+
+Conventions of the Abaqus Keywords Reference: g_i and k_i are shares of the instantaneous shear and bulk
+modulus, followed by tau_i; *TRS, DEFINITION=WLF takes theta_0, C1, C2 of
+log10 A = -C1 (theta - theta_0) / (C2 + theta - theta_0), and the reduced time is t / A.
+"""
+
+from __future__ import annotations
+
+import re
+
+from asphalt_nscd.exports.card import Card, number
+from asphalt_nscd.files.errors import InputError
+
+LONGEST_NAME = 80
+
+
+def text(card: Card) -> str:
+    """The card as lines of an input file."""
+    name, series = card.settings.name, card.series
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name) or len(name) > LONGEST_NAME:
+        raise InputError(
+            f"material name {name!r}: begin with a letter, then letters, digits, - and _, "
+            f"at most {LONGEST_NAME} characters."
+        )
+    lines = [
+        *card.comment("**"),
+        f"*MATERIAL, NAME={name}",
+        "*ELASTIC, MODULI=INSTANTANEOUS",
+        f"{number(card.settings.units.of(series.instantaneous))}, {number(card.poisson)}",
+        "*VISCOELASTIC, TIME=PRONY",
+        *(
+            f"{number(weight)}, {number(weight)}, {number(time)}"
+            for weight, time in zip(series.weights, series.times, strict=True)
+        ),
+    ]
+    wlf = card.law.wlf()
+    if wlf is not None:
+        lines += [
+            "*TRS, DEFINITION=WLF",
+            ", ".join(number(value) for value in (wlf.reference_temperature, wlf.c1, wlf.c2)),
+        ]
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,189 @@
+"""What an export writes: a law, its Prony series with the error, Poisson's ratio and units, and how to say it."""
+
+from __future__ import annotations
+
+import textwrap
+from dataclasses import dataclass, replace
+from decimal import ROUND_UP, Context, Decimal
+
+from asphalt_nscd import __version__
+from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.chain import KelvinChain
+from asphalt_nscd.rheology.maxwell import MaxwellSeries, of_chain
+from asphalt_nscd.rheology.maxwell_fitting import Miss, fit_series, miss
+
+POISSON = 0.35  # of the bonds of Quezada & Chazallon (2020)
+LEAST_LONG_TERM = 1e-6  # of the instantaneous modulus: programs want a solid at infinite time
+ROUNDING = 1e-6  # % or deg: an error of arithmetic alone
+WIDTH = 100  # characters of a line of comment
+
+
+@dataclass(frozen=True)
+class Units:
+    """A consistent system of units. stress: its unit; pascals: how many Pa that is."""
+
+    name: str
+    stress: str
+    pascals: float
+
+    def of(self, modulus: float) -> float:
+        """A modulus [Pa] in these units."""
+        return modulus / self.pascals
+
+
+UNITS = {"SI": Units("m, N, s, Pa", "Pa", 1.0), "mm-N-MPa": Units("mm, N, s, MPa", "MPa", 1e6)}
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the user chooses. poisson None: assumed; name: of the material."""
+
+    allowed: Miss = Miss(1.0, 0.5)
+    poisson: float | None = None
+    units: Units = UNITS["SI"]
+    name: str = "ASPHALT"
+
+    def __post_init__(self) -> None:
+        if self.poisson is not None and not -1.0 < self.poisson < 0.5:
+            raise InputError(
+                f"Poisson's ratio {self.poisson:g}: give a number greater than -1 and less than 0.5, "
+                "such as 0.35."
+            )
+
+
+@dataclass(frozen=True)
+class Card:
+    """A law as a Prony series at `law.temperature`, with its largest errors over the band."""
+
+    law: ExportedLaw
+    settings: Settings
+    series: MaxwellSeries
+    error: Miss
+    exact: bool
+
+    @property
+    def poisson(self) -> float:
+        """The stated ratio, or the assumed one."""
+        return POISSON if self.settings.poisson is None else self.settings.poisson
+
+    def solid(self) -> Card:
+        """The card with a long-term modulus above zero, as programs for solids want it."""
+        series = self.series.solid(LEAST_LONG_TERM)
+        if series == self.series:
+            return self
+        return replace(
+            self, series=series, error=miss(series, self.law.at_reference, *self.law.reduced_band())
+        )
+
+    def achieved(self) -> str:
+        """Number of terms and largest errors, in words."""
+        terms = f"{len(self.series.moduli)} Prony terms at {self.law.temperature:g} degC"
+        return f"{terms}, largest errors {_short(self.error.percent)} % of |E*| and {_short(self.error.degrees)} deg"
+
+    def poisson_said(self) -> str:
+        """Poisson's ratio and where it comes from, in words."""
+        stated = "as stated by --poisson" if self.settings.poisson is not None else "assumed, not measured"
+        return f"Poisson's ratio {self.poisson:g} ({stated})"
+
+    def statements(self) -> list[str]:
+        """What a reader must know, one sentence an item."""
+        law, units = self.law, self.settings.units
+        low, high = law.reduced_band()
+        said = [
+            f"Linear viscoelastic law of an asphalt mix, written by asphalt-nscd {__version__} from {law.path.name}.",
+            f"Law: {law.name}; source: {law.source}.",
+            "Parameters: " + ", ".join(f"{key} = {value:.6g}" for key, value in law.parameters.items()) + ".",
+            f"{self._tests()} {law.loose()}",
+            f"Units: {units.name}; temperature in degC.",
+            f"Series: {self.achieved()}, against the law"
+            + (" (the law's own exact form)." if self.exact else "."),
+            f"Band of these errors: {law.band}"
+            + (f", that is {low:.4g} to {high:.4g} rad/s at {law.temperature:g} degC." if law.shift else "."),
+            f"Instantaneous modulus {self._modulus(self.series.instantaneous)}, long-term modulus "
+            f"{self._modulus(self.series.long_term)}." + self._limits(),
+            f"{self.poisson_said()}, constant in time: shear and bulk moduli relax alike.",
+        ]
+        if law.kind == "kelvin_chain":
+            said.append("A chain of bonds: its moduli may hold the factor that makes up for a packing.")
+        if law.shift is None:
+            said.append(f"Holds at {law.temperature:g} degC only: the law has no shift.")
+        else:
+            said.append(f"Shift: {self._shift()}")
+        return said
+
+    def comment(self, sign: str) -> list[str]:
+        """The statements as lines of comment."""
+        return [
+            f"{sign} {line}".encode("ascii", "replace").decode()
+            for statement in self.statements()
+            for line in textwrap.wrap(statement, WIDTH, subsequent_indent="  ")
+        ]
+
+    def _tests(self) -> str:
+        """How far the law itself is from the tests it was fitted to."""
+        rms = self.law.rms_log_residual
+        if rms is None:
+            return "The file does not say how far the law is from tests."
+        return f"The law itself is {100.0 * rms:.2g} % (root mean square of |ln E*|) from the tests it was fitted to."
+
+    def _modulus(self, modulus: float) -> str:
+        return f"{self.settings.units.of(modulus):.6g} {self.settings.units.stress}"
+
+    def _limits(self) -> str:
+        """Why the limits of the series are not those of the law."""
+        if self.exact:
+            if self.series.long_term == 0.0:
+                return " The law flows."
+            flows = self.series.long_term < 1.01 * LEAST_LONG_TERM * self.series.instantaneous
+            return (
+                f" The law flows; {LEAST_LONG_TERM:g} of the instantaneous modulus stands for none."
+                if flows
+                else ""
+            )
+        keys = ("E_glassy_Pa", "E_static_Pa")
+        limits = [self.law.parameters.get(key) for key in keys]
+        if None in limits:
+            return " Outside the band the series does not follow the law."
+        glassy, static = (self._modulus(limit) for limit in limits if limit is not None)
+        return (
+            f" Outside the band the series does not follow the law, whose limits are {glassy} and {static}."
+        )
+
+    def _shift(self) -> str:
+        wlf = self.law.wlf()
+        assert wlf is not None
+        form = "log10 a_T = -C1 (T - T0) / (C2 + T - T0), relaxation times are multiplied by a_T"
+        constants = f"T0 = {wlf.reference_temperature:g} degC, C1 = {wlf.c1:.6g}, C2 = {wlf.c2:.6g} K"
+        if wlf is self.law.shift:
+            return f"{form}; {constants}."
+        return f"{form}; {constants}, which are the Arrhenius shift of the law written as WLF, without approximation."
+
+
+def make_card(law: ExportedLaw, settings: Settings) -> Card:
+    """The card of a law: exact where its series is finite, else fitted within the allowed error."""
+    low, high = law.reduced_band()
+    chain = law.law.as_chain() if isinstance(law.law, Burgers) else law.law
+    if isinstance(chain, KelvinChain) and chain.spring < float("inf"):
+        series = of_chain(chain)
+        if not series.moduli:
+            raise InputError(f"{law.path}: a spring alone, which does not relax; enter its modulus by hand.")
+        return Card(law, settings, series, miss(series, law.at_reference, low, high), exact=True)
+    try:
+        series, error = fit_series(law.at_reference, low, high, settings.allowed)
+    except InputError as refusal:
+        raise InputError(f"{law.path}: {refusal}") from None
+    return Card(law, settings, series, error, exact=False)
+
+
+def number(value: float) -> str:
+    """A number as all programs read it, ten digits."""
+    return f"{value:.9E}"
+
+
+def _short(value: float) -> str:
+    """Two digits, rounded up: an error is never understated."""
+    if value < ROUNDING:
+        return f"less than {ROUNDING:g}"
+    return f"{float(Context(prec=2, rounding=ROUND_UP).create_decimal(Decimal(value))):.2g}"

@@ -1,0 +1,57 @@
+"""A law file in the format of another program, and one line on what was written."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+
+from asphalt_nscd.exports.card import Card, Settings, make_card
+from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import atomic_path
+
+SOLIDS = ("abaqus", "ansys", "comsol")  # programs that want a solid at infinite time
+# Format: its module and the endings of its files, the usual one first.
+FORMATS = {
+    "abaqus": ("abaqus", (".inp",)),
+    "ansys": ("ansys", (".inp", ".mac", ".dat", ".txt")),
+    "comsol": ("comsol", (".txt",)),
+    "csv": ("prony_table", (".csv",)),
+    "xlsx": ("workbook", (".xlsx",)),
+    "mepdg": ("mepdg", (".csv",)),
+}
+
+
+def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Path) -> str:
+    """Write a law in one of FORMATS; a line that says what and how well."""
+    output = Path(output)
+    require_ending(form, output)
+    module = import_module(f"asphalt_nscd.exports.{FORMATS[form][0]}")
+    if form == "mepdg":
+        table = module.make_table(law)
+        content, said = module.text(table), module.said(table)
+    else:
+        card = make_card(law, settings)
+        card = card.solid() if form in SOLIDS else card
+        if form == "xlsx":
+            with atomic_path(output) as path:
+                module.write(card, path)
+            return f"{output}: {_said(card)}"
+        content, said = module.text(card), _said(card)
+    with atomic_path(output) as path:
+        path.write_text(content, encoding="utf-8")
+    return f"{output}: {said}"
+
+
+def require_ending(form: str, output: Path) -> None:
+    """Refuse an output whose ending is not of the format."""
+    endings = FORMATS[form][1]
+    if output.suffix.lower() not in endings:
+        raise InputError(
+            f"{output}: a file of format {form} ends in {' or '.join(endings)}; rename the output."
+        )
+
+
+def _said(card: Card) -> str:
+    shift = "" if card.law.shift else ", no shift"
+    return f"{card.achieved()} over {card.law.band}{shift}; {card.poisson_said()}."

@@ -1,0 +1,204 @@
+"""A law file of any kind as exports need it: the law, its shift, and the band in which it was tested."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.written import read_residuals
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.paths import is_file
+from asphalt_nscd.files.store import read_json
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.chain import KelvinChain
+from asphalt_nscd.rheology.laws_io import numbers_of, read_bond_law
+from asphalt_nscd.rheology.shift import GAS_CONSTANT, WLF, ZERO_CELSIUS, Arrhenius
+from asphalt_nscd.rheology.spectrum import LAWS, Spectrum
+from asphalt_nscd.rheology.spectrum_io import read_spectrum
+
+Vector = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+ONE_TEMPERATURE = ("burgers", "kelvin_chain")
+NAMES = {
+    "burgers": "Burgers",
+    "kelvin_chain": "Kelvin chain",
+    "2s2p1d": "2S2P1D",
+    "huet-sayegh": "Huet-Sayegh",
+}
+LOOSE = 0.5  # standard error over value, from which a parameter is hardly determined
+# Where neither the file nor the user says what was tested.
+USUAL_TEMPERATURES = (-10.0, 0.0, 10.0, 20.0, 30.0, 40.0)  # degC
+USUAL_FREQUENCIES = (0.1, 1.0, 10.0, 40.0)  # Hz
+_SAID = ("temperature_C", "rms_log_residual")
+
+
+@dataclass(frozen=True)
+class Band:
+    """Tested temperatures [degC] and frequencies [Hz], one of each for every test; origin: who says so."""
+
+    temperature: Vector
+    frequency: Vector
+    origin: str
+
+    def __str__(self) -> str:
+        frequencies = f"{self.frequency.min():g} to {self.frequency.max():g} Hz ({self.origin})"
+        low, high = self.temperature.min(), self.temperature.max()
+        return f"{low:g} degC, {frequencies}" if low == high else f"{low:g} to {high:g} degC, {frequencies}"
+
+
+@dataclass(frozen=True)
+class ExportedLaw:
+    """A law and what its file says. shift is None for a law of one temperature.
+
+    temperature [degC]: the only one, or the reference temperature of the shift.
+    """
+
+    path: Path
+    kind: str
+    source: str
+    law: Spectrum | Burgers | KelvinChain
+    temperature: float
+    shift: WLF | Arrhenius | None
+    band: Band
+    parameters: dict[str, float]  # under the keys of the file, which carry the units
+    std_error: dict[str, float]  # of some of them
+    rms_log_residual: float | None  # of the fit to tests
+    unseen: tuple[str, ...] = ()  # parameters that the tests do not determine at all
+
+    @property
+    def name(self) -> str:
+        """Kind of law and of shift, in words."""
+        shift = {WLF: ", WLF shift", Arrhenius: ", Arrhenius shift"}.get(type(self.shift), "")
+        return f"{NAMES[self.kind]}{shift}"
+
+    def loose(self) -> str:
+        """A sentence on parameters that the tests do not determine; empty where there are none."""
+        found = [
+            key
+            for key, value in self.parameters.items()
+            if key in self.unseen or self.std_error.get(key, 0.0) > LOOSE * abs(value)
+        ]
+        if not found:
+            return ""
+        return f"The tests hardly determine {', '.join(found)}: do not trust the law beyond them."
+
+    def at_reference(self, omega: Vector) -> Complex:
+        """E* [Pa] at angular frequencies omega [rad/s] and `temperature`."""
+        if self.shift is None:
+            return self.law.complex_modulus(omega)  # type: ignore[call-arg]
+        return self.law.complex_modulus(omega, self.temperature)  # type: ignore[call-arg]
+
+    def factor(self, temperature: Vector) -> Vector:
+        """a_T at temperatures [degC]; 1 for a law of one temperature."""
+        return np.ones_like(temperature) if self.shift is None else self.shift.factor(temperature)
+
+    def defined(self, temperature: Vector) -> NDArray[np.bool_]:
+        """Whether the shift is defined at temperatures [degC]; a WLF shift ends C2 below its reference."""
+        if not isinstance(self.shift, WLF):
+            return np.full(temperature.shape, True)
+        return temperature - self.shift.reference_temperature + self.shift.c2 > 0.0
+
+    def reduced_band(self) -> tuple[float, float]:
+        """Lowest and highest angular frequency [rad/s] of the tests, shifted to `temperature`."""
+        reduced = 2.0 * np.pi * self.band.frequency * self.factor(self.band.temperature)
+        return float(reduced.min()), float(reduced.max())
+
+    def wlf(self) -> WLF | None:
+        """The shift as WLF constants.
+
+        An Arrhenius shift is one without approximation: exp(Q/R (1/T - 1/T0)) = 10^(-C1 dT / (C2 + dT))
+        with C2 = T0 in kelvin and C1 = Q / (R T0 ln 10).
+        """
+        if not isinstance(self.shift, Arrhenius):
+            return self.shift
+        return as_wlf(self.shift)
+
+
+def as_wlf(shift: Arrhenius) -> WLF:
+    """WLF constants of an Arrhenius shift, the same at all temperatures.
+
+    >>> arrhenius = Arrhenius(activation_energy=200e3, reference_temperature=15.0)
+    >>> (as_wlf(arrhenius).factor([-20, 40]) / arrhenius.factor([-20, 40])).round(12).tolist()
+    [1.0, 1.0]
+    """
+    reference = shift.reference_temperature + ZERO_CELSIUS
+    c1 = shift.activation_energy / (GAS_CONSTANT * reference * math.log(10.0))
+    return WLF(c1, reference, shift.reference_temperature)
+
+
+def read_law_file(
+    path: str | Path,
+    temperatures: tuple[float, ...] | None = None,
+    frequencies: tuple[float, ...] | None = None,
+) -> ExportedLaw:
+    """Read a law of a study, of a diagnosis or of the extended simulation.
+
+    temperatures [degC], frequencies [Hz]: the tested ones, every pair. Where they are absent, those of
+    residuals.csv beside the law of a diagnosis, or the band of a Kelvin chain, or usual ones.
+    """
+    path = Path(path)
+    content = read_json(path)
+    kind = content.get("law") if isinstance(content, dict) else None
+    if kind not in NAMES:
+        raise InputError(f"{path}: holds law {kind!r}; give a file with one of {', '.join(NAMES)}.")
+    law: Any
+    if kind in LAWS:
+        law = read_spectrum(path)
+        shift, temperature = law.shift, law.shift.reference_temperature
+    else:
+        law, shift = read_bond_law(path), None
+        temperature = numbers_of(path, content, {"temperature": "temperature_C"})["temperature"]
+        if temperatures is not None:
+            raise InputError(
+                f"{path}: a law of one temperature, {temperature:g} degC; leave out --temperatures-c, "
+                "or give a law of all temperatures, such as law.json of a diagnosis."
+            )
+        temperatures = (temperature,)
+    band = _band(path, content, temperatures, frequencies)
+    rms = content.get("rms_log_residual")
+    return ExportedLaw(
+        path, kind, str(content.get("source")), law, temperature, shift, band, _numbers(content),
+        _numbers(content.get("std_error")), rms if isinstance(rms, float) else None,
+        tuple(str(name) for name in content.get("unseen") or ()),
+    )  # fmt: skip
+
+
+def _numbers(content: Any) -> dict[str, float]:
+    """What is a number in a part of the file, but for what is said elsewhere."""
+    if not isinstance(content, dict):
+        return {}
+    return {
+        key: float(value)
+        for key, value in content.items()
+        if key not in _SAID and isinstance(value, int | float) and not isinstance(value, bool)
+    }
+
+
+def _band(
+    path: Path, content: dict[str, Any], temperatures: tuple[float, ...] | None,
+    frequencies: tuple[float, ...] | None,
+) -> Band:  # fmt: skip
+    one = content["law"] in ONE_TEMPERATURE
+    residuals = path.with_name("residuals.csv")
+    if not one and temperatures is None and frequencies is None and is_file(residuals):
+        tests = read_residuals([residuals])
+        return Band(
+            tests["temperature_C"].to_numpy(float), tests["frequency_Hz"].to_numpy(float),
+            "the tests in residuals.csv",
+        )  # fmt: skip
+    origin = "as stated"
+    if frequencies is None and content["law"] == "kelvin_chain":
+        ends = numbers_of(path, content, {"low": "lowest_Hz", "high": "highest_Hz"})
+        frequencies, origin = (ends["low"], ends["high"]), "band of the chain"
+    if frequencies is None or temperatures is None:
+        origin = "assumed, the file does not say what was tested"
+    pairs = np.array(
+        [(t, f) for t in temperatures or USUAL_TEMPERATURES for f in frequencies or USUAL_FREQUENCIES]
+    )
+    return Band(pairs[:, 0], pairs[:, 1], origin)

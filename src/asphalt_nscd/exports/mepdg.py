@@ -1,0 +1,153 @@
+"""AASHTOWare Pavement ME: |E*| in psi at the standard temperatures and frequencies, and its sigmoid.
+
+log10 |E*| = delta + alpha / (1 + exp(beta + gamma log10 t_r)), with |E*| in psi and t_r = 1 / (f a_T) in
+seconds at 70 degF (NCHRP 1-37A, part 2, chapter 2). The table holds values of the law, not of the sigmoid.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from asphalt_nscd import __version__
+from asphalt_nscd.exports.card import WIDTH
+from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.files.errors import InputError
+
+TEMPERATURES_F = (14.0, 40.0, 70.0, 100.0, 130.0)
+FREQUENCIES = (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)  # Hz
+REFERENCE_F = 70.0
+PSI = 6894.757293168  # Pa
+ROUNDING = 1e-6  # relative, of the ends of the tested band
+FIRST = (4.0, 2.5, -1.0, 0.5)  # delta, alpha, beta, gamma
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Table:
+    """|E*| [psi] by temperature (rows) and frequency; outside: words on values beyond the tests.
+
+    sigmoid: delta, alpha, beta, gamma; error_percent: its largest error in |E*|; log_shift: log10 a_T
+    of the temperatures, from 70 degF.
+    """
+
+    law: ExportedLaw
+    modulus: Vector
+    outside: list[list[str]]
+    sigmoid: tuple[float, float, float, float]
+    error_percent: float
+    log_shift: Vector
+
+
+def sigmoid(parameters: Vector, log_time: Vector) -> Vector:
+    """log10 |E*| at log10 of reduced time [s]."""
+    delta, alpha, beta, gamma = parameters
+    return delta + alpha / (1.0 + np.exp(beta + gamma * log_time))
+
+
+def make_table(law: ExportedLaw) -> Table:
+    """The table of a law of all temperatures."""
+    if law.shift is None:
+        raise InputError(
+            f"{law.path}: a law of one temperature, {law.temperature:g} degC, but this table has five; "
+            "give a law of all temperatures, such as law.json of a diagnosis."
+        )
+    celsius = (np.array(TEMPERATURES_F) - 32.0) / 1.8
+    frequency = np.array(FREQUENCIES)
+    defined = law.defined(celsius)
+    if not defined[TEMPERATURES_F.index(REFERENCE_F)]:
+        raise InputError(
+            f"{law.path}: its WLF shift is not defined at {REFERENCE_F:g} degF; give a law of colder tests."
+        )
+    factor = np.full(celsius.size, np.nan)
+    factor[defined] = law.factor(celsius[defined])
+    reduced = 2.0 * np.pi * frequency * factor[:, None]
+    modulus = np.full(reduced.shape, np.nan)
+    modulus[defined] = np.abs(law.at_reference(reduced[defined])) / PSI
+    log_shift = np.log10(factor / factor[TEMPERATURES_F.index(REFERENCE_F)])
+    log_time = -(np.log10(frequency) + log_shift[:, None])
+
+    def off(x: Vector) -> Vector:
+        return (sigmoid(x, log_time[defined]) - np.log10(modulus[defined])).ravel()
+
+    found = least_squares(off, FIRST, x_scale=(1.0, 1.0, 1.0, 0.3), max_nfev=2000)
+    low, high = law.reduced_band()
+    warmest, coldest = law.band.temperature.max(), law.band.temperature.min()
+    outside = [
+        [
+            _outside(reduced[row, column], low, high) + _outside_temperature(t, coldest, warmest)
+            for column in range(frequency.size)
+        ]
+        for row, t in enumerate(celsius)
+    ]
+    error = float(100.0 * np.abs(10.0 ** off(found.x) - 1.0).max())
+    delta, alpha, beta, gamma = (float(value) for value in found.x)
+    return Table(law, modulus, outside, (delta, alpha, beta, gamma), error, log_shift)
+
+
+def _outside(reduced: float, low: float, high: float) -> str:
+    """`f` where the reduced frequency is beyond those of the tests, and where there is none."""
+    return "" if low * (1.0 - ROUNDING) <= reduced <= high * (1.0 + ROUNDING) else "f"
+
+
+def _outside_temperature(celsius: float, coldest: float, warmest: float) -> str:
+    """`T` where the shift itself is extrapolated, by more than half a kelvin."""
+    return "" if coldest - 0.5 <= celsius <= warmest + 0.5 else "T"
+
+
+def said(table: Table) -> str:
+    """One line on the table."""
+    beyond = sum(bool(cell) for row in table.outside for cell in row)
+    return (
+        f"30 values of |E*| in psi, {beyond} of them extrapolated beyond {table.law.band}; "
+        f"sigmoid within {table.error_percent:.2g} % of them."
+    )
+
+
+def text(table: Table) -> str:
+    """The table as CSV; lines that begin with # are comment."""
+    law = table.law
+    delta, alpha, beta, gamma = table.sigmoid
+    statements = [
+        f"Dynamic modulus of an asphalt mix, written by asphalt-nscd {__version__} from {law.path.name}.",
+        f"Law: {law.name}; source: {law.source}. Tested: {law.band}.",
+        "The table holds |E*| of the law in psi: enter it as dynamic modulus, input level 1.",
+        f"Sigmoid: log10 |E*| = delta + alpha / (1 + exp(beta + gamma log10 t_r)), |E*| in psi, "
+        f"t_r = 1 / (f a_T) in s at 70 degF: delta = {delta:.6g}, alpha = {alpha:.6g}, beta = {beta:.6g}, "
+        f"gamma = {gamma:.6g}; largest error {table.error_percent:.2g} % of |E*| against the table.",
+        "log10 a_T from 70 degF: "
+        + ", ".join(f"{t:g} degF {x:.5f}" for t, x in zip(TEMPERATURES_F, table.log_shift, strict=True))
+        + ("; nan: the shift of the law is not defined so cold." if np.isnan(table.log_shift).any() else "."),
+        f"{_extrapolated(table)} {law.loose()}",
+    ]
+    lines = [
+        f"# {line}".encode("ascii", "replace").decode()
+        for statement in statements
+        for line in textwrap.wrap(statement, WIDTH, subsequent_indent="  ")
+    ]
+    lines.append("temperature_F," + ",".join(f"E_psi_at_{f:g}_Hz" for f in FREQUENCIES))
+    for temperature, row in zip(TEMPERATURES_F, table.modulus, strict=True):
+        lines.append(f"{temperature:g}," + ",".join("" if np.isnan(v) else f"{v:.0f}" for v in row))
+    return "\n".join(lines) + "\n"
+
+
+def _extrapolated(table: Table) -> str:
+    """Which values lie beyond the tests."""
+    found = [
+        f"{temperature:g} degF {frequency:g} Hz ({cell})"
+        for temperature, row in zip(TEMPERATURES_F, table.outside, strict=True)
+        for frequency, cell in zip(FREQUENCIES, row, strict=True)
+        if cell
+    ]
+    if not found:
+        return "No value is extrapolated beyond the tested band."
+    return (
+        "Extrapolated beyond the tests (f: reduced frequency, T: temperature of the shift): "
+        + ", ".join(found)
+        + "."
+    )

@@ -1,0 +1,27 @@
+"""CSV: the Prony series as a table, under comment lines that say what it is."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from asphalt_nscd.exports.card import Card
+
+
+def frame(card: Card) -> pd.DataFrame:
+    """One row a branch; row 0 is the long-term modulus, whose relaxation time is infinite."""
+    series, units = card.series, card.settings.units
+    moduli = [series.long_term, *series.moduli]
+    return pd.DataFrame(
+        {
+            "branch": range(len(moduli)),
+            f"modulus_{units.stress}": [units.of(modulus) for modulus in moduli],
+            "relaxation_time_s": [float("inf"), *series.times],
+            "share_of_instantaneous": [modulus / series.instantaneous for modulus in moduli],
+        }
+    )
+
+
+def text(card: Card) -> str:
+    """The table as CSV; lines that begin with # are comment."""
+    table = frame(card).to_csv(index=False, float_format="%.10g", lineterminator="\n")
+    return "\n".join(card.comment("#")) + "\n" + table

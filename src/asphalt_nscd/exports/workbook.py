@@ -1,0 +1,185 @@
+"""A workbook: law, shift factors, master curve, Prony series, and of a diagnosis tests, residuals, suspects."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from openpyxl import Workbook
+from openpyxl.styles import Alignment, Font
+from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.worksheet import Worksheet
+
+from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
+from asphalt_nscd.exports.card import Card
+from asphalt_nscd.files.paths import is_file
+
+IN_A_DECADE = 8  # frequencies of the master curve
+STEP = 5.0  # K, of the shift factors
+WIDEST = 90  # characters of a column
+
+HEADINGS = {
+    "specimen": "specimen",
+    "temperature_C": "temperature [°C]",
+    "frequency_Hz": "frequency [Hz]",
+    "E_MPa": "measured |E*| [MPa]",
+    "phase_deg": "measured phase [°]",
+    "E_before_MPa": "|E*| of the Burgers laws [MPa]",
+    "phase_before_deg": "phase of the Burgers laws [°]",
+    "residual_E_before_percent": "ln(measured |E*| / Burgers laws) [%]",
+    "residual_phase_before_deg": "measured phase - Burgers laws [°]",
+    "E_after_MPa": "|E*| with the named causes [MPa]",
+    "phase_after_deg": "phase with the named causes [°]",
+    "residual_E_after_percent": "ln(measured |E*| / named causes) [%]",
+    "residual_phase_after_deg": "measured phase - named causes [°]",
+}
+
+
+def write(card: Card, path: Path) -> None:
+    """Write the workbook of a card, with what stands beside its law in the folder of a diagnosis."""
+    book = Workbook()
+    book.remove(book.worksheets[0])
+    _fill(book, "Read me", pd.DataFrame({"what this is": card.statements()}))
+    _fill(book, "Law", _law(card))
+    if card.law.shift is not None:
+        _fill(book, "Shift factors", _shift_factors(card))
+    _fill(book, "Master curve" if card.law.shift is not None else "Complex modulus", _master_curve(card))
+    _fill(book, "Prony series", _prony(card))
+    folder = card.law.path.parent
+    if card.law.shift is not None and is_file(folder / "residuals.csv"):
+        tests = read_residuals([folder / "residuals.csv"])
+        _fill(book, "Measured", _measured(card, tests))
+        _fill(book, "Residuals", tests.rename(columns=HEADINGS))
+        if is_file(folder / "diagnosis.json"):
+            _diagnosis(book, read_diagnosis([folder / "diagnosis.json"]))
+    book.save(path)
+
+
+def _law(card: Card) -> pd.DataFrame:
+    """Parameters under the keys of the law file, which carry the units."""
+    law = card.law
+    rows = [(name, value, law.std_error.get(name)) for name, value in law.parameters.items()]
+    return pd.DataFrame(
+        [("law", law.name, None), ("source", law.source, None), *rows],
+        columns=["parameter, unit at the end of its name", "value", "standard error"],
+    )
+
+
+def _shift_factors(card: Card) -> pd.DataFrame:
+    tested = np.unique(card.law.band.temperature)
+    even = np.arange(STEP * np.ceil(tested.min() / STEP), tested.max() + 1e-9, STEP)
+    temperature = np.unique(np.concatenate([tested, even, [card.law.temperature]]))
+    factor = card.law.factor(temperature)
+    return pd.DataFrame(
+        {
+            "temperature [°C]": temperature,
+            f"a_T from {card.law.temperature:g} °C [1]": factor,
+            "log10 a_T [decades]": np.log10(factor),
+            "tested": np.where(np.isin(temperature, tested), "yes", ""),
+        }
+    )
+
+
+def _master_curve(card: Card) -> pd.DataFrame:
+    low, high = card.law.reduced_band()
+    omega = np.geomspace(low, high, max(3, round(IN_A_DECADE * np.log10(high / low)) + 1))
+    law, series = card.law.at_reference(omega), card.series.complex_modulus(omega)
+    return pd.DataFrame(
+        {
+            f"frequency at {card.law.temperature:g} °C [Hz]": omega / (2.0 * np.pi),
+            "|E*| of the law [MPa]": np.abs(law) / 1e6,
+            "phase of the law [°]": np.degrees(np.angle(law)),
+            "E' of the law [MPa]": law.real / 1e6,
+            "E'' of the law [MPa]": law.imag / 1e6,
+            "|E*| of the Prony series [MPa]": np.abs(series) / 1e6,
+            "phase of the Prony series [°]": np.degrees(np.angle(series)),
+        }
+    )
+
+
+def _prony(card: Card) -> pd.DataFrame:
+    """As the CSV has it, but the infinite time of the long-term modulus is left empty."""
+    series, units = card.series, card.settings.units
+    moduli = np.array([series.long_term, *series.moduli])
+    return pd.DataFrame(
+        {
+            "branch (0: long-term modulus)": range(moduli.size),
+            f"modulus [{units.stress}]": moduli / units.pascals,
+            "relaxation time [s]": [None, *series.times],
+            "share of the instantaneous modulus [1]": moduli / series.instantaneous,
+        }
+    )
+
+
+def _measured(card: Card, tests: pd.DataFrame) -> pd.DataFrame:
+    """Each test beside the law of this file."""
+    factor = card.law.factor(tests["temperature_C"].to_numpy(float))
+    reduced = tests["frequency_Hz"].to_numpy(float) * factor
+    law = card.law.at_reference(2.0 * np.pi * reduced)
+    modulus, phase = np.abs(law) / 1e6, np.degrees(np.angle(law))
+    own = tests[["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]]
+    return own.rename(columns=HEADINGS).assign(
+        **{
+            f"frequency at {card.law.temperature:g} °C [Hz]": reduced,
+            "|E*| of the law [MPa]": modulus,
+            "phase of the law [°]": phase,
+            "ln(measured |E*| / law) [%]": 100.0 * np.log(own["E_MPa"] / modulus),
+            "measured phase - law [°]": own["phase_deg"] - phase,
+        }
+    )
+
+
+def _diagnosis(book: Workbook, content: dict[str, Any]) -> None:
+    """Suspect tests and unexplained conditions, where the diagnosis has any, and its notes."""
+    for key, title in (("suspect_tests", "Suspects"), ("unexplained", "Unexplained")):
+        if content.get(key):
+            _fill(book, title, pd.json_normalize(content[key]).rename(columns=_heading))
+    if content.get("notes"):
+        _fill(book, "Notes", pd.DataFrame({"note of the diagnosis": content["notes"]}))
+
+
+def _heading(name: str) -> str:
+    """A key of the diagnosis as a heading: residual_E_percent -> residual E [percent]."""
+    if name in HEADINGS:
+        return HEADINGS[name].removeprefix("measured ")
+    stem, _, unit = name.rpartition("_")
+    known = unit in ("percent", "deg", "MPa", "Hz", "C", "s")
+    return f"{stem.replace('_', ' ')} [{unit}]" if known else name.replace("_", " ")
+
+
+def _fill(book: Workbook, title: str, frame: pd.DataFrame) -> None:
+    """A sheet with a heading that stays in sight."""
+    sheet: Worksheet = book.create_sheet(title)
+    sheet.append(list(frame.columns))
+    for row in frame.astype(object).itertuples(index=False):
+        sheet.append([_cell(value) for value in row])
+    for cells in sheet.iter_rows():
+        for cell in cells:
+            if isinstance(cell.value, str):
+                cell.data_type = "s"  # text that begins with = is no formula
+            elif isinstance(cell.value, float) and _wide(cell.value):
+                cell.number_format = "0.0000E+00"
+    for number, name in enumerate(frame.columns, start=1):
+        longest = max([len(str(name)), *(len(v) for v in frame[name] if isinstance(v, str))])
+        sheet.column_dimensions[get_column_letter(number)].width = min(longest + 2, WIDEST)
+    for cell in sheet[1]:
+        cell.font, cell.alignment = Font(bold=True), Alignment(wrap_text=True, vertical="top")
+    if longest > WIDEST:
+        for (cell,) in sheet.iter_rows(min_row=2, max_col=1):
+            cell.alignment = Alignment(wrap_text=True, vertical="top")
+    sheet.freeze_panes = "A2"
+
+
+def _cell(value: Any) -> Any:
+    """A value as a workbook holds it: no numpy types, nothing for what is not a number."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, list | tuple | dict):
+        return str(value)
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+def _wide(value: float) -> bool:
+    return value != 0.0 and not 1e-2 <= abs(value) < 1e5

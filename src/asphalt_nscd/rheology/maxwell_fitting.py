@@ -1,0 +1,192 @@
+"""The generalised Maxwell model with the fewest branches that follows a law within a stated error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares, nnls
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.maxwell import MaxwellSeries
+
+Vector = NDArray[np.float64]
+Modulus = Callable[[Vector], NDArray[np.complex128]]
+
+MOST_TERMS = 60
+REACH = np.geomspace(0.1, 10.0, 16)  # of the relaxation times beyond the band, tried in turn
+FITTED, TESTED = 12, 60  # frequencies in a decade for the fit, and for the error
+ROUNDS = 8  # of reweighting, which turns least squares towards the least largest error
+NEGLIGIBLE = 1e-9  # of the largest modulus: a branch that least squares left by rounding
+SMALLEST = 1e-6  # long-term modulus over the sum, from which a logarithm can start
+
+
+@dataclass(frozen=True)
+class Miss:
+    """Largest errors of a series: of |E*| [%] and of the phase [deg]."""
+
+    percent: float
+    degrees: float
+
+    def within(self, allowed: Miss) -> bool:
+        """Whether neither error is larger than the one allowed."""
+        return self.percent <= allowed.percent and self.degrees <= allowed.degrees
+
+
+def miss(series: MaxwellSeries, modulus: Modulus, lowest_omega: float, highest_omega: float) -> Miss:
+    """Largest errors of a series against a law, E* [Pa], from lowest_omega to highest_omega [rad/s]."""
+    return _miss(series, modulus, _grid(lowest_omega, highest_omega, TESTED))
+
+
+def fit_series(
+    modulus: Modulus, lowest_omega: float, highest_omega: float, allowed: Miss
+) -> tuple[MaxwellSeries, Miss]:
+    """(series, its errors) of the fewest branches found that stay within `allowed` over the band.
+
+    modulus: E* [Pa] at angular frequencies (n,); lowest_omega, highest_omega [rad/s]: the band. All
+    moduli are positive, so that the series is passive. Relaxation times start evenly spaced on a
+    logarithmic scale with moduli from non-negative least squares (as in `conversion.kelvin_chain`).
+    From the number that suffices so, branches are taken away while times and moduli, refined
+    together, still meet the error: first from even spacing, then with two neighbours merged.
+    Outside the band the series is whatever follows from within.
+    """
+    if not 0.0 < lowest_omega <= highest_omega < np.inf:
+        raise InputError(
+            f"band from {lowest_omega:g} to {highest_omega:g} rad/s: give a lowest frequency that is "
+            "positive and not above the highest."
+        )
+    if not (allowed.percent > 0.0 and allowed.degrees > 0.0):
+        raise InputError("error of a Prony series: give a positive error in % of |E*| and in degrees.")
+    omega, dense = (_grid(lowest_omega, highest_omega, count) for count in (FITTED, TESTED))
+    target, tested = modulus(omega), modulus(dense)
+    found: tuple[MaxwellSeries, Miss] | None = None
+    starts: dict[int, MaxwellSeries] = {}
+    for terms in range(1, MOST_TERMS + 1):
+        tries = [_spaced(omega, target, terms, reach, allowed) for reach in REACH]
+        starts[terms] = min(tries, key=lambda series: _size(_miss_of(series, tested, dense), allowed))
+        error = _miss_of(starts[terms], tested, dense)
+        if error.within(allowed):
+            found = starts[terms], error
+            break
+    if found is None:
+        best = min((_miss_of(series, tested, dense) for series in starts.values()), key=lambda m: m.percent)
+        raise InputError(
+            f"no Prony series of {MOST_TERMS} terms or fewer follows the law to {allowed.percent:g} % and "
+            f"{allowed.degrees:g} deg from {lowest_omega:g} to {highest_omega:g} rad/s, the best to "
+            f"{best.percent:.2g} % and {best.degrees:.2g} deg; allow a larger error."
+        )
+    terms = len(found[0].moduli)
+    while terms:
+        for start in (starts[terms], _merged(found[0], terms)):
+            series = _refined(start, omega, target, allowed)
+            error = _miss_of(series, tested, dense)
+            if error.within(allowed):
+                found = series, error
+                break
+        else:
+            return found
+        terms = len(found[0].moduli) - 1
+    return found
+
+
+def _merged(series: MaxwellSeries, terms: int) -> MaxwellSeries:
+    """The series with the neighbours nearest in log time merged, until so many terms are left."""
+    moduli, times = list(series.moduli), list(series.times)
+    while len(moduli) > terms:
+        first = int(np.argmin(np.diff(np.log(times))))
+        share = moduli[first] / (moduli[first] + moduli[first + 1])
+        times[first : first + 2] = [times[first] ** share * times[first + 1] ** (1.0 - share)]
+        moduli[first : first + 2] = [moduli[first] + moduli[first + 1]]
+    return MaxwellSeries(series.long_term, tuple(moduli), tuple(times))
+
+
+def _spaced(
+    omega: Vector, target: NDArray[np.complex128], terms: int, reach: float, allowed: Miss
+) -> MaxwellSeries:
+    """Series of evenly spaced relaxation times; moduli by non-negative least squares."""
+    middle, half = np.sqrt(omega[0] * omega[-1]), max(np.sqrt(omega[-1] / omega[0]) * reach, 1.0)
+    times = np.geomspace(1.0 / half, half, terms) / middle if terms > 1 else np.array([1.0 / middle])
+    turned = 1j * omega[:, None] * times
+    # parts over the modulus: their sum is to be one, whatever the law's size
+    relative = np.hstack([np.ones((omega.size, 1)), turned / (1.0 + turned)]) / target[:, None]
+    scale = np.array([_scales(allowed)]).T.repeat(omega.size, axis=1).ravel()
+    system = np.vstack([relative.real, relative.imag]) / scale[:, None]
+    wanted = np.concatenate([np.ones(omega.size), np.zeros(omega.size)]) / scale
+    size = np.linalg.norm(system, axis=0)
+    values = nnls(system / size, wanted)[0] / size
+    kept = values[1:] > NEGLIGIBLE * values.max()
+    return MaxwellSeries(float(values[0]), tuple(values[1:][kept].tolist()), tuple(times[kept].tolist()))
+
+
+def _refined(
+    start: MaxwellSeries, omega: Vector, target: NDArray[np.complex128], allowed: Miss
+) -> MaxwellSeries:
+    """Series with times and moduli moved together, towards the least largest error over what is allowed.
+
+    Coordinates are logarithms, so that all values stay positive. Weights grow where the error is
+    large (Lawson 1961).
+    """
+    terms = len(start.moduli)
+    first = np.log([max(start.long_term, SMALLEST * sum(start.moduli)), *start.moduli, *start.times])
+    scales = _scales(allowed)
+    weight = np.ones(2 * omega.size)
+
+    def parts(x: Vector) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+        turned = 1j * omega[:, None] * np.exp(x[terms + 1 :])
+        branches = np.exp(x[1 : terms + 1]) * turned / (1.0 + turned)
+        return branches, branches / (1.0 + turned)
+
+    def residual(x: Vector) -> Vector:
+        off = np.log((np.exp(x[0]) + parts(x)[0].sum(axis=1)) / target)
+        return np.concatenate([off.real / scales[0], off.imag / scales[1]])
+
+    def slope(x: Vector) -> Vector:
+        branches, by_time = parts(x)
+        total = np.exp(x[0]) + branches.sum(axis=1)
+        columns = np.hstack([np.full((omega.size, 1), np.exp(x[0])), branches, by_time]) / total[:, None]
+        return np.vstack([columns.real / scales[0], columns.imag / scales[1]])
+
+    best, x = (np.inf, first), first
+    for _ in range(ROUNDS):
+        root = np.sqrt(weight)
+        x = least_squares(
+            lambda x, root=root: root * residual(x), x, jac=lambda x, root=root: root[:, None] * slope(x),
+            max_nfev=100,
+        ).x  # fmt: skip
+        left = np.abs(residual(x))
+        best = min(best, (float(left.max()), x), key=lambda pair: pair[0])
+        weight *= left / left.max()
+        weight = np.maximum(weight / weight.mean(), 1e-4)
+    values = np.exp(best[1])
+    order = np.argsort(values[terms + 1 :])
+    return MaxwellSeries(
+        float(values[0]),
+        tuple(values[1 : terms + 1][order].tolist()),
+        tuple(values[terms + 1 :][order].tolist()),
+    )
+
+
+def _scales(allowed: Miss) -> tuple[float, float]:
+    """Allowed errors of ln |E*| and of the phase [rad]."""
+    return float(np.log1p(allowed.percent / 100.0)), float(np.radians(allowed.degrees))
+
+
+def _size(found: Miss, allowed: Miss) -> float:
+    return max(found.percent / allowed.percent, found.degrees / allowed.degrees)
+
+
+def _miss(series: MaxwellSeries, modulus: Modulus, omega: Vector) -> Miss:
+    return _miss_of(series, modulus(omega), omega)
+
+
+def _miss_of(series: MaxwellSeries, target: NDArray[np.complex128], omega: Vector) -> Miss:
+    ratio = series.complex_modulus(omega) / target
+    return Miss(
+        float(100.0 * np.abs(np.abs(ratio) - 1.0).max()), float(np.degrees(np.abs(np.angle(ratio)).max()))
+    )
+
+
+def _grid(low: float, high: float, in_a_decade: int) -> Vector:
+    return np.geomspace(low, high, max(3, round(in_a_decade * np.log10(high / low)) + 1))
