@@ -15,8 +15,9 @@ from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameter_names
 Vector = NDArray[np.float64]
 
 # Each parameter in the coordinate of the fit: its bounds, and the range of the random starts.
-# Moduli over the largest norm, tau times the middle frequency, c2 above its least value and the
-# activation energy over 1e5 J/mol are logarithms, as are delta, beta and c1; h and k/h are log-odds.
+# Moduli over the largest norm, tau times the middle frequency, c1/c2 in decades/K and the activation energy over
+# 1e5 J/mol are logarithms, as are delta and beta; h and k/h are log-odds. c2 is the curvature of the shift, its
+# least value over it: a straight shift, c2 infinite, is then a short way off and not an endless valley.
 RANGES = {
     "static_modulus": (-14.0, -0.1, -8.0, -4.0),
     "glassy_modulus": (-0.5, 3.0, 0.0, 1.0),
@@ -25,15 +26,15 @@ RANGES = {
     "delta": (-5.0, 6.0, 0.0, 1.5),
     "tau": (-15.0, 15.0, -3.0, 8.0),
     "beta": (-3.0, 15.0, 2.0, 8.0),
-    "c1": (0.0, 8.0, 2.0, 3.5),
-    "c2": (-5.0, 10.0, 3.0, 5.5),
+    "c1": (-6.0, 1.0, -2.6, -1.4),
+    "c2": (1e-3, 0.999, 0.1, 0.6),
     "activation_energy": (-5.0, 3.0, 0.0, 1.5),
 }
 MARGIN = 1e-2  # from a bound within which a fitted coordinate lies at it
 SEED = 20200117  # of the random starts; any value, fixed so that a fit can be repeated
 GUESSES = (1.2, 2.0)  # glassy modulus over the largest norm, of the starts from usual values
 SLOPES = (0.08, 0.14, 0.2)  # decades/K of their shifts
-TAUS = np.arange(-12.0, 12.5, 0.5)
+TAUS = np.arange(-12.0, 13.0)
 
 
 class Coordinates:
@@ -62,7 +63,8 @@ class Coordinates:
         values["h"] = float(expit(given["h"]))
         values["k"] = values["h"] * float(expit(given["k"]))
         if "c2" in values:
-            values["c2"] += self.least_c2
+            values["c2"] = self.least_c2 / given["c2"]
+            values["c1"] *= values["c2"]
         shift = self.shift(
             **{name: values[name] for name in self.of_shift}, reference_temperature=self.reference
         )
@@ -75,8 +77,8 @@ class Coordinates:
         slope[h, h] = slope[k, h] = expit(-x[h])
         slope[k, k] = expit(-x[k])
         if "c2" in self.names:
-            c2 = self.names.index("c2")
-            slope[c2, c2] = expit(x[c2] - np.log(self.least_c2))
+            c1, c2 = self.names.index("c1"), self.names.index("c2")
+            slope[c1, c2] = slope[c2, c2] = -1.0 / x[c2]
         return slope
 
     def inside(self, x: Vector) -> NDArray[np.bool_]:
@@ -94,7 +96,7 @@ class Coordinates:
                 x = np.zeros(self.low.size)
                 for name, value in self._usual(guess, slope).items():
                     x[self.names.index(name)] = value
-                group = np.tile(np.clip(x, self.low + 0.1, self.high - 0.1), (TAUS.size, 1))
+                group = np.tile(np.clip(x, self.low + 2.0 * MARGIN, self.high - 2.0 * MARGIN), (TAUS.size, 1))
                 group[:, self.names.index("tau")] = TAUS
                 yield group
 
@@ -108,7 +110,7 @@ class Coordinates:
             out["beta"] = np.log(USUAL["beta"].median)
         if "c2" in self.names:
             c2 = max(USUAL["c2"].median + self.reference - REFERENCE_TEMPERATURE, 1.5 * self.least_c2)
-            out |= {"c1": np.log(slope * c2), "c2": np.log(c2 - self.least_c2)}
+            out |= {"c1": np.log(slope), "c2": self.least_c2 / c2}
         else:
             usual = USUAL["activation_energy"].median * slope / USUAL["wlf_slope"].median
             out["activation_energy"] = np.log(usual / self.scales["activation_energy"])

@@ -18,7 +18,7 @@ LEAST_TEMPERATURES = {"wlf": 3, "arrhenius": 2}
 NO_EFFECT = 1e-5  # of a parameter on the residuals, relative to that of the strongest one
 LEAST_STARTS = 4
 AGREE = 1e-4  # relative difference of the objectives of two starts that found the same optimum
-PRECISE = 1e-12  # tolerance of a fit
+ROUGH, PRECISE = 1e-8, 1e-12  # tolerances of a trial and of the fit
 COARSE = 0.05  # scatter at which the starts with a prior begin
 SCATTER = 0.01, 2.0  # of a test, relative and in rad, with a prior, and the residuals that this guess is worth
 SETTLED, ROUNDS = 1e-4, 30  # relative change of the scatter that ends its search, and rounds at most
@@ -95,10 +95,11 @@ class _Problem:
             return tests @ coordinates
         return np.vstack([tests, self.prior.standardised(parameters(law), self.at.reference)[1]]) @ coordinates
 
-    def solve(self, start: Vector) -> OptimizeResult:
+    def solve(self, start: Vector, tolerance: float = ROUGH) -> OptimizeResult:
+        # The coordinates are of order one. Scaled by the Jacobian instead, ten times the steps in a flat valley.
         return least_squares(
-            self.residual, start, self.jacobian, bounds=(self.at.low, self.at.high), x_scale="jac",
-            xtol=PRECISE, ftol=PRECISE, gtol=PRECISE,
+            self.residual, start, self.jacobian, bounds=(self.at.low, self.at.high),
+            xtol=tolerance, ftol=tolerance, gtol=tolerance,
         )  # fmt: skip
 
     def starts(self) -> list[Vector]:
@@ -112,24 +113,24 @@ class _Problem:
         usual = [min(group, key=cost) for group in self.at.usual_starts()]
         return sorted(usual, key=cost)[:2] + sorted(self.at.random_starts(STARTS), key=cost)
 
-    def best(self, *first: Vector) -> OptimizeResult:
+    def best(self, starts: list[Vector]) -> OptimizeResult:
         """The lowest optimum of several starts; once enough were tried, two that agree on it end the search."""
         found: list[OptimizeResult] = []
-        for start in [*first, *self.starts()]:
+        for start in starts:
             found.append(self.solve(start))
             found.sort(key=lambda solution: solution.cost)
-            if len(found) >= LEAST_STARTS and found[1].cost <= (1.0 + AGREE) * found[0].cost + PRECISE:
+            if len(found) >= LEAST_STARTS and found[1].cost <= (1.0 + AGREE) * found[0].cost + ROUGH**2:
                 break
         return found[0]
 
-    def settle(self, known: bool, *first: Vector) -> OptimizeResult:
+    def settle(self, solution: OptimizeResult, known: bool) -> OptimizeResult:
         """The optimum at the scatter that its own residuals have; the prior counts the more, the larger that is."""
-        solution = self.best(*first)
         for _ in range(ROUNDS):
             before, self.scatter = self.scatter, self.scatter_of(solution, known)
-            solution = self.solve(solution.x)
             if abs(self.scatter / before - 1.0) < SETTLED:
                 break
+            solution = self.solve(solution.x)
+        self.scatter = before
         return solution
 
     def scatter_of(self, solution: OptimizeResult, known: bool) -> float:
@@ -160,12 +161,12 @@ class _Problem:
     def fit(self, known: bool) -> Fit[Spectrum]:
         """known: whether the deviations are the scatter of the tests, or only its ratios."""
         if self.prior is None:
-            solution = self.best()
-        else:
-            self.scatter = 1.0 if known else COARSE
-            solution = self.settle(known)
-            solution = self.settle(known, solution.x)
-        return self.result(solution, known)
+            return self.result(self.solve(self.best(self.starts()).x, PRECISE), known)
+        self.scatter = 1.0 if known else COARSE
+        starts = self.starts()
+        first = self.settle(self.solve(starts[0]), known)
+        last = self.settle(self.best([first.x, *starts]), known)
+        return self.result(self.solve(last.x, PRECISE), known)
 
     def result(self, solution: OptimizeResult, known: bool) -> Fit[Spectrum]:
         at, seen, law = self.at, self.seen(solution), self.at.build(solution.x)
