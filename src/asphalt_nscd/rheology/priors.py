@@ -10,7 +10,7 @@ reference temperature C1 and C2 follow from C1 C2 = const and C2 - T_ref = const
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -89,6 +89,11 @@ class Prior:
         median = np.log([self.usual[names[row]].median for row in rows])
         deviation = np.array([self.usual[names[row]].deviation for row in rows])
         return (log[rows] - median) / deviation, slope[rows] / deviation[:, None]
+
+    def largest(self, name: str) -> float:
+        """A value (SI units) ten deviations above the median, beyond what any tests will find; 0 without one."""
+        usual = self.usual.get(name)
+        return 0.0 if usual is None else usual.median * float(np.exp(10.0 * usual.deviation))
 
     def not_determined(
         self, values: Mapping[str, float], covariance: NDArray[np.float64], reference_temperature: float

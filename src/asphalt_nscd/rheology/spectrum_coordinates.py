@@ -41,9 +41,13 @@ class Coordinates:
     """Coordinates x (p,) of a law of LAWS with a shift of SHIFTS for given tests."""
 
     def __init__(
-        self, law: str, shift: str, omega: Vector, temperature: Vector, largest: float, reference: float
-    ) -> None:
-        """omega (n,) [rad/s], temperature (n,) [degC]; largest: norm of E* [Pa]; reference: of the shift [degC]."""
+        self, law: str, shift: str, omega: Vector, temperature: Vector, largest: float, reference: float,
+        largest_glassy: float = 0.0,
+    ) -> None:  # fmt: skip
+        """omega (n,) [rad/s], temperature (n,) [degC]; largest: norm of E* [Pa]; reference: of the shift [degC].
+
+        largest_glassy [Pa]: up to which a glassy modulus is sought at least.
+        """
         self.law, self.shift, self.reference = LAWS[law], SHIFTS[shift], float(reference)
         self.own, self.of_shift = parameter_names(self.law), parameter_names(self.shift)
         self.names = self.own + self.of_shift
@@ -54,7 +58,10 @@ class Coordinates:
         # The shift is singular at c2 below the coldest test; 5 K keeps the steps of the fit off it.
         coldest = min(float(temperature.min()), REFERENCE_TEMPERATURE)
         self.least_c2 = max(0.0, self.reference - coldest) + 5.0
-        self.low, self.high, self.first, self.last = np.array([RANGES[name] for name in self.names]).T
+        self.low, self.high, self.first, self.last = np.array([RANGES[name] for name in self.names]).T.copy()
+        # Hot tests alone lie further below the glassy modulus; where no prior says so it is unseen anyway.
+        glassy = self.names.index("glassy_modulus")
+        self.high[glassy] = max(self.high[glassy], np.log(max(largest_glassy, largest) / largest))
 
     def build(self, x: Vector) -> Spectrum:
         """The law at x."""
@@ -91,7 +98,7 @@ class Coordinates:
 
     def usual_starts(self) -> Iterator[NDArray[np.float64]]:
         """Groups (t, p) of usual laws that differ by tau; the best of a group is a start."""
-        for guess in GUESSES:
+        for guess in (*GUESSES, USUAL["glassy_modulus"].median / self.scales["glassy_modulus"]):
             for slope in SLOPES:
                 x = np.zeros(self.low.size)
                 for name, value in self._usual(guess, slope).items():

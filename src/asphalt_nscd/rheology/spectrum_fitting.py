@@ -20,7 +20,10 @@ LEAST_STARTS = 4
 AGREE = 1e-4  # relative difference of the objectives of two starts that found the same optimum
 ROUGH, PRECISE = 1e-8, 1e-12  # tolerances of a trial and of the fit
 COARSE = 0.05  # scatter at which the starts with a prior begin
-SCATTER = 0.01, 2.0  # of a test, relative and in rad, with a prior, and the residuals that this guess is worth
+SCATTER = (
+    0.01,
+    2.0,
+)  # of a test, relative and in rad, with a prior, and the residuals that this guess is worth
 SETTLED, ROUNDS = 1e-4, 30  # relative change of the scatter that ends its search, and rounds at most
 
 
@@ -51,7 +54,8 @@ def fit_spectrum(
             f"measure at least {(needed + 1) // 2}."
         )
     largest = float(np.abs(modulus).max())
-    at = Coordinates(law, shift, omega, temperature, largest, reference_temperature)
+    reach = 0.0 if prior is None else prior.largest("glassy_modulus")
+    at = Coordinates(law, shift, omega, temperature, largest, reference_temperature, reach)
     deviations = _deviations(weights, modulus.size)
     return _Problem(at, omega, temperature, modulus, deviations, prior).fit(known=weights is not None)
 
@@ -93,7 +97,9 @@ class _Problem:
         tests = -np.concatenate([slopes.real, slopes.imag]) / (self.deviations * self.scatter)[:, None]
         if self.prior is None:
             return tests @ coordinates
-        return np.vstack([tests, self.prior.standardised(parameters(law), self.at.reference)[1]]) @ coordinates
+        return (
+            np.vstack([tests, self.prior.standardised(parameters(law), self.at.reference)[1]]) @ coordinates
+        )
 
     def solve(self, start: Vector, tolerance: float = ROUGH) -> OptimizeResult:
         # The coordinates are of order one. Scaled by the Jacobian instead, ten times the steps in a flat valley.
@@ -178,7 +184,8 @@ class _Problem:
             variance = self.scatter_of(solution, known) ** 2
         covariance = covariance_of(solution, seen, variance)
         unseen = {name for name, visible in zip(at.names, seen, strict=True) if not visible}
-        std_error, from_prior = None, ()
+        std_error: dict[str, float] | None = None
+        from_prior: tuple[str, ...] = ()
         if covariance is not None:
             slopes = at.log_slopes(solution.x)[:, seen]
             covariance = slopes @ covariance @ slopes.T  # of the logarithms of all parameters
