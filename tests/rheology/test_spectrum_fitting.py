@@ -189,6 +189,13 @@ def test_weights_are_standard_deviations():
     one, two = (fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0, weights=(s, s)) for s in (0.02, 0.04))
     assert parameters(one.law) == pytest.approx(parameters(two.law), rel=1e-5)
     assert one.std_error["k"] == pytest.approx(two.std_error["k"] / 2, rel=1e-5)
+    alone, small = (
+        fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0),
+        (1e-3, 1e-3),
+    )  # less than the residuals show
+    assert fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0, weights=small).std_error == pytest.approx(
+        alone.std_error, rel=1e-4
+    )
     wrong, size = modulus.copy(), np.full(modulus.size, 0.01)
     wrong[7] *= 1.5 * np.exp(0.3j)
     size[7] = 100.0

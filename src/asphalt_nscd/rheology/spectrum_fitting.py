@@ -20,10 +20,7 @@ LEAST_STARTS = 4
 AGREE = 1e-4  # relative difference of the objectives of two starts that found the same optimum
 ROUGH, PRECISE = 1e-8, 1e-12  # tolerances of a trial and of the fit
 COARSE = 0.05  # scatter at which the starts with a prior begin
-SCATTER = (
-    0.01,
-    2.0,
-)  # of a test, relative and in rad, with a prior, and the residuals that this guess is worth
+SCATTER = 0.01, 2.0  # of a test beside a prior, relative and in rad; how many residuals this guess is worth
 SETTLED, ROUNDS = 1e-4, 30  # relative change of the scatter that ends its search, and rounds at most
 
 
@@ -134,9 +131,9 @@ class _Problem:
         for _ in range(ROUNDS):
             before, self.scatter = self.scatter, self.scatter_of(solution, known)
             if abs(self.scatter / before - 1.0) < SETTLED:
+                self.scatter = before  # that of the solution
                 break
             solution = self.solve(solution.x)
-        self.scatter = before
         return solution
 
     def scatter_of(self, solution: OptimizeResult, known: bool) -> float:
