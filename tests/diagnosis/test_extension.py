@@ -93,8 +93,10 @@ def test_what_the_tests_do_not_determine_is_said():
     fit = Fit(LAW, None, 0.0, 10)
     assert prior_notes(fit) == []
     assert prior_notes(replace(fit, from_prior=("glassy_modulus",))) == [
-        "The tests do not determine the glassy modulus (42 GPa) of the law in law.json: what asphalt concrete usually "
-        "has decides, so this is not a finding."
+        "The tests do not determine the glassy modulus (42 GPa) of the law in law.json: they follow from what asphalt "
+        "concrete usually has and are not a finding."
     ]
     (said,) = prior_notes(replace(fit, from_prior=("static_modulus", "c1", "c2")))
     assert "the static modulus (1 MPa), C1 (12) and C2 (80 K) of the law" in said
+    long = replace(fit, law=replace(LAW, beta=506.0), from_prior=("beta",))
+    assert "beta (510) of" in prior_notes(long)[0]

@@ -91,13 +91,13 @@ def prior_notes(fit: Fit) -> list[str]:
     words = []
     for name in fit.from_prior:
         term, unit, factor = TERMS[name]
-        words.append(f"{term} ({factor * values[name]:.2g}{unit})")
+        words.append(f"{term} ({float(f'{factor * values[name]:.2g}'):g}{unit})")
     if not words:
         return []
     listed = words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
     return [
-        f"The tests do not determine {listed} of the law in law.json: what asphalt concrete usually has decides, "
-        "so this is not a finding."
+        f"The tests do not determine {listed} of the law in law.json: they follow from what asphalt concrete "
+        "usually has and are not a finding."
     ]
 
 
