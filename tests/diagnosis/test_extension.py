@@ -1,17 +1,19 @@
 """What a diagnosis named stands in the bond laws and the rig of the extended simulation."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 
 from asphalt_nscd.bending.rig import read_rig
-from asphalt_nscd.diagnosis.extension import extend
+from asphalt_nscd.diagnosis.extension import extend, prior_notes
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.simulated import SHIPPED, read_specimen
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor
+from asphalt_nscd.rheology.fitting import Fit
 from asphalt_nscd.rheology.laws_io import read_bond_law
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
@@ -85,3 +87,16 @@ def test_self_heating_warms_the_fast_tests_most(folder):
 def test_a_file_that_is_no_diagnosis_is_refused(folder):
     with pytest.raises(InputError, match="not a diagnosis of this version"):
         extended(folder, [{"cause": "witchcraft"}])
+
+
+def test_what_the_tests_do_not_determine_is_said():
+    fit = Fit(LAW, None, 0.0, 10)
+    assert prior_notes(fit) == []
+    assert prior_notes(replace(fit, from_prior=("glassy_modulus",))) == [
+        "The tests do not determine the glassy modulus (42 GPa) of the law in law.json: they follow from what asphalt "
+        "concrete usually has and are not a finding."
+    ]
+    (said,) = prior_notes(replace(fit, from_prior=("static_modulus", "c1", "c2")))
+    assert "the static modulus (1 MPa), C1 (12) and C2 (80 K) of the law" in said
+    long = replace(fit, law=replace(LAW, beta=506.0), from_prior=("beta",))
+    assert "beta (510) of" in prior_notes(long)[0]

@@ -96,6 +96,16 @@ def test_stages_of_growth(tmp_path, beam):
     assert 0.2 < ratio < 2.0
 
 
+def test_fits_of_a_law(tmp_path):
+    """A row for each size and band; only hot tests leave parameters to the prior."""
+    run(tmp_path, "law.py", "--output", "rows.csv")
+    rows = pd.read_csv(tmp_path / "rows.csv")
+    assert rows.case.is_unique and len(rows) == 6 and (rows.cpu_s > 0.0).all()
+    hot = rows.case.str.contains("45 to 55")
+    assert rows.remark[hot].str.contains("glassy_modulus").all()
+    assert (rows.remark[~hot] == "from the prior: nothing").all()
+
+
 def test_a_stage_beyond_memory_says_so(monkeypatch):
     """In its row, with those that need it; nothing is raised."""
     monkeypatch.syspath_prepend(str(BENCHMARKS))

@@ -1,5 +1,7 @@
 """Continuous laws: their limits, and time-temperature superposition."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -56,3 +58,23 @@ def test_parameters_by_name():
         "static_modulus": 100e6, "glassy_modulus": 42e9, "k": 0.2, "h": 0.6, "delta": 1.64, "tau": 0.14,
         "beta": 28.0, "c1": 11.7, "c2": 79.9,
     }  # fmt: skip
+
+
+@pytest.mark.parametrize("law", [LAW, HUET])
+@pytest.mark.parametrize("shift", [SHIFT, Arrhenius(2e5, 15.0)])
+def test_slopes_are_those_of_finite_differences(law, shift):
+    law = replace(law, shift=shift)
+    omega, temperature = (x.ravel() for x in np.meshgrid([0.6, 60.0, 250.0], [-10.0, 15.0, 40.0]))
+    slopes, step = law.log_slopes(omega, temperature), 1e-5
+    assert slopes.shape == (omega.size, len(parameters(law)))
+
+    def logarithm(name, factor):
+        part = law if hasattr(law, name) else law.shift
+        moved = replace(part, **{name: factor * getattr(part, name)})
+        moved = moved if part is law else replace(law, shift=moved)
+        return np.log(moved.complex_modulus(omega, temperature))
+
+    for column, name in enumerate(parameters(law)):
+        expected = (logarithm(name, np.exp(step)) - logarithm(name, np.exp(-step))) / (2.0 * step)
+        assert np.abs(expected).max() > 1e-4
+        assert slopes[:, column] == pytest.approx(expected, rel=1e-6, abs=1e-9)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE, USUAL
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
 from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D, parameters
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
@@ -115,3 +116,92 @@ def test_too_few_temperatures_for_a_shift_are_refused(shift, least):
 def test_too_few_points_are_refused():
     with pytest.raises(InputError, match="3 points cannot determine 9 parameters; measure at least 5"):
         fit_spectrum(FREQUENCIES[:3], [0.0, 10.0, 20.0], np.full(3, 1e9 + 1e8j), 15.0)
+
+
+def scattered(law, omega, temperature, size=0.01, seed=3):
+    noise = np.random.default_rng(seed).standard_normal((2, omega.size))
+    return law.complex_modulus(omega, temperature) * np.exp(size * (noise[0] + 1j * noise[1]))
+
+
+def moves(law, omega, temperature):
+    """Change of each parameter by the prior, in standard errors of the fit without it."""
+    modulus = scattered(law, omega, temperature)
+    alone = fit_spectrum(omega, temperature, modulus, 15.0)
+    held = fit_spectrum(omega, temperature, modulus, 15.0, prior=ASPHALT_CONCRETE)
+    assert alone.unseen == () == held.from_prior
+    found, before = parameters(held.law), parameters(alone.law)
+    return {name: (found[name] - before[name]) / alone.std_error[name] for name in found}
+
+
+def test_a_prior_moves_what_the_tests_determine_by_less_than_a_standard_error():
+    """A law at the edges of the published ranges, on the paper's grid."""
+    law = replace(SPECTRUM, static_modulus=150e6, glassy_modulus=20e9, delta=3.5)
+    for truth in (SPECTRUM, law):
+        assert max(map(abs, moves(truth, OMEGA, TEMPERATURE).values())) < 1.0
+
+
+def test_a_prior_pulls_an_undetermined_glassy_modulus_into_the_usual_range():
+    """Of tests at 45-55 degC on a mix of 100 GPa, and of 12 GPa, only the soft end is seen."""
+    omega, temperature = (
+        x.ravel() for x in np.meshgrid(2 * np.pi * np.geomspace(0.1, 3, 5), [45.0, 50.0, 55.0])
+    )
+    found = []
+    for glassy in (100e9, 12e9):
+        modulus = scattered(replace(SPECTRUM, glassy_modulus=glassy), omega, temperature)
+        fit = fit_spectrum(omega, temperature, modulus, 15.0, prior=ASPHALT_CONCRETE)
+        assert "glassy_modulus" in fit.from_prior and "glassy_modulus" in fit.unseen
+        assert fit.rms_log_residual < 0.016  # scatter alone is 0.014
+        assert "glassy_modulus" not in (fit_spectrum(omega, temperature, modulus, 15.0).std_error or {})
+        found.append(fit.law.glassy_modulus)
+        usual = USUAL["glassy_modulus"]
+        assert fit.std_error["glassy_modulus"] == pytest.approx(usual.deviation * found[-1], rel=0.3)
+    assert all(20e9 < value < 50e9 for value in found)
+
+
+def test_posterior_errors_cover_the_truth():
+    """Truth drawn from the prior, tests that leave half of it open: errors in posterior deviations are of unit size."""
+    random = np.random.default_rng(8)
+    omega, temperature = np.tile(FREQUENCIES, 3), np.repeat([0.0, 10.0, 20.0], 5)
+    scores = []
+    for seed in range(30):
+        drawn = {name: u.median * np.exp(u.deviation * random.standard_normal()) for name, u in USUAL.items()}
+        shift = WLF(drawn["wlf_slope"] * drawn["c2"], drawn["c2"], 15.0)
+        own = {name: drawn[name] for name in ("static_modulus", "glassy_modulus", "k", "delta", "beta")}
+        truth = TwoS2P1D(**own, h=min(drawn["h"], 0.9), tau=0.1, shift=shift)
+        modulus = scattered(truth, omega, temperature, seed=seed)
+        fit = fit_spectrum(
+            omega,
+            temperature,
+            modulus,
+            15.0,
+            prior=ASPHALT_CONCRETE,
+            weights=(0.01, np.full(omega.size, 0.01)),
+        )
+        for name, value in parameters(truth).items():
+            found = parameters(fit.law)[name]
+            scores.append(np.log(found / value) / (fit.std_error[name] / found))
+    assert 0.8 < np.sqrt(np.mean(np.square(scores))) < 1.25
+
+
+def test_weights_are_standard_deviations():
+    """Twice the stated scatter gives twice the errors; a test of large scatter no longer counts."""
+    modulus = scattered(SPECTRUM, OMEGA, TEMPERATURE)
+    one, two = (fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0, weights=(s, s)) for s in (0.02, 0.04))
+    assert parameters(one.law) == pytest.approx(parameters(two.law), rel=1e-5)
+    assert one.std_error["k"] == pytest.approx(two.std_error["k"] / 2, rel=1e-5)
+    alone, small = (
+        fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0),
+        (1e-3, 1e-3),
+    )  # less than the residuals show
+    assert fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0, weights=small).std_error == pytest.approx(
+        alone.std_error, rel=1e-4
+    )
+    wrong, size = modulus.copy(), np.full(modulus.size, 0.01)
+    wrong[7] *= 1.5 * np.exp(0.3j)
+    size[7] = 100.0
+    left = fit_spectrum(OMEGA, TEMPERATURE, wrong, 15.0, weights=(size, size)).law
+    kept = np.arange(modulus.size) != 7
+    without = fit_spectrum(OMEGA[kept], TEMPERATURE[kept], modulus[kept], 15.0).law
+    assert parameters(left) == pytest.approx(parameters(without), rel=1e-3)
+    with pytest.raises(InputError, match="standard deviation of a test is not positive"):
+        fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0, weights=(0.01, 0.0))

@@ -33,6 +33,14 @@ def test_content(tmp_path):
     }  # fmt: skip
 
 
+def test_what_a_prior_decided_is_written(tmp_path):
+    content = write_spectrum(
+        tmp_path / "law.json", SPECTRUM, source="", rms_log_residual=0.0, unseen=["c2"], from_prior=["c2"]
+    )
+    assert content["unseen"] == content["from_prior"] == ["wlf_C2_K"]
+    assert read_spectrum(tmp_path / "law.json") == SPECTRUM
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [

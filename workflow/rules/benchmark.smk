@@ -113,6 +113,20 @@ rule benchmark_fclib:
         MEASURE + "/fclib.py {input.problems} --output {output} > {log} 2>&1"
 
 
+rule benchmark_law:
+    # One law fitted to tests at all temperatures.
+    input:
+        code=["benchmarks/law.py", code("diagnose")],
+    output:
+        "results/benchmark/rows/law.csv",
+    log:
+        "results/benchmark/logs/law.log",
+    message:
+        "Fit a law to 54, 120 and 1000 tests"
+    shell:
+        MEASURE + "/law.py --output {output} > {log} 2>&1"
+
+
 rule benchmark:
     # One table, the part of it that stands beside peers, and how each stage grows.
     input:
@@ -122,6 +136,7 @@ rule benchmark:
             *expand("results/benchmark/rows/cycle-{method}.csv", method=METHODS),
             *expand("results/benchmark/rows/{part}-{size}.csv", part=["preparation", "growth"], size=SIZES),
             "results/benchmark/rows/fclib.csv",
+            "results/benchmark/rows/law.csv",
         ],
         code="benchmarks/collect.py",
     output:

@@ -28,7 +28,8 @@ from asphalt_nscd.measurements.reduction import LEAST_TESTS
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.fitting import Fit
 from asphalt_nscd.rheology.laws_io import write_chain
-from asphalt_nscd.rheology.spectrum import Spectrum
+from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE
+from asphalt_nscd.rheology.spectrum import Spectrum, parameters
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
@@ -37,12 +38,25 @@ Complex = NDArray[np.complex128]
 TOLERANCE = 1e-3  # of ln E* of a Kelvin chain over the tested band
 FAR = 1.0  # scatter of one test, of the law of the extended simulation from what was found
 MARGIN = 2.0  # of the band, for the transient of a test
+TERMS = {  # a parameter of the law in words, its unit and how many of it are one SI unit
+    "static_modulus": ("the static modulus", " MPa", 1e-6),
+    "glassy_modulus": ("the glassy modulus", " GPa", 1e-9),
+    "k": ("k", "", 1.0),
+    "h": ("h", "", 1.0),
+    "delta": ("delta", "", 1.0),
+    "beta": ("beta", "", 1.0),
+    "c1": ("C1", "", 1.0),
+    "c2": ("C2", " K", 1.0),
+    "activation_energy": ("the activation energy", " kJ/mol", 1e-3),
+}
 
 
 def material_law(diagnosis: Diagnosis) -> Fit:
     """One 2S2P1D law with a WLF shift (nine parameters) of the measurements without the named causes.
 
-    Of two temperatures or four tests, which determine no WLF constants, with an Arrhenius shift.
+    Of two temperatures or four tests, which determine no WLF constants, with an Arrhenius shift. What the tests
+    leave open is as usual for asphalt concrete. Errors of |E*| and of the phase count alike: the misfit of the
+    form exceeds the scatter of the tests, which is therefore no measure of what to trust.
     """
     observed, ladder = diagnosis.observed, diagnosis.ladder
     named = ladder.fitted
@@ -51,7 +65,9 @@ def material_law(diagnosis: Diagnosis) -> Fit:
     modulus = observed.modulus * alone / with_causes
     reference = float(observed.isotherms[observed.isotherms.size // 2])
     shift = "wlf" if observed.isotherms.size > 2 and observed.size > LEAST_TESTS else "arrhenius"
-    return fit_spectrum(observed.omega, observed.temperature, modulus, reference, shift=shift)
+    return fit_spectrum(
+        observed.omega, observed.temperature, modulus, reference, shift=shift, prior=ASPHALT_CONCRETE
+    )
 
 
 def law_notes(diagnosis: Diagnosis, law: Spectrum) -> list[str]:
@@ -66,6 +82,22 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum) -> list[str]:
         f"The law of the extended simulation, 2S2P1D with one shift for all, is {miss:.2g} times the scatter of a test "
         f"away from the law found here, {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*|: so far is that "
         "simulation from these data."
+    ]
+
+
+def prior_notes(fit: Fit) -> list[str]:
+    """A sentence on the parameters of the law that the tests do not determine; none if they determine all."""
+    values = parameters(fit.law)
+    words = []
+    for name in fit.from_prior:
+        term, unit, factor = TERMS[name]
+        words.append(f"{term} ({float(f'{factor * values[name]:.2g}'):g}{unit})")
+    if not words:
+        return []
+    listed = words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+    return [
+        f"The tests do not determine {listed} of the law in law.json: they follow from what asphalt concrete "
+        "usually has and are not a finding."
     ]
 
 

@@ -34,9 +34,10 @@ class Fit(Generic[Law]):
     std_error: standard error of each parameter, by field name and in its unit, all points taken as
     independent (a scatter common to a whole specimen is not); None where the points do not outnumber
     the parameters or do not determine them all. rms_log_residual: root mean square of
-    |ln(E_measured / E_law)| over the points. unseen: parameters at a bound of the fit or without
-    effect on the points; they have no standard error, and those of the others hold them fixed.
-    freedom: residuals (two for each point) less parameters seen.
+    |ln(E_measured / E_law)| over the points. unseen: parameters that the points do not determine. Those at a
+    bound of the fit or without effect have no standard error, and those of the others hold them fixed.
+    from_prior: those of the unseen that have the value, and nearly the standard error, of a prior.
+    freedom: residuals (two for each point) less the parameters that the points determine.
     """
 
     law: Law
@@ -44,6 +45,7 @@ class Fit(Generic[Law]):
     rms_log_residual: float
     freedom: int
     unseen: tuple[str, ...] = ()
+    from_prior: tuple[str, ...] = ()
 
     def interval(self, name: str, level: float = 0.95) -> tuple[float, float]:
         """Confidence interval of a parameter that has a standard error: Student's t on its logarithm."""
@@ -125,18 +127,23 @@ def best_of_starts(
     return min(solutions, key=lambda solution: solution.cost)
 
 
-def covariance_of(solution: OptimizeResult, seen: NDArray[np.bool_] | None = None) -> NDArray | None:
+def covariance_of(
+    solution: OptimizeResult, seen: NDArray[np.bool_] | None = None, variance: float | None = None
+) -> NDArray | None:
     """Covariance of the fitted x, or of its part `seen` with the rest held, from the Jacobian.
 
-    None where the points do not outnumber the unknowns or do not determine them all.
+    variance: of the residuals, where it is known; else it is estimated. None where the points do not outnumber
+    the unknowns or do not determine them all.
     """
     jacobian = solution.jac if seen is None else solution.jac[:, seen]
     freedom = jacobian.shape[0] - jacobian.shape[1]
     singular = np.linalg.svd(jacobian, compute_uv=False)
     # A parameter at its bound moves the residual by e^-14 = 1e-6 at most: the data do not see it.
-    if freedom < 1 or singular[-1] < 1e-5 * singular[0]:
+    if freedom < 0 or singular[-1] < 1e-5 * singular[0] or (freedom == 0 and variance is None):
         return None
-    return 2.0 * solution.cost / freedom * np.linalg.inv(jacobian.T @ jacobian)
+    if variance is None:
+        variance = 2.0 * solution.cost / freedom
+    return variance * np.linalg.inv(jacobian.T @ jacobian)
 
 
 def rms_of(solution: OptimizeResult, points: int) -> float:

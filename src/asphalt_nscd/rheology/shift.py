@@ -35,6 +35,12 @@ class WLF:
             )
         return 10.0 ** (-self.c1 * above / (self.c2 + above))
 
+    def log_slopes(self, temperature: ArrayLike) -> NDArray[np.float64]:
+        """Derivatives (n, 2) of ln a_T at temperature (n,) [degC] with respect to ln c1 and ln c2."""
+        above = np.asarray(temperature, dtype=float) - self.reference_temperature
+        log_factor = -np.log(10.0) * self.c1 * above / (self.c2 + above)
+        return np.column_stack([log_factor, -log_factor * self.c2 / (self.c2 + above)])
+
 
 @dataclass(frozen=True)
 class Arrhenius:
@@ -52,6 +58,10 @@ class Arrhenius:
         kelvin = np.asarray(temperature, dtype=float) + ZERO_CELSIUS
         inverse = 1.0 / kelvin - 1.0 / (self.reference_temperature + ZERO_CELSIUS)
         return np.exp(self.activation_energy / GAS_CONSTANT * inverse)
+
+    def log_slopes(self, temperature: ArrayLike) -> NDArray[np.float64]:
+        """Derivative (n, 1) of ln a_T at temperature (n,) [degC] with respect to ln(activation_energy)."""
+        return np.log(self.factor(temperature))[:, None]
 
 
 SHIFTS = {"wlf": WLF, "arrhenius": Arrhenius}

@@ -25,6 +25,12 @@ class Spectrum(Protocol):
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
         """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
 
+    def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
+        """Derivatives (n, p) of ln E* with respect to the logarithm of each of its `parameters`.
+
+        omega [rad/s], temperature [degC]: vectors (n,).
+        """
+
 
 @dataclass(frozen=True)
 class HuetSayegh:
@@ -48,6 +54,10 @@ class HuetSayegh:
         reduced = 1j * np.asarray(omega, dtype=float) * self.tau * self.shift.factor(temperature)
         retarded = 1.0 + self.delta * reduced**-self.k + reduced**-self.h
         return self.static_modulus + (self.glassy_modulus - self.static_modulus) / retarded
+
+    def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
+        """Derivatives (n, p) of ln E* with respect to the logarithm of each of its `parameters`."""
+        return _log_slopes(self, omega, temperature)
 
 
 @dataclass(frozen=True)
@@ -75,6 +85,32 @@ class TwoS2P1D:
         reduced = 1j * np.asarray(omega, dtype=float) * self.tau * self.shift.factor(temperature)
         retarded = 1.0 + self.delta * reduced**-self.k + reduced**-self.h + 1.0 / (reduced * self.beta)
         return self.static_modulus + (self.glassy_modulus - self.static_modulus) / retarded
+
+    def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
+        """Derivatives (n, p) of ln E* with respect to the logarithm of each of its `parameters`."""
+        return _log_slopes(self, omega, temperature)
+
+
+def _log_slopes(law: HuetSayegh | TwoS2P1D, omega: ArrayLike, temperature: ArrayLike) -> NDArray:
+    """Of the law of three terms in series; without a dashpot its term and its column are absent."""
+    omega = np.asarray(omega, dtype=float)
+    log_reduced = np.log(omega * law.tau * law.shift.factor(temperature)) + 0.5j * np.pi
+    slow, fast = law.delta * np.exp(-law.k * log_reduced), np.exp(-law.h * log_reduced)
+    flow = np.exp(-log_reduced) / law.beta if isinstance(law, TwoS2P1D) else np.zeros(omega.shape, complex)
+    retarded = 1.0 + slow + fast + flow
+    glassy, static = law.glassy_modulus, law.static_modulus
+    modulus = static + (glassy - static) / retarded
+    by_retarded = -(glassy - static) / retarded**2
+    by_reduced = -by_retarded * (law.k * slow + law.h * fast + flow)
+    columns = [
+        static * (1.0 - 1.0 / retarded), glassy / retarded,
+        -by_retarded * slow * log_reduced * law.k, -by_retarded * fast * log_reduced * law.h,
+        by_retarded * slow, by_reduced,
+    ]  # fmt: skip
+    if isinstance(law, TwoS2P1D):
+        columns.append(-by_retarded * flow)
+    columns += list(by_reduced * law.shift.log_slopes(temperature).T)
+    return np.column_stack(columns) / modulus[:, None]
 
 
 LAWS = {"2s2p1d": TwoS2P1D, "huet-sayegh": HuetSayegh}

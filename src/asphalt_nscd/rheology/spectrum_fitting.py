@@ -1,54 +1,41 @@
-"""Fit of one continuous law to all temperatures at once."""
+"""Fit of one continuous law to all temperatures at once, to tests alone or to tests and a prior."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import OptimizeResult
-from scipy.special import expit
+from scipy.optimize import OptimizeResult, least_squares
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.rheology.fitting import (
-    Fit,
-    best_of_starts,
-    covariance_of,
-    log_residual,
-    require_points,
-    rms_of,
-)
+from asphalt_nscd.rheology.fitting import STARTS, Fit, covariance_of, log_residual, require_points
+from asphalt_nscd.rheology.priors import Prior
 from asphalt_nscd.rheology.shift import SHIFTS
 from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameter_names, parameters
+from asphalt_nscd.rheology.spectrum_coordinates import Coordinates
 
+Vector = NDArray[np.float64]
 LEAST_TEMPERATURES = {"wlf": 3, "arrhenius": 2}
-
-# Each parameter in the coordinate of the fit: its bounds, and the range of the random starts.
-# Moduli over the largest norm, tau times the middle frequency, c2 above its least value and the
-# activation energy over 1e5 J/mol are logarithms, as are delta, beta and c1; h and k/h are log-odds.
-RANGES = {
-    "static_modulus": (-14.0, -0.1, -8.0, -4.0),
-    "glassy_modulus": (-0.5, 3.0, 0.0, 1.0),
-    "k": (-5.0, 5.0, -1.5, 0.0),
-    "h": (-5.0, 5.0, -0.5, 2.0),
-    "delta": (-5.0, 6.0, 0.0, 1.5),
-    "tau": (-15.0, 15.0, -3.0, 8.0),
-    "beta": (-3.0, 15.0, 2.0, 8.0),
-    "c1": (0.0, 8.0, 2.0, 3.5),
-    "c2": (-5.0, 10.0, 3.0, 5.5),
-    "activation_energy": (-5.0, 3.0, 0.0, 1.5),
-}
 NO_EFFECT = 1e-5  # of a parameter on the residuals, relative to that of the strongest one
+LEAST_STARTS = 4
+AGREE = 1e-4  # relative difference of the objectives of two starts that found the same optimum
+ROUGH, PRECISE = 1e-8, 1e-12  # tolerances of a trial and of the fit
+COARSE = 0.05  # scatter at which the starts with a prior begin
+SCATTER = 0.01, 2.0  # of a test beside a prior, relative and in rad; how many residuals this guess is worth
+SETTLED, ROUNDS = 1e-4, 30  # relative change of the scatter that ends its search, and rounds at most
 
 
 def fit_spectrum(
     omega: ArrayLike, temperature: ArrayLike, modulus: ArrayLike, reference_temperature: float,
-    law: str = "2s2p1d", shift: str = "wlf",
+    law: str = "2s2p1d", shift: str = "wlf", *,
+    prior: Prior | None = None, weights: tuple[ArrayLike, ArrayLike] | None = None,
 ) -> Fit[Spectrum]:  # fmt: skip
     """A law of LAWS with a shift of SHIFTS, all parameters jointly, from E* [Pa] of all temperatures.
 
-    omega [rad/s], temperature [degC], modulus [Pa]: vectors of one length. Standard errors go by
-    the names of `spectrum.parameters`.
+    omega [rad/s], temperature [degC], modulus [Pa]: vectors (n,). prior: what the parameters usually are;
+    without it only the tests count. weights: standard deviations of ln|E*| and of the phase [rad] of each test,
+    (n,) or one for all; without them both count alike, and the scatter is that of the residuals. Residuals larger
+    than the weights allow widen the standard errors in proportion. Standard errors go by the names of
+    `spectrum.parameters`.
     """
     omega, modulus = require_points(omega, modulus)
     temperature = np.asarray(temperature, dtype=float)
@@ -57,80 +44,157 @@ def fit_spectrum(
         raise InputError(
             f"a shift of kind {shift!r} needs at least {least} temperatures; measure more of them."
         )
-    own, of_shift = parameter_names(LAWS[law]), parameter_names(SHIFTS[shift])
-    names = own + of_shift
-    if 2 * modulus.size < len(names):
+    needed = len(parameter_names(LAWS[law]) + parameter_names(SHIFTS[shift]))
+    if prior is None and 2 * modulus.size < needed:
         raise InputError(
-            f"{modulus.size} points cannot determine {len(names)} parameters; "
-            f"measure at least {(len(names) + 1) // 2}."
+            f"{modulus.size} points cannot determine {needed} parameters; "
+            f"measure at least {(needed + 1) // 2}."
         )
-    rate, largest = float(np.sqrt(omega.min() * omega.max())), float(np.abs(modulus).max())
-    # The shift is singular at c2 below the coldest test; 5 K keeps the steps of the fit off it.
-    least_c2 = max(0.0, float(reference_temperature - temperature.min())) + 5.0
-    scales = {
-        "static_modulus": largest, "glassy_modulus": largest, "tau": 1.0 / rate, "activation_energy": 1e5,
-    }  # fmt: skip
+    largest = float(np.abs(modulus).max())
+    reach = 0.0 if prior is None else prior.largest("glassy_modulus")
+    at = Coordinates(law, shift, omega, temperature, largest, reference_temperature, reach)
+    deviations = _deviations(weights, modulus.size)
+    return _Problem(at, omega, temperature, modulus, deviations, prior).fit(known=weights is not None)
 
-    def build(x: NDArray) -> Spectrum:
-        given = dict(zip(names, x.tolist(), strict=True))
-        values = {name: scales.get(name, 1.0) * float(np.exp(value)) for name, value in given.items()}
-        values["h"] = float(expit(given["h"]))
-        values["k"] = values["h"] * float(expit(given["k"]))
-        if "c2" in values:
-            values["c2"] += least_c2
-        shifted = SHIFTS[shift](
-            **{name: values[name] for name in of_shift}, reference_temperature=float(reference_temperature)
-        )
-        return LAWS[law](**{name: values[name] for name in own}, shift=shifted)
 
-    def residual(x: NDArray) -> NDArray:
+def _deviations(weights: tuple[ArrayLike, ArrayLike] | None, points: int) -> Vector:
+    """Standard deviation of each residual (2n,); ones without weights."""
+    if weights is None:
+        return np.ones(2 * points)
+    parts = [np.broadcast_to(np.asarray(part, dtype=float), points) for part in weights]
+    deviations = np.concatenate(parts)
+    if not np.all(np.isfinite(deviations) & (deviations > 0.0)):
+        raise InputError("a standard deviation of a test is not positive; give positive ones.")
+    return deviations
+
+
+class _Problem:
+    """Residuals of the tests in their deviations, over a common scatter, and of the prior, with derivatives."""
+
+    def __init__(
+        self, at: Coordinates, omega: Vector, temperature: Vector, modulus: NDArray[np.complex128],
+        deviations: Vector, prior: Prior | None,
+    ) -> None:  # fmt: skip
+        self.at, self.omega, self.temperature, self.modulus = at, omega, temperature, modulus
+        self.deviations, self.prior = deviations, prior
+        self.scatter = 1.0
+
+    def residual(self, x: Vector) -> Vector:
         with np.errstate(over="ignore", invalid="ignore"):  # wild trial shifts; such steps are refused
-            return log_residual(modulus, build(x).complex_modulus(omega, temperature))
+            law = self.at.build(x)
+            tests = log_residual(self.modulus, law.complex_modulus(self.omega, self.temperature))
+        tests /= self.deviations * self.scatter
+        if self.prior is None:
+            return tests
+        return np.concatenate([tests, self.prior.standardised(parameters(law), self.at.reference)[0]])
 
-    low, high, first, last = np.array([RANGES[name] for name in names]).T
-    solution = best_of_starts(residual, (low, high), (first, last))
-    seen = _seen(solution, low, high)
-    if "c2" in names and not seen[names.index("c2")]:
-        seen[names.index("c1")] = False  # of a straight shift only C1/C2 is determined
-    return Fit(
-        build(solution.x),
-        _standard_errors(solution, seen, build, names),
-        rms_of(solution, modulus.size),
-        freedom=2 * modulus.size - int(seen.sum()),
-        unseen=tuple(name for name, visible in zip(names, seen, strict=True) if not visible),
-    )
+    def jacobian(self, x: Vector) -> NDArray[np.float64]:
+        law, coordinates = self.at.build(x), self.at.log_slopes(x)
+        slopes = law.log_slopes(self.omega, self.temperature)
+        tests = -np.concatenate([slopes.real, slopes.imag]) / (self.deviations * self.scatter)[:, None]
+        if self.prior is None:
+            return tests @ coordinates
+        return (
+            np.vstack([tests, self.prior.standardised(parameters(law), self.at.reference)[1]]) @ coordinates
+        )
 
+    def solve(self, start: Vector, tolerance: float = ROUGH) -> OptimizeResult:
+        # The coordinates are of order one. Scaled by the Jacobian instead, ten times the steps in a flat valley.
+        return least_squares(
+            self.residual, start, self.jacobian, bounds=(self.at.low, self.at.high),
+            xtol=tolerance, ftol=tolerance, gtol=tolerance,
+        )  # fmt: skip
 
-def _seen(solution: OptimizeResult, low: NDArray, high: NDArray) -> NDArray[np.bool_]:
-    """Which parameters are off their bounds and move the residuals."""
-    effect = np.linalg.norm(solution.jac, axis=0)
-    margin = 1e-2  # the steps of the fit end a little inside the bounds
-    inside = (solution.x > low + margin) & (solution.x < high - margin)
-    return inside & (effect > NO_EFFECT * effect.max())
+    def starts(self) -> list[Vector]:
+        """Usual laws at the tau that suits the tests best, then random ones; the best of each kind first."""
 
+        def cost(x: Vector) -> float:
+            residual = self.residual(x)
+            value = float(residual @ residual)
+            return value if np.isfinite(value) else np.inf
 
-def _standard_errors(
-    solution: OptimizeResult, seen: NDArray, build: Callable[[NDArray], Spectrum], names: list[str]
-) -> dict[str, float] | None:
-    """Those of the parameters themselves, carried over from the coordinates to first order."""
-    covariance = covariance_of(solution, seen)
-    if covariance is None:
-        return None
-    step = 1e-5
+        usual = [min(group, key=cost) for group in self.at.usual_starts()]
+        return sorted(usual, key=cost)[:2] + sorted(self.at.random_starts(STARTS), key=cost)
 
-    def values(x: NDArray) -> NDArray:
-        found = parameters(build(x))
-        return np.array([found[name] for name in names])
+    def best(self, starts: list[Vector]) -> OptimizeResult:
+        """The lowest optimum of several starts; once enough were tried, two that agree on it end the search."""
+        found: list[OptimizeResult] = []
+        for start in starts:
+            found.append(self.solve(start))
+            found.sort(key=lambda solution: solution.cost)
+            if len(found) >= LEAST_STARTS and found[1].cost <= (1.0 + AGREE) * found[0].cost + ROUGH**2:
+                break
+        return found[0]
 
-    slope = np.column_stack(
-        [
-            (values(solution.x + move) - values(solution.x - move)) / (2.0 * step)
-            for move in step * np.eye(len(names))[seen]
-        ]
-    )
-    variance = np.einsum("pi,ij,pj->p", slope, covariance, slope)
-    return {
-        name: float(np.sqrt(value))
-        for name, value, visible in zip(names, variance, seen, strict=True)
-        if visible
-    }
+    def settle(self, solution: OptimizeResult, known: bool) -> OptimizeResult:
+        """The optimum at the scatter that its own residuals have; the prior counts the more, the larger that is."""
+        for _ in range(ROUNDS):
+            before, self.scatter = self.scatter, self.scatter_of(solution, known)
+            if abs(self.scatter / before - 1.0) < SETTLED:
+                self.scatter = before  # that of the solution
+                break
+            solution = self.solve(solution.x)
+        return solution
+
+    def scatter_of(self, solution: OptimizeResult, known: bool) -> float:
+        """Of the tests, over their deviations. known: these are the scatter, at least."""
+        size = 2 * self.modulus.size
+        squares = float(solution.fun[:size] @ solution.fun[:size]) * self.scatter**2
+        freedom = max(self.freedom(solution), 1.0)
+        if known:
+            return max(1.0, float(np.sqrt(squares / freedom)))
+        guess, worth = SCATTER
+        return float(np.sqrt((squares + worth * guess**2) / (freedom + worth)))
+
+    def freedom(self, solution: OptimizeResult) -> float:
+        """Residuals of the tests less what the parameters take from them; a prior leaves them less to take."""
+        size = 2 * self.modulus.size
+        seen = self.seen(solution)
+        left = np.linalg.svd(solution.jac[:, seen], full_matrices=False)[0][:size]
+        return size - float(np.sum(left**2))
+
+    def seen(self, solution: OptimizeResult) -> NDArray[np.bool_]:
+        """Which parameters are off their bounds and move the residuals, those of the prior among them."""
+        effect = np.linalg.norm(solution.jac, axis=0)
+        seen = self.at.inside(solution.x) & (effect > NO_EFFECT * effect.max())
+        if "c2" in self.at.names and not seen[self.at.names.index("c2")]:
+            seen[self.at.names.index("c1")] = False  # of a straight shift only C1/C2 is determined
+        return seen
+
+    def fit(self, known: bool) -> Fit[Spectrum]:
+        """known: whether the deviations are the scatter of the tests, or only its ratios."""
+        if self.prior is None:
+            return self.result(self.solve(self.best(self.starts()).x, PRECISE), known)
+        self.scatter = 1.0 if known else COARSE
+        starts = self.starts()
+        first = self.settle(self.solve(starts[0]), known)
+        last = self.settle(self.best([first.x, *starts]), known)
+        return self.result(self.solve(last.x, PRECISE), known)
+
+    def result(self, solution: OptimizeResult, known: bool) -> Fit[Spectrum]:
+        at, seen, law = self.at, self.seen(solution), self.at.build(solution.x)
+        values, freedom = parameters(law), self.freedom(solution)
+        variance = None
+        if self.prior is not None:
+            variance = 1.0
+        elif known:
+            variance = self.scatter_of(solution, known) ** 2
+        covariance = covariance_of(solution, seen, variance)
+        unseen = {name for name, visible in zip(at.names, seen, strict=True) if not visible}
+        std_error: dict[str, float] | None = None
+        from_prior: tuple[str, ...] = ()
+        if covariance is not None:
+            slopes = at.log_slopes(solution.x)[:, seen]
+            covariance = slopes @ covariance @ slopes.T  # of the logarithms of all parameters
+            errors = np.sqrt(np.diag(covariance)) * np.array(list(values.values()))
+            std_error = {
+                name: float(error) for name, error in zip(at.names, errors, strict=True) if name not in unseen
+            }
+            if self.prior is not None:
+                from_prior = self.prior.not_determined(values, covariance, at.reference)
+        ratio = log_residual(self.modulus, law.complex_modulus(self.omega, self.temperature))
+        return Fit(
+            law, std_error, float(np.sqrt(ratio @ ratio / self.modulus.size)), round(freedom),
+            unseen=tuple(name for name in at.names if name in unseen or name in from_prior),
+            from_prior=from_prior,
+        )  # fmt: skip

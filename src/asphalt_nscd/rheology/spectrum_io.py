@@ -35,8 +35,13 @@ def write_spectrum(
     rms_log_residual: float,
     std_error: dict[str, float] | None = None,
     unseen: Iterable[str] = (),
+    from_prior: Iterable[str] | None = None,
 ) -> dict[str, Any]:
-    """Write a continuous law, which holds for all temperatures; unseen: parameters without std_error."""
+    """Write a continuous law, which holds for all temperatures.
+
+    unseen: parameters that the tests do not determine; from_prior: those of them that have the value of a prior,
+    None where none was used. See `fitting.Fit`.
+    """
     content = {
         "law": next(name for name, kind in LAWS.items() if type(law) is kind),
         "shift": next(name for name, kind in SHIFTS.items() if type(law.shift) is kind),
@@ -47,6 +52,8 @@ def write_spectrum(
         "unseen": [_KEYS[name] for name in unseen],
         "rms_log_residual": rms_log_residual,
     }
+    if from_prior is not None:
+        content["from_prior"] = [_KEYS[name] for name in from_prior]
     write_json(path, content)
     return content
 

@@ -1,0 +1,63 @@
+"""Usual values at any reference temperature, and what counts as decided by them."""
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE, USUAL
+from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum import TwoS2P1D, parameters
+from asphalt_nscd.rheology.spectrum_coordinates import Coordinates
+
+
+def usual_law(reference):
+    """The median of every parameter; its shift at another reference temperature is the same shift."""
+    c2 = USUAL["c2"].median
+    c1, above = USUAL["wlf_slope"].median * c2, reference - 15.0
+    shift = WLF(c1 * c2 / (c2 + above), c2 + above, reference)
+    own = {
+        name: USUAL[name].median for name in ("static_modulus", "glassy_modulus", "k", "h", "delta", "beta")
+    }
+    return TwoS2P1D(**own, tau=0.1, shift=shift)
+
+
+@pytest.mark.parametrize("reference", [-5.0, 15.0, 40.0])
+def test_the_median_is_the_median_at_any_reference_temperature(reference):
+    away, _ = ASPHALT_CONCRETE.standardised(parameters(usual_law(reference)), reference)
+    assert away.size == 8 and away == pytest.approx(np.zeros(8), abs=1e-12)
+
+
+@pytest.mark.parametrize("reference", [0.0, 30.0])
+def test_derivatives_are_those_of_finite_differences(reference):
+    values = {name: 1.3 * value for name, value in parameters(usual_law(reference)).items()}
+    _, slope = ASPHALT_CONCRETE.standardised(values, reference)
+    for column, name in enumerate(values):
+        high, low = (
+            ASPHALT_CONCRETE.standardised(values | {name: values[name] * np.exp(d)}, reference)[0]
+            for d in (1e-5, -1e-5)
+        )
+        assert slope[:, column] == pytest.approx((high - low) / 2e-5, rel=1e-6, abs=1e-9)
+
+
+def test_what_the_tests_halve_is_theirs_and_what_they_leave_is_the_priors():
+    """Of a shift of known slope and unknown C2, C1 is no more determined than C2."""
+    values = parameters(usual_law(15.0))
+    names = list(values)
+    covariance = np.zeros((len(names), len(names)))
+    for name in ("static_modulus", "glassy_modulus", "k", "h", "delta", "beta"):
+        share = 0.9 if name in ("glassy_modulus", "k") else 0.5
+        at = names.index(name)
+        covariance[at, at] = (share * USUAL[name].deviation) ** 2
+    one, two = names.index("c1"), names.index("c2")
+    covariance[np.ix_([one, two], [one, two])] = USUAL["c2"].deviation ** 2
+    assert ASPHALT_CONCRETE.not_determined(values, covariance, 15.0) == ("glassy_modulus", "k", "c1", "c2")
+
+
+@pytest.mark.parametrize("shift", ["wlf", "arrhenius"])
+@pytest.mark.parametrize("law", ["2s2p1d", "huet-sayegh"])
+def test_slopes_of_the_coordinates_are_those_of_finite_differences(law, shift):
+    at = Coordinates(law, shift, np.array([1.0, 100.0]), np.array([-10.0, 30.0]), 2e10, 20.0)
+    x = 0.6 * at.first + 0.4 * at.last
+    slope = at.log_slopes(x)
+    for column, move in enumerate(1e-5 * np.eye(x.size)):
+        high, low = (np.log(list(parameters(at.build(x + sign * move)).values())) for sign in (1, -1))
+        assert slope[:, column] == pytest.approx((high - low) / 2e-5, rel=1e-6, abs=1e-9)
