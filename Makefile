@@ -47,7 +47,7 @@ smoke: $(READY)
 
 blind: $(READY)
 	@.venv/bin/snakemake blind --cores $(CORES) --configfile config/blind.yaml
-	@cat results/blind/summary.csv
+	@cat results/blind/summary.csv results/blind/real_summary.csv
 
 study: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile $(CONFIG)

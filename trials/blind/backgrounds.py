@@ -110,7 +110,7 @@ class Background:
             raise ValueError(f"{cause} needs {lacking}")
         effect, units = self.effect(cause), self.units(cause)
         size = float(amplitude) / units[unit or effect.unit]
-        place = None if effect.confined is None else self._place(effect.confined, where)
+        place, said = self._place(effect.confined, where)
         details = effect.details(self.design, np.random.default_rng(seed))
         rig = Rig(self.design)
         effect.act(rig, size, place, details)
@@ -119,7 +119,7 @@ class Background:
         phase = self.table["phase_deg"].to_numpy(float) + np.degrees(np.angle(modulus / self.modulus))
         seal = {
             "seed": seed, "cause": cause, "kind": "catalogue" if cause in CATALOGUE else "outside",
-            "amplitude": size, "unit": effect.unit, "where": place, "details": details,
+            "amplitude": size, "unit": effect.unit, "where": said, "details": details,
             "equivalents": {name: size * factor for name, factor in units.items()},
         }  # fmt: skip
         return self.table.assign(E_MPa=1e-6 * np.abs(modulus), phase_deg=phase), seal
@@ -140,14 +140,16 @@ class Background:
         channel = np.exp(1j * (omega * rig.delay + rig.offset)) * rig.transfer
         return (modulus + gamma * head) * channel * np.exp(rig.gain)
 
-    def _place(self, column: str, where: Place) -> Place:
-        """The value of the design's column that `where` means: a specimen, or the nearest number within 1.5."""
+    def _place(self, column: str | None, where: Place) -> tuple[Place, Place]:
+        """The value of the design's column that `where` means, the nearest within 1.5 of a number, and `where`."""
+        if column is None:
+            return None, None
         values = self.design[column].unique()
         if column == "specimen":
             if str(where) in set(values):
-                return str(where)
+                return str(where), str(where)
         elif where is not None:
             nearest = float(values[np.abs(values - float(where)).argmin()])
             if abs(nearest - float(where)) <= ISOTHERM:
-                return nearest
+                return nearest, float(where)
         raise ValueError(f"no {column} {where!r}; one of {', '.join(map(str, values))}")
