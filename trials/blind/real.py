@@ -35,7 +35,7 @@ def run(group: list[Task]) -> Iterator[dict[str, Any]]:
             if limit is None or background.lacks(cause):
                 yield _common(task) | {"cause": cause, "not_drawn": "no limit"}
                 continue
-            yield from _hidden(task, background, own, cause)
+            yield from _hidden(task, background, own, cause, odd)
 
 
 def _background(task: Task) -> tuple[Background, str | None]:
@@ -51,7 +51,7 @@ def _common(task: Task) -> dict[str, Any]:
 
 
 def _hidden(
-    task: Task, background: Background, own: Mapping[str, Any], cause: str
+    task: Task, background: Background, own: Mapping[str, Any], cause: str, odd: str | None
 ) -> Iterator[dict[str, Any]]:
     """One row for each amplitude of a cause, at a place drawn among those where five limits are physical."""
     effect, limit = background.effect(cause), own["detection_limits"][cause]
@@ -78,7 +78,7 @@ def _hidden(
             except ArithmeticError:  # the warmth of self-heating does not settle
                 yield row | {"not_drawn": "not physical"}
                 continue
-            yield row | real_score.row(seal, limit["unit"], value, own, _diagnosed(table))
+            yield row | real_score.row(seal, limit["unit"], value, own, _diagnosed(table), odd)
 
 
 def _diagnosed(table: pd.DataFrame) -> dict[str, Any]:

@@ -35,7 +35,7 @@ def untouched(diagnosis: Diagnosis, odd: str | None = None) -> dict[str, Any]:
     odd: the specimen that truly differs; that its size is named is no false name, and is counted apart.
     """
     confident = names(diagnosis, confident=True)
-    of_odd = [e for e in confident if e["cause"] == "specimen_geometry" and str(e["where"]) == odd]
+    of_odd = [entry for entry in confident if _is_odd(entry, odd)]
     return _state(diagnosis) | {
         "cause": score.NOTHING, "any_name": len(names(diagnosis)), "wrong": len(confident) - len(of_odd),
         "odd_named": bool(of_odd) if odd else None, "wrong_names": _told(confident, of_odd),
@@ -43,9 +43,14 @@ def untouched(diagnosis: Diagnosis, odd: str | None = None) -> dict[str, Any]:
 
 
 def row(
-    effect: Mapping[str, Any], unit: str, limit: float, before: Diagnosis, after: Diagnosis
+    effect: Mapping[str, Any],
+    unit: str,
+    limit: float,
+    before: Diagnosis,
+    after: Diagnosis,
+    odd: str | None = None,
 ) -> dict[str, Any]:
-    """Row of one effect. limit: its detection limit [unit] stated for the table as it was.
+    """Row of one effect. limit: its detection limit [unit] stated for the table as it was; odd: as of `untouched`.
 
     named: by some rung, in the right place or in a group that cannot be told apart; established: with confidence;
     covered: whether the size grew by what was put in, within its 95 % interval; added: confident names that are
@@ -55,7 +60,8 @@ def row(
     telling = [entry for entry in names(after) if score.tells(entry, effect, after)]
     confident = names(after, confident=True)
     known = {_key(entry) for entry in names(before)}
-    added = [e for e in confident if not score.tells(e, effect, after) and _key(e) not in known]
+    false = [e for e in confident if not score.tells(e, effect, after) and not _is_odd(e, odd)]
+    added = [entry for entry in false if _key(entry) not in known]
     own = _estimate(before, effect, unit)
     found = _estimate(after, effect, unit)
     result = _state(after) | {
@@ -78,6 +84,11 @@ def _state(diagnosis: Diagnosis) -> dict[str, Any]:
         "verdict": diagnosis["verdict"], "failed": diagnosis["verdict"] == "failed",
         "error": diagnosis.get("error", ""), "cpu_s": diagnosis["cpu_s"],
     }  # fmt: skip
+
+
+def _is_odd(entry: Entry, odd: str | None) -> bool:
+    """Whether a name says of the specimen that truly differs that its size is another."""
+    return entry["cause"] == "specimen_geometry" and odd is not None and str(entry["where"]) == odd
 
 
 def _key(entry: Entry) -> tuple[str, str]:

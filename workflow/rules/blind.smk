@@ -142,6 +142,7 @@ rule blind:
     # What is committed of the campaign, and its summary in the README.
     input:
         summary="<results>/summary.csv",
+        real="<results>/real_summary.csv",
         files=[
             *(f"<results>/{name}.csv" for name in [*RATES, *REAL_RATES]),
             *(f"<results>/figures/{name}.png" for name in BLIND_FIGURES),
@@ -155,4 +156,4 @@ rule blind:
     message:
         "Copy what is committed of the blind tests, and fill their table in the README"
     shell:
-        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document README.md --block blind={input.summary}"
+        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document README.md --block blind={input.summary} --block blind_real={input.real}"
