@@ -29,7 +29,9 @@ def run(group: list[Task]) -> Iterator[dict[str, Any]]:
         background, odd = _background(task)
         own = _diagnosed(background.table)
         if task.counted:
-            yield _common(task) | real_score.untouched(own, odd)
+            # What a real table holds is not known, so that none of its names is known to be false.
+            unknown = {"wrong": None} if task.path else {}
+            yield _common(task) | real_score.untouched(own, odd) | unknown
         for cause in task.causes:
             limit = own["detection_limits"].get(cause)
             if limit is None or background.lacks(cause):

@@ -122,7 +122,7 @@ def hidden(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def bare_tables(table: pd.DataFrame) -> pd.DataFrame:
-    """Drawn tables as they are. What a real one holds is not known, so that none of its names can be false."""
+    """Drawn tables as they are."""
     return table[(table["cause"] == score.NOTHING) & (table["kind"] != "real")]
 
 

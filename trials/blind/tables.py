@@ -180,11 +180,12 @@ def judge(what: str, target: str, hits: pd.Series, low: float = 0.0, high: float
 
 
 def _row(what: str, target: str, found: Mapping[str, float], met: bool) -> dict[str, Any]:
+    verdict = "not tried" if not found["n"] else "yes" if met else "no"
     percent = {name: round(100.0 * found[name], 1) for name in ("rate", "low", "high")}
     return {
         "what": what, "target": target, "percent": percent["rate"],
         "interval_percent": f"{percent['low']} - {percent['high']}", "of": found["n"],
-        "met": "" if target == "reported" else "yes" if met else "no",
+        "met": "" if target == "reported" else verdict,
     }  # fmt: skip
 
 

@@ -138,6 +138,15 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+def test_without_a_real_table_its_criteria_are_not_tried():
+    table = real_tables.cases(
+        [{"table": "drawn table 1", "kind": "scatter", "cause": "nothing", "wrong": 0, "any_name": 0}]
+    )
+    met = real_tables.summary(table).set_index("what")["met"]
+    assert met["real tables, offset and delay at 3 and 6 limits: named"] == "not tried"
+    assert met["tables without a cause: misnamed with confidence"] == "yes"
+
+
 def test_real_tables_get_every_cause_once_with_both_signs(folder):
     assert [path.name for path in real_plan.real_tables()] == ["mine.csv"]
     tasks = [task for task in chain.from_iterable(real_plan.tasks()) if task.path]

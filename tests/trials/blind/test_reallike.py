@@ -110,6 +110,15 @@ def test_discrepancies_are_common_to_the_specimens_and_of_several_families():
         assert 0.005 < table["modulus"].std() < 0.15
 
 
+def test_a_specimen_keeps_a_few_tests_on_each_isotherm_however_many_are_missing(monkeypatch):
+    monkeypatch.setattr(reallike, "MOST_MISSING", 1.0)
+    left = [
+        reallike.draw(s, "scatter")[0].table.groupby(["specimen", "temperature_C"]).size().min()
+        for s in SEEDS
+    ]
+    assert min(left) == reallike.LEAST_LEFT
+
+
 def test_columns_that_a_cause_needs_are_there():
     table = reallike.draw(3, "scatter", ("amplitude_m", "cycles"))[0].table
     assert table["amplitude_m"].nunique() == 2 and table["cycles"].nunique() > 2
