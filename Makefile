@@ -4,11 +4,12 @@
 #   make smoke      the same chain at reduced size, in minutes
 #   make test       the tests
 #   make lint       ruff and mypy
-#   make blind      blind tests of the diagnosis: hidden effects, found or not
+#   make blind      blind tests of the diagnosis: hidden effects, found or not; in the real tables of a folder
+#                   too, if ASPHALT_NSCD_TABLES names it
 #   make verify     the core against theory: results/verification/verification.csv
 #   make check      published results made again where that is cheap, and compared: minutes
 #   make faults     what must not lose or falsify a result: results/faults/faults.csv, half an hour
-#   make fuzz       a hundred thousand inputs to everything that reads a file
+#   make fuzz       a hundred thousand inputs to everything that reads a file, a thousand wild tables to the diagnosis
 #   make cluster    the smoke study through a Slurm started here, where Debian's is installed
 #   make api        reference of all modules, from their docstrings: docs/api
 #   make benchmark  how fast it is beside its peers: results/benchmark/benchmark.csv
@@ -47,7 +48,7 @@ smoke: $(READY)
 
 blind: $(READY)
 	@.venv/bin/snakemake blind --cores $(CORES) --configfile config/blind.yaml
-	@cat results/blind/summary.csv
+	@cat results/blind/summary.csv results/blind/real_summary.csv
 
 study: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile $(CONFIG)
@@ -71,6 +72,8 @@ faults: $(READY)
 
 fuzz: $(READY)
 	@PYTHONPATH=trials:tests .venv/bin/python -m fuzz
+	@OPENBLAS_NUM_THREADS=1 PYTHONPATH=trials:tests .venv/bin/python -m fuzz.diagnoses 1000 \
+		$(if $(filter all,$(CORES)),,--jobs $(CORES)) --output results/fuzz
 
 cluster: $(READY)
 	@PYTHONPATH=trials .venv/bin/python -m cluster

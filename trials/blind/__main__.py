@@ -42,6 +42,42 @@ def inside(effect: str, models: tuple[Path, ...], limits: Path | None, seed: int
 
 
 @main.command()
+@click.argument("number", type=int)
+@click.option("--seed", required=True, type=int, help="Of the campaign.")
+@output
+def real(number: int, seed: int, output: Path) -> None:
+    """Put causes into the real and real-like tables of group NUMBER; one JSON line for each diagnosis."""
+    from . import real, real_plan
+
+    _write_lines(output, real.run(real_plan.tasks(seed)[number]))
+
+
+@main.command()
+@click.argument("lines", nargs=-1, required=True, type=File)
+@click.option("--folder", required=True, type=File)
+def real_tables(lines: tuple[Path, ...], folder: Path) -> None:
+    """Tables of all LINES of `real` into a folder, and what made them."""
+    from asphalt_nscd.files.store import provenance, write_json, write_table
+
+    from . import plan, real_plan, real_tables
+
+    rows = [json.loads(text) for path in lines for text in path.read_text(encoding="utf-8").splitlines()]
+    cases = real_tables.cases(rows)
+    write_table(folder / "real_cases.csv", cases)
+    for make in (
+        real_tables.efficiency, real_tables.false_names, real_tables.coverage, real_tables.limits, real_tables.summary,
+    ):  # fmt: skip
+        write_table(folder / f"real_{make.__name__}.csv", make(cases))
+    count = cases.loc[cases["kind"] == "real", "table"].nunique()
+    said = f"{count} real tables" if count else f"no real table: set {real_plan.FOLDER} to a folder of them"
+    print(said)
+    write_json(
+        folder / "real_campaign.json",
+        {**provenance(), "seed": plan.SEED, "real_tables": count, "said": said, "rows": len(rows)},
+    )
+
+
+@main.command()
 @click.argument("lines", nargs=-1, required=True, type=File)
 @click.option("--folder", required=True, type=File)
 def tables(lines: tuple[Path, ...], folder: Path) -> None:

@@ -80,20 +80,23 @@ def respond(law: Law, rig: Rig, geometry: dict[str, float], amplitude: Vector | 
 
 
 def _material(law: Law, rig: Rig, omega: Vector) -> Complex:
-    label = rig.design["temperature_C"].to_numpy(float)
-    strain = (rig.design["amplitude_m"] / rig.design["amplitude_m"].max()).to_numpy(float)
-
-    def modulus(warming: Vector) -> Complex:
-        temperature = label + warming
+    def modulus(_: Vector, temperature: Vector) -> Complex:
         return law.modulus(omega, temperature) + sum(branch(omega, temperature) for branch in rig.branches)
 
+    return modulus(omega, warmed(modulus, rig, omega))
+
+
+def warmed(modulus: Branch, rig: Rig, omega: Vector) -> Vector:
+    """True temperature (n,) [degC] of each test, of specimens with E* = modulus(omega, temperature)."""
+    label = rig.design["temperature_C"].to_numpy(float)
+    strain = (rig.design["amplitude_m"] / rig.design["amplitude_m"].max()).to_numpy(float)
     warming = rig.warming
     if rig.heating == 0.0:
-        return modulus(warming)
+        return label + warming
     # Each test warms by its own dissipation, which depends on how warm it is.
     for _ in range(HEATING_PASSES):
-        power = omega * modulus(warming).imag * strain**2
+        power = omega * modulus(omega, label + warming).imag * strain**2
         last, warming = warming, rig.warming + rig.heating * power / power.max()
         if np.abs(warming - last).max() < HEATING_TOLERANCE:
-            return modulus(warming)
+            return label + warming
     raise ArithmeticError(f"self-heating of {rig.heating:g} K does not settle")

@@ -60,7 +60,7 @@ def outcomes(cases: Iterable[tuple[Seal, Diagnosis]]) -> pd.DataFrame:
         wrong = [
             entry
             for entry in _named(diagnosis)
-            if not any(_tells(entry, e, diagnosis) for e in effects) and not _of_packing(entry, seal)
+            if not any(tells(entry, e, diagnosis) for e in effects) and not _of_packing(entry, seal)
         ]
         for effect in effects or [None]:
             rows.append(common | {"wrong": len(wrong)} | _row(effect, wrong, diagnosis))
@@ -78,8 +78,8 @@ def _named(diagnosis: Diagnosis) -> list[Mapping[str, Any]]:
 
 
 def _row(effect: Mapping[str, Any] | None, wrong: list, diagnosis: Diagnosis) -> dict[str, Any]:
-    telling = [entry for entry in _named(diagnosis) if effect and _tells(entry, effect, diagnosis)]
-    itself = [entry for entry in telling if _same(entry, effect)]
+    telling = [entry for entry in _named(diagnosis) if effect and tells(entry, effect, diagnosis)]
+    itself = [entry for entry in telling if is_same(entry, effect)]
     row = {"cause": effect["cause"] if effect else NOTHING, "named": bool(telling), "grouped": False}
     if telling:
         row |= {"outcome": effect["cause"], "grouped": not itself}
@@ -110,7 +110,7 @@ def _of_packing(entry: Mapping[str, Any], seal: Seal) -> bool:
     return abs(said - (ratio - 1.0)) < PACKING
 
 
-def _same(entry: Mapping[str, Any], effect: Mapping[str, Any]) -> bool:
+def is_same(entry: Mapping[str, Any], effect: Mapping[str, Any]) -> bool:
     return _is(effect, entry["cause"], entry.get("where"))
 
 
@@ -130,9 +130,9 @@ def _number(where: str | float) -> float:
         return np.nan
 
 
-def _tells(entry: Mapping[str, Any], effect: Mapping[str, Any], diagnosis: Diagnosis) -> bool:
+def tells(entry: Mapping[str, Any], effect: Mapping[str, Any], diagnosis: Diagnosis) -> bool:
     """Whether an entry names the effect, itself or through a group reported as indistinguishable."""
-    if _same(entry, effect):
+    if is_same(entry, effect):
         return True
     for group in diagnosis.get("indistinguishable", []):
         members = [_member(text) for text in group]

@@ -27,7 +27,7 @@ from .plan import AT_LIMIT, Case, design_of
 
 KEPT = (
     "verdict", "ladder", "withdrawn", "indistinguishable", "detection_limits", "lack_of_fit_p_value",
-    "largest_pattern_left", "scatter", "notes",
+    "largest_pattern_left", "scatter", "notes", "estimates",
 )  # fmt: skip
 # Some records of a wrong frequency are refused before any diagnosis.
 REFUSED = {"verdict": score.REFUSED, "ladder": [], "detection_limits": {}, "indistinguishable": []}
@@ -123,4 +123,4 @@ def open_case(
         observed, _ = reading.read_observations(path, dict(geometry), static_modulus)
     catalogue = tuple(cause for cause in NAMEABLE if cause.name != removed)
     content = report.as_json(diagnose(observed, catalogue=catalogue), read_specimen())
-    return {name: content[name] for name in KEPT}
+    return {name: content[name] for name in KEPT if name in content}

@@ -151,39 +151,41 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
     inside = runs[runs["cause"] != score.NOTHING]
     at = f"at {JUDGED:g} times the limit"
     lines = [
-        _line(f"found, {at}", ">= 95 %", judged["found"], low=0.95),
-        _line(f"named rightly among the found, {at}", ">= 95 %", judged.loc[judged["found"], "named"], low=0.95),
-        _line("false alarms of empty cases", "<= 2 %", empty["wrong"] > 0, high=0.02),
-        _line("empty cases that end with structure, without a name", "reported", empty["outcome"] == score.UNEXPLAINED),
+        judge(f"found, {at}", ">= 95 %", judged["found"], low=0.95),
+        judge(f"named rightly among the found, {at}", ">= 95 %", judged.loc[judged["found"], "named"], low=0.95),
+        judge("false alarms of empty cases", "<= 2 %", empty["wrong"] > 0, high=0.02),
+        judge("empty cases that end with structure, without a name", "reported", empty["outcome"] == score.UNEXPLAINED),
         _row("false alarms, upper 95 % bound", "<= 5 %", alarms | {"rate": alarms["high"]}, alarms["high"] <= 0.05),
-        _line(f"outside the catalogue: unexplained, {at}", ">= 80 %", beyond["unexplained"], low=0.80),
-        _line(f"outside the catalogue: confident wrong name, {at}", "<= 10 %", beyond["confidently_named"], high=0.10),
-        _line("amplitude within its 95 % interval", "90 - 98 %", _judged(table)["covered"], low=0.90, high=0.98),
-        _line("held-out error of single tests falls where named", ">= 95 %", gain["gain"], low=0.95),
-        _line("the same over the scatter of one test", ">= 95 %", gain["gain_over_scatter"], low=0.95),
-        _line(
+        judge(f"outside the catalogue: unexplained, {at}", ">= 80 %", beyond["unexplained"], low=0.80),
+        judge(f"outside the catalogue: confident wrong name, {at}", "<= 10 %", beyond["confidently_named"], high=0.10),
+        judge("amplitude within its 95 % interval", "90 - 98 %", _judged(table)["covered"], low=0.90, high=0.98),
+        judge("held-out error of single tests falls where named", ">= 95 %", gain["gain"], low=0.95),
+        judge("the same over the scatter of one test", ">= 95 %", gain["gain_over_scatter"], low=0.95),
+        judge(
             "the same of averages over specimens, which hide what one of them does", ">= 95 %",
             gain["gain_of_averages"], low=0.95,
         ),
-        _line("both of a pair: each effect named", "reported", table.loc[table["suite"] == "pair", "named"]),
+        judge("both of a pair: each effect named", "reported", table.loc[table["suite"] == "pair", "named"]),
         _separable(removal(table)),
-        _line("hidden inside NSCD runs: named", "all", inside["named"], low=1.0),
-        _line("inside NSCD runs, the empty ones too: a wrong name beside", "reported", runs["wrong"] > 0),
+        judge("hidden inside NSCD runs: named", "all", inside["named"], low=1.0),
+        judge("inside NSCD runs, the empty ones too: a wrong name beside", "reported", runs["wrong"] > 0),
     ]  # fmt: skip
     return pd.DataFrame(lines)
 
 
-def _line(what: str, target: str, hits: pd.Series, low: float = 0.0, high: float = 1.0) -> dict[str, Any]:
+def judge(what: str, target: str, hits: pd.Series, low: float = 0.0, high: float = 1.0) -> dict[str, Any]:
+    """Row of a summary: a rate, its interval, and whether it lies between low and high; or is only reported."""
     found = score.rate(hits)
     return _row(what, target, found, low <= found["rate"] <= high)
 
 
 def _row(what: str, target: str, found: Mapping[str, float], met: bool) -> dict[str, Any]:
+    verdict = "not tried" if not found["n"] else "yes" if met else "no"
     percent = {name: round(100.0 * found[name], 1) for name in ("rate", "low", "high")}
     return {
         "what": what, "target": target, "percent": percent["rate"],
         "interval_percent": f"{percent['low']} - {percent['high']}", "of": found["n"],
-        "met": "" if target == "reported" else "yes" if met else "no",
+        "met": "" if target == "reported" else verdict,
     }  # fmt: skip
 
 

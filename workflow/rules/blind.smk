@@ -1,9 +1,10 @@
 # Blind tests of the diagnosis: effects hidden in drawn measurements and inside NSCD runs, found or not.
 #   make blind
 #   snakemake blind --cores all --configfile config/blind.yaml
+# Causes are put into real tables too, if ASPHALT_NSCD_TABLES names a folder of them.
 
 sys.path.insert(0, str(Path(workflow.basedir, "trials")))
-from blind import plan
+from blind import plan, real_plan
 
 BLIND = f"env PYTHONPATH={Path(workflow.basedir, 'trials')}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m blind"
 GENERATOR = ["causes", "design", "generator", "laws", "outside", "plan", "records", "rig", "score", "sealed", "strength"]
@@ -11,6 +12,8 @@ CHUNKS = expand("<results>/chunks/{number}.jsonl", number=range(len(plan.chunks(
 INSIDE = expand("<results>/inside/{mix}/{effect}.jsonl", mix=plan.MIXES, effect=["nothing", *plan.INSIDE])
 RATES = "cases efficiency isolation false_alarms coverage gains outside removal inside_runs summary".split()
 BLIND_FIGURES = ["efficiency", "isolation"]
+REAL = expand("<results>/real/{number}.jsonl", number=range(len(real_plan.tasks())))
+REAL_RATES = [f"real_{name}" for name in "cases efficiency false_names coverage limits summary".split()]
 
 
 def blind_code(*names):
@@ -61,6 +64,44 @@ rule blind_inside:
         BLIND + " inside {wildcards.effect} {input.models} {params.limits} --seed {wildcards.mix} --output {output} > {log} 2>&1"
 
 
+rule blind_real:
+    # Some tables, measured or drawn like measured ones: as they are, and with causes put into them.
+    input:
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=blind_code("backgrounds", "fitted", "real", "real_plan", "real_score", "reallike", *GENERATOR),
+        tables=lambda wildcards: sorted({task.path for task in real_plan.tasks()[int(wildcards.number)] if task.path}),
+    output:
+        "<results>/real/{number}.jsonl",
+    params:
+        seed=plan.SEED,
+    log:
+        "<results>/logs/real/{number}.log",
+    benchmark:
+        "<results>/benchmarks/real/{number}.tsv"
+    message:
+        "Put causes into real tables and tables like them, part {wildcards.number}"
+    shell:
+        BLIND + " real {wildcards.number} --seed {params.seed} --output {output} > {log} 2>&1"
+
+
+rule blind_real_tables:
+    # Rates only: a real table need not be redistributable.
+    input:
+        lines=REAL,
+        code=blind_code("real_tables", "tables", "score", "plan"),
+    output:
+        [f"<results>/{name}.csv" for name in REAL_RATES],
+        "<results>/real_campaign.json",
+    params:
+        folder=lambda wildcards, output: os.path.dirname(output[0]),
+    log:
+        "<results>/logs/blind_real_tables.log",
+    message:
+        "Compare what was put into real tables with what was found"
+    shell:
+        BLIND + " real-tables {input.lines} --folder {params.folder} > {log} 2>&1"
+
+
 rule blind_tables:
     # The seals are opened.
     input:
@@ -101,10 +142,12 @@ rule blind:
     # What is committed of the campaign, and its summary in the README.
     input:
         summary="<results>/summary.csv",
+        real="<results>/real_summary.csv",
         files=[
-            *(f"<results>/{name}.csv" for name in RATES),
+            *(f"<results>/{name}.csv" for name in [*RATES, *REAL_RATES]),
             *(f"<results>/figures/{name}.png" for name in BLIND_FIGURES),
             "<results>/campaign.json",
+            "<results>/real_campaign.json",
         ],
         code=code("publish"),
     params:
@@ -113,4 +156,4 @@ rule blind:
     message:
         "Copy what is committed of the blind tests, and fill their table in the README"
     shell:
-        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document README.md --block blind={input.summary}"
+        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document README.md --block blind={input.summary} --block blind_real={input.real}"
