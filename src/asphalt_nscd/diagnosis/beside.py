@@ -28,6 +28,7 @@ LEAST_GAIN = 6.0  # of -2 ln likelihood over a discrepancy without a name: 20 ti
 AS_GOOD = 6.0  # gains closer than this are not told apart
 SURVIVES = 2.0  # standard errors that an estimate must keep where something is left out
 SETTLED = 2  # rounds of fitting law and discrepancy in turn
+CONVERGED = 0.01  # change of the objective at which a fit beside a discrepancy ends
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,7 @@ class Found:
 
 def begin(plain: Joint, fitted: Fitted) -> State:
     """Law and discrepancy without any cause."""
-    found = discrepancy.processes(plain.observed, plain.noise)
+    found = discrepancy.processes(plain, fitted)
     start = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances
     return _smoothed(_settle(plain, found, fitted, (), start))
 
@@ -95,7 +96,7 @@ def _settle(plain: Joint, found: Processes, at: Fitted, active: tuple[Candidate,
     for _ in range(SETTLED):
         noise = replace(plain.noise, discrepancy=found.covariance(variances))
         wide = Joint(plain.observed, plain.base, noise)
-        fitted = wide.fit(law, scales, active)
+        fitted = wide.fit(law, scales, active, CONVERGED)
         law, scales, active = fitted.law, fitted.scales, fitted.active
         linear = plain.linearise(law, scales, active)
         model = discrepancy.reduce(found, linear)
@@ -105,11 +106,11 @@ def _settle(plain: Joint, found: Processes, at: Fitted, active: tuple[Candidate,
 
 def _smoothed(state: State) -> State:
     """The same with the roughness of the law that is likeliest beside the discrepancy."""
-    scored = []
+    scored, fitted = [], state.fitted
     for roughness in ROUGHNESS:
         base = replace(state.plain.base, roughness=roughness)
         wide = Joint(state.plain.observed, base, state.wide.noise)
-        fitted = wide.fit(state.fitted.law, state.fitted.scales, state.fitted.active)
+        fitted = wide.fit(fitted.law, fitted.scales, fitted.active, CONVERGED)
         scored.append((marginal_likelihood(wide, fitted), base, fitted))
     _, base, fitted = max(scored, key=lambda item: item[0])
     plain = Joint(state.plain.observed, base, state.plain.noise)
@@ -146,6 +147,13 @@ def _next(
         gain = state.misfit - after.misfit - 2.0 * (len(candidates[k].values) - 1)
         refits.append((gain, k, after))
     refits = [refit for refit in refits if refit[0] > LEAST_GAIN]
+    if not refits:
+        return None
+    # A cause with shapes of its own follows almost any structure: it must be carried by the whole table.
+    refits = [
+        refit for refit in refits
+        if len(candidates[refit[1]].values) == 1 or not hangs_on(refit[2], refit[2].fitted.active[-1])
+    ]  # fmt: skip
     if not refits:
         return None
     most = max(gain for gain, _, _ in refits)

@@ -3,7 +3,8 @@
 A real table never obeys one law to within its scatter: a hot isotherm is not linear, a machine resonates,
 one specimen is odd. Such structure has no name, but it must widen what is said of the causes (Kennedy &
 O'Hagan 2001). It enters as Gaussian processes over ln f, for the modulus and for the phase apart: one for
-each isotherm, one for each specimen, one common to all tests. Their variances are estimated by restricted
+each isotherm, one for each specimen, one common to all tests. Besides, each specimen has a spectrum of its
+own, which changes modulus and phase together as causality asks. Their variances are estimated by restricted
 likelihood, with the cause that is tested in the model: without it they would absorb it.
 
 With V0 the covariance of scatter and law (its prior included), U the factors of the processes and v their
@@ -19,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
-from asphalt_nscd.diagnosis.joint import Fitted, Noise
+from asphalt_nscd.diagnosis.joint import Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
@@ -30,7 +31,8 @@ ACROSS = 0.5  # of the tested range of temperature, over which it changes
 LEFT_OUT = {"isotherm": 1e-3, "all": 1e-3, "specimen": 0.05}  # share of the variance of dropped eigenvectors
 # Size of a discrepancy over the scatter of one test: scale of its half-Cauchy prior. What is common to all
 # isotherms is rarer than what breaks one: it must come from the machine.
-USUAL = {"isotherm": 0.5, "all": 0.15, "specimen": 0.5}
+USUAL = {"isotherm": 0.5, "all": 0.1, "specimen": 0.3, "spectrum": 1.0}
+OF_TIMES = 4.0  # of ln(relaxation time), over which the spectrum of a specimen departs from that of the mix
 ITERATIONS = 25
 CONVERGED = 0.05  # change of -2 ln likelihood
 LEAST = 1e-4  # variance that is as good as none, in units of the scatter
@@ -50,20 +52,29 @@ class Processes:
     block: NDArray[np.int64]
     usual: Vector
 
-    def covariance(self, variances: Vector) -> tuple[NDArray, NDArray]:
-        """Covariances (n, n) of ln|E*| and of the phase."""
+    def covariance(self, variances: Vector) -> NDArray:
+        """Covariance (2n, 2n) of ln|E*| and of the phase."""
+        kept = [
+            np.sqrt(variance) * root
+            for root, variance in zip(self.roots, variances, strict=True) if variance > LEAST
+        ]  # fmt: skip
         n = self.roots[0].shape[0]
-        parts = np.zeros((n, n)), np.zeros((n, n))
-        for root, variance in zip(self.roots, variances, strict=True):
-            if variance > LEAST:
-                for total, part in zip(parts, (root.real, root.imag), strict=True):
-                    total += variance * (part @ part.T)
-        return parts
+        if not kept:
+            return np.zeros((2 * n, 2 * n))
+        stacked = np.hstack([np.concatenate([root.real, root.imag]) for root in kept])
+        return stacked @ stacked.T
 
 
-def processes(observed: Observations, noise: Noise) -> Processes:
-    """The processes that a table may hold."""
+def processes(joint: Joint, fitted: Fitted) -> Processes:
+    """The processes that a table may hold; what a specimen's own spectrum does is linearised at the fit."""
+    observed, noise = joint.observed, joint.noise
     names, roots, usual = [], [], []
+    if len(observed.names) > 1:
+        spectra = noise.sigma[0] * _of_spectrum(joint, fitted)
+        for k, name in enumerate(observed.names):
+            names.append(f"specimen {name}, spectrum")
+            roots.append(spectra * (observed.specimen == k)[:, None])
+            usual.append(USUAL["spectrum"])
     for kind, name, kernel in _kernels(observed):
         root = _root(kernel, LEFT_OUT[kind])
         for part, unit in (("modulus", noise.sigma[0]), ("phase", 1j * noise.sigma[1])):
@@ -73,6 +84,14 @@ def processes(observed: Observations, noise: Noise) -> Processes:
     factor = np.hstack([noise.whiten(root) for root in roots])
     block = np.repeat(np.arange(len(roots)), [root.shape[1] for root in roots])
     return Processes(tuple(names), tuple(roots), factor, block, np.array(usual))
+
+
+def _of_spectrum(joint: Joint, fitted: Fitted) -> NDArray[np.complex128]:
+    """What a smooth relative change of the spectrum by one does to ln E*, a factor (n, rank)."""
+    times = joint.base.times
+    modulus, slope = joint.base.modulus(fitted.law, joint.observed.omega, joint.observed.temperature)
+    apart = np.log(times)[:, None] - np.log(times)
+    return (slope[:, : times.size] / modulus[:, None]) @ _root(np.exp(-0.5 * (apart / OF_TIMES) ** 2), 1e-2)
 
 
 def _kernels(observed: Observations):

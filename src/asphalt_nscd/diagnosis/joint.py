@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgError, cho_factor, cho_solve, solve_triangular
+from scipy.linalg import LinAlgError, block_diag, cho_factor, cho_solve, solve_triangular
 
 from asphalt_nscd.diagnosis.bases import Base
 from asphalt_nscd.diagnosis.causes._cause import Cause, Place
@@ -51,7 +51,7 @@ class Noise:
     within, shared (2, n): standard deviations of ln|E*| and of the phase [rad], of single tests and of what
     the tests of one block share; block (n,): number of the specimen's isotherm a test belongs to. sigma:
     scatter of one test, mean over the table; scale: standard deviation of ln|E*| between specimens; freedom:
-    degrees of freedom of the estimate. discrepancy: covariances (n, n) of both, added where a table holds
+    degrees of freedom of the estimate. discrepancy: covariance (2n, 2n) of both, added where a table holds
     more than scatter.
     """
 
@@ -61,11 +61,12 @@ class Noise:
     sigma: tuple[float, float]
     scale: float
     freedom: int
-    discrepancy: tuple[NDArray, NDArray] | None = None
+    discrepancy: NDArray | None = None
 
     def subset(self, rows: NDArray) -> Noise:
         """The noise of some of the rows."""
-        beside = self.discrepancy and tuple(part[np.ix_(rows, rows)] for part in self.discrepancy)
+        both = np.concatenate([np.arange(self.block.size)[rows] + k * self.block.size for k in (0, 1)])
+        beside = None if self.discrepancy is None else self.discrepancy[np.ix_(both, both)]
         block = np.unique(self.block[rows], return_inverse=True)[1]
         return replace(
             self, within=self.within[:, rows], shared=self.shared[:, rows], block=block, discrepancy=beside
@@ -76,10 +77,7 @@ class Noise:
         parts = (values.real, values.imag)
         if self.discrepancy is None:
             return np.concatenate([self._whitened(k, part) for k, part in enumerate(parts)])
-        return np.concatenate([
-            solve_triangular(lower, part, lower=True, check_finite=False)
-            for lower, part in zip(self._factors, parts, strict=True)
-        ])  # fmt: skip
+        return solve_triangular(self._factor, np.concatenate(parts), lower=True, check_finite=False)
 
     def _whitened(self, part: int, values: NDArray) -> NDArray:
         """By the symmetric root of a variance and a share common to each block."""
@@ -96,19 +94,17 @@ class Noise:
         return scaled - (membership * pull) @ sums
 
     @cached_property
-    def _factors(self) -> list[NDArray]:
-        """Lower factors of both covariances."""
+    def _factor(self) -> NDArray:
+        """Lower factor of the covariance with its discrepancy."""
         assert self.discrepancy is not None
         same = self.block[:, None] == self.block
-        return [
-            np.linalg.cholesky(np.diag(w**2) + np.outer(s, s) * same + extra)
-            for w, s, extra in zip(self.within, self.shared, self.discrepancy, strict=True)
-        ]
+        parts = [np.diag(w**2) + np.outer(s, s) * same for w, s in zip(self.within, self.shared, strict=True)]
+        return np.linalg.cholesky(block_diag(*parts) + self.discrepancy)
 
     @property
     def log_determinant(self) -> float:
         """Of the covariance with its discrepancy."""
-        return 2.0 * float(sum(np.log(np.diag(lower)).sum() for lower in self._factors))
+        return 2.0 * float(np.log(np.diag(self._factor)).sum())
 
 
 @dataclass(frozen=True)
@@ -217,7 +213,9 @@ class Joint:
         active = tuple(c for c in fitted.active if c.cause.rows(part.observed, c.place).any())
         return part.fit(fitted.law, fitted.scales, active)
 
-    def fit(self, law: Vector, scales: Vector, active: tuple[Candidate, ...] = ()) -> Fitted:
+    def fit(
+        self, law: Vector, scales: Vector, active: tuple[Candidate, ...] = (), converged: float = CONVERGED
+    ) -> Fitted:
         """Levenberg-Marquardt from where the parameters stand; bounds of causes are respected.
 
         A step to where the model overflows counts as one that gains nothing.
@@ -239,7 +237,7 @@ class Joint:
             if gained < 0.0:
                 break
             now, damping = trial, max(damping / 5.0, 1e-9)
-            if gained < CONVERGED and damping < 1e-2:
+            if gained < converged and (damping < 1e-2 or converged > CONVERGED):
                 break
         return now
 
