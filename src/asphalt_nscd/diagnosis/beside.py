@@ -90,7 +90,9 @@ def climb(
     return taken, state
 
 
-def _settle(plain: Joint, found: Processes, at: Fitted, active: tuple[Candidate, ...], variances: Vector) -> State:
+def _settle(
+    plain: Joint, found: Processes, at: Fitted, active: tuple[Candidate, ...], variances: Vector
+) -> State:
     """Law, causes and discrepancy fitted in turn from where they stand."""
     law, scales = at.law, at.scales
     for _ in range(SETTLED):
@@ -117,9 +119,7 @@ def _smoothed(state: State) -> State:
     return _settle(plain, state.model.processes, fitted, fitted.active, state.variances)
 
 
-def _next(
-    state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
-) -> Found | None:
+def _next(state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator) -> Found | None:
     candidates, pointing = _pointing(state, catalogue)
     if not candidates:
         return None

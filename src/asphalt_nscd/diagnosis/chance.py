@@ -54,7 +54,8 @@ def scores(
     least = np.where(confined, 1e-9, ABSORBED)
     seen = information > least * np.maximum((d**2).sum(axis=0), 1e-300)
     norm = np.sqrt(np.where(seen, information, 1.0))
-    z = np.where(seen, d.T @ fitted.residual / norm, 0.0)
+    to_best = np.linalg.solve(fitted.precision, fitted.gradient)
+    z = np.where(seen, d.T @ (fitted.residual - fitted.jacobian @ to_best) / norm, 0.0)
     correlation = gram / norm[:, None] / norm * (seen[:, None] & seen)
     return Scores(z, information, seen, 0.5 * (correlation + correlation.T))
 

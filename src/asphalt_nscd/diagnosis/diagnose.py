@@ -12,8 +12,9 @@ from scipy.stats import f as fisher
 from asphalt_nscd.diagnosis import causality, chance, scatter, start
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
+from asphalt_nscd.diagnosis.chance import CHANCE
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
-from asphalt_nscd.diagnosis.ladder import CHANCE, Ladder, climb
+from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.measurements.reduction import require_enough
 
@@ -40,6 +41,15 @@ class Diagnosis:
     ladder: Ladder
     verdict: str = ""
     notes: list[str] = field(default_factory=list)
+    too_few: str = ""  # why these data tell no cause from what the catalogue lacks; empty if they may
+
+    def established(self, rung: Rung) -> bool:
+        """Whether a name is more than the likeliest: no rival, and carried by the whole table."""
+        if self.too_few or rung.rivals:
+            return False
+        if self.ladder.discrepancy:
+            return not self.ladder.hangs_on[rung.candidate.key]
+        return self.verdict == "explained"
 
 
 def diagnose(
@@ -79,13 +89,13 @@ def diagnose(
             f"{test.temperature[0]:g} degC, {test.frequency[0]:g} Hz; check this test."
         )
     ladder = climb(joint, fitted, catalogue, draws, seed)
-    law_p = misfit_p_value(ladder.fitted, noise)
+    law_p = misfit_p_value(_by_scatter(ladder, noise), noise)
     diagnosis = Diagnosis(
         observed, whole.subset(aside), noise, replicated, baseline, baseline_joint, baseline_p, law_p,
         joint is not baseline_joint and baseline_p <= CHANCE and spectrum_better, ladder, notes=notes,
     )  # fmt: skip
     diagnosis.verdict = _verdict(diagnosis)
-    too_few = _too_few(diagnosis)
+    diagnosis.too_few = too_few = _too_few(diagnosis)
     if ladder.rungs and too_few:
         diagnosis.verdict = "unexplained_structure"
         names = ", ".join(dict.fromkeys(rung.candidate.cause.name for rung in ladder.rungs))
@@ -111,6 +121,15 @@ def _too_few(diagnosis: Diagnosis) -> str:
     if observed.isotherms.size < LEAST_ISOTHERMS:
         return f"fewer than {LEAST_ISOTHERMS} temperatures were tested"
     return ""
+
+
+def _by_scatter(ladder: Ladder, noise: Noise) -> Fitted:
+    """The last fit, its residuals in units of the scatter alone."""
+    fitted = ladder.fitted
+    if not ladder.discrepancy:
+        return fitted
+    plain = Joint(ladder.joint.observed, ladder.joint.base, noise)
+    return plain.linearise(fitted.law, fitted.scales, fitted.active)
 
 
 def _at_bounds(ladder: Ladder) -> list[str]:

@@ -25,7 +25,11 @@ from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
 LENGTH = 1.5  # of ln f, over which the discrepancy of an isotherm changes
-LEVEL, SMOOTH, ROUGH = 0.25, 0.6, 0.15  # shares of its variance: all frequencies, smooth over ln f, one condition
+LEVEL, SMOOTH, ROUGH = (
+    0.25,
+    0.6,
+    0.15,
+)  # shares of its variance: all frequencies, smooth over ln f, one condition
 SPECIMEN_LENGTH = 3.0  # of ln f, over which the discrepancy of a specimen changes
 ACROSS = 0.5  # of the tested range of temperature, over which it changes
 LEFT_OUT = {"isotherm": 1e-3, "all": 1e-3, "specimen": 0.05}  # share of the variance of dropped eigenvectors
@@ -173,7 +177,9 @@ def reduce(found: Processes, fitted: Fitted) -> Reduced:
 
 def directions(model: Reduced, fitted: Fitted, d: NDArray) -> Direction:
     """Whitened directions d (2n, k) of causes."""
-    return Direction(_projected(fitted, model.processes.factor, d), _projected(fitted, d, d), _data(fitted, d))
+    return Direction(
+        _projected(fitted, model.processes.factor, d), _projected(fitted, d, d), _data(fitted, d)
+    )
 
 
 def _projected(fitted: Fitted, left: NDArray, right: NDArray) -> NDArray:

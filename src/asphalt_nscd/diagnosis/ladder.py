@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.stats import f as fisher
 
-from asphalt_nscd.diagnosis import chance, limits
+from asphalt_nscd.diagnosis import beside, chance, limits
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import CHANCE
@@ -50,7 +50,13 @@ class Remaining:
 
 @dataclass
 class Ladder:
-    """What was climbed. withdrawn: rungs whose causes explain too little of the structure to be named."""
+    """What was climbed.
+
+    Where structure was left, it was climbed anew beside a discrepancy: discrepancy holds the size of each of
+    its processes in units of the scatter, hangs_on what must not be left out for a cause to be seen, estimates
+    the amplitude and standard error of every cause. withdrawn: causes that the first ascent named and the
+    second did not.
+    """
 
     joint: Joint
     start: Fitted
@@ -60,6 +66,9 @@ class Ladder:
     limits: dict[tuple, float] = field(default_factory=dict)
     unseen: list[Candidate] = field(default_factory=list)
     alike: list[tuple[Candidate, Candidate]] = field(default_factory=list)
+    discrepancy: dict[str, float] = field(default_factory=dict)
+    hangs_on: dict[tuple, list[str]] = field(default_factory=dict)
+    estimates: dict[tuple, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def fitted(self) -> Fitted:
@@ -100,8 +109,52 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
         ladder.rungs.append(rung)
         fitted = rung.after
     _drop_needless(ladder, draws, random)
-    _withdraw(ladder, draws, random)
+    if not _structure_left(ladder):
+        return ladder
+    if isinstance(joint.base, FlexibleSpectrum):
+        _climb_beside(ladder, joint, start, catalogue, draws, random)
+    else:
+        _withdraw(ladder, draws, random)
     return ladder
+
+
+def _structure_left(ladder: Ladder) -> bool:
+    """Whether more stays than scatter."""
+    if ladder.remaining is None:
+        return False
+    return ladder.remaining.p_value <= CHANCE or _excess(ladder) >= EXCESS * np.sqrt(
+        2.0 * ladder.fitted.residual.size
+    )
+
+
+def _excess(ladder: Ladder) -> float:
+    """Squares of the residuals beyond what scatter leaves."""
+    fitted = ladder.fitted
+    used = np.trace(np.linalg.solve(fitted.precision, fitted.jacobian.T @ fitted.jacobian))
+    return float(fitted.residual @ fitted.residual) - (fitted.residual.size - used)
+
+
+def _climb_beside(
+    ladder: Ladder, joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int,
+    random: np.random.Generator,
+) -> None:  # fmt: skip
+    """The ladder again, beside a discrepancy; every cause with what it hangs on."""
+    begun = beside.begin(joint, start)
+    found, end = beside.climb(begun, catalogue, draws, random)
+    ladder.joint, ladder.start = end.wide, begun.fitted
+    named = {one.candidate.key for one in found}
+    ladder.withdrawn = [rung for rung in ladder.rungs if rung.candidate.key not in named]
+    ladder.rungs = [
+        Rung(one.candidate, one.p_value, one.before.fitted, one.after.fitted, one.rivals) for one in found
+    ]
+    if ladder.rungs:
+        ladder.rungs[-1] = replace(ladder.rungs[-1], after=end.fitted)
+    ladder.hangs_on = {c.key: beside.hangs_on(end, c) for c in end.fitted.active}
+    ladder.limits, ladder.unseen, ladder.alike = beside.detection_limits(end, catalogue, draws, random)
+    ladder.estimates = beside.estimates(end, catalogue)
+    sizes = np.sqrt(end.variances)
+    ladder.discrepancy = dict(zip(end.model.processes.names, sizes.tolist(), strict=True))
+    ladder.remaining = _remaining(end.plain, end.linear, draws, random)
 
 
 def _stands_out(rung: Rung, remaining: Remaining) -> bool:
@@ -227,15 +280,8 @@ def _drop_needless(ladder: Ladder, draws: int, random: np.random.Generator) -> N
 
 def _withdraw(ladder: Ladder, draws: int, random: np.random.Generator) -> None:
     """No name where more structure stays than the named causes should leave."""
-    remaining = ladder.remaining
-    fitted = ladder.fitted
-    used = np.trace(np.linalg.solve(fitted.precision, fitted.jacobian.T @ fitted.jacobian))
-    left = float(fitted.residual @ fitted.residual) - (fitted.residual.size - used)
-    if remaining is None or (
-        remaining.p_value > CHANCE and left < EXCESS * np.sqrt(2.0 * fitted.residual.size)
-    ):
-        return
-    left = max(left, remaining.gain)
+    assert ladder.remaining is not None
+    left = max(_excess(ladder), ladder.remaining.gain)
     while ladder.rungs:
         rung = ladder.rungs[-1]
         gain = rung.before.objective - rung.after.objective

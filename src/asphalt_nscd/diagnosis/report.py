@@ -20,6 +20,7 @@ from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import CONFIDENCE, NOTABLE, SCHEMA_VERSION
 from asphalt_nscd.measurements.agreement import mean_relative_error
 
+NOTICED = 0.1  # size of a discrepancy over the scatter of one test, below which it is none
 Logarithm = NDArray[np.complex128]  # ln E* (n,)
 
 
@@ -53,6 +54,8 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         "indistinguishable": _indistinguishable(diagnosis),
         "not_testable": _not_testable(diagnosis),
         "detection_limits": _limits(diagnosis),
+        "estimates": _estimates(diagnosis),
+        "discrepancy": {name: size for name, size in diagnosis.ladder.discrepancy.items() if size > NOTICED},
         "lack_of_fit_p_value": diagnosis.law_p,
         "largest_pattern_left": None if remaining is None else {
             "pattern": remaining.pattern, "p_value": remaining.p_value, "z": float(np.sqrt(remaining.gain)),
@@ -174,6 +177,8 @@ def _rung(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen) -> dict
         "cause": rung.candidate.cause.name, "where": rung.candidate.place,
         "parameters": _parameters(diagnosis, final), "p_value": rung.p_value, "gain": gain,
         "as_good": [_name(rival) for rival in rung.rivals],
+        "established": diagnosis.established(rung),
+        "hangs_on": diagnosis.ladder.hangs_on.get(rung.candidate.key, []),
         "sentence": rung.candidate.cause.sentence, "confirmed_by": rung.candidate.cause.confirmed_by,
     }  # fmt: skip
 
@@ -228,7 +233,7 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
         },
         "log10_shift": {f"{t:g}": float(s) for t, s in zip(observed.isotherms, shift, strict=True)},
         "p_value": diagnosis.baseline_p, "gain": {"in_sample": _pair(diagnosis, before, after), "held_out": held_out},
-        "as_good": [],
+        "as_good": [], "established": not diagnosis.too_few, "hangs_on": [],
         "sentence": "the mix relaxes over many decades of time; one Burgers law for each temperature has two times",
         "confirmed_by": "tests over more decades of frequency, or creep at the warmest temperature",
     }  # fmt: skip
@@ -319,6 +324,17 @@ def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
             entry["confined_to"] = "specimen" if isinstance(place, str) else "temperature_C"
             entry.setdefault("places", {})[str(place)] = float(value)
     return limits
+
+
+def _estimates(diagnosis: Diagnosis) -> dict[str, Any]:
+    """Amplitude of every cause at every place and its standard error, where a discrepancy was estimated."""
+    out: dict[str, Any] = {}
+    units = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
+    for (name, place), (value, error) in diagnosis.ladder.estimates.items():
+        where = "all" if place is None else str(place)
+        places = out.setdefault(name, {"places": {}})["places"]
+        places[where] = {"value": float(value), "std_error": float(error), "unit": units[name]}
+    return out
 
 
 def _physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:

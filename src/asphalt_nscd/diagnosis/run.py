@@ -11,7 +11,7 @@ from tabulate import tabulate
 
 from asphalt_nscd.diagnosis import quality, report
 from asphalt_nscd.diagnosis.diagnose import diagnose
-from asphalt_nscd.diagnosis.extension import law_notes, material_law
+from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
@@ -55,7 +55,7 @@ def run(
     fit = None if observed.isotherms.size < 2 else material_law(diagnosis)
     content = report.as_json(diagnosis, numerical)
     if fit is not None:
-        content["notes"] += law_notes(diagnosis, fit.law)
+        content["notes"] += law_notes(diagnosis, fit.law) + prior_notes(fit)
     content["reading"] = reading(observed, () if campaign is None else campaign.notes)
     if simulations is not None:
         content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
@@ -76,7 +76,7 @@ def run(
     if fit is not None:
         write_spectrum(
             folder / "law.json", fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,
-            std_error=fit.std_error, unseen=fit.unseen,
+            std_error=fit.std_error, unseen=fit.unseen, from_prior=fit.from_prior,
         )  # fmt: skip
     write_json(folder / "diagnosis.json", content)
     return summary(content)

@@ -62,9 +62,7 @@ def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise
         within.append(np.sqrt(single) * size)
         shared.append(np.sqrt(common) * size)
         sigmas.append(float(np.sqrt(single + common)))
-    return Noise(
-        np.array(within), np.array(shared), block, (sigmas[0], sigmas[1]), _scale(scales), freedom
-    )
+    return Noise(np.array(within), np.array(shared), block, (sigmas[0], sigmas[1]), _scale(scales), freedom)
 
 
 def stated(
