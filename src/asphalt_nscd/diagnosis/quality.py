@@ -1,0 +1,55 @@
+"""What the testing machine itself says of a test, held against the limits of the standard."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from asphalt_nscd.diagnosis.observations import Observations
+
+STANDARD = "AASHTO T 378, TP 132"
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Largest value of a quality column that the standard accepts, in `unit` ("%" or "deg")."""
+
+    limit: float
+    unit: str
+    label: str
+    source: str = STANDARD
+
+
+@dataclass(frozen=True)
+class Exceeded:
+    """One test (row of the observations) whose quality column is above its limit, in the column's unit."""
+
+    row: int
+    column: str
+    value: float
+    limit: float
+
+
+# Drift of load and deformation has no entry. T 378 asks that the deformation drift in the direction of the
+# load and gives no number; the sign of that direction differs from machine to machine.
+LIMITS: dict[str, Limit] = {
+    "load_standard_error_percent": Limit(10.0, "%", "load standard error"),
+    "deformation_standard_error_percent": Limit(10.0, "%", "deformation standard error"),
+    "deformation_uniformity_percent": Limit(30.0, "%", "deformation uniformity"),
+    "phase_uniformity_deg": Limit(3.0, "deg", "phase uniformity"),
+}
+UNLIMITED = ("load_drift_percent", "deformation_drift_percent")
+COLUMNS = (*LIMITS, *UNLIMITED)
+
+
+def exceeded(observed: Observations) -> list[Exceeded]:
+    """Every quality value above its limit, by row and then in the order of LIMITS; NaN exceeds nothing."""
+    found = [
+        Exceeded(int(row), name, float(observed.quality[name][row]), limit.limit)
+        for name, limit in LIMITS.items()
+        if name in observed.quality
+        for row in np.flatnonzero(observed.quality[name] > limit.limit)
+    ]
+    order = list(LIMITS)
+    return sorted(found, key=lambda one: (one.row, order.index(one.column)))
