@@ -1,0 +1,213 @@
+"""Single tests that contradict the rest of their isotherm, and isotherms that contradict themselves.
+
+Causality within the specimen's own isotherm decides; quality columns of the machine and replicates are witnesses
+beside it. Two replicates that agree are not right for that: replicates alone take no test out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.special import logsumexp
+from scipy.stats import t as student
+
+from asphalt_nscd.diagnosis import quality, within_isotherm
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.within_isotherm import BEND_WEIGHTS, BENDS, Held
+
+STRONG = 3e-3  # chance, times the number of values, below which causality alone takes a test out
+NOTABLE = 0.1  # the same for a test that is listed and used
+SUPPORTED = 1e-2  # chance of one value, below which it is taken out where a witness agrees
+FAR = 5e-3  # chance, times the number of values, below which replicates are a witness
+BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1.5 deg or more
+BREAKS = BENDS > np.radians(1.0)
+IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may be no more than nearly smooth
+
+
+@dataclass(frozen=True)
+class Suspect:
+    """A test (row of the observations), why it is doubtful, and whether the diagnosis still uses it."""
+
+    row: int
+    reasons: tuple[str, ...]
+    used: bool
+
+
+@dataclass(frozen=True)
+class BrokenIsotherm:
+    """An isotherm [degC] whose phase departs from what |E*| requires by more than single tests explain.
+
+    frequency (k,) [Hz]; difference, std_error (k,): phase measured less required [deg], mean over specimens.
+    """
+
+    temperature: float
+    frequency: NDArray[np.float64]
+    difference: NDArray[np.float64]
+    std_error: NDArray[np.float64]
+    specimens: int
+
+    @property
+    def sentence(self) -> str:
+        low, high = sorted([self.difference.argmin(), self.difference.argmax()])
+        ends = " and ".join(
+            f"{abs(self.difference[k]):.1f} deg {'above' if self.difference[k] > 0.0 else 'below'} it at "
+            f"{self.frequency[k]:g} Hz"
+            for k in (low, high)
+        )
+        mean = f" (mean of {self.specimens} specimens)" if self.specimens > 1 else ""
+        return (
+            f"At {self.temperature:g} degC modulus and phase contradict each other: |E*| requires a phase, and the "
+            f"measured one is {ends}{mean}. No linear material does that. The response is not linear there (the "
+            "stress changed with the frequency), or the machine resonates."
+        )
+
+
+def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
+    """Suspect tests by row, each with the sentences that a reader can check; held: if it is already computed."""
+    held = held or within_isotherm.hold(observed)
+    broken = np.isin(observed.isotherm, _broken_temperatures(observed, held))
+    away = observed.logarithm
+    left = np.column_stack([away.real, away.imag]) - held.expected
+    values = 2 * max(np.count_nonzero(held.judged), 1)
+    flags = _singled_out(observed)
+    apart, apart_chance = _from_replicates(observed)
+    found = []
+    for row in range(observed.size):
+        limit = np.where(broken[row], IN_BROKEN, 1.0) / values
+        chance = held.chance[row]
+        far = apart_chance[row] * values < FAR
+        agrees = far & (np.sign(apart[row]) == np.sign(left[row]))
+        doubtful = (chance < SUPPORTED) & (agrees | bool(flags[row])) & ~(broken[row] & (not flags[row]))
+        contradicts = (chance < NOTABLE * limit) | doubtful
+        reasons = [_causal_reason(observed, held, row, column) for column in np.flatnonzero(contradicts)]
+        reasons += flags[row]
+        reasons += [_replicate_reason(observed, apart, row, column) for column in np.flatnonzero(far)]
+        used = not bool((chance < STRONG * limit).any() or doubtful.any())
+        if reasons:
+            found.append(Suspect(row, tuple(reasons), used))
+    return found
+
+
+def broken_isotherms(observed: Observations, held: Held | None = None) -> list[BrokenIsotherm]:
+    """Isotherms that contradict themselves as a whole, ascending; their single tests are no suspects."""
+    held = held or within_isotherm.hold(observed)
+    difference = np.degrees(observed.logarithm.imag - held.required)
+    error = np.degrees(np.hypot(held.required_error, held.scatter[:, 1]))
+    found = []
+    for temperature in _broken_temperatures(observed, held):
+        rows = held.judged & (observed.isotherm == temperature)
+        frequency, at = np.unique(observed.frequency[rows], return_inverse=True)
+        count = np.bincount(at)
+        found.append(
+            BrokenIsotherm(
+                float(temperature), frequency, np.bincount(at, difference[rows]) / count,
+                np.sqrt(np.bincount(at, error[rows] ** 2)) / count, np.unique(observed.specimen[rows]).size,
+            )
+        )  # fmt: skip
+    return found
+
+
+def table(observed: Observations, found: list[Suspect], held: Held) -> pd.DataFrame:
+    """One row for each test: the phase measured and the one that |E*| alone requires, and what is suspect."""
+    suspect = {one.row: one for one in found}
+    flagged = {one.row for one in quality.exceeded(observed)}
+    rows = range(observed.size)
+    return pd.DataFrame({
+        "specimen": [observed.names[k] for k in observed.specimen],
+        "temperature_C": observed.isotherm,
+        "frequency_Hz": observed.frequency,
+        "phase_deg": np.degrees(observed.logarithm.imag),
+        "phase_required_deg": np.degrees(held.required),
+        "std_error_deg": np.degrees(held.required_error),
+        "quality_flag": [row in flagged for row in rows],
+        "reasons": ["; ".join(suspect[row].reasons) if row in suspect else "" for row in rows],
+        "used": [row not in suspect or suspect[row].used for row in rows],
+    })  # fmt: skip
+
+
+def _broken_temperatures(observed: Observations, held: Held) -> NDArray[np.float64]:
+    block = within_isotherm.blocks(observed)
+    broken = []
+    for temperature in observed.isotherms:
+        rows = np.flatnonzero(held.judged & (observed.isotherm == temperature))
+        _, first = np.unique(block[rows], return_index=True)
+        if first.size:
+            # All specimens of the isotherm depart by one size, each with a law of its own.
+            evidence = logsumexp(held.bent[rows[first]], axis=1).sum(axis=0) + np.log(BEND_WEIGHTS)
+            if np.exp(logsumexp(evidence[BREAKS]) - logsumexp(evidence)) > BROKEN:
+                broken.append(temperature)
+    return np.array(broken)
+
+
+def _singled_out(observed: Observations) -> list[list[str]]:
+    """Limits of the standard that a test exceeds and most others of its isotherm and specimen do not."""
+    block = within_isotherm.blocks(observed)
+    sentences: list[list[str]] = [[] for _ in range(observed.size)]
+    above = quality.exceeded(observed)
+    for one in above:
+        alike = sum(other.column == one.column and block[other.row] == block[one.row] for other in above)
+        if 2 * alike < np.count_nonzero(block == block[one.row]):
+            limit = quality.LIMITS[one.column]
+            unit = limit.unit
+            sentences[one.row].append(
+                f"{limit.label} {one.value:.3g} {unit}, limit {one.limit:g} {unit} ({limit.source})"
+            )
+    return sentences
+
+
+def _from_replicates(observed: Observations) -> tuple[NDArray, NDArray]:
+    """How far ln|E*| and phase (n, 2) are from the replicates, and the chance of that; level and mean phase of
+    each specimen's isotherm are taken off."""
+    apart, chance = np.zeros((observed.size, 2)), np.ones((observed.size, 2))
+    block, logarithm = within_isotherm.blocks(observed), observed.logarithm
+    values = np.column_stack([logarithm.real, logarithm.imag])
+    z, freedom = np.zeros((observed.size, 2)), 0
+    known = np.bincount(observed.cell)[observed.cell] >= 3
+    for temperature in observed.isotherms:
+        rows = np.flatnonzero(known & (observed.isotherm == temperature))
+        if not rows.size:
+            continue
+        labels = [np.unique(label[rows], return_inverse=True)[1] for label in (block, observed.cell)]
+        design = np.hstack([np.eye(label.max() + 1)[label] for label in labels])
+        left, size, _ = np.linalg.svd(design, full_matrices=False)
+        left = left[:, size > 1e-9 * size[0]]
+        room = 1.0 - (left**2).sum(axis=1)
+        residual = values[rows] - left @ (left.T @ values[rows])
+        inside = room > 1e-6
+        apart[rows[inside]] = residual[inside] / room[inside, None]
+        z[rows[inside]] = residual[inside] / np.sqrt(room[inside, None])
+        freedom += rows.size - left.shape[1]
+    if freedom < 4:
+        return apart, chance
+    used = z.any(axis=1)
+    scale = np.sqrt(np.median(z[used] ** 2, axis=0) / 0.455)
+    chance[used] = 2.0 * student.sf(np.abs(z[used]) / np.maximum(scale, 1e-9), freedom)
+    return apart, chance
+
+
+def _causal_reason(observed: Observations, held: Held, row: int, column: int) -> str:
+    rest = f"the other tests of this specimen at {observed.isotherm[row]:g} degC"
+    expected, error = held.expected[row, column], held.std_error[row, column]
+    if column == 0:
+        return (
+            f"|E*| is {abs(observed.modulus[row]) / 1e6:.0f} MPa; its phase and {rest} require "
+            f"{np.exp(expected) / 1e6:.0f} MPa +- {100.0 * error:.1f} %"
+        )
+    phase = np.degrees(observed.logarithm.imag[row])
+    required, alone = np.degrees(held.required[row]), np.degrees(held.required_error[row])
+    return (
+        f"phase is {phase:.1f} deg; its |E*| and {rest} require {np.degrees(expected):.1f} deg "
+        f"+- {np.degrees(error):.1f} (|E*| alone: {required:.1f} deg +- {alone:.1f})"
+    )
+
+
+def _replicate_reason(observed: Observations, apart: NDArray, row: int, column: int) -> str:
+    others = np.count_nonzero(observed.cell == observed.cell[row]) - 1
+    size = (
+        f"{100.0 * abs(apart[row, 0]):.1f} %" if column == 0 else f"{np.degrees(abs(apart[row, 1])):.1f} deg"
+    )
+    what = "|E*|" if column == 0 else "phase"
+    return f"{what} differs from {others} replicates by {size}, beyond what the specimens differ by on this isotherm"
