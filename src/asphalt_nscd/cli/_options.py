@@ -88,3 +88,24 @@ class Numbers(click.ParamType):
             wanted = "different" if self.size is None else str(self.size)
             self.fail(f"{value!r} is not {wanted} positive numbers joined by commas.", param, context)
         return numbers
+
+
+class Choice(click.ParamType):
+    """`E_GPa=Steifigkeit`: what a column holds, in our names with its unit, and how the table calls it."""
+
+    name = "quantity_unit=column"
+
+    def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
+        quantity, equals, column = value.partition("=")
+        if not equals or not quantity.strip() or not column.strip():
+            self.fail(f"{value!r} is not of the form E_GPa=column.", param, context)
+        return quantity.strip(), column.strip()
+
+
+column = click.option(
+    "--column",
+    "columns",
+    multiple=True,
+    type=Choice(),
+    help="What a column holds, where its name does not tell.",
+)

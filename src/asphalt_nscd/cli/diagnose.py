@@ -10,9 +10,16 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 
 
 @click.command()
-@click.argument("measurements", type=_options.File)
+@click.argument("measurements", type=_options.File, nargs=-1, required=True)
 @click.option(
     "--output", required=True, type=_options.File, help="Folder for diagnosis.json and residuals.csv."
+)
+@click.option("--sheet", help="Sheet of an XLSX file, where several hold something.")
+@_options.column
+@click.option(
+    "--measured-in",
+    type=click.Choice(["bending", "tension-compression"]),
+    help="Test that gave the moduli; else tension-compression for machine exports, bending for tables.",
 )
 @click.option(
     "--geometry",
@@ -46,14 +53,20 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 def command(
-    measurements: Path, output: Path, geometry: object, specimen: Path | None, static_modulus_mpa: float | None,
+    measurements: tuple[Path, ...], output: Path, sheet: str | None, columns: tuple[tuple[str, str], ...],
+    measured_in: str | None, geometry: object, specimen: Path | None, static_modulus_mpa: float | None,
     modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
     simulations: Path | None,
 ) -> None:  # fmt: skip
-    """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict."""
+    """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
+
+    MEASUREMENTS: files or a folder of them. Read are exports of testing machines (AMPT, UTM) and tables (CSV,
+    TSV, XLSX) with a row for each test or a column for each temperature or frequency.
+    """
     import math
 
     from asphalt_nscd.diagnosis.run import run
+    from asphalt_nscd.table_import.campaign import read_campaign
 
     stated = None
     if (modulus_scatter_percent is None) != (phase_scatter_deg is None):
@@ -61,4 +74,5 @@ def command(
     if modulus_scatter_percent is not None:
         stated = modulus_scatter_percent / 100.0, math.radians(phase_scatter_deg)
     static = None if static_modulus_mpa is None else 1e6 * static_modulus_mpa
-    click.echo(run(measurements, output, geometry, specimen, static, stated, draws, seed, simulations))
+    campaign, _ = read_campaign(measurements, sheet, dict(columns), measured_in)
+    click.echo(run(campaign, output, geometry, specimen, static, stated, draws, seed, simulations))

@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from asphalt_nscd.diagnosis import quality
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.files.csvinput import Limits, Table, read_csv
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, REDUCED_COLUMNS, reduced_frame
 from asphalt_nscd.measurements.twopoint import form_factor, mass_factor
@@ -26,6 +28,7 @@ OPTIONAL = {
 PEAKS = FORMS["peaks"] + REDUCED_COLUMNS[-2:]
 MOST_ROWS = 3000  # the chance level takes matrices of twice the rows
 BEYOND_SCATTER = 1.25  # a softest test may scatter below the static modulus, not by more
+HALF_MICRO = 0.5e-6  # the amplitude in one of a peak-to-peak value in millionths
 PAPER_GEOMETRY = {
     "b_mm": 25.0,
     "B_mm": 56.0,
@@ -37,14 +40,19 @@ PAPER_GEOMETRY = {
 
 
 def read_observations(
-    path: str | Path, geometry: str | Path | Mapping[str, Any], static_modulus: float | None = None
-) -> tuple[Observations, str]:
-    """Observations of a measurement table, and the origin its rows state.
+    measurements: str | Path | Campaign, geometry: str | Path | Mapping[str, Any],
+    static_modulus: float | None = None,
+) -> tuple[Observations, str]:  # fmt: skip
+    """Observations of a campaign or of a measurement table, and the origin its rows state.
 
     Columns specimen (or replicate), temperature_C (T_C), frequency_Hz (f_Hz), and one of the forms of
-    `reduce`; optional amplitude_m, order, cycles, and replicate beside specimen. static_modulus [Pa].
+    `reduce`; optional amplitude_m, order, cycles, replicate beside specimen, nominal_temperature_C (of the
+    isotherm), microstrain (peak to peak, as T 378 sets it) and the columns of `diagnosis.quality`, which may
+    have empty cells. static_modulus [Pa].
     """
-    table = _renamed(read_csv(path))
+    campaign = measurements if isinstance(measurements, Campaign) else None
+    table = _renamed(read_csv(measurements) if campaign is None else campaign.table)
+    path = table.path
     reduced = set(REDUCED_COLUMNS) <= set(table.columns)  # before: peaks stand beside the moduli
     if reduced:
         table = _without(table, (name for name in PEAKS if not any(table.columns[name])))
@@ -70,10 +78,13 @@ def read_observations(
     # Ready moduli may come from any test; only peaks and records went through Eq. (1).
     mass = np.array([mass_factor(geometries[name]) if by_force else 0.0 for name in names])
     temperature, frequency = frame["temperature_C"].to_numpy(float), frame["frequency_Hz"].to_numpy(float)
+    nominal = nominal_temperatures(table, temperature)
+    isotherm = temperature if (nominal == temperature).all() else nominal
+    strain = table.numbers_or_nan("microstrain") * HALF_MICRO
     origins = sorted(set(frame["origin"]))
     observed = Observations(
         specimen=specimen, names=tuple(str(name) for name in names),
-        temperature=temperature, frequency=_as_set(frequency, specimen, temperature),
+        temperature=temperature, frequency=_as_set(frequency, specimen, isotherm),
         modulus=frame["E_MPa"].to_numpy(float) * 1e6 * np.exp(1j * np.radians(frame["phase_deg"].to_numpy(float))),
         form_factor=gamma[specimen],
         inertia=(gamma * mass)[specimen],
@@ -81,6 +92,10 @@ def read_observations(
         order=optional.get("order"), cycles=optional.get("cycles"),
         time_step=optional.get("time_step_s"),
         static_modulus=static_modulus,
+        nominal_temperature=None if isotherm is temperature else isotherm,
+        strain=None if np.isnan(strain).all() else strain,
+        quality={name: table.numbers_or_nan(name) for name in quality.COLUMNS if name in table.columns},
+        test_type="bending" if campaign is None else campaign.test_type,
     )  # fmt: skip
     softest = float(observed.modulus.real.min())
     if static_modulus is not None and static_modulus > BEYOND_SCATTER * softest:

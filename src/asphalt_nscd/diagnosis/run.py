@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from tabulate import tabulate
 
-from asphalt_nscd.diagnosis import report
+from asphalt_nscd.diagnosis import quality, report
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law
 from asphalt_nscd.diagnosis.numerics import of_campaign
+from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
 from asphalt_nscd.diagnosis.simulated import read_specimen
 from asphalt_nscd.diagnosis.written import CONFIDENCE, UNJUDGED
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
+from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
 VERDICTS = {
@@ -32,32 +34,36 @@ HELD_OUT = {
 
 
 def run(
-    measurements: str | Path, folder: str | Path, geometry: str | Path | Mapping[str, Any],
+    measurements: str | Path | Campaign, folder: str | Path, geometry: str | Path | Mapping[str, Any],
     specimen: str | Path | None = None, static_modulus: float | None = None,
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
     simulations: str | Path | None = None,
 ) -> str:  # fmt: skip
-    """Diagnose a table, write diagnosis.json, residuals.csv and law.json into the folder; the summary.
+    """Diagnose measurements, write diagnosis.json, residuals.csv and law.json into the folder; the summary.
 
     simulations: table of simulated tests whose numerics are told apart.
     """
     numerical = read_specimen(specimen)
+    campaign = measurements if isinstance(measurements, Campaign) else None
+    given = Path(measurements) if campaign is None else campaign.table.path
+    files = (given,) if campaign is None else campaign.files
     observed, origin = read_observations(measurements, geometry, static_modulus)
     try:
         diagnosis = diagnose(observed, scatter, draws=draws, seed=seed)
     except InputError as error:
-        raise InputError(f"{measurements}: {error}") from None
+        raise InputError(f"{given}: {error}") from None
     fit = None if observed.isotherms.size < 2 else material_law(diagnosis)
     content = report.as_json(diagnosis, numerical)
     if fit is not None:
         content["notes"] += law_notes(diagnosis, fit.law)
+    content["reading"] = reading(observed, () if campaign is None else campaign.notes)
     if simulations is not None:
         content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
     content["origin"] = origin
     content["provenance"] = {
         **provenance(),
-        "measurements": Path(measurements).name,
-        "sha256": sha256(Path(measurements).read_bytes()).hexdigest(),
+        "measurements": given.name,
+        **_checksums(files),
         "draws": draws,
         "seed": seed,
         "geometry": dict(geometry) if isinstance(geometry, Mapping) else Path(geometry).name,
@@ -74,6 +80,53 @@ def run(
         )  # fmt: skip
     write_json(folder / "diagnosis.json", content)
     return summary(content)
+
+
+def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
+    """How the measurements were read: test type, isotherms, quality limits exceeded; notes of the import."""
+    specimen = [observed.names[place] for place in observed.specimen]
+    above = [
+        {
+            "specimen": specimen[one.row], "temperature_C": float(observed.isotherm[one.row]),
+            "frequency_Hz": float(observed.frequency[one.row]), "column": one.column, "value": one.value,
+            "limit": one.limit,
+        }
+        for one in quality.exceeded(observed)
+    ]  # fmt: skip
+    return {
+        "test_type": observed.test_type,
+        "specimens": list(observed.names),
+        "isotherms_C": observed.isotherms.tolist(),
+        "quality_columns": [name for name in quality.COLUMNS if name in observed.quality],
+        "limits_exceeded": above,
+        "notes": [*notes, *isotherm_notes(observed.temperature, observed.isotherm), *_quality_notes(above)],
+    }
+
+
+def _quality_notes(above: Sequence[Mapping[str, Any]]) -> list[str]:
+    """A sentence for each quality limit that some tests exceed, with the worst of them."""
+    notes = []
+    for name, limit in quality.LIMITS.items():
+        found = sorted((one for one in above if one["column"] == name), key=lambda one: -one["value"])
+        if found:
+            worst = "; ".join(
+                f"{one['specimen']} at {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz: {one['value']:g}"
+                for one in found[:3]
+            )
+            unit = " %" if limit.unit == "%" else f" {limit.unit}"
+            notes.append(
+                f"{len(found)} tests exceed the {limit.limit:g}{unit} of {limit.label} that {limit.source} allows "
+                f"({worst}{'; ...' if len(found) > 3 else ''})."
+            )
+    return notes
+
+
+def _checksums(files: Sequence[Path]) -> dict[str, Any]:
+    """The SHA-256 of one file, or name and SHA-256 of each of several."""
+    sums = [(path.name, sha256(path.read_bytes()).hexdigest()) for path in files]
+    if len(sums) == 1:
+        return {"sha256": sums[0][1]}
+    return {"files": [{"name": name, "sha256": digest} for name, digest in sums]}
 
 
 def _size(parameters: dict[str, Any]) -> str:
@@ -115,7 +168,10 @@ def summary(content: dict[str, Any]) -> str:
     ]
     scatter = content["scatter"]
     judged = content["verdict"] != "nothing_to_explain" or content["tested"]
+    read = content.get("reading", {"notes": []})
     lines = [
+        *read["notes"],
+        *([""] if read["notes"] else []),
         f"{content['tests']} tests, scatter {scatter['modulus_percent']:.3g} % in |E*|, "
         f"{scatter['phase_deg']:.3g} deg in phase.",
         "",

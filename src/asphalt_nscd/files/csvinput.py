@@ -50,15 +50,23 @@ class Limits:
 
 @dataclass(frozen=True)
 class Table:
-    """A CSV file as text: columns by name, and for each row its line number in the file (from 1)."""
+    """A CSV file as text: columns by name, and for each row its line number in the file (from 1).
+
+    files: the file of each row, where the table was put together from several.
+    """
 
     path: Path
     columns: dict[str, list[str]]
     lines: list[int]
+    files: list[Path] | None = None
 
     def error(self, row: int, problem: str) -> InputError:
         """InputError that names the file and the line of a row (from 0)."""
-        return InputError(f"{self.path}, line {self.lines[row]}: {problem}")
+        return InputError(f"{self.place(row)}: {problem}")
+
+    def place(self, row: int) -> str:
+        """File and line of a row (from 0)."""
+        return f"{self.path if self.files is None else self.files[row]}, line {self.lines[row]}"
 
     def require(self, names: Iterable[str]) -> None:
         """Refuse the table unless it has all the columns."""

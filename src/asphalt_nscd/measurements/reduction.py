@@ -129,9 +129,13 @@ def _read_keys(table: Table, tests: Sequence[str] = KEYS) -> pd.DataFrame:
             raise table.error(row, f"origin {origin[row]!r} is not known; write one of {', '.join(ORIGINS)}.")
         first = seen.setdefault(test, row)
         if first != row:
-            raise table.error(row, f"repeats the test of line {table.lines[first]}; keep one of the two.")
+            raise table.error(row, f"repeats the test of {_place(table, first)}; keep one of the two.")
     frame["origin"] = origin
     return frame
+
+
+def _place(table: Table, row: int) -> str:
+    return f"line {table.lines[row]}" if table.files is None else table.place(row)
 
 
 def _form_of(table: Table) -> str:

@@ -17,7 +17,13 @@ MOST_BYTES = 20_000_000
 MOST_UNPACKED = 50_000_000  # bytes of XML in an XLSX file
 MOST_ROWS, MOST_COLUMNS = 20_000, 300
 
+_FREQUENCY = r"\d\s*Hz\b"
+
 Row = tuple[int, list[str]]  # line in the file, from 1, and its fields
+
+
+class NotTests(InputError):
+    """A file that holds no tests at all; in a folder it is passed over and named."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +37,12 @@ class Cells:
 
 
 def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
-    """Cells of a CSV, TSV or XLSX file; blank rows and rows that begin with # are passed over.
+    """Cells of a CSV, TSV or XLSX file below its line of names; see `read_rows`."""
+    return as_cells(Path(path), *read_rows(path, sheet))
+
+
+def read_rows(path: str | Path, sheet: str | None = None) -> tuple[list[Row], list[str]]:
+    """Rows of a CSV, TSV or XLSX file, and how they were read; blank rows and those that begin with # are left out.
 
     sheet: name of the XLSX sheet, needed where several hold something.
     """
@@ -52,11 +63,17 @@ def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
     rows = [(line, _trimmed(cells)) for line, cells in rows]
     rows = [(line, cells) for line, cells in rows if cells and not _first(cells).startswith("#")]
     if len(rows) < 2:
-        raise InputError(f"{path}: holds no table; give one line of column names and a line for each test.")
+        raise NotTests(f"{path}: holds no table; give one line of column names and a line for each test.")
     if len(rows) > MOST_ROWS or max(len(cells) for _, cells in rows) > MOST_COLUMNS:
         raise InputError(
             f"{path}: more than {MOST_ROWS} rows or {MOST_COLUMNS} columns; give the table of results alone."
         )
+    return rows, notes
+
+
+def as_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
+    """A table from its rows, a title above its line of names left out; a row longer than that line is refused."""
+    rows, notes = list(rows), list(notes)
     while len(rows) > 2 and len(rows[0][1]) == 1 < len(rows[1][1]):
         notes.append(f"line {rows[0][0]} taken for a title: {rows[0][1][0]!r}")
         rows.pop(0)
@@ -94,11 +111,19 @@ def _text(path: Path) -> tuple[list[Row], list[str]]:
     lines = ["\n" if re.match(r"\s*#|sep=.\s*$", line, re.IGNORECASE) else line for line in lines]
     unquoted = [re.sub(r'"[^"]*"', "", line) for line in lines if line.strip()]
     # Above the names there may be a title, in which anything stands.
+    # A machine's export begins with lines that hold no separator; its line of frequencies shows it.
+    told = [line for line in unquoted if len(re.findall(_FREQUENCY, line, re.IGNORECASE)) > 1]
+    told = told or [line for line in unquoted[1:] if re.match(r"\W*fr[eé]q", line, re.IGNORECASE)]
     separator, name = next(
         (
             (mark, name)
             for mark, name in (("\t", "tabs"), (";", "semicolons"))
-            if unquoted and (mark in unquoted[0] or all(mark in line for line in unquoted[1:]))
+            if unquoted
+            and (
+                mark in unquoted[0]
+                or any(mark in line for line in told)
+                or all(mark in line for line in unquoted[1:])
+            )
         ),
         (",", "commas"),
     )
@@ -113,11 +138,14 @@ def _text(path: Path) -> tuple[list[Row], list[str]]:
 def _decoded(path: Path) -> tuple[str, list[str]]:
     data = path.read_bytes()
     codec = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
-    notes = []
+    notes = ["read as UTF-16"] if codec == "utf-16" else []
     try:
         text = data.decode(codec)
     except UnicodeDecodeError:
-        text = data.decode("cp1252", errors="replace")  # what Excel writes as plain CSV in the west of Europe
+        # What Excel and testing machines write in the west of Europe; Latin-1 is a part of it.
+        text = data.decode("cp1252", errors="replace")
+        if "\ufffd" in text:
+            raise InputError(f"{path}: neither UTF-8 nor Windows text (cp1252); save it as UTF-8.") from None
         notes = ["not UTF-8, so read as Windows text (cp1252)"]
     if "\0" in text:
         raise InputError(f"{path}: not text; give CSV, TSV or XLSX.")
@@ -152,7 +180,7 @@ def _workbook(path: Path, sheet: str | None) -> tuple[list[Row], list[str]]:
     if len(filled) > 1:
         raise InputError(f"{path}: sheets {', '.join(filled)} all hold something; name one with --sheet.")
     if not filled:
-        raise InputError(f"{path}: holds no table; give one line of column names and a line for each test.")
+        raise NotTests(f"{path}: holds no table; give one line of column names and a line for each test.")
     name, rows = filled.popitem()
     return rows, [f"sheet {name}"]
 

@@ -22,6 +22,7 @@ _NEWTON = {"N": (1.0, 0.0), "kN": (1e3, 0.0)}
 _METRE = {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "um": (1e-6, 0.0)}
 _MILLIMETRE = {"m": (1e3, 0.0), "mm": (1.0, 0.0), "um": (1e-3, 0.0)}
 _PERCENT = {"%": (1.0, 0.0), "percent": (1.0, 0.0)}
+_NUMBER = {"": (1.0, 0.0)}
 
 # Column of our tables: names that people give it, and units. Names of one letter differ by case.
 MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
@@ -31,7 +32,14 @@ MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
     ),
     "replicate": ("replicate rep repeat", {}),
     "origin": ("origin", {}),
-    "temperature_C": ("T temp temperature testtemperature testtemp température temperatur prüftemperatur θ", _CELSIUS),
+    "nominal_temperature_C": (
+        "targettemperature targettesttemperature settemperature nominaltemperature solltemperatur",
+        _CELSIUS,
+    ),
+    "temperature_C": (
+        "T temp temperature testtemperature testtemp averagetemperature température temperatur prüftemperatur θ",
+        _CELSIUS,
+    ),
     "frequency_Hz": ("f freq frequency loadingfrequency testfrequency fréquence frequenz prüffrequenz omega ω", _HERTZ),
     "E_MPa": (
         "E Estar modulus dynamicmodulus complexmodulus stiffness stiffnessmodulus norm module modulecomplexe "
@@ -42,6 +50,19 @@ MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
     "F0_N": ("F F0 force forceamplitude", _NEWTON),
     "z0_m": ("z z0 displacement displacementamplitude deflection amplitude", _METRE),
     "psi_deg": ("psi ψ", _DEGREE),
+    "amplitude_m": ("", _METRE),
+    "order": ("order", _NUMBER),
+    "cycles": ("cycles", _NUMBER),
+    "time_step_s": ("", {"s": (1.0, 0.0)}),
+    "microstrain": ("microstrain averagemicrostrain peaktopeakmicrostrain", _NUMBER),
+    "load_drift_percent": ("loaddrift", _PERCENT),
+    "load_standard_error_percent": ("loadstandarderror", _PERCENT),
+    "deformation_drift_percent": ("deformationdrift averagedeformationdrift", _PERCENT),
+    "deformation_standard_error_percent": (
+        "deformationstandarderror averagedeformationstandarderror", _PERCENT,
+    ),
+    "deformation_uniformity_percent": ("deformationuniformity", _PERCENT),
+    "phase_uniformity_deg": ("phaseuniformity phaseangleuniformity", _DEGREE),
 }  # fmt: skip
 SIEVES = {
     "diameter_mm": (
@@ -50,6 +71,11 @@ SIEVES = {
     ),
     "passing_percent": ("passing percentpassing masspassing passant durchgang siebdurchgang", _PERCENT),
 }
+QUALITY = (
+    "load_drift_percent", "load_standard_error_percent", "deformation_drift_percent",
+    "deformation_standard_error_percent", "deformation_uniformity_percent", "phase_uniformity_deg",
+)  # fmt: skip
+ABSENT = ("", "-", "--", "na", "n/a", "nan", "none")  # cells without a value, in small letters
 _UNITS = {name for _, units in (MEASURED | SIEVES).values() for name in units}
 
 
@@ -68,6 +94,9 @@ class Column:
 
 def recognise(header: str, known: dict = MEASURED) -> Column | None:
     """The column that a name stands for, None if it is none of those known; refuses another's unit."""
+    if header in known:  # one of ours
+        units = known[header][1]
+        return Column(header, header.rpartition("_")[2] if units and units is not _NUMBER else "")
     foreign = None
     for stem, unit in _splits(header):
         quantity = _quantity(stem, known, qualified=unit in _CELSIUS)
@@ -91,7 +120,7 @@ def recognise(header: str, known: dict = MEASURED) -> Column | None:
 def spellings(known: dict = MEASURED) -> str:
     """A line for each column: its name, those that people give it, and the units understood."""
     return "\n".join(
-        f"{quantity}: {', '.join(names.split())}" + (f" [{', '.join(units)}]" if units else "")
+        f"{quantity}: {', '.join(names.split() or [quantity])}" + (f" [{', '.join(units)}]" if units else "")
         for quantity, (names, units) in known.items()
     )
 

@@ -9,14 +9,16 @@ from itertools import chain
 
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.reduction import FORMS, ORIGINS
-from asphalt_nscd.table_import.cells import Cells
+from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, REDUCED_COLUMNS
+from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.decimals import decimal_mark, number
-from asphalt_nscd.table_import.quantities import MEASURED, Column, is_unit, recognise
+from asphalt_nscd.table_import.quantities import ABSENT, MEASURED, QUALITY, Column, is_unit, recognise
 from asphalt_nscd.table_import.wide import melted
 
 TEXTS = ("specimen", "replicate", "origin")
 KEYS = ("temperature_C", "frequency_Hz")
+FURTHER = ("nominal_temperature_C", "amplitude_m", "order", "cycles", "time_step_s")  # a diagnosis uses them
+MAY_BE_ABSENT = (*QUALITY, "microstrain")
 # Form, the angle that it lacks, the other one that stands there, and whose phase is wanted.
 _ANGLES = (
     ("moduli", "phase_deg", "psi_deg", "E*"),
@@ -39,6 +41,8 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
 
     chosen: names of columns by what they hold, `{"E_GPa": "Steifigkeit"}`, where a name does not tell.
     """
+    if not chosen and (ours := _own(cells)):
+        return ours
     cells, notes = melted(_with_units(cells))
     notes = [*cells.notes, *notes]
     columns = _columns(cells, chosen or {})
@@ -47,10 +51,10 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
         name: _single(cells, name, places)
         for name, places in columns.items()
         if name in (*TEXTS, *KEYS, *FORMS[form])
-    }
+    } | _further(columns, form)
     values, mark = _values(cells, kept)
     notes.append("decimals written with a " + ("comma" if mark == "," else "point"))
-    values["specimen"], note = _specimens(cells, values)
+    note = _specimens(cells, values)
     for name, (place, column) in kept.items():
         unit = f", converted from {column.unit}" if (column.factor, column.offset) != (1.0, 0.0) else ""
         notes.append(f"{name} from column {cells.header[place]!r}{unit}")
@@ -58,9 +62,35 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
     read = {place for place, _ in kept.values()}
     if ignored := [name for place, name in enumerate(cells.header) if place not in read]:
         notes.append(f"ignored: {', '.join(map(repr, ignored))}")
-    wanted = ["specimen", *KEYS, *FORMS[form], *(["origin"] if "origin" in values else [])]
+    order = ["specimen", "replicate", *KEYS, *FORMS[form], "origin", *FURTHER, *MAY_BE_ABSENT]
+    wanted = [name for name in order if name in values]
     table = Table(cells.path, {name: values[name] for name in wanted}, [line for line, _ in cells.rows])
     return Understood(table, form, notes)
+
+
+def _own(cells: Cells) -> Understood | None:
+    """A table that `reduce` wrote, or one that names records: in our columns already, taken as it is."""
+    names = set(cells.header)
+    if not set(REDUCED_COLUMNS) <= names and not {"record", *KEYS} <= names:
+        return None
+    columns = {name: [row[place] for _, row in cells.rows] for place, name in enumerate(cells.header)}
+    form = "records" if "record" in names else "moduli"
+    table = Table(cells.path, columns, [line for line, _ in cells.rows])
+    return Understood(table, form, [*cells.notes, "columns as `asphalt-nscd reduce` names them"])
+
+
+def _further(columns: dict[str, list[Place]], form: str) -> dict[str, Place]:
+    """Columns beside the tests themselves, where exactly one column gives each, with its unit."""
+    found = {
+        name: columns[name][0]
+        for name in (*FURTHER, *MAY_BE_ABSENT)
+        if len(columns.get(name, [])) == 1 and columns[name][0][1].unit is not None
+    }
+    amplitude = columns.get("z0_m", [])
+    # Beside moduli a displacement is no peak to reduce.
+    if form == "moduli" and "amplitude_m" not in found and len(amplitude) == 1 and amplitude[0][1].unit:
+        found["amplitude_m"] = amplitude[0]
+    return found
 
 
 def _with_units(cells: Cells) -> Cells:
@@ -98,6 +128,8 @@ def _columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
             raise InputError(f"{cells.path}: {error}") from None
         if column is not None and place not in taken and column.quantity not in settled:
             found.setdefault(column.quantity, []).append((place, column))
+    if "temperature_C" not in found and "nominal_temperature_C" in found:
+        found["temperature_C"] = found.pop("nominal_temperature_C")
     return found
 
 
@@ -143,7 +175,8 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> str:
                 f'{of}, say so with --column {_as_written(wanted, column)}="{cells.header[place]}".'
             )
     form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant
-    raise InputError(
+    nothing = {"E_MPa", "F0_N", "z0_m"}.isdisjoint(columns)
+    raise (NotTests if nothing else InputError)(
         f"{cells.path}: no column for {' and '.join(missing[form])} (found: {', '.join(cells.header)}); write names "
         f'with units, or name a column of yours with --column {missing[form][0]}="its name".'
     )
@@ -163,6 +196,9 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
                 values[name].append(_word(cells, line, name, row[place]))
                 continue
             value = number(row[place], mark)
+            if value is None and name in MAY_BE_ABSENT and row[place].casefold() in ABSENT:
+                values[name].append("")
+                continue
             if value is None:
                 problem = (
                     f"{row[place]!r} is not a number"
@@ -172,8 +208,9 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
                 raise InputError(
                     f"{cells.path}, line {line}: {cells.header[place]}: {problem}; write a number or remove the line."
                 )
+            as_it_is = (column.factor, column.offset) == (1.0, 0.0)
             converted = value * column.factor + column.offset
-            values[name].append(f"{converted:.10g}")
+            values[name].append(row[place].replace(",", ".") if as_it_is else f"{converted:.10g}")
     return values, mark
 
 
@@ -189,21 +226,21 @@ def _word(cells: Cells, line: int, name: str, text: str) -> str:
     return text
 
 
-def _specimens(cells: Cells, values: dict[str, list[str]]) -> tuple[list[str], str]:
-    """A specimen for each test, and how it was told."""
-    if "specimen" in values and "replicate" in values:
-        pairs = zip(values["specimen"], values["replicate"], strict=True)
-        return [f"{one}-{two}" for one, two in pairs], "each replicate of a specimen is taken as a specimen"
+def _specimens(cells: Cells, values: dict[str, list[str]]) -> str:
+    """Put a specimen to each test, and say how it was told."""
     if "specimen" in values:
-        return values["specimen"], f"{len(set(values['specimen']))} specimens"
+        return f"{len(set(values['specimen']))} specimens"
     if "replicate" in values:
-        return values["replicate"], f"{len(set(values['replicate']))} replicates, taken as specimens"
-    first: dict[tuple[str, str], int] = {}
-    for (line, _), *test in zip(cells.rows, values["temperature_C"], values["frequency_Hz"], strict=True):
-        earlier = first.setdefault((test[0], test[1]), line)
+        values["specimen"] = values.pop("replicate")
+        return f"{len(set(values['specimen']))} replicates, taken as specimens"
+    values["specimen"] = ["1"] * len(cells.rows)
+    distinguishing = [values[name] for name in (*KEYS, "amplitude_m", "order", "cycles") if name in values]
+    first: dict[tuple[str, ...], int] = {}
+    for (line, _), *test in zip(cells.rows, *distinguishing, strict=True):
+        earlier = first.setdefault(tuple(test), line)
         if earlier != line:
             raise InputError(
                 f"{cells.path}, line {line}: repeats the test of line {earlier}, and no column tells specimens "
                 "apart; add a column specimen or replicate."
             )
-    return ["1"] * len(cells.rows), "no column of specimens, so all tests are taken as of one specimen"
+    return "no column of specimens, so all tests are taken as of one specimen"

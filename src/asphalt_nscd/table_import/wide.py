@@ -1,4 +1,4 @@
-"""Wide tables, with a column for each temperature: `|E*| (MPa) at 15 °C`, `phi (deg) -10°C`."""
+"""Wide tables, a column for each temperature or each frequency: `|E*| (MPa) at 15 °C`, `phi (deg) 10 Hz`."""
 
 from __future__ import annotations
 
@@ -8,39 +8,52 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.quantities import recognise
 
-_AT = re.compile(
-    r"(?P<name>.*?\S)(?:\s*(?:at|@|à|bei|,|;|T\s*=)\s*|[\s_]+)(?P<at>[-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\s?)?C"
+_LINK = r"(?P<name>.*?\S)(?:\s*(?:at|@|à|bei|,|;|[Tf]\s*=)\s*|[\s_]+)"
+# What a name of a column may hold: the quantity it gives, the column for it, how it is written, its plural.
+_CELSIUS = re.compile(_LINK + r"(?P<at>[-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\s?)?C")
+_HERTZ = re.compile(_LINK + r"(?P<at>\d+(?:[.,]\d+)?)\s*Hz")
+_SPREAD = (
+    ("temperature_C", "T (°C)", _CELSIUS, "temperatures"),
+    ("frequency_Hz", "f (Hz)", _HERTZ, "frequencies"),
 )
 
 
 def melted(cells: Cells) -> tuple[Cells, list[str]]:
-    """One row for each temperature, where column names hold temperatures; other tables as they are."""
-    found = {place: match for place, name in enumerate(cells.header) if (match := _AT.fullmatch(name))}
+    """One row for each test, where column names hold temperatures or frequencies; other tables as they are."""
+    notes: list[str] = []
+    for spread in _SPREAD:
+        cells, said = _melted(cells, *spread)
+        notes += said
+    return cells, notes
+
+
+def _melted(
+    cells: Cells, quantity: str, column: str, pattern: re.Pattern[str], plural: str
+) -> tuple[Cells, list[str]]:
+    found = {place: match for place, name in enumerate(cells.header) if (match := pattern.fullmatch(name))}
     if not found:
         return cells, []
-    temperatures: dict[str, dict[str, int]] = {}
+    spread: dict[str, dict[str, int]] = {}
     for place, match in found.items():
         at = match["at"].replace("−", "-")
-        if temperatures.setdefault(at, {}).setdefault(match["name"], place) != place:
+        if spread.setdefault(at, {}).setdefault(match["name"], place) != place:
             raise InputError(
                 f"{cells.path}: column {cells.header[place]!r} stands twice; keep one of the two."
             )
-    names = list(next(iter(temperatures.values())))
+    names = list(next(iter(spread.values())))
     shared = [place for place in range(len(cells.header)) if place not in found]
-    plain = any(
-        (column := recognise(cells.header[place])) and column.quantity == "temperature_C" for place in shared
-    )
-    if plain or any(set(columns) != set(names) for columns in temperatures.values()):
+    plain = any((known := recognise(cells.header[place])) and known.quantity == quantity for place in shared)
+    if plain or any(set(columns) != set(names) for columns in spread.values()):
         raise InputError(
-            f"{cells.path}: temperatures stand in names of columns such as {cells.header[next(iter(found))]!r}, but "
-            "not alike for all quantities; give one row for each test, with a column T (°C)."
+            f"{cells.path}: {plural} stand in names of columns such as {cells.header[next(iter(found))]!r}, but "
+            f"not alike for all quantities; give one row for each test, with a column {column}."
         )
-    header = [*(cells.header[place] for place in shared), "T (°C)", *names]
+    header = [*(cells.header[place] for place in shared), column, *names]
     rows = [
         (line, [*(row[place] for place in shared), at, *measured])
-        for at, columns in temperatures.items()
+        for at, columns in spread.items()
         for line, row in cells.rows
-        # A temperature at which this frequency was not tested is left empty.
+        # What was not tested there is left empty.
         if any(measured := [row[columns[name]] for name in names])
     ]
-    return Cells(cells.path, header, rows, cells.notes), ["temperatures taken from the names of the columns"]
+    return Cells(cells.path, header, rows, cells.notes), [f"{plural} taken from the names of the columns"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import re
 import shutil
-from collections.abc import Mapping
-from dataclasses import astuple, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,18 +14,20 @@ import numpy as np
 import pandas as pd
 import yaml
 
+from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path, write_table
+from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry
-from asphalt_nscd.measurements.reduction import reduced_frame, require_enough
+from asphalt_nscd.measurements.limits import LIMITS
+from asphalt_nscd.measurements.reduction import FORMS, KEYS, reduced_frame, require_enough
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.study.configuration import RESERVED, complete_study
 from asphalt_nscd.study.preflight import require_feasible
-from asphalt_nscd.table_import.cells import read_cells
+from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.duration import duration
 from asphalt_nscd.table_import.grid import grid
 from asphalt_nscd.table_import.spheres import PAPER, Spheres, read_grading, spheres_for
-from asphalt_nscd.table_import.understand import understand
 
 SCHEMA = Path(__file__).resolve().parents[3] / "workflow/schemas/study.schema.yaml"
 TAKEN = (*RESERVED, "blind")
@@ -45,13 +47,13 @@ class Wishes:
 
     geometry: Mapping[str, float] | Path | None = None
     grading: Path | None = None
-    direct: bool = False  # moduli from direct tension-compression
+    measured_in: str | None = None  # test that gave the moduli, one of TEST_TYPES
     small: bool = False
     sheet: str | None = None
     columns: Mapping[str, str] | None = None
 
 
-def new_study(name: str, measurements: str | Path, wishes: Wishes) -> tuple[Path, list[str]]:
+def new_study(name: str, measurements: Sequence[Path], wishes: Wishes) -> tuple[Path, list[str]]:
     """Write config/NAME.yaml, and below data/NAME/ the table in our columns and the spheres.
 
     Returns the path of the configuration, and what was understood. Nothing is replaced, and what was
@@ -61,25 +63,29 @@ def new_study(name: str, measurements: str | Path, wishes: Wishes) -> tuple[Path
     _require_free(name, config, folder)
     if wishes.small and wishes.grading is not None:
         raise InputError("--small takes spheres of its own; leave out --grading or --small.")
-    read = understand(read_cells(measurements, wishes.sheet), wishes.columns)
-    geometry = _geometry(read.form, wishes)
-    frame = reduced_frame(read.table, geometry)
-    temperatures, frequencies, notes = grid(frame, read.table.path)
+    campaign, form = read_campaign(measurements, wishes.sheet, wishes.columns, wishes.measured_in)
+    source = ", ".join(map(str, measurements))
+    direct = campaign.test_type != "bending"
+    read, notes = for_study(campaign, form)
+    geometry = _geometry(form, direct, wishes)
+    frame = reduced_frame(read, geometry)
+    temperatures, frequencies, outside = grid(frame, read.path)
+    notes += outside
     try:
         require_enough(len(frame), frame["frequency_Hz"].nunique())
     except InputError as error:
-        raise InputError(f"{measurements}: {error}") from None
+        raise InputError(f"{source}: {error}") from None
     shape = read_geometry(geometry, frame["specimen"])[frame["specimen"].iloc[0]]
     simulated = SMALL if wishes.small else shape
     spheres = SMALL_SPHERES if wishes.small else _spheres(simulated, wishes)
     seeds = [1] if wishes.small else [1, 2, 3, 4]
-    amplitude, why = _amplitude(read.table.columns.get("z0_m"), simulated, wishes.small)
+    amplitude, why = _amplitude(read.columns.get("z0_m"), simulated, wishes.small)
     step = float(f"{min(COARSEST_STEP, 1.0 / (STEPS_PER_CYCLE * max(frequencies))):.2g}")
     table, counts = folder / "measurements.csv", folder / "counts.csv"
     text = _render(
-        name=name, source=json.dumps(str(measurements), ensure_ascii=False), config=config, table=table.as_posix(),
-        counts_table=counts.as_posix(), notes=[" ".join(note.split()) for note in (*read.notes, *notes)],
-        form=read.form, direct=wishes.direct, small=wishes.small, seeds=seeds, temperatures=temperatures,
+        name=name, source=json.dumps(source, ensure_ascii=False), config=config, table=table.as_posix(),
+        counts_table=counts.as_posix(), notes=[" ".join(note.split()) for note in notes],
+        form=form, direct=direct, small=wishes.small, seeds=seeds, temperatures=temperatures,
         geometry=_flow(geometry if isinstance(geometry, Mapping) else str(geometry)), frequencies=frequencies,
         spheres=_words(spheres, wishes), box=list(spheres.box), amplitude=f"{amplitude:.3e}", amplitude_why=why,
         simulated=_flow(_as_mapping(simulated)) if wishes.small or not isinstance(geometry, Mapping) else "",
@@ -89,7 +95,7 @@ def new_study(name: str, measurements: str | Path, wishes: Wishes) -> tuple[Path
         duration=duration(int(spheres.counts.sum()), len(seeds), len(temperatures), frequencies, step),
     )  # fmt: skip
     try:
-        write_table(table, pd.DataFrame(read.table.columns))
+        write_table(table, pd.DataFrame(read.columns))
         write_table(counts, spheres.counts.rename_axis("diameter_mm").rename("count").reset_index())
         study = complete_study(yaml.safe_load(text), str(config), SCHEMA)
         require_feasible(study, str(config))
@@ -98,7 +104,7 @@ def new_study(name: str, measurements: str | Path, wishes: Wishes) -> tuple[Path
     except BaseException:
         shutil.rmtree(folder, ignore_errors=True)
         raise
-    return config, [*read.notes, *notes]
+    return config, notes
 
 
 def _require_free(name: str, config: Path, folder: Path) -> None:
@@ -113,8 +119,36 @@ def _require_free(name: str, config: Path, folder: Path) -> None:
             raise InputError(f"{path} exists already; choose another NAME, or remove it.")
 
 
-def _geometry(form: str, wishes: Wishes) -> Mapping[str, float] | Path:
-    if form == "peaks" and wishes.direct:
+def for_study(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
+    """The columns of a campaign that a study takes, with the temperature of the isotherm, and notes on them.
+
+    A study fits one Burgers law for each isotherm, so that all tests of one must have the same temperature.
+    """
+    table, notes = campaign.table, list(campaign.notes)
+    if form == "records":
+        raise InputError(
+            f"{table.path}: holds records; have `asphalt-nscd reduce` make moduli of them first."
+        )
+    columns = {name: table.columns[name] for name in ("specimen", *KEYS, *FORMS[form])}
+    if "origin" in table.columns:
+        columns["origin"] = table.columns["origin"]
+    if "replicate" in table.columns:
+        pairs = zip(table.columns["specimen"], table.columns["replicate"], strict=True)
+        columns["specimen"] = [f"{one}-{two}" for one, two in pairs]
+        notes.append("each replicate of a specimen is taken as a specimen")
+    measured = table.numbers("temperature_C", LIMITS["temperature_C"])
+    nominal = nominal_temperatures(table, measured)
+    if (changed := nominal != measured).any():
+        columns["temperature_C"] = [
+            f"{value:.10g}" if other else text
+            for value, other, text in zip(nominal, changed, columns["temperature_C"], strict=True)
+        ]
+        notes.append("each test has the temperature of its isotherm, because a study has one law for each")
+    return replace(table, columns=columns), notes
+
+
+def _geometry(form: str, direct: bool, wishes: Wishes) -> Mapping[str, float] | Path:
+    if form == "peaks" and direct:
         raise InputError(
             "forces and displacements of a direct test are not reduced here; give moduli, E (MPa) and phi (deg)."
         )

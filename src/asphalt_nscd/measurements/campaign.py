@@ -1,0 +1,93 @@
+"""A campaign as it reaches a diagnosis: one table, where it came from, and the isotherms in it."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.files.csvinput import Table
+
+TEST_TYPES = ("bending", "tension-compression")
+READINGS_APART = 0.5  # K; neighbours in one isotherm are no further apart: T 378 holds +- 0.5 K
+WIDEST_ISOTHERM = 1.0  # K between the coldest and the warmest reading of one isotherm
+OFF_TARGET = 0.5  # K that T 378 lets the mean temperature of a test stray from its target
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """Tests of a campaign in our columns, the files they came from, and sentences on how they were read.
+
+    test_type: one of TEST_TYPES.
+    """
+
+    table: Table
+    files: tuple[Path, ...]
+    test_type: str = "bending"
+    notes: tuple[str, ...] = field(default=())
+
+
+def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> NDArray[np.float64]:
+    """Nominal temperature (n,) [degC] of the isotherm that each measured temperature (n,) [degC] belongs to.
+
+    Neighbouring temperatures at most READINGS_APART apart belong together, unless the isotherm then grew
+    wider than WIDEST_ISOTHERM or held one test twice: whoever tested a specimen at 20 and at 20.5 degC at
+    the same frequency meant two isotherms. Such temperatures stay as they are. tests (n): what is the same
+    in two rows that repeat each other, specimen and frequency. The nominal temperature is the mean of
+    the isotherm's readings to 0.1 K.
+    """
+    values = np.unique(temperature)
+    # Readings have a tenth of a degree: 20.0 and 20.5 are 0.5 apart whatever the last bit says.
+    groups = np.split(values, np.flatnonzero(np.diff(values) > READINGS_APART + 1e-9) + 1)
+    nominal = temperature.copy()
+    for group in groups:
+        rows = np.flatnonzero(np.isin(temperature, group))
+        apart = len({(tests[row], temperature[row]) for row in rows}) > len({tests[row] for row in rows})
+        if len(group) > 1 and not apart and group[-1] - group[0] <= WIDEST_ISOTHERM + 1e-9:
+            nominal[rows] = round(float(temperature[rows].mean()), 1)
+    return nominal
+
+
+def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Isotherm (n,) [degC] of each row of a table: its target where the table gives one, else by `isotherms`.
+
+    A row without a target belongs to that within READINGS_APART of it. temperature (n,): as measured [degC].
+    """
+    names = ("specimen", "replicate", "frequency_Hz", "amplitude_m", "order", "cycles")
+    tests = list(zip(*(table.columns[name] for name in names if name in table.columns), strict=True))
+    target = table.numbers_or_nan("nominal_temperature_C")
+    told = np.isfinite(target)
+    if not told.any():
+        return isotherms(temperature, tests)
+    nominal = np.where(told, target, temperature)
+    for row in np.flatnonzero(~told):
+        near = np.unique(target[told])
+        near = near[np.abs(near - temperature[row]) <= READINGS_APART]
+        if near.size:
+            nominal[row] = near[np.argmin(np.abs(near - temperature[row]))]
+    return nominal
+
+
+def isotherm_notes(temperature: NDArray[np.float64], nominal: NDArray[np.float64]) -> list[str]:
+    """Sentences on the isotherms that hold more than one temperature, and on tests off their target."""
+    notes = []
+    changed = np.unique(nominal[np.abs(temperature - nominal) > 1e-9])
+    if changed.size:
+        parts = []
+        for value in changed:
+            measured = temperature[nominal == value]
+            parts.append(f"{value:g} (measured {measured.min():g} to {measured.max():g})")
+        notes.append(
+            "Isotherms in degC: " + ", ".join(parts) + ". The law is fitted to the measured temperatures."
+        )
+    off = np.abs(temperature - nominal) > OFF_TARGET + 1e-9
+    if off.any():
+        worst = int(np.argmax(np.abs(temperature - nominal)))
+        notes.append(
+            f"{int(off.sum())} tests ran more than {OFF_TARGET:g} K off the target temperature, at most "
+            f"{temperature[worst]:g} instead of {nominal[worst]:g} degC (AASHTO T 378 allows {OFF_TARGET:g} K)."
+        )
+    return notes

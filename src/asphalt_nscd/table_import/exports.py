@@ -1,0 +1,218 @@
+"""Summary exports of testing machines (AMPT, UTM): a header block, then frequencies as columns or as rows."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.cells import Cells, Row
+from asphalt_nscd.table_import.names import specimen_of
+from asphalt_nscd.table_import.quantities import ABSENT, Column, recognise
+
+_HERTZ = re.compile(r"(\d+(?:[.,]\d+)?)\s*(?:Hz)?", re.IGNORECASE)
+_IDENTIFICATION = (
+    "identification",
+    "specimen identification",
+    "specimen id",
+    "specimen name",
+    "specimen",
+    "sample id",
+)
+_TARGET = ("target test temperature", "target temperature", "set temperature", "nominal temperature")
+_CONSTANT = ("test temperature", "temperature", "chamber temperature")
+_COMMENTS = ("comments", "comment", "remarks")
+
+
+@dataclass(frozen=True)
+class Block:
+    """The tests of one specimen at one temperature, as a table with one row for each test.
+
+    repeated: the operator marked the file or the specimen as a repetition.
+    """
+
+    cells: Cells
+    repeated: bool = False
+
+
+@dataclass
+class _Header:
+    """What stands above the results: `label, value` or `label: value`, labels in small letters without units."""
+
+    values: dict[str, str] = field(default_factory=dict)
+    units: dict[str, str] = field(default_factory=dict)
+
+    def take(self, cells: Sequence[str]) -> None:
+        label, *rest = [cell for cell in cells if cell] or [""]
+        if not rest and ":" in label:
+            label, _, value = label.partition(":")
+            rest = [value.strip()]
+        match = re.fullmatch(r"(.*?)\s*[(\[]([^)\]]*)[)\]]\s*:?", label)
+        name = (match[1] if match else label).strip(" :").casefold()
+        if not rest or not rest[0]:
+            return
+        self.values[name] = rest[0] if name not in _COMMENTS else ", ".join(rest)
+        if match:
+            self.units[name] = match[2]
+
+    def first(self, names: Sequence[str]) -> tuple[str, str] | None:
+        """Label and value of the first of these labels that the header holds."""
+        return next(((name, self.values[name]) for name in names if self.values.get(name)), None)
+
+
+def blocks(path: Path, rows: list[Row], notes: list[str]) -> list[Block]:
+    """The blocks of results in the rows of a file; none if the file is not a machine's export."""
+    header, found, at = _Header(), [], 0
+    while at < len(rows):
+        line, cells = rows[at]
+        frequencies = _frequencies(cells)
+        if frequencies:
+            taken = _results(path, rows[at + 1 :], len(frequencies))
+            found.append(_as_block(path, header, _turned(line, cells, taken), notes))
+            at += 1 + len(taken)
+        elif found == [] and _names_columns(cells) and header.first((*_IDENTIFICATION, *_TARGET)):
+            taken = [row for row in rows[at + 1 :] if sum(map(bool, row[1])) > 1]
+            table = Cells(path, cells, [(n, _filled(path, n, row, len(cells))) for n, row in taken])
+            found.append(_as_block(path, header, table, notes))
+            return found
+        else:
+            header.take(cells)
+            at += 1
+    return found
+
+
+def _frequencies(cells: list[str]) -> list[str]:
+    """Frequencies [Hz] of a line `, 25 Hz, 10 Hz, ...` or `Frequency (Hz), 25, 10, ...`; none if it is another."""
+    label, values = cells[0], cells[1:]
+    named = _holds(label, "frequency_Hz")
+    if (label and not named) or not values or not all(values):
+        return []
+    numbers = [_HERTZ.fullmatch(value) for value in values]
+    if not all(numbers) or not (named or all("hz" in value.casefold() for value in values)):
+        return []
+    return [match[1] for match in numbers if match]
+
+
+def _holds(label: str, quantity: str) -> bool:
+    column = _recognised(label)
+    return column is not None and column.quantity == quantity
+
+
+def _recognised(label: str) -> Column | None:
+    try:
+        return recognise(label)
+    except (
+        InputError
+    ):  # of a unit that the quantity does not have: `understand` refuses it with the file's name
+        return None
+
+
+def _names_columns(cells: list[str]) -> bool:
+    held = {column.quantity for cell in cells if (column := _recognised(cell))}
+    return {"frequency_Hz", "E_MPa"} <= held
+
+
+def _results(path: Path, rows: list[Row], count: int) -> list[Row]:
+    """Lines of results below the frequencies: a label, and as many values as there are frequencies."""
+    taken: list[Row] = []
+    for line, cells in rows:
+        short = len(cells) - 1 < count and len(cells) < 3
+        if not cells[0] or short or _frequencies(cells):
+            break
+        if len(cells) - 1 > count:
+            if _recognised(cells[0]) is None:
+                break
+            raise InputError(
+                f"{path}, line {line}: {len(cells) - 1} values below {count} frequencies; if decimals are written "
+                "with a comma, separate the columns with semicolons."
+            )
+        taken.append((line, cells))
+    return taken
+
+
+def _turned(line: int, frequencies: list[str], rows: list[Row]) -> Cells:
+    """The results with one line for each frequency."""
+    header = ["frequency (Hz)", *(cells[0] for _, cells in rows)]
+    modulus = next((n for n, cells in rows if _holds(cells[0], "E_MPa")), line)
+    turned = []
+    for place, frequency in enumerate(_frequencies(frequencies), start=1):
+        values = [cells[place] if place < len(cells) else "" for _, cells in rows]
+        turned.append((modulus, [frequency, *values]))
+    return Cells(Path(), header, turned)
+
+
+def _filled(path: Path, line: int, row: list[str], count: int) -> list[str]:
+    if len(row) > count:
+        raise InputError(
+            f"{path}, line {line}: {len(row)} fields under {count} column names; remove what is too much."
+        )
+    return [*row, *[""] * (count - len(row))]
+
+
+def _as_block(path: Path, header: _Header, results: Cells, notes: list[str]) -> Block:
+    """The results with what the header says of all of them: specimen, target temperature, origin."""
+    notes = [*notes, "machine export"]
+    columns = [_recognised(name) for name in results.header]
+    held = {column.quantity: place for place, column in enumerate(columns) if column}
+    measured = [place for name in ("E_MPa", "phase_deg") if (place := held.get(name)) is not None]
+    rows = [
+        (line, row) for line, row in results.rows
+        if not measured or any(row[place].casefold() not in ABSENT for place in measured)
+    ]  # fmt: skip
+    if not rows:
+        raise InputError(f"{path}: no frequency has a modulus; remove the file or repeat its tests.")
+    if len(rows) < len(results.rows):
+        notes.append(f"{len(results.rows) - len(rows)} frequencies without a modulus left out")
+    reading = columns[held["temperature_C"]] if "temperature_C" in held else None
+    target, temperature_label = _temperature(header, reading)
+    known = header.first(_IDENTIFICATION)
+    text = known[1] if known else re.sub(r"[_\s-]*Sum(mary)?$", "", path.stem, flags=re.IGNORECASE)
+    name = specimen_of(text, None if target is None else _degrees(target))
+    if target is None and reading is None:
+        if name.temperature is None:
+            raise InputError(
+                f"{path}: no temperature; add a line 'Target test temperature (°C)' above the frequencies."
+            )
+        target, temperature_label = name.temperature, "Target temperature (°C)"
+        notes.append("temperature taken from the name of the specimen")
+    if name.contradicts:
+        notes.append(
+            f"the name {text!r} says {name.temperature} °C, the header {target}; the header is taken"
+        )
+    comments = header.first(_COMMENTS)
+    synthetic = comments is not None and comments[1].casefold().startswith("synthetic")
+    constants = {"specimen": name.specimen}
+    if target is not None:
+        constants[temperature_label] = target
+    if synthetic:
+        constants["origin"] = "synthetic"
+    repeated = name.repeated or specimen_of(path.stem, None).repeated
+    cells = Cells(
+        path,
+        [*constants, *results.header],
+        [(line, [*constants.values(), *row]) for line, row in rows],
+        notes,
+    )
+    return Block(cells, repeated)
+
+
+def _temperature(header: _Header, reading: Column | None) -> tuple[str | None, str]:
+    """Target temperature as the header has it, and the name of a column for it.
+
+    A target without a unit is in that of the measured temperature, or else in degC.
+    """
+    found = header.first(_TARGET) or header.first(_CONSTANT)
+    if found is None:
+        return None, ""
+    label, value = found
+    match = re.fullmatch(r"([-−]?\d+(?:[.,]\d+)?)\s*[°º]?\s*([CFK])?", value)
+    if match is None:
+        return None, ""
+    unit = header.units.get(label) or match[2] or (reading.unit if reading and reading.unit else "C")
+    return match[1].replace("−", "-"), f"Target temperature ({unit})"
+
+
+def _degrees(text: str) -> float:
+    return float(text.replace(",", "."))

@@ -1,0 +1,48 @@
+"""The specimen's own name in what an operator typed for one test: `Mix-10-21C-Repeated (4G16013A)` is `Mix-10`."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+_TEMPERATURE = re.compile(r"[-_ ,]+([-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\s*)?[CF](?![A-Za-z0-9])")
+_REPEATED = re.compile(
+    r"[-_ ]*\b(?:repeat(?:ed)?|rerun|re-?test(?:ed)?|redo(?:ne)?)\b[-_ \d]*$", re.IGNORECASE
+)
+_SAME = 1.0  # K (or degF) between a temperature in a name and the target it means
+
+
+@dataclass(frozen=True)
+class Name:
+    """A specimen, the temperature that stood in its name (as text), and what the operator remarked.
+
+    contradicts: the name gives another temperature than the header.
+    """
+
+    specimen: str
+    temperature: str | None
+    repeated: bool
+    contradicts: bool
+
+
+def specimen_of(text: str, target: float | None) -> Name:
+    """Name of the specimen, without temperature, remarks and the bracket at the end.
+
+    target: temperature of the test as the header has it, in the unit of the name; None if it has none.
+    """
+    plain = re.sub(r"\s*[(\[][^)\]]*[)\]]\s*$", "", text).strip()
+    found = list(_TEMPERATURE.finditer(plain))
+    # The one that the header names, else the last: `PG64-22C` may stand before it.
+    same = [match for match in found if target is not None and _is(match, target)]
+    match = (same or found or [None])[-1]
+    tail = plain if match is None else plain[match.end() :]
+    repeated = _REPEATED.search(tail) is not None
+    stem = plain if match is None else plain[: match.start()]
+    stem = _REPEATED.sub("", stem).strip("-_ ,") or plain
+    temperature = None if match is None else match[1].replace("−", "-")
+    return Name(stem, temperature, repeated, bool(match and target is not None and not same))
+
+
+def _is(match: re.Match[str], target: float) -> bool:
+    value = float(match[1].replace("−", "-").replace(",", "."))
+    return min(abs(value - target), abs(abs(value) - abs(target))) <= _SAME
