@@ -18,12 +18,14 @@ from asphalt_nscd.diagnosis import quality, within_isotherm
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.within_isotherm import BEND_WEIGHTS, BENDS, Held
 
-STRONG = 3e-3  # chance, times the number of values, below which causality alone takes a test out
+STRONG = 0.015  # chance, times the number of values, below which causality alone takes a test out
 NOTABLE = 0.1  # the same for a test that is listed and used
 SUPPORTED = 1e-2  # chance of one value, below which it is taken out where a witness agrees
 FAR = 5e-3  # chance, times the number of values, below which replicates are a witness
 BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1.5 deg or more
 BREAKS = BENDS > np.radians(1.0)
+LEAST_FREEDOM = 6  # of the replicates
+MEDIAN_SQUARE = 0.455  # of a normal value
 IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may be no more than nearly smooth
 
 
@@ -69,25 +71,28 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
     """Suspect tests by row, each with the sentences that a reader can check; held: if it is already computed."""
     held = held or within_isotherm.hold(observed)
     broken = np.isin(observed.isotherm, _broken_temperatures(observed, held))
-    away = observed.logarithm
-    left = np.column_stack([away.real, away.imag]) - held.expected
-    values = 2 * max(np.count_nonzero(held.judged), 1)
+    values = held.chance.shape[1] * max(np.count_nonzero(held.judged), 1)
+    limit = np.where(broken, IN_BROKEN, 1.0) / values
     flags = _singled_out(observed)
-    apart, apart_chance = _from_replicates(observed)
+    worst, single = held.chance.min(axis=1), held.chance[:, :2]
+    doubtful = single < SUPPORTED
+    flagged = np.array([bool(sentences) for sentences in flags])
+    out = (worst < STRONG * limit) | (doubtful.any(axis=1) & flagged)
+    # What is already out is no replicate of the others.
+    apart, chance = _from_replicates(observed, ~out)
+    far = chance * values < FAR
+    logarithm = observed.logarithm
+    left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
+    supported = doubtful & far & (np.sign(apart) == np.sign(left)) & ~broken[:, None]
+    out |= supported.any(axis=1)
+    listed = out | (worst < NOTABLE * limit)
+    contradicts = listed[:, None] & (doubtful | (single == single.min(axis=1, keepdims=True)))
     found = []
-    for row in range(observed.size):
-        limit = np.where(broken[row], IN_BROKEN, 1.0) / values
-        chance = held.chance[row]
-        far = apart_chance[row] * values < FAR
-        agrees = far & (np.sign(apart[row]) == np.sign(left[row]))
-        doubtful = (chance < SUPPORTED) & (agrees | bool(flags[row])) & ~(broken[row] & (not flags[row]))
-        contradicts = (chance < NOTABLE * limit) | doubtful
-        reasons = [_causal_reason(observed, held, row, column) for column in np.flatnonzero(contradicts)]
+    for row in np.flatnonzero(listed | flagged | far.any(axis=1)):
+        reasons = [_causal_reason(observed, held, row, column) for column in np.flatnonzero(contradicts[row])]
         reasons += flags[row]
-        reasons += [_replicate_reason(observed, apart, row, column) for column in np.flatnonzero(far)]
-        used = not bool((chance < STRONG * limit).any() or doubtful.any())
-        if reasons:
-            found.append(Suspect(row, tuple(reasons), used))
+        reasons += [_replicate_reason(observed, apart, row, column) for column in np.flatnonzero(far[row])]
+        found.append(Suspect(int(row), tuple(reasons), not bool(out[row])))
     return found
 
 
@@ -122,9 +127,9 @@ def table(observed: Observations, found: list[Suspect], held: Held) -> pd.DataFr
         "phase_deg": np.degrees(observed.logarithm.imag),
         "phase_required_deg": np.degrees(held.required),
         "std_error_deg": np.degrees(held.required_error),
-        "quality_flag": [row in flagged for row in rows],
+        "quality_flag": [int(row in flagged) for row in rows],
         "reasons": ["; ".join(suspect[row].reasons) if row in suspect else "" for row in rows],
-        "used": [row not in suspect or suspect[row].used for row in rows],
+        "used": [int(row not in suspect or suspect[row].used) for row in rows],
     })  # fmt: skip
 
 
@@ -158,14 +163,13 @@ def _singled_out(observed: Observations) -> list[list[str]]:
     return sentences
 
 
-def _from_replicates(observed: Observations) -> tuple[NDArray, NDArray]:
+def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[NDArray, NDArray]:
     """How far ln|E*| and phase (n, 2) are from the replicates, and the chance of that; level and mean phase of
     each specimen's isotherm are taken off."""
-    apart, chance = np.zeros((observed.size, 2)), np.ones((observed.size, 2))
+    apart, z, freedom = np.zeros((observed.size, 2)), np.full((observed.size, 2), np.nan), 0
     block, logarithm = within_isotherm.blocks(observed), observed.logarithm
     values = np.column_stack([logarithm.real, logarithm.imag])
-    z, freedom = np.zeros((observed.size, 2)), 0
-    known = np.bincount(observed.cell)[observed.cell] >= 3
+    known = (np.bincount(observed.cell[kept], minlength=observed.cell.max() + 1)[observed.cell] >= 3) & kept
     for temperature in observed.isotherms:
         rows = np.flatnonzero(known & (observed.isotherm == temperature))
         if not rows.size:
@@ -180,12 +184,27 @@ def _from_replicates(observed: Observations) -> tuple[NDArray, NDArray]:
         apart[rows[inside]] = residual[inside] / room[inside, None]
         z[rows[inside]] = residual[inside] / np.sqrt(room[inside, None])
         freedom += rows.size - left.shape[1]
-    if freedom < 4:
+    chance = np.ones((observed.size, 2))
+    if freedom < LEAST_FREEDOM:
         return apart, chance
-    used = z.any(axis=1)
-    scale = np.sqrt(np.median(z[used] ** 2, axis=0) / 0.455)
-    chance[used] = 2.0 * student.sf(np.abs(z[used]) / np.maximum(scale, 1e-9), freedom)
+    scale = _clipped_rms(z)
+    for temperature in observed.isotherms:  # hot isotherms scatter more
+        rows = np.flatnonzero(np.isfinite(z[:, 0]) & (observed.isotherm == temperature))
+        if rows.size:
+            own = np.maximum(scale, _clipped_rms(z[rows]))
+            chance[rows] = 2.0 * student.sf(np.abs(z[rows]) / own, freedom)
     return apart, chance
+
+
+def _clipped_rms(z: NDArray) -> NDArray[np.float64]:
+    """Standard deviation of each column, of which single far values have little part."""
+    z = z[np.isfinite(z[:, 0])]
+    scale = np.sqrt(np.median(z**2, axis=0) / MEDIAN_SQUARE)
+    for _ in range(5):
+        scale = np.maximum(scale, 1e-9)
+        clipped = np.minimum((z / scale) ** 2, within_isotherm.CLIP**2)
+        scale = scale * np.sqrt(clipped.mean(axis=0) / within_isotherm.NORMAL_CLIPPED)
+    return np.maximum(scale, 1e-9)
 
 
 def _causal_reason(observed: Observations, held: Held, row: int, column: int) -> str:

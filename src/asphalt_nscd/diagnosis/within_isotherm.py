@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import logsumexp
+from scipy.stats import f as fisher
 from scipy.stats import t as student
 
 from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances, required_phase
@@ -23,12 +24,12 @@ Vector = NDArray[np.float64]
 LEAST = 4  # tests of an isotherm: of three, none is redundant
 OFFSET = np.radians(5.0)  # standard deviation of what all phases of an isotherm are off by
 BENDS = np.radians([0.0, 0.5, 1.5, 5.0, 15.0])  # sizes of the smooth departure of the phase [rad]
-BEND_WEIGHTS = (0.40, 0.25, 0.15, 0.12, 0.08)  # before the data speak
+BEND_WEIGHTS = (0.60, 0.18, 0.10, 0.07, 0.05)  # before the data speak
 BEND_LENGTH = 2.5  # of ln f
 SCATTER = 0.01, np.radians(0.3)  # of ln|E*| and phase, first guess
 LEAST_SCATTER = 5e-4, np.radians(0.03)  # no two tests repeat better
-WORTH = 8.0  # tests that the scatter of the table is worth against that of an isotherm
-FREEDOM = 25.0  # of the t distribution: the scatter is itself estimated from few tests
+MOST_UNEVEN = 3.0  # scatter of an isotherm over the common one; more is no scatter but a broken isotherm
+EFFICIENCY = 1.0  # of the clipped scatter, as the laws of the isotherms take their part of the values
 TABLE_WORTH, SPECIMEN_WORTH = 3.0, 2.0  # isotherms that the weights above, and those of the table, are worth
 CLIP = 2.0  # standard deviations, beyond which a value does not widen the scatter (Huber's second proposal)
 NORMAL_CLIPPED = 0.9205  # mean of min(z^2, 4) of a normal z
@@ -43,8 +44,9 @@ class Held:
     """What the isotherms say of each value; columns 0 and 1 are ln|E*| and phase [rad].
 
     judged (n,): whether the isotherm has tests enough; expected, std_error (n, 2): what the rest of the isotherm asks
-    for, the scatter of one test included; chance (n, 2): of a departure as large; required, required_error (n,)
-    [rad]: phase that |E*| alone requires; bent (n, 5): ln evidence of each of BENDS; scatter (n, 2).
+    for, the scatter of one test included; chance (n, 3): of a departure as large in ln|E*|, in the phase, or in both,
+    where neither is asked for the other; required, required_error (n,) [rad]: phase that |E*| alone requires;
+    bent (n, 4, 5): ln evidence of each ripple and bend; scatter (n, 2): of single tests.
     """
 
     judged: NDArray[np.bool_]
@@ -82,14 +84,17 @@ class _Table:
         for group in self.groups:
             self.judged[group.rows] = True
         self.scatter = np.tile(SCATTER, (n, 1))
+        self.freedom = np.full((n, 2), 10.0)  # of the t distribution: the scatter is itself estimated
         self.aside = np.zeros((n, 2), bool)
+        # Sharpness of each prediction, and its clipped squared error in standard deviations times that.
+        self.weight, self.squares = np.ones((n, 2)), np.ones((n, 2))
         self.weights = np.tile(np.log(np.multiply.outer(WEIGHTS, BEND_WEIGHTS)), (n, 1, 1))
 
     def hold(self) -> Held:
         n = self.judged.size
         none, evidence = np.full((n, 2), np.nan), np.full((n, len(WEIGHTS), BENDS.size), np.nan)
         held = Held(
-            self.judged, none, none.copy(), np.ones((n, 2)), none[:, 0].copy(), none[:, 0].copy(), evidence,
+            self.judged, none, none.copy(), np.ones((n, 3)), none[:, 0].copy(), none[:, 0].copy(), evidence,
             self.scatter,
         )  # fmt: skip
         for group in self.groups:
@@ -114,34 +119,71 @@ class _Table:
         spread = spread - out[:, None]
         mean = (share * left).sum(axis=1)
         error = np.sqrt((share * (spread + (left - mean[:, None]) ** 2)).sum(axis=1))
-        chance = (share * 2.0 * student.sf(np.abs(left) / np.sqrt(spread), FREEDOM)).sum(axis=1)
+        freedom = _side_by_side(self.freedom, rows)[:, None]
+        chance = (share * 2.0 * student.sf(np.abs(left) / np.sqrt(spread), freedom)).sum(axis=1)
+        weight = (share / spread).sum(axis=1)
+        squares = (share / spread * np.minimum(left**2 / spread, CLIP**2)).sum(axis=1)
         for column, part in enumerate((slice(0, k), slice(k, None))):
+            self.weight[rows, column], self.squares[rows, column] = weight[:, part], squares[:, part]
             held.expected[rows, column] = self.values[rows, column] - mean[:, part]
             held.std_error[rows, column] = error[:, part]
             held.chance[rows, column] = chance[:, part]
+        held.chance[rows, 2] = self._both(group, precision, pull, weighed)
         held.bent[rows] = evidence.reshape(-1, 1, len(WEIGHTS), BENDS.size)
 
+    def _both(self, group: _Group, precision: NDArray, pull: NDArray, weighed: NDArray) -> NDArray:
+        """Chance (b, k) that ln|E*| and phase of a test are both this far from what the other tests ask for."""
+        k = group.rows.shape[1]
+        pair = np.array([np.arange(k), np.arange(k) + k]).T
+        own = precision[:, :, pair[:, :, None], pair[:, None, :]]
+        out = ASIDE * self.aside[group.rows][:, None, :, :, None] * np.eye(2)
+        spread = np.linalg.inv(own)
+        left = np.einsum("bmkij,bmkj->bmki", spread, pull[:, :, pair])
+        others = weighed[:, :, None] + 0.5 * np.einsum("bmki,bmkij,bmkj->bmk", left, own, left)
+        others -= 0.5 * np.linalg.slogdet(own)[1]
+        share = np.exp(others - logsumexp(others, axis=1, keepdims=True))
+        inside = np.linalg.inv(spread - out)
+        squares = np.einsum("bmki,bmkij,bmkj->bmk", left, inside, left)
+        freedom = self.freedom[group.rows].min(axis=2)[:, None]
+        return (share * fisher.sf(0.5 * squares, 2.0, freedom)).sum(axis=1)
+
     def learn(self, rounds: int) -> None:
-        """Scatter of each isotherm, and how common each ripple and bend is, from all values not set aside."""
+        """Scatter of each isotherm, and how common each ripple and bend is, from all values.
+
+        Values set aside count as clipped ones: a scatter without them would be too small, and more would seem far.
+        """
         for _ in range(rounds):
             held = self.hold()
-            known = self.judged & ~self.aside.any(axis=1)
-            self._learn_scatter((self.values - held.expected) / held.std_error, known)
-            self._learn_weights(held, known)
+            self._learn_scatter()
+            self._learn_weights(held)
 
-    def _learn_scatter(self, z: NDArray, known: NDArray[np.bool_]) -> None:
-        labels, at = np.unique(self.isotherm[known], return_inverse=True)
-        count = np.bincount(at)[:, None]
-        clipped = np.minimum(z[known] ** 2, CLIP**2)
-        size = np.column_stack([np.bincount(at, column) for column in clipped.T]) / count / NORMAL_CLIPPED
-        now = np.array([self.scatter[known][at == k][0] for k in range(labels.size)])
+    def _learn_scatter(self) -> None:
+        labels, at = np.unique(self.isotherm[self.judged], return_inverse=True)
+
+        def summed(columns: NDArray) -> NDArray:
+            return np.column_stack([np.bincount(at, column) for column in columns[self.judged].T])
+
+        # Weighed by sharpness as in maximum likelihood: ends, where the law is open, tell little of the scatter.
+        weight = summed(self.weight)
+        count = weight**2 / summed(self.weight**2)
+        size = summed(self.squares) / weight / NORMAL_CLIPPED
+        now = np.array([self.scatter[self.judged][at == k][0] for k in range(labels.size)])
         own = np.log(now * np.clip(np.sqrt(size), 0.3, 3.0))
-        common = (count * own).sum(axis=0) / count.sum()
-        shrunk = np.exp((count * own + WORTH * common) / (count + WORTH))
-        for label, value in zip(labels, shrunk, strict=True):
+        chance = 0.5 / (EFFICIENCY * count)  # variance of the logarithm by chance
+        common = (own / chance).sum(axis=0) / (1.0 / chance).sum(axis=0)
+        spread = ((own - common) ** 2 / chance).sum(axis=0) - (labels.size - 1.0)
+        certainty = (1.0 / chance).sum(axis=0)
+        room = certainty - (1.0 / chance**2).sum(axis=0) / certainty
+        # Variance of the logarithm between isotherms (DerSimonian & Laird 1986).
+        beyond = np.maximum(spread, 0.0) / np.maximum(room, 1e-9)
+        share = beyond / (beyond + chance)
+        scatter = np.exp(common + np.minimum(share * (own - common), np.log(MOST_UNEVEN)))
+        freedom = 0.5 / (share * chance + (1.0 - share) ** 2 / certainty)
+        for label, value, known in zip(labels, scatter, freedom, strict=True):
             self.scatter[self.isotherm == label] = np.maximum(value, LEAST_SCATTER)
+            self.freedom[self.isotherm == label] = known
 
-    def _learn_weights(self, held: Held, known: NDArray[np.bool_]) -> None:
+    def _learn_weights(self, held: Held) -> None:
         first = np.concatenate([group.first for group in self.groups])
         weighed = held.bent[first] + self.weights[first]
         share = np.exp(weighed - logsumexp(weighed, axis=(1, 2), keepdims=True))
@@ -162,7 +204,7 @@ class _Table:
         while changed:
             changed, held = False, self.hold()
             for rows in (rows for group in self.groups for rows in group.rows):
-                chance = np.where(self.aside[rows], 1.0, held.chance[rows])
+                chance = np.where(self.aside[rows], 1.0, held.chance[rows, :2])
                 test, column = np.unravel_index(int(chance.argmin()), chance.shape)
                 room = self.aside[rows].any(axis=1).sum() < max(1, rows.size // MOST_DOUBTFUL)
                 if chance[test, column] < DOUBTFUL and room:
