@@ -1,4 +1,4 @@
-"""A diagnosis as it was written: what figures and the report read of diagnosis.json, residuals.csv and causality.csv."""
+"""A diagnosis as it was written: what figures and report read of diagnosis.json, residuals.csv, causality.csv."""
 
 from __future__ import annotations
 

@@ -17,8 +17,10 @@ from asphalt_nscd.reporting.figures import cells, style
 ACROSS = 3  # panels of a row
 HEAD, CELL = 30.0, 5.5  # mm: what stands around the panels of a row, and an isotherm
 CLEAR = 2.0  # standard errors, below which a number is grey
-OUT = {"marker": "X", "mfc": "none", "mec": style.INK, "ms": 9.0, "mew": 0.9, "ls": "none"}
-IN_USE = {"marker": "o", "mfc": "none", "mec": style.INK, "ms": 9.0, "mew": 0.7, "ls": "none"}
+OUT = {"marker": "X", "mfc": "white", "mec": style.INK, "ms": 6.0, "mew": 0.8, "ls": "none"}
+IN_USE = {"marker": "o", "mfc": "white", "mec": style.INK, "ms": 4.0, "mew": 0.8, "ls": "none"}
+# Corner of the cell [its width, its height] where a mark leaves the number free.
+SUSPECT_AT, FLAG_AT = (0.18, 0.24), (0.85, 0.8)
 FLAG = {"marker": "^", "mfc": style.INK, "mec": "white", "ms": 3.2, "mew": 0.3, "ls": "none"}
 NONE = "No isotherm has the four tests that hold modulus against phase."
 
@@ -75,22 +77,21 @@ def draw(causality: list[Path], diagnosis: list[Path]) -> Figure:
 def _panel(axes: Axes, own: pd.DataFrame, tests: pd.DataFrame, norm: BoundaryNorm):
     temperatures, frequencies = (np.unique(tests[name]) for name in ("temperature_C", "frequency_Hz"))
     places = {"index": "temperature_C", "columns": "frequency_Hz"}
-    # Amplitudes share a cell; the worst of them shows.
-    worst = own.loc[
-        own.groupby(list(places.values()))["difference"].transform(lambda d: d.abs().max())
-        == own["difference"].abs()
-    ]
-    table = worst.drop_duplicates(list(places.values())).pivot(values="difference", **places)
-    table = table.reindex(index=temperatures, columns=frequencies)
-    error = worst.drop_duplicates(list(places.values())).pivot(values="std_error_deg", **places)
-    unclear = table.abs() < CLEAR * error.reindex(index=temperatures, columns=frequencies)
-    image = cells.draw_table(axes, table, norm, unclear.to_numpy())
-    marks = (
-        (own["reasons"].ne("") & ~own["used"], OUT), (own["reasons"].ne("") & own["used"], IN_USE),
-        (own["quality_flag"], FLAG),
-    )  # fmt: skip
-    for chosen, look in marks:
-        x = np.searchsorted(frequencies, own["frequency_Hz"][chosen]) + (0.82 if look is FLAG else 0.5)
-        y = np.searchsorted(temperatures, own["temperature_C"][chosen]) + (0.78 if look is FLAG else 0.5)
+    # Amplitudes share a cell, which shows the worst.
+    worst = own.sort_values("difference", key=abs).drop_duplicates(list(places.values()), keep="last")
+    table, error = (
+        worst.pivot(values=name, **places).reindex(index=temperatures, columns=frequencies)
+        for name in ("difference", "std_error_deg")
+    )
+    unclear = (table.abs() < CLEAR * error).to_numpy()
+    image = cells.draw_table(axes, table, norm, unclear)
+    suspect = own["reasons"].ne("")
+    for chosen, at, look in (
+        (suspect & ~own["used"], SUSPECT_AT, OUT),
+        (suspect & own["used"], SUSPECT_AT, IN_USE),
+        (own["quality_flag"], FLAG_AT, FLAG),
+    ):
+        x = np.searchsorted(frequencies, own["frequency_Hz"][chosen]) + at[0]
+        y = np.searchsorted(temperatures, own["temperature_C"][chosen]) + at[1]
         axes.plot(x, y, zorder=3, **look)
     return image
