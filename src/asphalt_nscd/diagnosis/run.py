@@ -39,9 +39,10 @@ def run(
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
     simulations: str | Path | None = None,
 ) -> str:  # fmt: skip
-    """Diagnose measurements, write diagnosis.json, residuals.csv, causality.csv and law.json into the folder; the summary.
+    """Diagnose measurements and write four files into the folder; the summary.
 
-    simulations: table of simulated tests whose numerics are told apart.
+    The files: diagnosis.json, residuals.csv, causality.csv and law.json. simulations: table of simulated tests whose
+    numerics are told apart.
     """
     numerical = read_specimen(specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None

@@ -22,10 +22,10 @@ STRONG = 0.015  # chance, times the number of values, below which causality alon
 NOTABLE = 0.1  # the same for a test that is listed and used
 SUPPORTED = 1e-2  # chance of one value, below which it is taken out where a witness agrees
 FAR = 5e-3  # chance, times the number of values, below which replicates are a witness
+LEANING, VERY_FAR = 0.1, 1e-5  # both limits where replicates say more: at the ends causality knows little
 BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1.5 deg or more
 BREAKS = BENDS > np.radians(1.0)
-LEAST_FREEDOM = 6  # of the replicates
-MEDIAN_SQUARE = 0.455  # of a normal value
+LEAST_FREEDOM = 4  # of the replicates of an isotherm
 IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may be no more than nearly smooth
 
 
@@ -83,10 +83,11 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
     far = chance * values < FAR
     logarithm = observed.logarithm
     left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
-    supported = doubtful & far & (np.sign(apart) == np.sign(left)) & ~broken[:, None]
+    agree = (np.sign(apart) == np.sign(left)) & ~broken[:, None]
+    supported = agree & ((doubtful & far) | ((single < LEANING) & (chance * values < VERY_FAR)))
     out |= supported.any(axis=1)
     listed = out | (worst < NOTABLE * limit)
-    contradicts = listed[:, None] & (doubtful | (single == single.min(axis=1, keepdims=True)))
+    contradicts = listed[:, None] & (doubtful | supported | (single == single.min(axis=1, keepdims=True)))
     found = []
     for row in np.flatnonzero(listed | flagged | far.any(axis=1)):
         reasons = [_causal_reason(observed, held, row, column) for column in np.flatnonzero(contradicts[row])]
@@ -164,12 +165,18 @@ def _singled_out(observed: Observations) -> list[list[str]]:
 
 
 def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[NDArray, NDArray]:
-    """How far ln|E*| and phase (n, 2) are from the replicates, and the chance of that; level and mean phase of
-    each specimen's isotherm are taken off."""
-    apart, z, freedom = np.zeros((observed.size, 2)), np.full((observed.size, 2), np.nan), 0
+    """How far ln|E*| and phase (n, 2) are from at least two kept replicates, and the chance of that.
+
+    Level and mean phase of each specimen's isotherm are taken off. The scatter is that of the isotherm without the
+    test itself (externally studentised), or the usual one of the table where that is larger.
+    """
+    apart, chance = np.zeros((observed.size, 2)), np.ones((observed.size, 2))
     block, logarithm = within_isotherm.blocks(observed), observed.logarithm
     values = np.column_stack([logarithm.real, logarithm.imag])
     known = (np.bincount(observed.cell[kept], minlength=observed.cell.max() + 1)[observed.cell] >= 3) & kept
+    own, opened = np.zeros((observed.size, 2)), np.ones((observed.size, 1))
+    freedoms, common = [], []
+    judged = np.zeros(observed.size, bool)
     for temperature in observed.isotherms:
         rows = np.flatnonzero(known & (observed.isotherm == temperature))
         if not rows.size:
@@ -178,33 +185,21 @@ def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[N
         design = np.hstack([np.eye(label.max() + 1)[label] for label in labels])
         left, size, _ = np.linalg.svd(design, full_matrices=False)
         left = left[:, size > 1e-9 * size[0]]
-        room = 1.0 - (left**2).sum(axis=1)
+        freedom = rows.size - left.shape[1]
+        if freedom < LEAST_FREEDOM:
+            continue
+        room = np.maximum(1.0 - (left**2).sum(axis=1), 1e-6)[:, None]
         residual = values[rows] - left @ (left.T @ values[rows])
-        inside = room > 1e-6
-        apart[rows[inside]] = residual[inside] / room[inside, None]
-        z[rows[inside]] = residual[inside] / np.sqrt(room[inside, None])
-        freedom += rows.size - left.shape[1]
-    chance = np.ones((observed.size, 2))
-    if freedom < LEAST_FREEDOM:
-        return apart, chance
-    scale = _clipped_rms(z)
-    for temperature in observed.isotherms:  # hot isotherms scatter more
-        rows = np.flatnonzero(np.isfinite(z[:, 0]) & (observed.isotherm == temperature))
-        if rows.size:
-            own = np.maximum(scale, _clipped_rms(z[rows]))
-            chance[rows] = 2.0 * student.sf(np.abs(z[rows]) / own, freedom)
+        squares = (residual**2).sum(axis=0)
+        own[rows] = np.sqrt(np.maximum(squares - residual**2 / room, 0.0) / (freedom - 1.0) / room)
+        apart[rows], opened[rows], judged[rows] = residual / room, np.sqrt(room), True
+        freedoms.append(freedom)
+        common.append(np.sqrt(squares / freedom))
+    if freedoms:
+        usual = np.median(common, axis=0)
+        z = apart[judged] / np.maximum(np.maximum(own[judged], usual / opened[judged]), 1e-9)
+        chance[judged] = 2.0 * student.sf(np.abs(z), sum(freedoms))
     return apart, chance
-
-
-def _clipped_rms(z: NDArray) -> NDArray[np.float64]:
-    """Standard deviation of each column, of which single far values have little part."""
-    z = z[np.isfinite(z[:, 0])]
-    scale = np.sqrt(np.median(z**2, axis=0) / MEDIAN_SQUARE)
-    for _ in range(5):
-        scale = np.maximum(scale, 1e-9)
-        clipped = np.minimum((z / scale) ** 2, within_isotherm.CLIP**2)
-        scale = scale * np.sqrt(clipped.mean(axis=0) / within_isotherm.NORMAL_CLIPPED)
-    return np.maximum(scale, 1e-9)
 
 
 def _causal_reason(observed: Observations, held: Held, row: int, column: int) -> str:

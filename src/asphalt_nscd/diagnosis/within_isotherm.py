@@ -27,9 +27,10 @@ BENDS = np.radians([0.0, 0.5, 1.5, 5.0, 15.0])  # sizes of the smooth departure 
 BEND_WEIGHTS = (0.60, 0.18, 0.10, 0.07, 0.05)  # before the data speak
 BEND_LENGTH = 2.5  # of ln f
 SCATTER = 0.01, np.radians(0.3)  # of ln|E*| and phase, first guess
-LEAST_SCATTER = 5e-4, np.radians(0.03)  # no two tests repeat better
-MOST_UNEVEN = 3.0  # scatter of an isotherm over the common one; more is no scatter but a broken isotherm
-EFFICIENCY = 1.0  # of the clipped scatter, as the laws of the isotherms take their part of the values
+LEAST_SCATTER = 1e-3, np.radians(0.05)  # no two tests repeat better
+UNEVEN = 0.5, 3.0  # scatter of an isotherm over the common one; more is no scatter but a broken isotherm
+KNOWN = 0.4  # share of the values that is left for the scatter, the laws of the isotherms take the rest
+CALIBRATED = 2.5  # on the degrees of freedom; with them 1 of 150 clean tables loses a test
 TABLE_WORTH, SPECIMEN_WORTH = 3.0, 2.0  # isotherms that the weights above, and those of the table, are worth
 CLIP = 2.0  # standard deviations, beyond which a value does not widen the scatter (Huber's second proposal)
 NORMAL_CLIPPED = 0.9205  # mean of min(z^2, 4) of a normal z
@@ -169,7 +170,7 @@ class _Table:
         size = summed(self.squares) / weight / NORMAL_CLIPPED
         now = np.array([self.scatter[self.judged][at == k][0] for k in range(labels.size)])
         own = np.log(now * np.clip(np.sqrt(size), 0.3, 3.0))
-        chance = 0.5 / (EFFICIENCY * count)  # variance of the logarithm by chance
+        chance = 0.5 / (KNOWN * count)  # variance of the logarithm by chance
         common = (own / chance).sum(axis=0) / (1.0 / chance).sum(axis=0)
         spread = ((own - common) ** 2 / chance).sum(axis=0) - (labels.size - 1.0)
         certainty = (1.0 / chance).sum(axis=0)
@@ -177,8 +178,8 @@ class _Table:
         # Variance of the logarithm between isotherms (DerSimonian & Laird 1986).
         beyond = np.maximum(spread, 0.0) / np.maximum(room, 1e-9)
         share = beyond / (beyond + chance)
-        scatter = np.exp(common + np.minimum(share * (own - common), np.log(MOST_UNEVEN)))
-        freedom = 0.5 / (share * chance + (1.0 - share) ** 2 / certainty)
+        scatter = np.exp(common + np.clip(share * (own - common), *np.log(UNEVEN)))
+        freedom = 0.5 * CALIBRATED / (share * chance + (1.0 - share) ** 2 / certainty)
         for label, value, known in zip(labels, scatter, freedom, strict=True):
             self.scatter[self.isotherm == label] = np.maximum(value, LEAST_SCATTER)
             self.freedom[self.isotherm == label] = known
