@@ -1,5 +1,7 @@
 """Each cause is absent at zero and moves the apparent modulus as its definition says."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -91,6 +93,21 @@ def test_what_the_table_cannot_show_is_not_looked_for():
     )
     seen = {cause.name for cause in CATALOGUE if cause.places(bare)}
     assert seen == {"channel_delay", "phase_offset", "moving_mass", "guide_friction"}
+
+
+def test_causes_of_a_bench_are_not_looked_for_on_a_cylinder():
+    everything = replace(
+        TABLE,
+        static_modulus=1e6,
+        amplitude=np.linspace(1e-5, 9e-5, TABLE.size),
+        order=np.arange(1.0, TABLE.size + 1),
+    )
+    cylinder = replace(everything, test_type="tension-compression")
+    seen, on_cylinder = ({c.name for c in CATALOGUE if c.places(one)} for one in (everything, cylinder))
+    assert seen - on_cylinder == {"guide_friction", "guide_stiffness", "moving_mass", "loose_clamp"}
+    for cause in CATALOGUE:
+        assert "tension-compression" in cause.benches or not cause.places(cylinder)
+        assert "tension-compression" in cause.benches or "two-point bending" in cause.needs
 
 
 @pytest.mark.parametrize(

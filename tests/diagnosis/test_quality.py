@@ -2,6 +2,7 @@ import numpy as np
 
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.quality import COLUMNS, LIMITS, Exceeded, exceeded
+from asphalt_nscd.table_import.quantities import QUALITY
 
 
 def observed(**quality):
@@ -42,3 +43,7 @@ def test_rows_of_a_subset_are_its_own():
 
 def test_drift_is_kept_without_a_limit():
     assert "deformation_drift_percent" in COLUMNS and "deformation_drift_percent" not in LIMITS
+
+
+def test_the_import_keeps_every_column_that_is_judged():
+    assert set(QUALITY) == set(COLUMNS)

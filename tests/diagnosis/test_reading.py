@@ -1,9 +1,12 @@
 """Tables of measurements as a diagnosis reads them: synonyms, labels, and what is refused."""
 
+import numpy as np
 import pytest
 
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.measurements.reduction import reduce_table
 
 ROWS = ["A,a,0,1,9000,20", "A,b,0,1,9100,20.1", "A,a,0,10,12000,16", "A,b,0,10,12100,16.1"]
@@ -70,3 +73,44 @@ def test_fine_sweeps_keep_their_frequencies(tmp_path):
     rows = [row.replace(",1,9000", ",10.1,9000") for row in GRID]
     path = table(tmp_path, "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg", rows)
     assert read_observations(path, PAPER_GEOMETRY)[0].frequencies == pytest.approx([10.0, 10.1])
+
+
+def exported(folder, **options):
+    header = "specimen,temperature_C,nominal_temperature_C,frequency_Hz,E_MPa,phase_deg"
+    rows = [
+        "A,4.1,4,10,12000,16,100,7.9",
+        "A,4.0,4,1,9000,20,90,",
+        "B,3.9,4,10,12100,16.1,104,0.2",
+        "B,4,4,1,9100,20,,1",
+    ]
+    path = table(folder, header + ",microstrain,phase_uniformity_deg", rows)
+    return Campaign(read_csv(path), (path,), **options)
+
+
+def test_isotherm_strain_quality_and_test_type_reach_the_observations(tmp_path):
+    observed, _ = read_observations(exported(tmp_path, test_type="tension-compression"), PAPER_GEOMETRY)
+    assert observed.test_type == "tension-compression"
+    assert observed.temperature.tolist() == [4.1, 4.0, 3.9, 4.0]
+    assert observed.isotherm.tolist() == [4.0] * 4 and observed.isotherms.tolist() == [4.0]
+    # T 378 sets the strain from peak to peak.
+    assert observed.strain == pytest.approx([50e-6, 45e-6, 52e-6, np.nan], nan_ok=True)
+    assert observed.quality["phase_uniformity_deg"] == pytest.approx([7.9, np.nan, 0.2, 1.0], nan_ok=True)
+    assert list(observed.quality) == ["phase_uniformity_deg"]
+
+
+def test_measured_temperatures_of_a_plain_table_are_isotherms(tmp_path):
+    rows = [row.replace(",0,1,", ",0.1,1,") for row in GRID]
+    path = table(tmp_path, "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg", rows)
+    observed, _ = read_observations(path, PAPER_GEOMETRY)
+    assert observed.isotherms.tolist() == [0.1, 10.0] and set(observed.temperature) == {0.0, 0.1, 10.0}
+    same, _ = read_observations(
+        table(tmp_path, "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg", GRID), PAPER_GEOMETRY
+    )
+    assert same.nominal_temperature is None and same.strain is None and same.quality == {}
+
+
+def test_forces_of_a_cylinder_are_not_reduced_as_bending(tmp_path):
+    rows = [f"A,0,{f},60,6.3e-5,20" for f in (1, 10)]
+    path = table(tmp_path, "specimen,temperature_C,frequency_Hz,F0_N,z0_m,psi_deg", rows)
+    with pytest.raises(InputError, match="give the moduli of a tension-compression test"):
+        read_observations(Campaign(read_csv(path), (path,), "tension-compression"), PAPER_GEOMETRY)

@@ -164,7 +164,9 @@ def test_gains_are_errors_of_single_tests_and_of_averages_over_specimens(diagnos
 
 def test_an_isotherm_at_an_end_is_no_part_of_the_held_out_error(monkeypatch):
     temperature = np.repeat([0.0, 10.0, 20.0], 2)
-    observed = SimpleNamespace(logarithm=np.log(1e9) + 0.2j + np.zeros(6), temperature=temperature)
+    observed = SimpleNamespace(
+        logarithm=np.log(1e9) + 0.2j + np.zeros(6), temperature=temperature, isotherm=temperature
+    )
     diagnosis = SimpleNamespace(observed=observed, noise=SimpleNamespace(sigma=(0.01, 0.01)))
     monkeypatch.setattr(report, "_errors", lambda *_: {"mre_E_percent": {}, "mre_phase_percent": {}})
     before = observed.logarithm + np.where(temperature == 10.0, 0.02, 0.5)

@@ -46,7 +46,7 @@ def german(tests):
     Path("t.csv").write_text(
         "\n".join(["Sample;Temp °C;f (Hz);|E*| [GPa];delta_rad", *lines]) + "\n", encoding="utf-8"
     )
-    return "t.csv"
+    return [Path("t.csv")]
 
 
 def accepted(config):
@@ -81,7 +81,7 @@ def test_workbook_becomes_the_same_table():
     for s, t, f, e, p in rows():
         book.active.append([s, t, f, round(e, 4), round(p, 5)])
     book.save("t.xlsx")
-    new_study("xlsx", "t.xlsx", Wishes())
+    new_study("xlsx", [Path("t.xlsx")], Wishes())
     assert Path("data/csv/measurements.csv").read_bytes() == Path("data/xlsx/measurements.csv").read_bytes()
 
 
@@ -100,7 +100,7 @@ def test_a_table_too_short_for_a_diagnosis_is_refused_at_once():
         InputError,
         match="two.csv: a diagnosis needs at least 4 tests and 2 frequencies, and these are 2 at 2",
     ):
-        new_study("mine", "two.csv", Wishes())
+        new_study("mine", [Path("two.csv")], Wishes())
     assert not Path("data/mine").exists()
 
 
@@ -111,8 +111,9 @@ def test_prism_is_simulated_as_a_prism():
 
 
 def test_direct_tests_are_said_to_be_taken_as_measured():
-    config, _ = new_study("mine", german(rows()), Wishes(direct=True))
+    config, _ = new_study("mine", german(rows()), Wishes(measured_in="tension-compression"))
     assert "Moduli are taken as they were measured, in direct tension-compression," in config.read_text()
+    assert accepted(config)["diagnosis"]["measured_in"] == "tension-compression"
 
 
 def peaks():
@@ -120,14 +121,14 @@ def peaks():
         "T_C,f_Hz,F0 (N),z0 (µm),psi (deg)\n15,10,60,50,20\n15,25,65,50,18\n20,10,50,50,25\n20,25,55,50,22\n",
         encoding="utf-8",
     )
-    return "p.csv"
+    return [Path("p.csv")]
 
 
 def test_peaks_need_a_geometry_and_set_the_amplitude():
     with pytest.raises(InputError, match="would be --geometry b_mm=25,B_mm=56,e_mm=25,h_mm=250"):
         new_study("mine", peaks(), Wishes())
     with pytest.raises(InputError, match="of a direct test are not reduced here"):
-        new_study("mine", peaks(), Wishes(direct=True))
+        new_study("mine", peaks(), Wishes(measured_in="tension-compression"))
     geometry = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.235}
     study = accepted(new_study("mine", peaks(), Wishes(geometry=geometry))[0])
     assert study["test"]["amplitude_m"] == pytest.approx(50e-6)
@@ -189,8 +190,8 @@ def test_refused_study_leaves_nothing(folder, monkeypatch):
 
 def test_file_names_cannot_write_into_the_configuration():
     evil = Path("a\nstudy: evil #.csv")
-    Path(german(rows())).rename(evil)
-    assert accepted(new_study("mine", evil, Wishes())[0])["study"] == "mine"
+    german(rows())[0].rename(evil)
+    assert accepted(new_study("mine", [evil], Wishes())[0])["study"] == "mine"
 
 
 def test_duration_grows_with_slow_tests_and_is_the_paper_studys_for_the_paper():

@@ -9,6 +9,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+
+from asphalt_nscd.diagnosis.quality import exceeded
+from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.table_import.campaign import read_campaign
+
 ROOT = Path(__file__).parents[2]
 TUTORIAL = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```(sh)?\n(.*?)```", TUTORIAL, re.DOTALL)
@@ -25,6 +31,33 @@ def test_data_are_made_by_the_tool():
     page = runpy.run_path(str(ROOT / "tools/tutorial_data.py"))["page"]()
     assert (ROOT / "data/tutorial/campaign.csv").read_text(encoding="utf-8") == page
     assert page.startswith("# Synthetic")
+
+
+def test_exports_are_made_by_the_tool():
+    pages = runpy.run_path(str(ROOT / "tools/tutorial_exports.py"))["pages"]()
+    folder = ROOT / "data/tutorial/exports"
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == pages
+    assert len(pages) == 12 and all(
+        b"Comments,Synthetic: no mix was tested." in page for page in pages.values()
+    )
+
+
+def test_exports_are_read_and_the_machine_itself_names_the_artefact():
+    campaign, _ = read_campaign([ROOT / "data/tutorial/exports"])
+    observed, origin = read_observations(campaign, PAPER_GEOMETRY)
+    assert (observed.size, observed.names, origin) == (72, ("Mix-A", "Mix-B", "Mix-C"), "synthetic")
+    assert (
+        observed.isotherms.tolist() == [4, 20, 35, 50]
+        and np.ptp(observed.temperature - observed.isotherm) > 0
+    )
+    (above,) = exceeded(observed)
+    row = above.row
+    assert (observed.names[observed.specimen[row]], observed.isotherm[row], observed.frequency[row]) == (
+        "Mix-B",
+        4,
+        25,
+    )
+    assert above.column == "phase_uniformity_deg"
 
 
 def test_commands_lead_from_the_table_to_the_plan_of_a_report(workspace):

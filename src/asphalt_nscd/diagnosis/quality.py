@@ -31,8 +31,8 @@ class Exceeded:
     limit: float
 
 
-# Drift of load and deformation has no entry. T 378 asks that the deformation drift in the direction of the
-# load and gives no number; the sign of that direction differs from machine to machine.
+# Drift of load and deformation is kept but not judged: no number of the standard could be checked for it, and the
+# sign that means "in the direction of the load" differs from machine to machine.
 LIMITS: dict[str, Limit] = {
     "load_standard_error_percent": Limit(10.0, "%", "load standard error"),
     "deformation_standard_error_percent": Limit(10.0, "%", "deformation standard error"),

@@ -69,6 +69,12 @@ def read_observations(
         name for name in ("replicate", "amplitude_m", "order", "cycles") if name in table.columns
     ]
     by_force = bool({"F0_N", "record"} & set(table.columns))
+    test_type = "bending" if campaign is None else campaign.test_type
+    if by_force and test_type != "bending":
+        raise InputError(
+            f"{path}: forces and displacements are reduced by Eq. (1) of two-point bending; give the moduli of a "
+            f"{test_type} test, or say --measured-in bending."
+        )
     if reduced:
         table = _without(table, PEAKS)
     frame = reduced_frame(table, geometry, tests=(*KEYS, *distinguishing))
@@ -95,7 +101,7 @@ def read_observations(
         nominal_temperature=None if isotherm is temperature else isotherm,
         strain=None if np.isnan(strain).all() else strain,
         quality={name: table.numbers_or_nan(name) for name in quality.COLUMNS if name in table.columns},
-        test_type="bending" if campaign is None else campaign.test_type,
+        test_type=test_type,
     )  # fmt: skip
     softest = float(observed.modulus.real.min())
     if static_modulus is not None and static_modulus > BEYOND_SCATTER * softest:

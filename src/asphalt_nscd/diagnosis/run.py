@@ -96,30 +96,37 @@ def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
         }
         for one in quality.exceeded(observed)
     ]  # fmt: skip
+    together = isotherm_notes(observed.temperature, observed.isotherm)
+    if together:
+        together.append("The law is fitted to the measured temperatures.")
     return {
         "test_type": observed.test_type,
         "specimens": list(observed.names),
         "isotherms_C": observed.isotherms.tolist(),
         "quality_columns": [name for name in quality.COLUMNS if name in observed.quality],
         "limits_exceeded": above,
-        "notes": [*notes, *isotherm_notes(observed.temperature, observed.isotherm), *_quality_notes(above)],
+        "notes": [
+            *notes,
+            *together,
+            *_quality_notes(above, observed.size),
+        ],
     }
 
 
-def _quality_notes(above: Sequence[Mapping[str, Any]]) -> list[str]:
+def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int) -> list[str]:
     """A sentence for each quality limit that some tests exceed, with the worst of them."""
     notes = []
     for name, limit in quality.LIMITS.items():
         found = sorted((one for one in above if one["column"] == name), key=lambda one: -one["value"])
         if found:
             worst = "; ".join(
-                f"{one['specimen']} at {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz: {one['value']:g}"
+                f"{one['specimen']} at {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz: "
+                f"{one['value']:g} {limit.unit}"
                 for one in found[:3]
             )
-            unit = " %" if limit.unit == "%" else f" {limit.unit}"
             notes.append(
-                f"{len(found)} tests exceed the {limit.limit:g}{unit} of {limit.label} that {limit.source} allows "
-                f"({worst}{'; ...' if len(found) > 3 else ''})."
+                f"{limit.label.capitalize()} above {limit.limit:g} {limit.unit} ({limit.source}) in {len(found)} of "
+                f"{tests} tests: {worst}{'; and others' if len(found) > 3 else ''}."
             )
     return notes
 

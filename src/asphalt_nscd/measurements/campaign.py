@@ -44,7 +44,7 @@ def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> ND
     groups = np.split(values, np.flatnonzero(np.diff(values) > READINGS_APART + 1e-9) + 1)
     nominal = temperature.copy()
     for group in groups:
-        rows = np.flatnonzero(np.isin(temperature, group))
+        rows = [int(row) for row in np.flatnonzero(np.isin(temperature, group))]
         apart = len({(tests[row], temperature[row]) for row in rows}) > len({tests[row] for row in rows})
         if len(group) > 1 and not apart and group[-1] - group[0] <= WIDEST_ISOTHERM + 1e-9:
             nominal[rows] = round(float(temperature[rows].mean()), 1)
@@ -80,14 +80,12 @@ def isotherm_notes(temperature: NDArray[np.float64], nominal: NDArray[np.float64
         for value in changed:
             measured = temperature[nominal == value]
             parts.append(f"{value:g} (measured {measured.min():g} to {measured.max():g})")
-        notes.append(
-            "Isotherms in degC: " + ", ".join(parts) + ". The law is fitted to the measured temperatures."
-        )
+        notes.append(f"Isotherms in degC: {', '.join(parts)}.")
     off = np.abs(temperature - nominal) > OFF_TARGET + 1e-9
     if off.any():
         worst = int(np.argmax(np.abs(temperature - nominal)))
         notes.append(
-            f"{int(off.sum())} tests ran more than {OFF_TARGET:g} K off the target temperature, at most "
-            f"{temperature[worst]:g} instead of {nominal[worst]:g} degC (AASHTO T 378 allows {OFF_TARGET:g} K)."
+            f"More than {OFF_TARGET:g} K off the target temperature (AASHTO T 378): {int(off.sum())} of {off.size} "
+            f"tests, at worst {temperature[worst]:g} instead of {nominal[worst]:g} degC."
         )
     return notes

@@ -12,11 +12,18 @@ from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.table_import.cells import NotTests, as_cells, read_rows
 from asphalt_nscd.table_import.exports import blocks
-from asphalt_nscd.table_import.understand import FURTHER, Understood, understand
+from asphalt_nscd.table_import.understand import (
+    FURTHER,
+    MAY_BE_ABSENT,
+    Understood,
+    names_force_or_modulus,
+    understand,
+)
 
 TABLES = (".csv", ".tsv", ".txt", ".dat", ".xlsx", ".xlsm")
 MOST_FILES = 500
 _FIGURES = 4  # digits in which two files that hold the same tests agree
+_MEASURED = ("temperature_C", "nominal_temperature_C", "E_MPa", "phase_deg")
 
 
 @dataclass(frozen=True)
@@ -63,6 +70,10 @@ def read_campaign(
         )
     kind = test_type or ("tension-compression" if exported else "bending")
     table = _joined(paths, parts, notes)
+    specimens = list(dict.fromkeys(table.columns["specimen"]))
+    notes.append(
+        f"{len(specimens)} specimens: {', '.join(specimens[:12])}{', ...' if len(specimens) > 12 else ''}"
+    )
     files = tuple(dict.fromkeys(part.path for part in parts))
     return Campaign(table, files, kind, (*_said(parts), *notes)), forms[0]
 
@@ -93,7 +104,9 @@ def _folder(
         else:
             try:
                 parts += _file(path, sheet, chosen)
-            except NotTests as error:
+            except InputError as error:
+                if not isinstance(error, NotTests) and _meant(path, sheet):
+                    raise
                 reason = str(error).removeprefix(f"{path}: ").partition(" (found:")[0].partition("; ")[0]
                 skipped.append(f"{path.name} ({reason})")
     if not parts:
@@ -103,6 +116,18 @@ def _folder(
         )
     notes += [f"skipped {one}" for one in skipped]
     return parts
+
+
+def _meant(path: Path, sheet: str | None) -> bool:
+    """Whether a file that is refused was meant to hold tests: some cell names a modulus or a force with its unit.
+
+    A CSV or XLSX file that cannot even be opened may hold tests; running text may not.
+    """
+    try:
+        rows, _ = read_rows(path, sheet)
+    except InputError:
+        return path.suffix.lower() not in (".txt", ".dat")
+    return any(names_force_or_modulus(cell) for _, cells in rows for cell in cells)
 
 
 def _without_copies(parts: list[_Part], notes: list[str]) -> list[_Part]:
@@ -146,13 +171,14 @@ def _tests(part: _Part) -> list[tuple[str, ...]]:
     columns = part.read.table.columns
     temperature = "nominal_temperature_C" if "nominal_temperature_C" in columns else "temperature_C"
     names = ["specimen", temperature, "frequency_Hz", "replicate", "amplitude_m", "order", "cycles"]
-    return list(zip(*(map(_short, columns[name]) for name in names if name in columns), strict=True))
+    present = [name for name in names if name in columns]
+    return list(zip(*([_short(text, 9) for text in columns[name]] for name in present), strict=True))
 
 
-def _short(text: str) -> str:
-    """A number to the digits in which two files agree; other text as it is."""
+def _short(text: str, figures: int = _FIGURES) -> str:
+    """A number to so many digits; other text as it is."""
     try:
-        return f"{float(text):.{_FIGURES}g}"
+        return f"{float(text):.{figures}g}"
     except ValueError:
         return text
 
@@ -187,11 +213,21 @@ def _called(paths: Sequence[Path]) -> str:
     return str(paths[0]) if len(paths) == 1 else ", ".join(path.name for path in paths)
 
 
+def _sources(part: _Part) -> list[str]:
+    """Which of the user's columns became which of ours; an export's in one sentence."""
+    sources = part.read.sources
+    if not part.exported:
+        return [f"{name} from column {source}" for name, source in sources.items()]
+    measured = ", ".join(f"{name} from {sources[name]}" for name in _MEASURED if name in sources)
+    kept = ", ".join(name for name in MAY_BE_ABSENT if name in sources)
+    return [f"machine export: {measured}" + (f"; kept for judging the tests: {kept}" if kept else "")]
+
+
 def _said(parts: list[_Part]) -> list[str]:
     """How the files were read: what is true of all files is said once."""
     by_note: dict[str, list[str]] = {}
     for part in parts:
-        for note in part.read.notes:
+        for note in (*part.read.notes, *_sources(part)):
             files = by_note.setdefault(note, [])
             if part.path.name not in files:
                 files.append(part.path.name)

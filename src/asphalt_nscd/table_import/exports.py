@@ -72,14 +72,18 @@ def blocks(path: Path, rows: list[Row], notes: list[str]) -> list[Block]:
             taken = _results(path, rows[at + 1 :], len(frequencies))
             found.append(_as_block(path, header, _turned(line, cells, taken), notes))
             at += 1 + len(taken)
-        elif found == [] and _names_columns(cells) and header.first((*_IDENTIFICATION, *_TARGET)):
-            taken = [row for row in rows[at + 1 :] if sum(map(bool, row[1])) > 1]
-            table = Cells(path, cells, [(n, _filled(path, n, row, len(cells))) for n, row in taken])
+        elif _names_columns(cells) and header.first((*_IDENTIFICATION, *_TARGET)):
+            table = _listed(path, cells, rows[at + 1 :])
             found.append(_as_block(path, header, table, notes))
-            return found
+            at += 1 + len(table.rows)
         else:
             header.take(cells)
             at += 1
+    if not found and header.first(_IDENTIFICATION) and header.first(_TARGET):
+        raise InputError(
+            f"{path}: a machine export without its line of frequencies; export it anew, or write a line such as "
+            "`,25 Hz,10 Hz,1 Hz` above the moduli."
+        )
     return found
 
 
@@ -143,17 +147,26 @@ def _turned(line: int, frequencies: list[str], rows: list[Row]) -> Cells:
     return Cells(Path(), header, turned)
 
 
-def _filled(path: Path, line: int, row: list[str], count: int) -> list[str]:
-    if len(row) > count:
-        raise InputError(
-            f"{path}, line {line}: {len(row)} fields under {count} column names; remove what is too much."
-        )
-    return [*row, *[""] * (count - len(row))]
+def _listed(path: Path, names: list[str], rows: list[Row]) -> Cells:
+    """Results with a line for each frequency, down to the first line with neither frequency nor modulus."""
+    wanted = [n for n, name in enumerate(names) if _holds(name, "frequency_Hz") or _holds(name, "E_MPa")]
+    taken: list[Row] = []
+    for line, cells in rows:
+        filled = [*cells, *[""] * (len(names) - len(cells))]
+        if not any(_HERTZ.fullmatch(filled[place]) for place in wanted):
+            break
+        if len(filled) > len(names):
+            raise InputError(
+                f"{path}, line {line}: {len(cells)} fields under {len(names)} column names; if decimals are written "
+                "with a comma, separate the columns with semicolons."
+            )
+        taken.append((line, filled))
+    return Cells(path, names, taken)
 
 
 def _as_block(path: Path, header: _Header, results: Cells, notes: list[str]) -> Block:
     """The results with what the header says of all of them: specimen, target temperature, origin."""
-    notes = [*notes, "machine export"]
+    notes = [note for note in notes if not note.startswith("columns separated")]
     columns = [_recognised(name) for name in results.header]
     held = {column.quantity: place for place, column in enumerate(columns) if column}
     measured = [place for name in ("E_MPa", "phase_deg") if (place := held.get(name)) is not None]
@@ -175,7 +188,7 @@ def _as_block(path: Path, header: _Header, results: Cells, notes: list[str]) -> 
             raise InputError(
                 f"{path}: no temperature; add a line 'Target test temperature (°C)' above the frequencies."
             )
-        target, temperature_label = name.temperature, "Target temperature (°C)"
+        target, temperature_label = name.temperature, "target temperature (°C)"
         notes.append("temperature taken from the name of the specimen")
     if name.contradicts:
         notes.append(
@@ -211,7 +224,8 @@ def _temperature(header: _Header, reading: Column | None) -> tuple[str | None, s
     if match is None:
         return None, ""
     unit = header.units.get(label) or match[2] or (reading.unit if reading and reading.unit else "C")
-    return match[1].replace("−", "-"), f"Target temperature ({unit})"
+    name = f"{label} ({unit})" if label in _TARGET else f"target temperature ({unit})"
+    return match[1].replace("−", "-"), name
 
 
 def _degrees(text: str) -> float:

@@ -34,7 +34,7 @@ def specimen_of(text: str, target: float | None) -> Name:
     found = list(_TEMPERATURE.finditer(plain))
     # The one that the header names, else the last: `PG64-22C` may stand before it.
     same = [match for match in found if target is not None and _is(match, target)]
-    match = (same or found or [None])[-1]
+    match = (same or found)[-1] if found else None
     tail = plain if match is None else plain[match.end() :]
     repeated = _REPEATED.search(tail) is not None
     stem = plain if match is None else plain[: match.start()]

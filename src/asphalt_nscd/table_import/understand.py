@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import chain
 
 from asphalt_nscd.files.csvinput import Table
@@ -13,7 +13,7 @@ from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, REDUCED_COLUMNS
 from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.decimals import decimal_mark, number
 from asphalt_nscd.table_import.quantities import ABSENT, MEASURED, QUALITY, Column, is_unit, recognise
-from asphalt_nscd.table_import.wide import melted
+from asphalt_nscd.table_import.wide import melted, without_condition
 
 TEXTS = ("specimen", "replicate", "origin")
 KEYS = ("temperature_C", "frequency_Hz")
@@ -29,11 +29,15 @@ Place = tuple[int, Column]  # of a column, and what it holds
 
 @dataclass(frozen=True)
 class Understood:
-    """A table in our columns and units, its form (a key of FORMS), and sentences on how it was read."""
+    """A table in our columns and units, its form (a key of FORMS), and sentences on how it was read.
+
+    sources: for each of our columns the user's, and the unit it was converted from.
+    """
 
     table: Table
     form: str
     notes: list[str]
+    sources: dict[str, str] = field(default_factory=dict)
 
 
 def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Understood:
@@ -55,17 +59,23 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
     values, mark = _values(cells, kept)
     notes.append("decimals written with a " + ("comma" if mark == "," else "point"))
     note = _specimens(cells, values)
-    for name, (place, column) in kept.items():
-        unit = f", converted from {column.unit}" if (column.factor, column.offset) != (1.0, 0.0) else ""
-        notes.append(f"{name} from column {cells.header[place]!r}{unit}")
-    notes.append(note)
+    sources = {
+        name: repr(cells.header[place]) + (f", converted from {column.unit}" if _converts(column) else "")
+        for name, (place, column) in kept.items()
+    }
+    if note:
+        notes.append(note)
     read = {place for place, _ in kept.values()}
     if ignored := [name for place, name in enumerate(cells.header) if place not in read]:
         notes.append(f"ignored: {', '.join(map(repr, ignored))}")
     order = ["specimen", "replicate", *KEYS, *FORMS[form], "origin", *FURTHER, *MAY_BE_ABSENT]
     wanted = [name for name in order if name in values]
     table = Table(cells.path, {name: values[name] for name in wanted}, [line for line, _ in cells.rows])
-    return Understood(table, form, notes)
+    return Understood(table, form, notes, sources)
+
+
+def _converts(column: Column) -> bool:
+    return (column.factor, column.offset) != (1.0, 0.0)
 
 
 def _own(cells: Cells) -> Understood | None:
@@ -131,6 +141,15 @@ def _columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
     if "temperature_C" not in found and "nominal_temperature_C" in found:
         found["temperature_C"] = found.pop("nominal_temperature_C")
     return found
+
+
+def names_force_or_modulus(cell: str) -> bool:
+    """Whether a cell is the name of a column with moduli or forces and says their unit, also of a wide table."""
+    try:
+        column = recognise(without_condition(cell))
+    except InputError:  # a unit that the quantity does not have
+        return True
+    return column is not None and column.quantity in ("E_MPa", "F0_N") and column.unit is not None
 
 
 def _single(cells: Cells, name: str, places: list[Place]) -> Place:
@@ -208,9 +227,8 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
                 raise InputError(
                     f"{cells.path}, line {line}: {cells.header[place]}: {problem}; write a number or remove the line."
                 )
-            as_it_is = (column.factor, column.offset) == (1.0, 0.0)
-            converted = value * column.factor + column.offset
-            values[name].append(row[place].replace(",", ".") if as_it_is else f"{converted:.10g}")
+            converted = f"{value * column.factor + column.offset:.10g}"
+            values[name].append(converted if _converts(column) else row[place].replace(",", "."))
     return values, mark
 
 
@@ -229,7 +247,7 @@ def _word(cells: Cells, line: int, name: str, text: str) -> str:
 def _specimens(cells: Cells, values: dict[str, list[str]]) -> str:
     """Put a specimen to each test, and say how it was told."""
     if "specimen" in values:
-        return f"{len(set(values['specimen']))} specimens"
+        return ""
     if "replicate" in values:
         values["specimen"] = values.pop("replicate")
         return f"{len(set(values['specimen']))} replicates, taken as specimens"

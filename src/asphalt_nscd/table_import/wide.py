@@ -27,6 +27,12 @@ def melted(cells: Cells) -> tuple[Cells, list[str]]:
     return cells, notes
 
 
+def without_condition(name: str) -> str:
+    """Name of a column without the temperature or the frequency that it holds."""
+    found = [match["name"] for *_, pattern, _ in _SPREAD if (match := pattern.fullmatch(name))]
+    return found[0] if found else name
+
+
 def _melted(
     cells: Cells, quantity: str, column: str, pattern: re.Pattern[str], plural: str
 ) -> tuple[Cells, list[str]]:

@@ -17,7 +17,7 @@ import yaml
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path, write_table
-from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
+from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes, nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.limits import LIMITS
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, reduced_frame, require_enough
@@ -143,6 +143,7 @@ def for_study(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
             f"{value:.10g}" if other else text
             for value, other, text in zip(nominal, changed, columns["temperature_C"], strict=True)
         ]
+        notes += isotherm_notes(measured, nominal)
         notes.append("each test has the temperature of its isotherm, because a study has one law for each")
     return replace(table, columns=columns), notes
 

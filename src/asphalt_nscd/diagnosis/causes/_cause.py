@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.measurements.campaign import TEST_TYPES
 
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -37,6 +38,7 @@ class Cause(ABC):
     confirmed_by: the measurement that would confirm it. needs: what the table must have for it to show.
     shows_in: a design in which it shows, where one that could have shown it does not.
     like_a_law: a rougher law follows it far, so that it is also looked for by fits that begin with it.
+    benches: test types (`Observations.test_type`) whose apparatus can have it.
     """
 
     name: ClassVar[str]
@@ -47,10 +49,15 @@ class Cause(ABC):
     needs: ClassVar[str] = ""
     shows_in: ClassVar[str] = "a design in which a smooth law cannot follow it"
     like_a_law: ClassVar[bool] = False
+    benches: ClassVar[tuple[str, ...]] = TEST_TYPES
 
     def places(self, observed: Observations) -> Sequence[Place]:
-        """Where the cause may sit; empty if the table cannot show it."""
-        return (None,)
+        """Where the cause may sit; empty if the table cannot show it or the bench cannot have it."""
+        return (None,) if self.on_bench(observed) else ()
+
+    def on_bench(self, observed: Observations) -> bool:
+        """Whether the apparatus of these tests can have the cause at all."""
+        return observed.test_type in self.benches
 
     def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
         """Values of the parameters after the first at which its search starts."""

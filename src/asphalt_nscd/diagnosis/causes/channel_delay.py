@@ -10,7 +10,9 @@ class ChannelDelay(Cause):
     stage = CHANNEL
     parameters = (Parameter("delay", "s", -5e-3, 5e-3, 1e-4),)
     sentence = "the displacement channel lags the force channel by a fixed time"
-    confirmed_by = "a test on a metal reference beam: its phase must be zero at every frequency"
+    confirmed_by = (
+        "a test on an elastic reference specimen of metal: its phase must be zero at every frequency"
+    )
 
     def places(self, observed):
         return (None,) if observed.frequencies.size > 1 else ()

@@ -7,11 +7,14 @@ class GuideFriction(Cause):
     """A slider in parallel with the specimen: loss that does not depend on the rate, added to E2.
 
     Its first harmonic is 4 F / (pi z0), so the loss modulus is gamma 4 F / (pi z0); where the table
-    gives amplitudes z0, the loss is that of the median amplitude.
+    gives amplitudes z0, the loss is that of the median amplitude. A two-point bench guides the head that
+    displacement and force are read at; a cylinder's load cell and gauges sit on the specimen, with no guide between.
     """
 
     name = "guide_friction"
     stage = HEAD
+    benches = ("bending",)
+    needs = "two-point bending: a cylinder in tension-compression has no guided head"
     parameters = (Parameter("loss_modulus", "Pa", 0.0, 5e9, 2e7),)
     sentence = "dry friction in a guide adds a loss that does not depend on the frequency"
     confirmed_by = "a test of the rig without a specimen, or tests at two amplitudes"

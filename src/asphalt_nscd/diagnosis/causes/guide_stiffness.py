@@ -2,10 +2,11 @@ from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Parameter
 
 
 class GuideStiffness(Cause):
-    """A spring in parallel with the specimen: a constant added to E1."""
+    """A spring in parallel with the specimen: a constant added to E1. Only the head of a two-point bench is guided."""
 
     name = "guide_stiffness"
     stage = HEAD
+    benches = ("bending",)
     like_a_law = True
     shows_in = (
         "tests so warm that the mix comes near its static modulus, or a test of the rig without a specimen"
@@ -13,10 +14,13 @@ class GuideStiffness(Cause):
     parameters = (Parameter("modulus", "Pa", 0.0, 5e9, 2e7),)
     sentence = "a guide or cable acts as a spring in parallel with the specimen"
     confirmed_by = "a test of the rig without a specimen, or the modulus of the mix at long times"
-    needs = "the static modulus of the mix (--static-modulus-mpa), of which it is indistinguishable otherwise"
+    needs = (
+        "two-point bending and the static modulus of the mix (--static-modulus-mpa), of which it is indistinguishable "
+        "otherwise"
+    )
 
     def places(self, observed):
-        return () if observed.static_modulus is None else (None,)
+        return () if observed.static_modulus is None or not self.on_bench(observed) else (None,)
 
     def apparent(self, modulus, values, observed):
         return modulus + values[0]

@@ -2,17 +2,22 @@ from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Parameter
 
 
 class LooseClamp(Cause):
-    """A compliance in series with one specimen: 1/E + C."""
+    """A compliance in series with one specimen: 1/E + C.
+
+    On a two-point bench the displacement of the head holds it. The gauges on a cylinder measure between two points
+    of the specimen, and no clamp lies between these.
+    """
 
     name = "loose_clamp"
     stage = SPECIMEN
+    benches = ("bending",)
     parameters = (Parameter("compliance", "1/Pa", 0.0, 1e-9, 5e-13),)
     sentence = "this specimen is held by a compliant clamp or glue joint"
     confirmed_by = "clamping the specimen again and repeating its coldest test"
-    needs = "a second specimen to compare with"
+    needs = "two-point bending and a second specimen to compare with"
 
     def places(self, observed):
-        return observed.names if len(observed.names) > 1 else ()
+        return observed.names if len(observed.names) > 1 and self.on_bench(observed) else ()
 
     def apparent(self, modulus, values, observed):
         return modulus / (1.0 + values[0] * modulus)

@@ -10,7 +10,9 @@ class PhaseOffset(Cause):
     stage = CHANNEL
     parameters = (Parameter("offset", "deg", -30.0, 30.0, 0.5),)
     sentence = "the measured phase is off by the same angle in every test"
-    confirmed_by = "a test on a metal reference beam: its phase must be zero at every frequency"
+    confirmed_by = (
+        "a test on an elastic reference specimen of metal: its phase must be zero at every frequency"
+    )
 
     def apparent(self, modulus, values, observed):
         inertia = observed.inertia * observed.omega**2

@@ -1,0 +1,71 @@
+"""Isotherms: readings of one temperature belong together, temperatures that were set apart do not."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.files.csvinput import Table
+from asphalt_nscd.measurements.campaign import isotherm_notes, isotherms, nominal_temperatures
+
+
+def grouped(*temperature, tests=None):
+    tests = range(len(temperature)) if tests is None else tests
+    return isotherms(np.array(temperature, float), list(tests)).tolist()
+
+
+@pytest.mark.parametrize(
+    ("measured", "nominal"),
+    [
+        ((4.0, 4.1, 4.1, 20.9, 21.0), (4.1, 4.1, 4.1, 20.9, 20.9)),
+        ((20.0, 22.0), (20.0, 22.0)),
+        ((20.0, 21.0), (20.0, 21.0)),
+        ((20.0, 20.6), (20.0, 20.6)),
+        ((20.0, 20.5), (20.2, 20.2)),
+        ((19.5, 20.0, 20.5), (20.0, 20.0, 20.0)),  # the whole range that T 378 allows
+        ((19.4, 19.9, 20.4, 20.6), (19.4, 19.9, 20.4, 20.6)),  # a chain wider than that is left alone
+        ((-10.1, -9.9, 9.9, 10.1), (-10.0, -10.0, 10.0, 10.0)),
+        ((15.0, 15.0), (15.0, 15.0)),
+        ((12.345,), (12.345,)),
+    ],
+)
+def test_neighbours_within_half_a_degree_are_one_isotherm(measured, nominal):
+    assert grouped(*measured) == pytest.approx(list(nominal))
+
+
+def test_order_of_the_rows_does_not_matter():
+    assert grouped(21.0, 4.1, 20.9, 4.0, 4.1) == pytest.approx([20.9, 4.1, 20.9, 4.1, 4.1])
+
+
+def test_a_specimen_tested_at_both_temperatures_meant_two():
+    at_10_hz = [("A", "10"), ("A", "10"), ("B", "10")]
+    assert grouped(20.0, 20.4, 20.0, tests=at_10_hz) == [20.0, 20.4, 20.0]
+    assert grouped(20.0, 20.4, 20.4, tests=[("A", "10"), ("A", "1"), ("B", "10")]) == [20.3] * 3
+
+
+def table(**columns):
+    rows = len(next(iter(columns.values())))
+    return Table(
+        Path("t.csv"),
+        {name: list(map(str, values)) for name, values in columns.items()},
+        [*range(2, rows + 2)],
+    )
+
+
+def test_targets_of_the_machine_decide():
+    measured = [20.2, 20.4, 19.6, 21.9]
+    given = table(
+        specimen="AABB",
+        frequency_Hz=[10, 1, 10, 1],
+        temperature_C=measured,
+        nominal_temperature_C=[20, 21, "", ""],
+    )
+    assert nominal_temperatures(given, np.array(measured)).tolist() == [20.0, 21.0, 20.0, 21.9]
+
+
+def test_notes_say_what_was_put_together_and_what_is_off_its_target():
+    measured, nominal = np.array([4.0, 4.1, 20.0, 36.2]), np.array([4.0, 4.0, 20.0, 37.0])
+    together, off = isotherm_notes(measured, nominal)
+    assert "4 (measured 4 to 4.1), 37 (measured 36.2 to 36.2)" in together and "20" not in together
+    assert "1 of 4 tests, at worst 36.2 instead of 37 degC" in off
+    assert isotherm_notes(nominal, nominal) == []

@@ -1,0 +1,281 @@
+"""Exports of testing machines: liberal in how they are written, strict in what they mean."""
+
+from __future__ import annotations
+
+import openpyxl
+import pytest
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.campaign import read_campaign
+from asphalt_nscd.table_import.names import specimen_of
+
+# The layout of an AMPT's summary. The numbers are invented.
+RESULTS = """\
+Test results summary
+,25 Hz,10 Hz,0.5 Hz
+ Dynamic modulus (MPa),9100,8000,5000
+ Phase angle (Degrees),12.5,13.25,19
+ Average temperature  (°C),4.1,4.0,3.9
+ Average confining pressure  (kPa),1.2,1.2,1.2
+ Average micro-strain,104,101,97
+ Load drift (%),0.0,-1.2,0.5
+ Load standard error (%),3.2,0.9,na
+ Phase uniformity (Degrees),7.9,0.4,0.5
+"""
+HEADER = """\
+Test Information
+****************
+Project name,Ours
+Target test temperature,4
+Average dynamic strain range from 75 to 125 micro-strain
+Comments
+Identification,Mix-7-4C (X1)
+
+ Dimensions,Point 1,Point 2,Average,Std Dev.
+ Diameter (mm),100.1,100.2,100.15,0.07
+Cross-sectional area (mm²),7878.0
+Test date and time,Sat, May 2, 2020, 12:44 AM
+"""
+EXPORT = HEADER + RESULTS
+
+
+def read(folder, text, name="Mix-7-4C (X1)_Sum.csv", codec="latin-1", **options):
+    path = folder / name
+    path.write_bytes(text.encode(codec))
+    return read_campaign([path], **options)[0]
+
+
+def moduli(campaign):
+    return campaign.table.columns["E_MPa"], campaign.table.columns["phase_deg"]
+
+
+def refusal(folder, text, **options):
+    with pytest.raises(InputError) as error:
+        read(folder, text, **options)
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+def test_summary_export_is_read_as_it_is(tmp_path):
+    campaign = read(tmp_path, EXPORT)
+    columns = campaign.table.columns
+    assert campaign.test_type == "tension-compression"
+    assert columns["specimen"] == ["Mix-7"] * 3
+    assert columns["frequency_Hz"] == ["25", "10", "0.5"]
+    assert moduli(campaign) == (["9100", "8000", "5000"], ["12.5", "13.25", "19"])
+    assert columns["temperature_C"] == ["4.1", "4.0", "3.9"]
+    assert columns["nominal_temperature_C"] == ["4"] * 3
+    assert columns["phase_uniformity_deg"] == ["7.9", "0.4", "0.5"]
+    assert columns["load_standard_error_percent"] == ["3.2", "0.9", ""]
+    assert columns["microstrain"] == ["104", "101", "97"]
+    notes = " ".join(campaign.notes)
+    assert "not UTF-8, so read as Windows text (cp1252)" in notes
+    assert "say --measured-in if it is not" in notes
+    assert "ignored: 'Average confining pressure (kPa)'" in notes
+
+
+def test_test_type_that_the_user_states_is_taken(tmp_path):
+    campaign = read(tmp_path, EXPORT, test_type="bending")
+    assert campaign.test_type == "bending" and "tension" not in " ".join(campaign.notes)
+
+
+@pytest.mark.parametrize("codec", ["utf-8", "utf-8-sig", "utf-16"])
+def test_encodings(tmp_path, codec):
+    campaign = read(tmp_path, EXPORT, codec=codec)
+    assert campaign.table.columns["temperature_C"] == ["4.1", "4.0", "3.9"]
+    assert ("read as UTF-16" in campaign.notes) == (codec == "utf-16")
+
+
+def test_bytes_of_no_known_encoding_are_refused(tmp_path):
+    (tmp_path / "e.csv").write_bytes(EXPORT.encode("latin-1") + b"\x81\n")
+    with pytest.raises(InputError, match="neither UTF-8 nor Windows text .* save it as UTF-8"):
+        read_campaign([tmp_path / "e.csv"])
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (",25 Hz,10 Hz,0.5 Hz", "Frequency (Hz),25,10,0.5"),
+        (",25 Hz,10 Hz,0.5 Hz", "FREQUENCY,25 hz,10 hz,0.5 hz"),
+        (" Dynamic modulus (MPa),9100,8000,5000", "|E*| [GPa],9.1,8,5"),
+        (" Dynamic modulus (MPa),9100,8000,5000", "E* (Pa),9.1e9,8e9,5e9"),
+        (" Phase angle (Degrees),12.5,13.25,19", "PHASE ANGLE (deg),12.5,13.25,19"),
+        ("Target test temperature,4", "Target temperature (°C): 4"),
+        ("Target test temperature,4", "Set temperature,4 °C"),
+        ("Identification,Mix-7-4C (X1)", "Specimen ID: Mix-7"),
+        ("Identification,Mix-7-4C (X1)", "Identification,"),
+    ],
+)
+def test_variants_of_labels_mean_the_same(tmp_path, old, new):
+    assert old in EXPORT
+    plain, variant = read(tmp_path, EXPORT), read(tmp_path, EXPORT.replace(old, new))
+    wanted = ["specimen", "frequency_Hz", "nominal_temperature_C"]
+    assert [variant.table.columns[name] for name in wanted] == [plain.table.columns[name] for name in wanted]
+    for one, other in zip(moduli(variant), moduli(plain), strict=True):
+        assert [float(text) for text in one] == pytest.approx([float(text) for text in other])
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("ksi", 6.894757293), ("psi", 6.894757293e-3)])
+def test_american_units(tmp_path, unit, factor):
+    text = EXPORT.replace("modulus (MPa),9100,8000,5000", f"modulus ({unit}),9e5,8e5,5e5")
+    text = text.replace("Average temperature  (°C),4.1,4.0,3.9", "Average temperature (°F),39.4,39.2,39")
+    text = text.replace("Target test temperature,4", "Target test temperature,39.2").replace("4C", "39.2F")
+    columns = read(
+        tmp_path, text.replace("5e5", "5e5") if unit == "psi" else text.replace("e5", "e3")
+    ).table.columns
+    thousand = 1e5 if unit == "psi" else 1e3
+    assert float(columns["E_MPa"][0]) == pytest.approx(9 * thousand * factor, rel=1e-9)
+    assert [float(text) for text in columns["nominal_temperature_C"]] == pytest.approx([4.0] * 3)
+    assert columns["specimen"] == ["Mix-7"] * 3
+
+
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_decimal_commas(tmp_path, separator):
+    text = EXPORT.replace(",", separator).replace(".", ",").replace("Std Dev,", "Std Dev.")
+    campaign = read(tmp_path, text)
+    assert campaign.table.columns["frequency_Hz"] == ["25", "10", "0.5"]
+    assert moduli(campaign) == (["9100", "8000", "5000"], ["12.5", "13.25", "19"])
+
+
+TURNED = (
+    HEADER
+    + """\
+Frequency (Hz),Dynamic modulus (MPa),Phase angle (deg),Temperature (°C),Phase uniformity (deg)
+25,9100,12.5,4.1,7.9
+10,8000,13.25,4.0,0.4
+0.5,5000,19,3.9,0.5
+
+Approved by,me
+"""
+)
+
+
+def test_frequencies_as_rows(tmp_path):
+    plain, turned = read(tmp_path, EXPORT), read(tmp_path, TURNED)
+    assert moduli(turned) == moduli(plain) and turned.test_type == "tension-compression"
+    for name in (
+        "specimen",
+        "frequency_Hz",
+        "temperature_C",
+        "nominal_temperature_C",
+        "phase_uniformity_deg",
+    ):
+        assert turned.table.columns[name] == plain.table.columns[name]
+
+
+def test_a_damaged_line_of_a_list_is_refused(tmp_path):
+    assert "Frequency (Hz): '1O' is not a number" in refusal(tmp_path, TURNED.replace("10,8000", "1O,8000"))
+
+
+def test_workbook(tmp_path):
+    book = openpyxl.Workbook()
+    for line in EXPORT.splitlines():
+        book.active.append([_value(cell) for cell in line.split(",")])
+    book.save(tmp_path / "Mix-7-4C_Sum.xlsx")
+    campaign, _ = read_campaign([tmp_path / "Mix-7-4C_Sum.xlsx"])
+    assert moduli(campaign) == (["9100", "8000", "5000"], ["12.5", "13.25", "19"])
+
+
+def _value(cell):
+    try:
+        return float(cell)
+    except ValueError:
+        return cell
+
+
+def test_several_temperatures_in_one_file(tmp_path):
+    warm = RESULTS.replace("4.1,4.0,3.9", "21.1,21,20.9").replace("9100,8000,5000", "5100,4000,2000")
+    second = "Target test temperature,21\nIdentification,Mix-7-21C (X1)\n"
+    columns = read(tmp_path, EXPORT + second + warm).table.columns
+    assert columns["nominal_temperature_C"] == ["4"] * 3 + ["21"] * 3
+    assert columns["specimen"] == ["Mix-7"] * 6 and columns["E_MPa"][3:] == ["5100", "4000", "2000"]
+
+
+def test_frequency_without_a_result_is_left_out_and_said(tmp_path):
+    text = EXPORT.replace("9100,8000,5000", "9100,8000").replace("12.5,13.25,19", "12.5,13.25")
+    campaign = read(tmp_path, text)
+    assert campaign.table.columns["frequency_Hz"] == ["25", "10"]
+    assert "1 frequencies without a modulus left out" in campaign.notes
+
+
+def test_temperature_of_the_name_where_no_other_is_given(tmp_path):
+    text = EXPORT.replace("Target test temperature,4\n", "").replace(
+        " Average temperature  (°C),4.1,4.0,3.9\n", ""
+    )
+    campaign = read(tmp_path, text)
+    assert campaign.table.columns["temperature_C"] == ["4"] * 3
+    assert "temperature taken from the name of the specimen" in campaign.notes
+
+
+def test_a_name_that_contradicts_the_header_is_said(tmp_path):
+    campaign = read(tmp_path, EXPORT.replace("Mix-7-4C", "Mix-7-21C"))
+    assert campaign.table.columns["nominal_temperature_C"] == ["4"] * 3
+    assert any("says 21 °C, the header 4; the header is taken" in note for note in campaign.notes)
+
+
+def test_synthetic_exports_say_so(tmp_path):
+    assert (
+        read(tmp_path, EXPORT.replace("Comments\n", "Comments,Synthetic: drawn\n")).table.columns["origin"]
+        == ["synthetic"] * 3
+    )
+    assert (
+        "origin"
+        not in read(tmp_path, EXPORT.replace("Comments\n", "Comments,cold, synthetic binder\n")).table.columns
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        (",25 Hz,10 Hz,0.5 Hz\n", "", "a machine export without its line of frequencies"),
+        ("modulus (MPa)", "modulus", "'Dynamic modulus' does not say its unit; write it behind the name"),
+        ("modulus (MPa)", "modulus (m)", "'m' is no unit of it; give one of Pa, kPa, MPa"),
+        (" Phase angle (Degrees),12.5,13.25,19\n", "", "no column for phase_deg"),
+        (" Load drift", " E* (MPa),9,8,7\n Load drift", "'Dynamic modulus (MPa)' and 'E* (MPa)' may each be E_MPa"),
+        ("9100,8000,5000", "9100,8000,5000,4000", "4 values below 3 frequencies"),
+        ("9100,8000,5000", "9100,error,5000", "Dynamic modulus (MPa): 'error' is not a number"),
+        ("9100,8000,5000", "9100,,5000", "Dynamic modulus (MPa): the cell is empty"),
+        ("9100,8000,5000\n Phase angle (Degrees),12.5,13.25,19", "na,na,na\n Phase angle (Degrees),na,na,na",
+         "no frequency has a modulus"),
+        ("Target test temperature,4", "Target test temperature,4 bar", ""),
+    ],
+)  # fmt: skip
+def test_what_is_ambiguous_is_refused_in_one_sentence(tmp_path, old, new, sentence):
+    assert old in EXPORT
+    if sentence:
+        assert sentence in refusal(tmp_path, EXPORT.replace(old, new))
+    else:  # an unreadable target is no target: the measured temperature stands
+        assert "nominal_temperature_C" not in read(tmp_path, EXPORT.replace(old, new)).table.columns
+
+
+def test_no_temperature_at_all_is_refused(tmp_path):
+    text = EXPORT.replace("Target test temperature,4\n", "").replace(
+        " Average temperature  (°C),4.1,4.0,3.9\n", ""
+    )
+    assert "no temperature; add a line 'Target test temperature (°C)'" in refusal(
+        tmp_path, text.replace("-4C", "")
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "target", "specimen", "repeated"),
+    [
+        ("Mix-10-21C (4G16A)", 21, "Mix-10", False),
+        ("Mix-10-21C- (4G16A)", 21, "Mix-10", False),
+        ("Mix-11-37C-Repeated (4G16A)", 37, "Mix-11", True),
+        ("Mix-11-Repeat-37C", 37, "Mix-11", False),
+        ("Mix 11 40F rerun", 40, "Mix 11", True),
+        ("Mix-11--10C", -10, "Mix-11", False),
+        ("Mix-11-10C", -10, "Mix-11", False),
+        ("Mix_11_4.4 °C", 4.4, "Mix_11", False),
+        ("PG64-22C-B2-21C", 21, "PG64-22C-B2", False),
+        ("Mix-12", 4, "Mix-12", False),
+        ("Mix-4Cores", 4, "Mix-4Cores", False),
+        ("4C", 4, "4C", False),
+    ],
+)
+def test_specimen_without_temperature_and_remarks(text, target, specimen, repeated):
+    name = specimen_of(text, target)
+    assert (name.specimen, name.contradicts) == (specimen, False)
+    if "Repeat-" not in text:
+        assert name.repeated == repeated
