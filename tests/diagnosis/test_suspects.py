@@ -71,10 +71,17 @@ def test_majority_is_no_witness():
     assert all(one.used for one in found if one.row == right)
 
 
-def test_same_fault_in_all_specimens_is_found():
+def test_contradiction_that_all_specimens_share_is_no_single_test():
     observed = campaign()
     rows = [row_of(observed, specimen, 4.0, 5.0) for specimen in range(3)]
-    assert out(altered(observed, rows, phase_deg=-4.0)) == rows
+    found = suspects.find(altered(observed, rows, phase_deg=-4.0))
+    assert [one.row for one in found] == rows
+    assert all(one.used and suspects.SHARED in one.reasons for one in found)
+
+
+def test_delay_common_to_all_tests_leaves_them_in_use():
+    observed = campaign()
+    assert not out(altered(observed, slice(None), phase_deg=360.0 * 2e-3 * observed.frequency))
 
 
 def test_specimen_that_differs_as_a_whole_is_no_suspect():
@@ -105,6 +112,16 @@ def test_isotherm_that_breaks_as_a_whole_is_reported_and_its_tests_are_used():
     assert found.temperature == 37.0 and found.specimens == 3
     assert found.difference[-1] == pytest.approx(-12.0, abs=2.0)
     assert "deg below it at 25 Hz (mean of 3 specimens)" in found.sentence
+
+
+def test_isotherm_without_any_order_is_broken_and_no_list_of_suspects():
+    observed = campaign()
+    hot = observed.temperature == 37.0
+    wild = np.array([0.0, 4.0, -6.0, 8.0, -10.0, -20.0])[np.searchsorted(FREQUENCIES, observed.frequency)]
+    wild *= np.array([1.0, 0.7, -0.8])[observed.specimen]
+    broken = altered(observed, hot, phase_deg=wild[hot])
+    assert not out(broken)
+    assert [one.temperature for one in suspects.broken_isotherms(broken)] == [37.0]
 
 
 def test_phase_offset_of_a_whole_campaign_breaks_nothing():

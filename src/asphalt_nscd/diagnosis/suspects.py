@@ -1,7 +1,8 @@
 """Single tests that contradict the rest of their isotherm, and isotherms that contradict themselves.
 
 Causality within the specimen's own isotherm decides; quality columns of the machine and replicates are witnesses
-beside it. Two replicates that agree are not right for that: replicates alone take no test out.
+beside it. Two replicates that agree are not right for that: replicates alone take no test out. What every specimen
+shows at a condition is no single test either: a resonance or a gain of the machine is left to the diagnosis.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from asphalt_nscd.diagnosis import quality, within_isotherm
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.within_isotherm import BEND_WEIGHTS, BENDS, Held
 
-STRONG = 0.015  # chance, times the number of values, below which causality alone takes a test out
+STRONG = 6e-3  # chance, times the number of values, below which causality alone takes a test out
 NOTABLE = 0.1  # the same for a test that is listed and used
 SUPPORTED = 1e-2  # chance of one value, below which it is taken out where a witness agrees
 FAR = 5e-3  # chance, times the number of values, below which replicates are a witness
@@ -26,6 +27,7 @@ LEANING, VERY_FAR = 0.1, 1e-5  # both limits where replicates say more: at the e
 BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1.5 deg or more
 BREAKS = BENDS > np.radians(1.0)
 LEAST_FREEDOM = 4  # of the replicates of an isotherm
+SHARED = "every specimen contradicts its isotherm here in the same way: look for a common cause, not for a bad test"
 IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may be no more than nearly smooth
 
 
@@ -77,12 +79,14 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
     worst, single = held.chance.min(axis=1), held.chance[:, :2]
     doubtful = single < SUPPORTED
     flagged = np.array([bool(sentences) for sentences in flags])
-    out = (worst < STRONG * limit) | (doubtful.any(axis=1) & flagged)
+    logarithm = observed.logarithm
+    left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
+    strong = worst < STRONG * limit
+    shared = _shared(observed, held, strong, left)
+    out = (strong & ~shared) | (doubtful.any(axis=1) & flagged)
     # What is already out is no replicate of the others.
     apart, chance = _from_replicates(observed, ~out)
     far = chance * values < FAR
-    logarithm = observed.logarithm
-    left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
     agree = (np.sign(apart) == np.sign(left)) & ~broken[:, None]
     supported = agree & ((doubtful & far) | ((single < LEANING) & (chance * values < VERY_FAR)))
     out |= supported.any(axis=1)
@@ -93,8 +97,24 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
         reasons = [_causal_reason(observed, held, row, column) for column in np.flatnonzero(contradicts[row])]
         reasons += flags[row]
         reasons += [_replicate_reason(observed, apart, row, column) for column in np.flatnonzero(far[row])]
+        reasons += [SHARED] * bool(shared[row])
         found.append(Suspect(int(row), tuple(reasons), not bool(out[row])))
     return found
+
+
+def _shared(
+    observed: Observations, held: Held, strong: NDArray[np.bool_], left: NDArray
+) -> NDArray[np.bool_]:
+    """Tests (n,) of conditions at which every specimen, two at least, contradicts its isotherm in the same way."""
+    channel = held.chance[:, :2].argmin(axis=1)
+    sign = np.sign(np.take_along_axis(left, channel[:, None], axis=1)[:, 0])
+    way = np.where(strong, sign * (channel + 1.0), 0.0)
+    shared = np.zeros(observed.size, bool)
+    for cell in np.unique(observed.cell[strong]):
+        rows = np.flatnonzero((observed.cell == cell) & held.judged)
+        alike = np.unique(way[rows]).size == 1
+        shared[rows] = alike and np.unique(observed.specimen[rows]).size > 1
+    return shared
 
 
 def broken_isotherms(observed: Observations, held: Held | None = None) -> list[BrokenIsotherm]:
