@@ -3,6 +3,11 @@
 Causality within the specimen's own isotherm decides; quality columns of the machine and replicates are witnesses
 beside it. Two replicates that agree are not right for that: replicates alone take no test out. What every specimen
 shows at a condition is no single test either: a resonance or a gain of the machine is left to the diagnosis.
+
+Measured: of 600 invented clean tables (2S2P1D, Huet-Sayegh, Havriliak-Negami, Burgers, Zener; 1 %, 0.3 deg) one loses
+tests. One fault put into a cold isotherm (below 10 degC) of two real tables is found in 96 % of 260 trials
+(4 or 6 deg, 10 or 20 % of |E*|), at 21 degC in 89 % of 180. No other test is taken out. Those missed stand at the
+ends of the band, mostly at the lowest frequency, where nothing on one side says what the phase should be.
 """
 
 from __future__ import annotations
