@@ -8,11 +8,15 @@ TYPICAL = TEMPERATURES[len(TEMPERATURES) // 2]  # where the study names no other
 SOFTER = label(SENSITIVITY["temperature_C"]) if "sensitivity" in STUDY else TYPICAL
 FIRST = SAMPLES[0]
 
-RESIDUALS = {"diagnosis": DIAGNOSED[:1], "residuals": DIAGNOSED[1:]}
+RESIDUALS = {"diagnosis": DIAGNOSED[:1], "residuals": DIAGNOSED[1:2]}
 
 # name: category in the report, {kind of data: files}
 FIGURES = {
     "fig_residual_map": ("0 Diagnosis", RESIDUALS),
+    "fig_causality_map": (
+        "0 Diagnosis",
+        {"diagnosis": RESIDUALS["diagnosis"], "causality": DIAGNOSED[2:]},
+    ),
     "fig_black": ("0 Diagnosis", RESIDUALS),
     "fig_master": ("0 Diagnosis", RESIDUALS),
     "fig_limits": ("0 Diagnosis", {"diagnosis": RESIDUALS["diagnosis"]}),

@@ -2,7 +2,7 @@
 
 SETTINGS = dict(STUDY["diagnosis"])
 SETTINGS |= SETTINGS.pop("scatter", {})
-DIAGNOSED = ["<results>/diagnosis/diagnosis.json", "<results>/diagnosis/residuals.csv"]
+DIAGNOSED = [f"<results>/diagnosis/{name}" for name in ("diagnosis.json", "residuals.csv", "causality.csv")]
 # One law for all temperatures, for the extended simulation; one temperature determines none.
 COMMON_LAW = ["<results>/diagnosis/law.json"] if len(TEMPERATURES) > 1 else []
 

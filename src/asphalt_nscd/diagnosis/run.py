@@ -9,7 +9,7 @@ from typing import Any
 
 from tabulate import tabulate
 
-from asphalt_nscd.diagnosis import quality, report
+from asphalt_nscd.diagnosis import quality, report, suspects, within_isotherm
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.numerics import of_campaign
@@ -39,9 +39,10 @@ def run(
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
     simulations: str | Path | None = None,
 ) -> str:  # fmt: skip
-    """Diagnose measurements, write diagnosis.json, residuals.csv and law.json into the folder; the summary.
+    """Diagnose measurements and write four files into the folder; the summary.
 
-    simulations: table of simulated tests whose numerics are told apart.
+    The files: diagnosis.json, residuals.csv, causality.csv and law.json. simulations: table of simulated tests whose
+    numerics are told apart.
     """
     numerical = read_specimen(specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None
@@ -73,6 +74,8 @@ def run(
     }
     folder = Path(folder)
     write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical))
+    held = within_isotherm.hold(observed)
+    write_table(folder / "causality.csv", suspects.table(observed, suspects.find(observed, held), held))
     if fit is not None:
         write_spectrum(
             folder / "law.json", fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,

@@ -1,4 +1,4 @@
-"""A diagnosis as it was written: what figures and the report read of diagnosis.json and residuals.csv."""
+"""A diagnosis as it was written: what figures and report read of diagnosis.json, residuals.csv, causality.csv."""
 
 from __future__ import annotations
 
@@ -30,6 +30,7 @@ _NUMBERS += [
     for when in BEFORE_AFTER
     for column in ("E_{}_MPa", "phase_{}_deg", *RESIDUALS.values())
 ]
+_CAUSALITY = ["temperature_C", "frequency_Hz", "phase_deg"]
 _SHOWN = {
     "s": (1e3, "ms"), "Pa": (1e-6, "MPa"), "1/Pa": (1e12, "1/TPa"), "kg": (1e3, "g"), "deg": (1.0, "°"),
     "degC": (1.0, "°C"), "1": (1.0, ""),
@@ -63,6 +64,19 @@ def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
     table.require(["specimen", *_NUMBERS])
     numbers = {name: table.numbers(name) for name in _NUMBERS}
     return pd.DataFrame({"specimen": table.text("specimen")} | numbers)
+
+
+def read_causality(paths: Sequence[Path]) -> pd.DataFrame:
+    """The one causality.csv: each test's phase, the phase that |E*| requires (NaN: not judged), what is suspect."""
+    table = read_csv(the_only(paths, "causality"))
+    required, error = "phase_required_deg", "std_error_deg"
+    table.require(["specimen", *_CAUSALITY, required, error, "quality_flag", "reasons", "used"])
+    return pd.DataFrame(
+        {"specimen": table.text("specimen"), "reasons": table.columns["reasons"]}
+        | {name: table.numbers(name) for name in _CAUSALITY}
+        | {name: table.numbers_or_nan(name) for name in (required, error)}
+        | {name: table.numbers(name) > 0.0 for name in ("quality_flag", "used")}
+    )
 
 
 def conditions(residuals: pd.DataFrame, scatter: dict[str, float]) -> pd.DataFrame:

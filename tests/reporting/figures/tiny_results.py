@@ -196,3 +196,22 @@ class Results:
         }  # fmt: skip
         write_json(path := self.folder / "diagnosis.json", content | changes)
         return {"residuals": [residuals], "diagnosis": [path]}
+
+    def causality(self) -> list[Path]:
+        """Two specimens at 4 and 21 degC: 5 deg too much for specimen 2 at 4 degC, 10 Hz (out), a flag and a doubt."""
+        rows = []
+        for specimen in ("1", "2"):
+            for temperature in (4.0, 21.0):
+                for frequency in (0.1, 1.0, 10.0, 25.0):
+                    fault = specimen == "2" and temperature == 4.0 and frequency == 10.0
+                    doubt = specimen == "1" and temperature == 21.0 and frequency == 25.0
+                    rows.append(
+                        {
+                            "specimen": specimen, "temperature_C": temperature, "frequency_Hz": frequency,
+                            "phase_deg": 20.0 + 5.0 * fault, "phase_required_deg": 20.2, "std_error_deg": 1.0,
+                            "quality_flag": int(fault), "reasons": "phase; twice" if fault or doubt else "",
+                            "used": int(not fault),
+                        }
+                    )  # fmt: skip
+        write_table(path := self.folder / "causality.csv", pd.DataFrame(rows))
+        return [path]

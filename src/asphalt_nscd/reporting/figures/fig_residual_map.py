@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
@@ -20,31 +19,29 @@ from asphalt_nscd.diagnosis.written import (
     read_diagnosis,
     read_residuals,
 )
-from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures import cells, style
 
 ROWS = {
     "E": ("|E*| measured − simulated (%)", "modulus_percent"),
     "phase": ("phase measured − simulated (°)", "phase_deg"),
 }
-COLOURS = "RdBu_r"
-BANDS = 5  # steps of 1, 2, 5, ... on either side of zero
-MOST_NUMBERED = 8  # columns whose cells have room for a number
-MOST_LABELS = 8
 
 
 @style.journal
 def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     """One cell for each condition: |E*| above, phase below; each quantity has one scale for before and after."""
     content = read_diagnosis(diagnosis)
-    cells = conditions(read_residuals(residuals), content["scatter"])
+    means = conditions(read_residuals(residuals), content["scatter"])
     figure, panels = style.new_figure(style.SINGLE, 112.0, rows=2, columns=2, sharex=True, sharey=True)
     letters = iter("abcd")
     for row, (quantity, (words, scatter)) in zip(panels, ROWS.items(), strict=True):
         columns = [RESIDUALS[quantity].format(when) for when in BEFORE_AFTER]
         # Scatter alone must look pale.
-        norm = _norm(max(float(cells[columns].abs().to_numpy().max()), NOTABLE * content["scatter"][scatter]))
+        norm = cells.banded(
+            max(float(means[columns].abs().to_numpy().max()), NOTABLE * content["scatter"][scatter])
+        )
         for axes, when, column in zip(row, BEFORE_AFTER, columns, strict=True):
-            image = _map(axes, cells, column, norm)
+            image = _map(axes, means, column, norm)
             style.letter(axes, next(letters), when)
         bar = figure.colorbar(
             image, ax=list(row), orientation="horizontal", fraction=0.06, aspect=40, pad=0.02
@@ -67,36 +64,10 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     return figure
 
 
-def _norm(largest: float) -> BoundaryNorm:
-    """Bands 1, 2, 5, 10, ... about zero that reach the largest value."""
-    steps = np.array([m * 10.0**e for e in range(-6, 6) for m in (1, 2, 5)])
-    last = int(np.searchsorted(steps, largest))
-    edges = steps[last - BANDS + 1 : last + 1]
-    return BoundaryNorm(np.concatenate([-edges[::-1], edges]), colormaps[COLOURS].N)
-
-
-def _map(axes: Axes, cells: pd.DataFrame, column: str, norm: BoundaryNorm):
-    table = cells.pivot(index="temperature_C", columns="frequency_Hz", values=column)
-    beyond = cells.pivot(index="temperature_C", columns="frequency_Hz", values=f"z_{column}").abs() > NOTABLE
-    axes.set_facecolor(style.PALE)  # shows where nothing was tested
-    image = axes.pcolormesh(table.to_numpy(), cmap=COLOURS, norm=norm, edgecolors="white", linewidth=0.5)
-    for (i, k), value in np.ndenumerate(table.to_numpy()):
-        if beyond.to_numpy()[i, k]:
-            axes.add_patch(
-                Rectangle((k + 0.06, i + 0.06), 0.88, 0.88, fill=False, edgecolor=style.INK, lw=0.8)
-            )
-        if np.isfinite(value) and table.shape[1] <= MOST_NUMBERED:
-            red, green, blue, _ = image.cmap(norm(value))
-            dark = 0.3 * red + 0.6 * green + 0.1 * blue < 0.5
-            digits = 0 if abs(value) >= 9.95 else 1
-            axes.text(
-                k + 0.5, i + 0.5, style.minus(f"{round(value, digits) + 0.0:.{digits}f}"), ha="center",
-                va="center", fontsize=5.5,
-                color="white" if dark else style.INK,
-            )  # fmt: skip
-    for axis, values in ((axes.xaxis, table.columns), (axes.yaxis, table.index)):
-        every = -(-len(values) // MOST_LABELS)
-        labels = [style.minus(f"{value:g}") for value in values]
-        axis.set_ticks(np.arange(len(values))[::every] + 0.5, labels[::every])
-        axis.set_tick_params(length=0.0)
+def _map(axes: Axes, conditioned: pd.DataFrame, column: str, norm: BoundaryNorm):
+    places = {"index": "temperature_C", "columns": "frequency_Hz"}
+    beyond = conditioned.pivot(values=f"z_{column}", **places).abs() > NOTABLE
+    image = cells.draw_table(axes, conditioned.pivot(values=column, **places), norm)
+    for i, k in np.argwhere(beyond.to_numpy()):
+        axes.add_patch(Rectangle((k + 0.06, i + 0.06), 0.88, 0.88, fill=False, edgecolor=style.INK, lw=0.8))
     return image

@@ -1,0 +1,265 @@
+"""Each test held against the other tests of its own specimen and isotherm, by causality and before any law.
+
+Modulus and phase of one isotherm are jointly normal (`kramers_kronig`) with three additions: scatter of single
+tests; a constant by which all phases may be off; and a smooth departure from causality, of a size that the isotherm
+chooses, since the response of a hot isotherm is often not linear. What is left of one value, after all others of its
+isotherm have said what it should be, is scatter or a fault. No other specimen is asked what is right. The other
+specimens and isotherms only tell how large scatter, departure and ripple of the law usually are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import logsumexp
+from scipy.stats import f as fisher
+from scipy.stats import t as student
+
+from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances, required_phase
+from asphalt_nscd.diagnosis.observations import Observations
+
+Vector = NDArray[np.float64]
+LEAST = 4  # tests of an isotherm: of three, none is redundant
+OFFSET = np.radians(5.0)  # standard deviation of what all phases of an isotherm are off by
+BENDS = np.radians([0.0, 0.5, 1.5, 5.0, 15.0])  # sizes of the smooth departure of the phase [rad]
+BEND_WEIGHTS = (0.60, 0.18, 0.10, 0.07, 0.05)  # before the data speak
+BEND_LENGTH = 2.5  # of ln f
+SCATTER = 0.01, np.radians(0.3)  # of ln|E*| and phase, first guess
+LEAST_SCATTER = 1e-3, np.radians(0.05)  # no two tests repeat better
+UNEVEN = 0.5, 3.0  # scatter of an isotherm over the common one; more is no scatter but a broken isotherm
+KNOWN = 0.4  # share of the values that is left for the scatter, the laws of the isotherms take the rest
+CALIBRATED = 2.5  # on the degrees of freedom: 1 % of 300 clean tables then have a least chance below 1 %
+TABLE_WORTH, SPECIMEN_WORTH = 3.0, 2.0  # isotherms that the weights above, and those of the table, are worth
+CLIP = 2.0  # standard deviations, beyond which a value does not widen the scatter (Huber's second proposal)
+NORMAL_CLIPPED = 0.9205  # mean of min(z^2, 4) of a normal z
+ROUNDS = 8, 5  # of the scatter's iteration: at first, and when doubtful values are set aside
+DOUBTFUL = 1e-2  # chance below which a value does not judge its neighbours
+MOST_DOUBTFUL = 3  # one of so many tests of an isotherm at most
+ASIDE = 100.0  # variance that takes a value out
+
+
+@dataclass
+class Held:
+    """What the isotherms say of each value; columns 0 and 1 are ln|E*| and phase [rad].
+
+    judged (n,): whether the isotherm has tests enough; expected, std_error (n, 2): what the rest of the isotherm asks
+    for, the scatter of one test included; chance (n, 3): of a departure as large in ln|E*|, in the phase, or in both,
+    where neither is asked for the other; required, required_error (n,) [rad]: phase that |E*| alone requires;
+    bent (n, 4, 5): ln evidence of each ripple and bend; scatter (n, 2): of single tests.
+    """
+
+    judged: NDArray[np.bool_]
+    expected: NDArray
+    std_error: NDArray
+    chance: NDArray
+    required: Vector
+    required_error: Vector
+    bent: NDArray
+    scatter: NDArray
+
+
+@dataclass(frozen=True)
+class _Group:
+    """Isotherms (b, k) of equal frequencies, by rows; prior covariance (m, 2k, 2k) of each ripple and bend."""
+
+    rows: NDArray[np.int64]
+    covariance: NDArray
+
+    @property
+    def first(self) -> NDArray[np.int64]:
+        return self.rows[:, 0]
+
+
+class _Table:
+    """The values of a table, and what is known so far of its scatter and of the weights."""
+
+    def __init__(self, observed: Observations) -> None:
+        logarithm = observed.logarithm
+        self.values = np.column_stack([logarithm.real, logarithm.imag])
+        self.specimen, self.isotherm = observed.specimen, observed.isotherm
+        self.groups = _groups(observed)
+        n = observed.size
+        self.judged = np.zeros(n, bool)
+        for group in self.groups:
+            self.judged[group.rows] = True
+        self.scatter = np.tile(SCATTER, (n, 1))
+        self.freedom = np.full((n, 2), 10.0)  # of the t distribution: the scatter is itself estimated
+        self.aside = np.zeros((n, 2), bool)
+        # Sharpness of each prediction, and its clipped squared error in standard deviations times that.
+        self.weight, self.squares = np.ones((n, 2)), np.ones((n, 2))
+        self.weights = np.tile(np.log(np.multiply.outer(WEIGHTS, BEND_WEIGHTS)), (n, 1, 1))
+
+    def hold(self) -> Held:
+        n = self.judged.size
+        none, evidence = np.full((n, 2), np.nan), np.full((n, len(WEIGHTS), BENDS.size), np.nan)
+        held = Held(
+            self.judged, none, none.copy(), np.ones((n, 3)), none[:, 0].copy(), none[:, 0].copy(), evidence,
+            self.scatter,
+        )  # fmt: skip
+        for group in self.groups:
+            self._hold_group(group, held)
+        return held
+
+    def _hold_group(self, group: _Group, held: Held) -> None:
+        rows, k = group.rows, group.rows.shape[1]
+        centred = self.values - np.array([self.values[self.judged, 0].mean(), 0.0])
+        values = _side_by_side(centred, rows)
+        out = _side_by_side(ASIDE * self.aside, rows)
+        variance = _side_by_side(self.scatter**2, rows) + out
+        precision = np.linalg.inv(group.covariance + variance[:, None, :, None] * np.eye(2 * k))
+        pull = np.einsum("bmij,bj->bmi", precision, values)
+        own = np.einsum("bmii->bmi", precision)
+        # Evidence of each ripple and bend; then without one value, whose departure and variance are in closed form.
+        evidence = 0.5 * np.linalg.slogdet(precision)[1] - 0.5 * np.einsum("bmi,bi->bm", pull, values)
+        weighed = evidence + self.weights[group.first].reshape(rows.shape[0], -1)
+        left, spread = pull / own, 1.0 / own
+        others = weighed[:, :, None] + 0.5 * left**2 / spread + 0.5 * np.log(spread)
+        share = np.exp(others - logsumexp(others, axis=1, keepdims=True))
+        spread = spread - out[:, None]
+        mean = (share * left).sum(axis=1)
+        error = np.sqrt((share * (spread + (left - mean[:, None]) ** 2)).sum(axis=1))
+        freedom = _side_by_side(self.freedom, rows)[:, None]
+        chance = (share * 2.0 * student.sf(np.abs(left) / np.sqrt(spread), freedom)).sum(axis=1)
+        weight = (share / spread).sum(axis=1)
+        squares = (share / spread * np.minimum(left**2 / spread, CLIP**2)).sum(axis=1)
+        for column, part in enumerate((slice(0, k), slice(k, None))):
+            self.weight[rows, column], self.squares[rows, column] = weight[:, part], squares[:, part]
+            held.expected[rows, column] = self.values[rows, column] - mean[:, part]
+            held.std_error[rows, column] = error[:, part]
+            held.chance[rows, column] = chance[:, part]
+        held.chance[rows, 2] = self._both(group, precision, pull, weighed)
+        held.bent[rows] = evidence.reshape(-1, 1, len(WEIGHTS), BENDS.size)
+
+    def _both(self, group: _Group, precision: NDArray, pull: NDArray, weighed: NDArray) -> NDArray:
+        """Chance (b, k) that ln|E*| and phase of a test are both this far from what the other tests ask for."""
+        k = group.rows.shape[1]
+        pair = np.array([np.arange(k), np.arange(k) + k]).T
+        own = precision[:, :, pair[:, :, None], pair[:, None, :]]
+        out = ASIDE * self.aside[group.rows][:, None, :, :, None] * np.eye(2)
+        spread = np.linalg.inv(own)
+        left = np.einsum("bmkij,bmkj->bmki", spread, pull[:, :, pair])
+        others = weighed[:, :, None] + 0.5 * np.einsum("bmki,bmkij,bmkj->bmk", left, own, left)
+        others -= 0.5 * np.linalg.slogdet(own)[1]
+        share = np.exp(others - logsumexp(others, axis=1, keepdims=True))
+        inside = np.linalg.inv(spread - out)
+        squares = np.einsum("bmki,bmkij,bmkj->bmk", left, inside, left)
+        freedom = self.freedom[group.rows].min(axis=2)[:, None]
+        return (share * fisher.sf(0.5 * squares, 2.0, freedom)).sum(axis=1)
+
+    def learn(self, rounds: int) -> None:
+        """Scatter of each isotherm, and how common each ripple and bend is, from all values.
+
+        Values set aside count as clipped ones: a scatter without them would be too small, and more would seem far.
+        """
+        for _ in range(rounds):
+            held = self.hold()
+            self._learn_scatter()
+            self._learn_weights(held)
+
+    def _learn_scatter(self) -> None:
+        labels, at = np.unique(self.isotherm[self.judged], return_inverse=True)
+
+        def summed(columns: NDArray) -> NDArray:
+            return np.column_stack([np.bincount(at, column) for column in columns[self.judged].T])
+
+        # Weighed by sharpness as in maximum likelihood: ends, where the law is open, tell little of the scatter.
+        weight = summed(self.weight)
+        count = weight**2 / summed(self.weight**2)
+        size = summed(self.squares) / weight / NORMAL_CLIPPED
+        now = np.array([self.scatter[self.judged][at == k][0] for k in range(labels.size)])
+        own = np.log(now * np.clip(np.sqrt(size), 0.3, 3.0))
+        chance = 0.5 / (KNOWN * count)  # variance of the logarithm by chance
+        common = (own / chance).sum(axis=0) / (1.0 / chance).sum(axis=0)
+        spread = ((own - common) ** 2 / chance).sum(axis=0) - (labels.size - 1.0)
+        certainty = (1.0 / chance).sum(axis=0)
+        room = certainty - (1.0 / chance**2).sum(axis=0) / certainty
+        # Variance of the logarithm between isotherms (DerSimonian & Laird 1986).
+        beyond = np.maximum(spread, 0.0) / np.maximum(room, 1e-9)
+        share = beyond / (beyond + chance)
+        scatter = np.exp(common + np.clip(share * (own - common), *np.log(UNEVEN)))
+        freedom = 0.5 * CALIBRATED / (share * chance + (1.0 - share) ** 2 / certainty)
+        for label, value, known in zip(labels, scatter, freedom, strict=True):
+            self.scatter[self.isotherm == label] = np.maximum(value, LEAST_SCATTER)
+            self.freedom[self.isotherm == label] = known
+
+    def _learn_weights(self, held: Held) -> None:
+        first = np.concatenate([group.first for group in self.groups])
+        weighed = held.bent[first] + self.weights[first]
+        share = np.exp(weighed - logsumexp(weighed, axis=(1, 2), keepdims=True))
+        ripple, bend = share.sum(axis=2), share.sum(axis=1)
+        of_table = TABLE_WORTH + first.size
+        ripples = (TABLE_WORTH * np.array(WEIGHTS) + ripple.sum(axis=0)) / of_table
+        bends = (TABLE_WORTH * np.array(BEND_WEIGHTS) + bend.sum(axis=0)) / of_table
+        isotherm, specimen = self.isotherm[first], self.specimen[first]
+        for temperature, name in np.unique(np.column_stack([isotherm, specimen]), axis=0):
+            others = (isotherm == temperature) & (specimen != name)
+            usual = SPECIMEN_WORTH * bends + bend[others].sum(axis=0)
+            rows = (self.isotherm == temperature) & (self.specimen == name)
+            self.weights[rows] = np.log(np.multiply.outer(ripples, usual / usual.sum()))
+
+    def set_doubtful_aside(self) -> None:
+        """Take out the most doubtful value of each isotherm, again and again, lest it accuse its neighbours."""
+        changed = True
+        while changed:
+            changed, held = False, self.hold()
+            for rows in (rows for group in self.groups for rows in group.rows):
+                chance = np.where(self.aside[rows], 1.0, held.chance[rows, :2])
+                test, column = np.unravel_index(int(chance.argmin()), chance.shape)
+                room = self.aside[rows].any(axis=1).sum() < max(1, rows.size // MOST_DOUBTFUL)
+                if chance[test, column] < DOUBTFUL and room:
+                    self.aside[rows[test], column] = changed = True
+
+
+def hold(observed: Observations) -> Held:
+    """Each value of the table held against the rest of its isotherm."""
+    table = _Table(observed)
+    if not table.groups:
+        return table.hold()
+    table.learn(ROUNDS[0])
+    table.set_doubtful_aside()
+    table.learn(ROUNDS[1])
+    held = table.hold()
+    for rows in (rows for group in table.groups for rows in group.rows):
+        required = required_phase(
+            observed.frequency[rows], table.values[rows, 0], float(table.scatter[rows[0], 0])
+        )
+        held.required[rows], held.required_error[rows] = required.phase, required.std_error
+    return held
+
+
+def blocks(observed: Observations) -> NDArray[np.int64]:
+    """(n,) number of the specimen, isotherm and amplitude of each test."""
+    columns = [observed.specimen, observed.isotherm]
+    if observed.amplitude is not None:
+        columns.append(observed.amplitude)
+    return np.unique(np.column_stack(columns), axis=0, return_inverse=True)[1].ravel()
+
+
+def _groups(observed: Observations) -> list[_Group]:
+    block, alike = blocks(observed), {}
+    order = np.lexsort([observed.frequency, block])
+    for rows in np.split(order, np.flatnonzero(np.diff(block[order])) + 1):
+        if rows.size >= LEAST:
+            alike.setdefault(tuple(observed.frequency[rows]), []).append(rows)
+    groups = []
+    for frequencies, rows in alike.items():
+        causal, departing = covariances(frequencies), _departures(np.log(frequencies))
+        both = (causal[:, None] + departing).reshape(-1, *causal.shape[1:])
+        groups.append(_Group(np.array(rows), both))
+    return groups
+
+
+def _departures(log_f: Vector) -> NDArray:
+    """Covariance (5, 2k, 2k) of what phases are off by, for each of BENDS."""
+    k = log_f.size
+    smooth = np.exp(-0.5 * ((log_f[:, None] - log_f) / BEND_LENGTH) ** 2)
+    covariance = np.zeros((BENDS.size, 2 * k, 2 * k))
+    covariance[:, k:, k:] = OFFSET**2 + BENDS[:, None, None] ** 2 * smooth
+    return covariance
+
+
+def _side_by_side(columns: NDArray, rows: NDArray[np.int64]) -> NDArray:
+    """(n, 2) to (b, 2k): ln|E*| of an isotherm, then its phases."""
+    return np.concatenate([columns[rows, 0], columns[rows, 1]], axis=1)

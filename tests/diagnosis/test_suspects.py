@@ -1,0 +1,196 @@
+"""Suspect tests: found within their own isotherm, whatever the majority says; broken isotherms are no suspects."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.diagnosis import suspects, within_isotherm
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum import TwoS2P1D
+
+FREQUENCIES = np.array([0.1, 0.5, 1.0, 5.0, 10.0, 25.0])
+TEMPERATURES = np.array([4.0, 21.0, 37.0])
+LAW = TwoS2P1D(86e6, 26e9, k=0.22, h=0.65, delta=2.5, tau=0.8, beta=43.0, shift=WLF(12.0, 120.0, 21.0))
+
+
+def campaign(seed=0, scatter=(0.003, 0.1)):
+    """Three specimens at three temperatures; scatter: relative of |E*|, and of the phase [deg]."""
+    specimen, temperature, frequency = (
+        values.ravel() for values in np.meshgrid(np.arange(3), TEMPERATURES, FREQUENCIES, indexing="ij")
+    )
+    random = np.random.default_rng(seed)
+    level = random.normal(0.0, 0.05, 3)[specimen]
+    noise = random.normal(0.0, scatter[0], specimen.size)
+    noise = noise + 1j * random.normal(0.0, np.radians(scatter[1]), specimen.size)
+    modulus = LAW.complex_modulus(2.0 * np.pi * frequency, temperature) * np.exp(level + noise)
+    ones = np.ones(specimen.size)
+    return Observations(specimen, ("A", "B", "C"), temperature, frequency, modulus, ones, 0.0 * ones)
+
+
+def row_of(observed, specimen, temperature, frequency):
+    match = (observed.specimen == specimen) & (observed.temperature == temperature)
+    return int(np.flatnonzero(match & (observed.frequency == frequency))[0])
+
+
+def altered(observed, rows, modulus=0.0, phase_deg=0.0):
+    """ln|E*| and phase changed by that much in some rows."""
+    change = np.zeros(observed.size, complex)
+    change[rows] = modulus + 1j * np.radians(phase_deg)
+    return replace(observed, modulus=observed.modulus * np.exp(change))
+
+
+def out(observed):
+    return [one.row for one in suspects.find(observed) if not one.used]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_clean_campaign_loses_no_test(seed):
+    observed = campaign(seed)
+    assert not out(observed)
+    assert not suspects.broken_isotherms(observed)
+
+
+@pytest.mark.parametrize("frequency", FREQUENCIES[1:])  # 0.1 Hz has a decade without neighbours on one side
+@pytest.mark.parametrize("change", [{"phase_deg": 5.0}, {"phase_deg": -5.0}, {"modulus": np.log(0.8)}])
+def test_single_fault_is_found_and_nothing_else(frequency, change):
+    observed = campaign()
+    row = row_of(observed, 1, 4.0, frequency)
+    assert out(altered(observed, row, **change)) == [row]
+
+
+def test_majority_is_no_witness():
+    observed = campaign()
+    wrong = [row_of(observed, specimen, 4.0, 25.0) for specimen in (0, 2)]
+    found = suspects.find(altered(observed, wrong, phase_deg=5.0))
+    assert [one.row for one in found if not one.used] == wrong
+    right = row_of(observed, 1, 4.0, 25.0)
+    assert all(one.used for one in found if one.row == right)
+
+
+def test_contradiction_that_all_specimens_share_is_no_single_test():
+    observed = campaign()
+    rows = [row_of(observed, specimen, 4.0, 5.0) for specimen in range(3)]
+    found = suspects.find(altered(observed, rows, phase_deg=-4.0))
+    assert [one.row for one in found] == rows
+    assert all(one.used and suspects.SHARED in one.reasons for one in found)
+
+
+def test_delay_common_to_all_tests_leaves_them_in_use():
+    observed = campaign()
+    assert not out(altered(observed, slice(None), phase_deg=360.0 * 2e-3 * observed.frequency))
+
+
+def test_specimen_that_differs_as_a_whole_is_no_suspect():
+    observed = campaign()
+    assert not out(altered(observed, observed.specimen == 1, modulus=-0.3, phase_deg=1.0))
+
+
+def test_reason_gives_what_was_measured_and_what_the_isotherm_requires():
+    observed = campaign()
+    row = row_of(observed, 1, 4.0, 25.0)
+    expected = np.degrees(observed.logarithm.imag[row])
+    (found,) = suspects.find(altered(observed, row, phase_deg=5.0))
+    (reason,) = [reason for reason in found.reasons if reason.startswith("phase is")]
+    assert (
+        f"phase is {expected + 5.0:.1f} deg" in reason and "other tests of this specimen at 4 degC" in reason
+    )
+    required = float(reason.split("require ")[1].split(" deg")[0])
+    assert required == pytest.approx(expected, abs=1.5)
+
+
+def test_isotherm_that_breaks_as_a_whole_is_reported_and_its_tests_are_used():
+    observed = campaign()
+    hot = observed.temperature == 37.0
+    departure = -12.0 * (np.log(observed.frequency / 0.1) / np.log(250.0)) ** 2
+    broken = altered(observed, hot, phase_deg=departure[hot])
+    assert not out(broken)
+    (found,) = suspects.broken_isotherms(broken)
+    assert found.temperature == 37.0 and found.specimens == 3
+    assert found.difference[-1] == pytest.approx(-12.0, abs=2.0)
+    assert "deg below it at 25 Hz (mean of 3 specimens)" in found.sentence
+
+
+def test_isotherm_without_any_order_is_broken_and_no_list_of_suspects():
+    observed = campaign()
+    hot = observed.temperature == 37.0
+    wild = np.array([0.0, 4.0, -6.0, 8.0, -10.0, -20.0])[np.searchsorted(FREQUENCIES, observed.frequency)]
+    wild *= np.array([1.0, 0.7, -0.8])[observed.specimen]
+    broken = altered(observed, hot, phase_deg=wild[hot])
+    assert not out(broken)
+    assert [one.temperature for one in suspects.broken_isotherms(broken)] == [37.0]
+
+
+def test_phase_offset_of_a_whole_campaign_breaks_nothing():
+    observed = altered(campaign(), slice(None), phase_deg=3.0)
+    assert not out(observed) and not suspects.broken_isotherms(observed)
+
+
+def test_fault_in_a_cold_isotherm_is_found_beside_a_broken_hot_one():
+    observed = campaign()
+    hot = observed.temperature == 37.0
+    departure = -12.0 * (np.log(observed.frequency / 0.1) / np.log(250.0)) ** 2
+    row = row_of(observed, 0, 4.0, 1.0)
+    assert out(altered(altered(observed, hot, phase_deg=departure[hot]), row, phase_deg=4.0)) == [row]
+
+
+def flagged(observed, rows, value=7.9):
+    column = np.full(observed.size, 0.5)
+    column[rows] = value
+    return replace(observed, quality={"phase_uniformity_deg": column})
+
+
+def test_quality_flag_alone_is_listed_and_the_test_used():
+    observed = campaign()
+    row = row_of(observed, 1, 4.0, 25.0)
+    (found,) = suspects.find(flagged(observed, row))
+    assert found == suspects.Suspect(
+        row, ("phase uniformity 7.9 deg, limit 3 deg (AASHTO T 378, TP 132)",), True
+    )
+
+
+def test_flag_of_a_whole_isotherm_singles_no_test_out():
+    observed = campaign()
+    assert not suspects.find(flagged(observed, (observed.specimen == 1) & (observed.temperature == 4.0)))
+
+
+def test_quality_flag_turns_a_doubt_into_a_reason_to_drop():
+    observed = campaign(scatter=(0.01, 0.3))
+    row = row_of(observed, 1, 21.0, 1.0)
+    doubtful = altered(observed, row, phase_deg=1.5)
+    assert row not in out(doubtful)
+    assert out(flagged(doubtful, row)) == [row]
+
+
+def test_replicates_alone_take_no_test_out():
+    # At the end of the band the isotherm leaves the phase open by more than a degree.
+    observed = campaign()
+    row = row_of(observed, 1, 4.0, 0.1)
+    (found,) = suspects.find(altered(observed, row, phase_deg=-2.0))
+    assert found.row == row and found.used
+    assert "phase differs from 2 replicates by" in found.reasons[-1]
+
+
+def test_isotherms_of_three_tests_are_not_judged():
+    observed = campaign()
+    few = observed.subset(np.isin(observed.frequency, [0.1, 1.0, 10.0]))
+    held = within_isotherm.hold(few)
+    assert not held.judged.any() and np.isnan(held.required).all()
+    assert not suspects.broken_isotherms(few, held)
+
+
+def test_table_holds_what_the_map_shows():
+    observed = campaign()
+    row = row_of(observed, 1, 4.0, 25.0)
+    faulty = flagged(altered(observed, row, phase_deg=5.0), row)
+    held = within_isotherm.hold(faulty)
+    table = suspects.table(faulty, suspects.find(faulty, held), held)
+    assert (
+        table.index[table["used"] == 0].tolist() == table.index[table["quality_flag"] == 1].tolist() == [row]
+    )
+    left = (table["phase_deg"] - table["phase_required_deg"]).drop(row)
+    assert left.abs().median() < 0.5 and (left.abs() < 4.0 * table["std_error_deg"].drop(row)).all()
+    assert table["phase_deg"][row] - table["phase_required_deg"][row] > 3.0
