@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,13 +10,14 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 from scipy.stats import f as fisher
 
-from asphalt_nscd.diagnosis import causality, chance, scatter, start
+from asphalt_nscd.diagnosis import causality, chance, scatter, start, suspects, within_isotherm
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import CHANCE
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.suspects import Suspect
 from asphalt_nscd.measurements.reduction import require_enough
 
 DRAWS = 4000
@@ -41,6 +43,8 @@ class Diagnosis:
     ladder: Ladder
     verdict: str = ""
     notes: list[str] = field(default_factory=list)
+    whole: Observations | None = None  # with the tests that are set aside
+    suspects: tuple[Suspect, ...] = ()  # rows of whole
     too_few: str = ""  # why these data tell no cause from what the catalogue lacks; empty if they may
 
     def established(self, rung: Rung) -> bool:
@@ -60,8 +64,11 @@ def diagnose(
     require_enough(observed.size, observed.frequencies.size)
     scatter.refuse_copies(observed)
     notes: list[str] = []
-    aside = scatter.outliers(observed)
-    whole, observed = observed, observed.subset(np.setdiff1d(np.arange(observed.size), aside))
+    whole = observed
+    held = within_isotherm.hold(whole)
+    doubtful = suspects.find(whole, held)
+    aside = np.array([one.row for one in doubtful if not one.used], np.int64)
+    observed = whole.subset(np.setdiff1d(np.arange(whole.size), aside))
     noise, replicated = _noise(observed, scatter_stated, catalogue, notes)
     if scatter_stated is None and min(noise.sigma) <= 1.01 * scatter.FLOOR:
         notes.append(
@@ -82,18 +89,14 @@ def diagnose(
         )
     if observed.frequencies.size < 3:
         notes.append("Two frequencies: Burgers laws fit them exactly, so their misfit cannot be judged.")
-    for row in range(aside.size):
-        test = whole.subset(aside[[row]])
-        notes.append(
-            f"Set aside, far from its replicates: specimen {whole.names[test.specimen[0]]}, "
-            f"{test.temperature[0]:g} degC, {test.frequency[0]:g} Hz; check this test."
-        )
+    notes += _of_suspects(whole, doubtful)
     ladder = climb(joint, fitted, catalogue, draws, seed)
     law_p = misfit_p_value(_by_scatter(ladder, noise), noise)
     diagnosis = Diagnosis(
         observed, whole.subset(aside), noise, replicated, baseline, baseline_joint, baseline_p, law_p,
         joint is not baseline_joint and baseline_p <= CHANCE and spectrum_better, ladder, notes=notes,
     )  # fmt: skip
+    diagnosis.whole, diagnosis.suspects = whole, tuple(doubtful)
     diagnosis.verdict = _verdict(diagnosis)
     diagnosis.too_few = too_few = _too_few(diagnosis)
     if ladder.rungs and too_few:
@@ -121,6 +124,16 @@ def _too_few(diagnosis: Diagnosis) -> str:
     if observed.isotherms.size < LEAST_ISOTHERMS:
         return f"fewer than {LEAST_ISOTHERMS} temperatures were tested"
     return ""
+
+
+def _of_suspects(whole: Observations, doubtful: Sequence[Suspect]) -> list[str]:
+    """A sentence for each test that is set aside."""
+    return [
+        f"Not used: specimen {whole.names[whole.specimen[one.row]]}, {whole.isotherm[one.row]:g} degC, "
+        f"{whole.frequency[one.row]:g} Hz. {'; '.join(one.reasons)}. Repeat this test."
+        for one in doubtful
+        if not one.used
+    ]
 
 
 def _by_scatter(ladder: Ladder, noise: Noise) -> Fitted:

@@ -42,6 +42,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
             "specimens_percent": 100.0 * diagnosis.noise.scale,
             "from_replicates": diagnosis.replicated and diagnosis.noise.freedom < STATED,
         },
+        "suspect_tests": _suspects(diagnosis),
         "numerics": _numerics(diagnosis, specimen),
         "baseline": {
             "law": "burgers",
@@ -324,6 +325,18 @@ def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
             entry["confined_to"] = "specimen" if isinstance(place, str) else "temperature_C"
             entry.setdefault("places", {})[str(place)] = float(value)
     return limits
+
+
+def _suspects(diagnosis: Diagnosis) -> list[dict[str, Any]]:
+    """Doubtful tests with their reasons, and whether the diagnosis used them."""
+    whole = diagnosis.whole or diagnosis.observed
+    return [
+        {
+            "specimen": whole.names[whole.specimen[one.row]], "temperature_C": float(whole.isotherm[one.row]),
+            "frequency_Hz": float(whole.frequency[one.row]), "reasons": list(one.reasons), "used": one.used,
+        }
+        for one in diagnosis.suspects
+    ]  # fmt: skip
 
 
 def _estimates(diagnosis: Diagnosis) -> dict[str, Any]:

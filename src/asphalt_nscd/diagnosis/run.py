@@ -75,7 +75,7 @@ def run(
     folder = Path(folder)
     write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical))
     held = within_isotherm.hold(observed)
-    write_table(folder / "causality.csv", suspects.table(observed, suspects.find(observed, held), held))
+    write_table(folder / "causality.csv", suspects.table(observed, list(diagnosis.suspects), held))
     if fit is not None:
         write_spectrum(
             folder / "law.json", fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,

@@ -16,10 +16,6 @@ from asphalt_nscd.files.errors import InputError
 Vector = NDArray[np.float64]
 STATED = 10**6  # degrees of freedom of a scatter that is known
 SPECIMEN_SCALE = 0.03  # standard deviation of ln|E*| between specimens of one mix, worth SCALE_FREEDOM
-OUTLIER = 9.0  # robust standard deviations from the replicates, at least
-GAUSSIAN_TABLES = (
-    400  # drawn to see how far chance alone puts a test; beyond what 1 % of them reach it is far
-)
 FLOOR = 5e-4  # of ln|E*| and of the phase [rad]: no two tests repeat better
 UNEVEN = 1e-3  # chance below which isotherms are given a scatter each
 SCALE_FREEDOM = 8  # degrees of freedom against those of the table
@@ -119,34 +115,6 @@ def _scale(scales: Vector) -> float:
     robust = 1.4826 * float(np.median(spread)) if scales.size > 2 else 0.0
     freedom = max(scales.size - 1, 0)
     return float(np.sqrt((known + freedom * robust**2) / (SCALE_FREEDOM + freedom)))
-
-
-def outliers(observed: Observations) -> NDArray[np.int64]:
-    """Single tests far from their replicates in a table that is otherwise regular, at most 2 % of it."""
-    members = np.bincount(observed.cell)[observed.cell]
-    if np.count_nonzero(members >= 3) < 0.5 * observed.size:
-        return np.zeros(0, np.int64)
-    judged = members >= 3
-    far = (
-        np.maximum(_far(observed, observed.logarithm.real), _far(observed, observed.logarithm.imag)) * judged
-    )
-    if far.max() <= OUTLIER:
-        return np.zeros(0, np.int64)
-    # Medians of three replicates leave many tests without any deviation, so that others look far.
-    random = np.random.default_rng(0)
-    drawn = (
-        _far(observed, random.standard_normal(observed.size)) * judged for _ in range(2 * GAUSSIAN_TABLES)
-    )
-    largest = np.array([far_by_chance.max() for far_by_chance in drawn]).reshape(2, -1).max(axis=0)
-    rows = np.flatnonzero(far > max(OUTLIER, np.quantile(largest, 0.99)))
-    return rows if rows.size <= max(2, int(0.02 * observed.size)) else np.zeros(0, np.int64)
-
-
-def _far(observed: Observations, values: Vector) -> Vector:
-    """Deviation (n,) of each row from its replicates, specimen and isotherm, in robust standard deviations."""
-    deviation = values - median_by(values, observed.cell)
-    deviation = deviation - median_by(deviation, _blocks(observed))
-    return np.abs(deviation) / max(1.4826 * float(np.median(np.abs(deviation))), 1e-9)
 
 
 def refuse_copies(observed: Observations) -> None:
