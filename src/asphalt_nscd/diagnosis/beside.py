@@ -102,7 +102,9 @@ def _settle(
         law, scales, active = fitted.law, fitted.scales, fitted.active
         linear = plain.linearise(law, scales, active)
         model = discrepancy.reduce(found, linear)
-        variances = discrepancy.estimate(model, start=variances).variances
+        # Which of three specimens is the odd one may have two answers: the likelier is taken.
+        tried = [discrepancy.estimate(model, start=start) for start in (variances, None)]
+        variances = min(tried, key=lambda estimate: estimate.misfit).variances
     return State(plain, wide, fitted, linear, model, variances)
 
 
