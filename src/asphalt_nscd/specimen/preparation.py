@@ -110,5 +110,5 @@ def read_specimen(path: str | Path) -> Specimen:
         geometry=Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__}),
         position=arrays["position"], radius=arrays["radius"], density=attributes["density"],
         network=Network(**{name: arrays[f"network/{name}"] for name in Network.__dataclass_fields__}),
-        loose_grains=attributes["loose_grains"], area=attributes["area"],
+        loose_grains=attributes["loose_grains"], area=attributes.get("area", "paper"),
     )  # fmt: skip

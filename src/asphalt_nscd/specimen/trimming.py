@@ -69,10 +69,10 @@ def trim(
             network = facet_network(upright, shrunk, geometry)
         else:
             network = bond_network(upright, shrunk, geometry.h, reach)
-        held, joined = _held(network, shrunk.size)
-        if held.all():
+        kept, joined = held(network, shrunk.size)
+        if kept.all():
             break
-        upright, shrunk = upright[held], shrunk[held]
+        upright, shrunk = upright[kept], shrunk[kept]
     if not joined:
         raise InputError(
             "no chain of bonds joins the foot and the head of the specimen; make the box as long as the "
@@ -87,8 +87,8 @@ def trim(
     return Specimen(geometry, upright, shrunk, density, network, candidates - shrunk.size, area)
 
 
-def _held(network: Network, n: int) -> tuple[np.ndarray, bool]:
-    """(n,) which spheres are held fast by bonds, and whether the head hangs together with the foot."""
+def held(network: Network, n: int) -> tuple[np.ndarray, bool]:
+    """(n,) which of n spheres are held fast by bonds, and whether the head hangs together with the foot."""
     ends = network.first, network.second
     count = np.bincount(np.concatenate(ends), minlength=n + 2)[:n]
     graph = sparse.coo_array((np.ones(network.first.size), ends), shape=(n + 2, n + 2))

@@ -1,0 +1,178 @@
+"""How bonds carry the law of the mix: E of a specimen over that of the law, by mapping, size and packing.
+
+    python benchmarks/mapping.py pour SPHERES COUNTS --seed SEED --friction FRICTION --output DEPOSIT.h5
+    python benchmarks/mapping.py solve SPHERES DEPOSIT.h5 --output ROWS.csv
+    python benchmarks/mapping.py collect ROWS.csv... --output MAPPING.csv
+
+The paper's grading, box and specimen, all lengths but those of spheres and the drop scaled alike. Static solutions:
+the bending test by Eq. (1), and a prism cut out of the packing and pulled.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.files.store import load, write_table
+from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.specimen import preparation
+from asphalt_nscd.specimen.counts import read_counts
+from asphalt_nscd.specimen.network import Network, bond_network, facet_network, trapezoid
+from asphalt_nscd.specimen.power_diagram import power_diagram
+from asphalt_nscd.specimen.prism import cut_prism, pull, static_ratio
+from asphalt_nscd.specimen.system import affine_poisson, bending_system, facet_share
+from asphalt_nscd.specimen.trimming import Specimen, layer_height, trim
+
+PAPER_SPHERES = 14160
+BOX = (0.25, 0.025)  # m, length and width; scaled
+DROP = 1.6  # m, height of the lattice from which spheres fall; the same for all sizes
+GEOMETRY = Geometry(b=25e-3, B=56e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
+REDUCTION, REACH, POISSON = 0.1, 2e-3, 0.35
+EQS_8_11 = 0.5 / (1.0 + POISSON)  # kt / kn
+COLUMNS = [
+    "mapping", "kt_over_kn", "spheres", "seed", "friction", "packing", "solid_fraction", "spheres_in_specimen",
+    "bonds", "constant", "E_over_law", "E_tension_over_law", "macroscopic_poisson", "affine_poisson",
+]  # fmt: skip
+
+
+def pour(spheres: int, counts_table: str, seed: int, friction: float, output: str) -> None:
+    """A deposit of about so many spheres, by the rules of the paper's."""
+    diameters, counts = read_counts(counts_table)
+    scale = (spheres / counts.sum()) ** (1.0 / 3.0)
+    scaled = pd.DataFrame(
+        {"diameter_mm": 1e3 * diameters, "count": np.rint(counts * spheres / counts.sum()).astype(int)}
+    )
+    box = (scale * BOX[0], scale * BOX[1], DROP)
+    with tempfile.TemporaryDirectory() as folder:
+        table = Path(folder, "counts.csv")
+        scaled.to_csv(table, index=False)
+        preparation.deposit(table, box, seed, friction, 6e-3, 30.0, 1.0, 4e-4, output)
+
+
+def solve(spheres: int, deposit: str) -> list[dict[str, object]]:
+    """A row for each mapping of one deposit."""
+    record, share = load(deposit, "deposit"), spheres / PAPER_SPHERES
+    scale = share ** (1.0 / 3.0)
+    lengths = {name: scale * getattr(GEOMETRY, name) for name in ("b", "B", "e", "h")}
+    geometry = Geometry(**lengths, mass=share * GEOMETRY.mass, mobile_mass=share * GEOMETRY.mobile_mass)
+    position, radius = record.arrays["position"], record.arrays["radius"]
+    paper = trim(position, radius, geometry, REDUCTION, REACH)
+    facets = trim(position, radius, geometry, REDUCTION, REACH, "facets")
+    shrunk = radius * (1.0 - REDUCTION) ** (1.0 / 3.0)
+    prism = prism_geometry(geometry)
+    corner = np.array([0.1 * geometry.h, 0.1 * geometry.e, (layer_height(position, radius) - prism.b) / 2])
+
+    def pulled(bond: Callable[[np.ndarray, np.ndarray], Network], tangential: float) -> tuple[float, float]:
+        return pull(cut_prism(position, shrunk, corner, prism, bond), np.array([1.0, tangential, tangential]))
+
+    cases: list[tuple[str, Specimen, float, Callable[[np.ndarray, np.ndarray], Network]]] = [
+        ("paper", paper, EQS_8_11, lambda p, r: bond_network(p, r, prism.h, REACH))
+    ]
+    for name, change in (
+        ("facets", as_is),
+        ("facets at mid-gap", at_mid_gap),
+        ("facets with moments", moments),
+    ):
+        changed = replace(facets, network=change(facets.network, facets))
+        for tangential in (1.0, EQS_8_11):
+            cases.append(
+                (name, changed, tangential, lambda p, r, change=change: facets_of(p, r, prism, change))
+            )
+    rows = []
+    for name, specimen, tangential, bond in cases:
+        system = bending_system(specimen, POISSON, np.inf, 0.7, kt_over_kn=tangential)
+        tension, poisson = pulled(bond, tangential)
+        rows.append({
+            "mapping": name, "kt_over_kn": tangential, "spheres": spheres, "packing": Path(deposit).stem,
+            **{key: record.attributes[key] for key in ("seed", "friction", "solid_fraction")},
+            "spheres_in_specimen": specimen.radius.size, "bonds": specimen.network.first.size,
+            "constant": 1.0 if name == "paper" else facet_share(geometry, tangential)[0],
+            "E_over_law": static_ratio(system, geometry), "E_tension_over_law": tension,
+            "macroscopic_poisson": poisson,
+            "affine_poisson": affine_poisson(tangential),
+        })  # fmt: skip
+        print(rows[-1], flush=True)
+    return rows
+
+
+def prism_geometry(geometry: Geometry) -> Geometry:
+    """Within the moulded faces of the layer: 0.8 e by e, three times as long."""
+    e = geometry.e
+    return Geometry(b=e, B=e, e=0.8 * e, h=3.0 * e, mass=1.0, mobile_mass=0.0)
+
+
+Change = Callable[[Network, Specimen], Network]
+
+
+def facets_of(position: np.ndarray, radius: np.ndarray, geometry: Geometry, change: Change) -> Network:
+    """The facets of a prism, changed."""
+    network = facet_network(position, radius, geometry)
+    return change(network, Specimen(geometry, position, radius, 1.0, network, 0, "facets"))
+
+
+def as_is(network: Network, specimen: Specimen) -> Network:
+    """Facets as the package forms them."""
+    return network
+
+
+def at_mid_gap(network: Network, specimen: Specimen) -> Network:
+    """The same facets, acting between the spheres as the paper's bonds do, and not at their centroids."""
+    reach = specimen.radius[network.first] + network.gap / 2.0
+    return replace(network, point=specimen.position[network.first] + reach[:, None] * network.frame[:, 0])
+
+
+def moments(network: Network, specimen: Specimen) -> Network:
+    """Three bonds for each facet, with its area and its second moments: it resists bending and torsion.
+
+    They lie on the ellipse of inertia, at twice the variance of the facet; a convex facet holds it (Kannan, Lovasz,
+    Simonovits 1995).
+    """
+    facets = power_diagram(specimen.position, specimen.radius, trapezoid(specimen.geometry))
+    uu, vv, uv = facets.spread[facets.second < specimen.radius.size + 2].T
+    values, axes = np.linalg.eigh(np.stack([np.stack([uu, uv], -1), np.stack([uv, vv], -1)], axis=1))
+    angle = np.radians([90.0, 210.0, 330.0])
+    circle = np.sqrt(2.0) * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    within = np.einsum("pk,bk,buk->bpu", circle, np.sqrt(np.maximum(values, 0.0)), axes)
+    point = network.point[:, None] + np.einsum("bpu,bua->bpa", within, network.frame[:, 1:])
+    thrice = {name: np.repeat(value, 3, axis=0) for name, value in network.arrays().items()}
+    return Network(**thrice | {"point": point.reshape(-1, 3), "area": thrice["area"] / 3.0})
+
+
+def collect(rows: Sequence[str]) -> pd.DataFrame:
+    """All rows, by mapping and size."""
+    table = pd.concat([pd.read_csv(path) for path in rows], ignore_index=True)
+    order = ["spheres", "friction", "seed", "mapping", "kt_over_kn"]
+    return table.sort_values(order, kind="stable")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parts = parser.add_subparsers(dest="part", required=True)
+    part = parts.add_parser("pour")
+    part.add_argument("spheres", type=int)
+    part.add_argument("counts")
+    part.add_argument("--seed", type=int, required=True)
+    part.add_argument("--friction", type=float, required=True)
+    part = parts.add_parser("solve")
+    part.add_argument("spheres", type=int)
+    part.add_argument("deposit")
+    parts.add_parser("collect").add_argument("rows", nargs="+")
+    for part in parts.choices.values():
+        part.add_argument("--output", required=True)
+    given = parser.parse_args()
+    if given.part == "pour":
+        pour(given.spheres, given.counts, given.seed, given.friction, given.output)
+    elif given.part == "solve":
+        write_table(given.output, pd.DataFrame(solve(given.spheres, given.deposit), columns=COLUMNS))
+    else:
+        write_table(given.output, collect(given.rows))
+
+
+if __name__ == "__main__":
+    main()
