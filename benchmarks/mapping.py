@@ -1,8 +1,8 @@
 """How bonds carry the law of the mix: E of a specimen over that of the law, by mapping, size and packing.
 
-    python benchmarks/mapping.py pour SPHERES COUNTS --seed SEED --friction FRICTION --output DEPOSIT.h5
+    python benchmarks/mapping.py counts SPHERES COUNTS.csv --output SCALED.csv
     python benchmarks/mapping.py solve SPHERES DEPOSIT.h5 --output ROWS.csv
-    python benchmarks/mapping.py collect ROWS.csv... --output MAPPING.csv
+    python benchmarks/mapping.py collect ROWS.csv... --output MAPPING.csv --summary SUMMARY.csv
 
 The paper's grading, box and specimen, all lengths but those of spheres and the drop scaled alike. Static solutions:
 the bending test by Eq. (1), and a prism cut out of the packing and pulled.
@@ -11,17 +11,14 @@ the bending test by Eq. (1), and a prism cut out of the packing and pulled.
 from __future__ import annotations
 
 import argparse
-import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from asphalt_nscd.files.store import load, write_table
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.specimen import preparation
 from asphalt_nscd.specimen.counts import read_counts
 from asphalt_nscd.specimen.network import Network, bond_network, facet_network, trapezoid
 from asphalt_nscd.specimen.power_diagram import power_diagram
@@ -30,8 +27,6 @@ from asphalt_nscd.specimen.system import affine_poisson, bending_system, facet_s
 from asphalt_nscd.specimen.trimming import Specimen, layer_height, trim
 
 PAPER_SPHERES = 14160
-BOX = (0.25, 0.025)  # m, length and width; scaled
-DROP = 1.6  # m, height of the lattice from which spheres fall; the same for all sizes
 GEOMETRY = Geometry(b=25e-3, B=56e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
 REDUCTION, REACH, POISSON = 0.1, 2e-3, 0.35
 EQS_8_11 = 0.5 / (1.0 + POISSON)  # kt / kn
@@ -41,18 +36,11 @@ COLUMNS = [
 ]  # fmt: skip
 
 
-def pour(spheres: int, counts_table: str, seed: int, friction: float, output: str) -> None:
-    """A deposit of about so many spheres, by the rules of the paper's."""
+def scaled_counts(spheres: int, counts_table: str) -> pd.DataFrame:
+    """The table of about so many spheres, graded as those of counts_table."""
     diameters, counts = read_counts(counts_table)
-    scale = (spheres / counts.sum()) ** (1.0 / 3.0)
-    scaled = pd.DataFrame(
-        {"diameter_mm": 1e3 * diameters, "count": np.rint(counts * spheres / counts.sum()).astype(int)}
-    )
-    box = (scale * BOX[0], scale * BOX[1], DROP)
-    with tempfile.TemporaryDirectory() as folder:
-        table = Path(folder, "counts.csv")
-        scaled.to_csv(table, index=False)
-        preparation.deposit(table, box, seed, friction, 6e-3, 30.0, 1.0, 4e-4, output)
+    scaled = np.rint(counts * spheres / counts.sum()).astype(int)
+    return pd.DataFrame({"diameter_mm": 1e3 * diameters, "count": scaled})
 
 
 def solve(spheres: int, deposit: str) -> list[dict[str, object]]:
@@ -84,13 +72,14 @@ def solve(spheres: int, deposit: str) -> list[dict[str, object]]:
             cases.append(
                 (name, changed, tangential, lambda p, r, change=change: facets_of(p, r, prism, change))
             )
-    rows = []
+    rows, of = [], record.attributes
+    packing = f"{spheres}-s{of['seed']}-friction{of['friction']:g}"
     for name, specimen, tangential, bond in cases:
         system = bending_system(specimen, POISSON, np.inf, 0.7, kt_over_kn=tangential)
         tension, poisson = pulled(bond, tangential)
         rows.append({
-            "mapping": name, "kt_over_kn": tangential, "spheres": spheres, "packing": Path(deposit).stem,
-            **{key: record.attributes[key] for key in ("seed", "friction", "solid_fraction")},
+            "mapping": name, "kt_over_kn": tangential, "spheres": spheres, "packing": packing,
+            **{key: of[key] for key in ("seed", "friction", "solid_fraction")},
             "spheres_in_specimen": specimen.radius.size, "bonds": specimen.network.first.size,
             "constant": 1.0 if name == "paper" else facet_share(geometry, tangential)[0],
             "E_over_law": static_ratio(system, geometry), "E_tension_over_law": tension,
@@ -151,27 +140,41 @@ def collect(rows: Sequence[str]) -> pd.DataFrame:
     return table.sort_values(order, kind="stable")
 
 
+def summary(table: pd.DataFrame) -> pd.DataFrame:
+    """For each mapping and size: packings, and what they have in common."""
+    groups = table.groupby(["mapping", "kt_over_kn", "spheres"], sort=True)
+    found = groups.agg(
+        packings=("packing", "size"), least=("E_over_law", "min"), mean=("E_over_law", "mean"),
+        largest=("E_over_law", "max"), in_tension=("E_tension_over_law", "mean"),
+        poisson=("macroscopic_poisson", "mean"),
+    )  # fmt: skip
+    found.columns = ["packings", "least E / law", "mean", "largest", "in tension", "Poisson's ratio"]
+    return (found.round(3) + 0.0).reset_index().round({"kt_over_kn": 3})
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parts = parser.add_subparsers(dest="part", required=True)
-    part = parts.add_parser("pour")
+    part = parts.add_parser("counts")
     part.add_argument("spheres", type=int)
     part.add_argument("counts")
-    part.add_argument("--seed", type=int, required=True)
-    part.add_argument("--friction", type=float, required=True)
     part = parts.add_parser("solve")
     part.add_argument("spheres", type=int)
     part.add_argument("deposit")
-    parts.add_parser("collect").add_argument("rows", nargs="+")
+    part = parts.add_parser("collect")
+    part.add_argument("rows", nargs="+")
+    part.add_argument("--summary", required=True)
     for part in parts.choices.values():
         part.add_argument("--output", required=True)
     given = parser.parse_args()
-    if given.part == "pour":
-        pour(given.spheres, given.counts, given.seed, given.friction, given.output)
+    if given.part == "counts":
+        write_table(given.output, scaled_counts(given.spheres, given.counts))
     elif given.part == "solve":
         write_table(given.output, pd.DataFrame(solve(given.spheres, given.deposit), columns=COLUMNS))
     else:
-        write_table(given.output, collect(given.rows))
+        table = collect(given.rows)
+        write_table(given.output, table)
+        write_table(given.summary, summary(table))
 
 
 if __name__ == "__main__":
