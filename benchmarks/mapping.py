@@ -2,6 +2,7 @@
 
     python benchmarks/mapping.py counts SPHERES COUNTS.csv --output SCALED.csv
     python benchmarks/mapping.py solve SPHERES DEPOSIT.h5 --output ROWS.csv
+    python benchmarks/mapping.py poisson SPHERES DEPOSIT.h5 --output POISSON.csv
     python benchmarks/mapping.py collect ROWS.csv... --output MAPPING.csv --summary SUMMARY.csv
 
 The paper's grading, box and specimen, all lengths but those of spheres and the drop scaled alike. Static solutions:
@@ -23,13 +24,14 @@ from asphalt_nscd.specimen.counts import read_counts
 from asphalt_nscd.specimen.network import Network, bond_network, facet_network, trapezoid
 from asphalt_nscd.specimen.power_diagram import power_diagram
 from asphalt_nscd.specimen.prism import cut_prism, pull, static_ratio
-from asphalt_nscd.specimen.system import affine_poisson, bending_system, facet_share
+from asphalt_nscd.specimen.system import affine_modulus, affine_poisson, bending_system, facet_share
 from asphalt_nscd.specimen.trimming import Specimen, layer_height, trim
 
 PAPER_SPHERES = 14160
 GEOMETRY = Geometry(b=25e-3, B=56e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
 REDUCTION, REACH, POISSON = 0.1, 2e-3, 0.35
 EQS_8_11 = 0.5 / (1.0 + POISSON)  # kt / kn
+KT_OVER_KN = [0.02, 0.1, 0.2, EQS_8_11, 0.5, 0.7, 1.0, 1.5, 2.0, 4.0, 10.0]
 COLUMNS = [
     "mapping", "kt_over_kn", "spheres", "seed", "friction", "packing", "solid_fraction", "spheres_in_specimen",
     "bonds", "constant", "E_over_law", "E_tension_over_law", "macroscopic_poisson", "affine_poisson",
@@ -43,21 +45,23 @@ def scaled_counts(spheres: int, counts_table: str) -> pd.DataFrame:
     return pd.DataFrame({"diameter_mm": 1e3 * diameters, "count": scaled})
 
 
+def scaled_geometry(spheres: int) -> Geometry:
+    """The paper's specimen for so many spheres poured."""
+    share = spheres / PAPER_SPHERES
+    lengths = {name: share ** (1.0 / 3.0) * getattr(GEOMETRY, name) for name in ("b", "B", "e", "h")}
+    return Geometry(**lengths, mass=share * GEOMETRY.mass, mobile_mass=share * GEOMETRY.mobile_mass)
+
+
 def solve(spheres: int, deposit: str) -> list[dict[str, object]]:
     """A row for each mapping of one deposit."""
-    record, share = load(deposit, "deposit"), spheres / PAPER_SPHERES
-    scale = share ** (1.0 / 3.0)
-    lengths = {name: scale * getattr(GEOMETRY, name) for name in ("b", "B", "e", "h")}
-    geometry = Geometry(**lengths, mass=share * GEOMETRY.mass, mobile_mass=share * GEOMETRY.mobile_mass)
+    record, geometry = load(deposit, "deposit"), scaled_geometry(spheres)
     position, radius = record.arrays["position"], record.arrays["radius"]
     paper = trim(position, radius, geometry, REDUCTION, REACH)
     facets = trim(position, radius, geometry, REDUCTION, REACH, "facets")
-    shrunk = radius * (1.0 - REDUCTION) ** (1.0 / 3.0)
     prism = prism_geometry(geometry)
-    corner = np.array([0.1 * geometry.h, 0.1 * geometry.e, (layer_height(position, radius) - prism.b) / 2])
 
     def pulled(bond: Callable[[np.ndarray, np.ndarray], Network], tangential: float) -> tuple[float, float]:
-        return pull(cut_prism(position, shrunk, corner, prism, bond), np.array([1.0, tangential, tangential]))
+        return pull(prism_of(position, radius, prism, bond), np.array([1.0, tangential, tangential]))
 
     cases: list[tuple[str, Specimen, float, Callable[[np.ndarray, np.ndarray], Network]]] = [
         ("paper", paper, EQS_8_11, lambda p, r: bond_network(p, r, prism.h, REACH))
@@ -88,6 +92,29 @@ def solve(spheres: int, deposit: str) -> list[dict[str, object]]:
         })  # fmt: skip
         print(rows[-1], flush=True)
     return rows
+
+
+def poisson(spheres: int, deposit: str) -> pd.DataFrame:
+    """Modulus and Poisson's ratio of a pulled prism of facets by kt / kn, beside affine theory."""
+    arrays, geometry = load(deposit, "deposit").arrays, prism_geometry(scaled_geometry(spheres))
+    prism = prism_of(
+        arrays["position"], arrays["radius"], geometry, lambda p, r: facets_of(p, r, geometry, as_is)
+    )
+    rows = []
+    for ratio in KT_OVER_KN:
+        modulus, lateral = pull(prism, np.array([1.0, ratio, ratio]))
+        rows.append((ratio, affine_modulus(ratio), modulus, affine_poisson(ratio), lateral))
+    columns = ["kt / kn", "affine E", "network E", "affine Poisson's ratio", "network Poisson's ratio"]
+    return pd.DataFrame(rows, columns=columns).round(3) + 0.0
+
+
+def prism_of(
+    position: np.ndarray, radius: np.ndarray, geometry: Geometry,
+    bond: Callable[[np.ndarray, np.ndarray], Network],
+) -> Specimen:  # fmt: skip
+    """A prism out of a layer, away from its moulded faces and ends; spheres shrunk as in a specimen."""
+    corner = np.array([geometry.h / 3, geometry.e / 8, (layer_height(position, radius) - geometry.b) / 2])
+    return cut_prism(position, radius * (1.0 - REDUCTION) ** (1.0 / 3.0), corner, geometry, bond)
 
 
 def prism_geometry(geometry: Geometry) -> Geometry:
@@ -158,9 +185,10 @@ def main() -> None:
     part = parts.add_parser("counts")
     part.add_argument("spheres", type=int)
     part.add_argument("counts")
-    part = parts.add_parser("solve")
-    part.add_argument("spheres", type=int)
-    part.add_argument("deposit")
+    for name in ("solve", "poisson"):
+        part = parts.add_parser(name)
+        part.add_argument("spheres", type=int)
+        part.add_argument("deposit")
     part = parts.add_parser("collect")
     part.add_argument("rows", nargs="+")
     part.add_argument("--summary", required=True)
@@ -171,6 +199,8 @@ def main() -> None:
         write_table(given.output, scaled_counts(given.spheres, given.counts))
     elif given.part == "solve":
         write_table(given.output, pd.DataFrame(solve(given.spheres, given.deposit), columns=COLUMNS))
+    elif given.part == "poisson":
+        write_table(given.output, poisson(given.spheres, given.deposit))
     else:
         table = collect(given.rows)
         write_table(given.output, table)

@@ -139,6 +139,9 @@ def test_mappings_of_a_deposit(monkeypatch, tmp_path):
     assert table.loc[("facets with moments", 1.0)].E_over_law > facets.E_over_law
     assert table.loc[("facets with moments", 1.0)].bonds == 3 * facets.bonds
     assert abs(table.loc[("paper", 0.37)].E_tension_over_law - 1.0) > 0.05
+    poisson = mapping.poisson(700, tmp_path / "layer.h5").set_index("kt / kn")
+    assert poisson.loc[1.0].tolist() == [1.0, 1.0, 0.0, 0.0]
+    assert (poisson["network Poisson's ratio"].diff().dropna() < 0).all() and len(poisson) == 11
     both = mapping.summary(mapping.collect([write(tmp_path / f"{k}.csv", rows) for k in range(2)]))
     assert (both.packings == 2).all() and len(both) == len(rows)
 

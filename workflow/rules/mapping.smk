@@ -76,6 +76,23 @@ rule mapping_rows:
         MEASURE + "/mapping.py solve {wildcards.spheres} {input.deposit} --output {output} > {log} 2>&1"
 
 
+rule mapping_poisson:
+    # Which Poisson's ratios facets can have.
+    input:
+        deposit=f"results/{STUDY['study']}/deposits/{SAMPLES[0]}.h5",
+        code=["benchmarks/mapping.py", code("condense"), code("trim")],
+    output:
+        "results/mapping/poisson.csv",
+    params:
+        spheres=MAPPING_FULL,
+    log:
+        "results/mapping/logs/poisson.log",
+    message:
+        "Pull a prism of facets with other tangential stiffnesses"
+    shell:
+        MEASURE + "/mapping.py poisson {params.spheres} {input.deposit} --output {output} > {log} 2>&1"
+
+
 rule mapping_table:
     # One row for each mapping and packing.
     input:
@@ -127,10 +144,11 @@ rule publish_mapping:
     input:
         table="results/mapping/mapping.csv",
         summary="results/mapping/summary.csv",
+        poisson="results/mapping/poisson.csv",
         figure="results/mapping/figures/fig_mapping.png",
         provenance="results/mapping/provenance.json",
         code=code("publish"),
     message:
         "Copy the table of mappings and its figure, and fill the table of docs/mapping.md"
     shell:
-        "asphalt-nscd publish {input.table} {input.figure} {input.provenance} --root results/mapping --output results/published/mapping --document docs/mapping.md --block mapping={input.summary}"
+        "asphalt-nscd publish {input.table} {input.poisson} {input.figure} {input.provenance} --root results/mapping --output results/published/mapping --document docs/mapping.md --block mapping={input.summary} --block poisson={input.poisson}"
