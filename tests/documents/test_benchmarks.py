@@ -119,3 +119,85 @@ def test_a_stage_beyond_memory_says_so(monkeypatch):
         "not done",
         *["not done: needs condense"] * 2,
     ]
+
+
+def lying_layer(pitch, shape, seed=3):
+    """A jittered lattice of spheres at rest on z = 0, as a deposit's arrays."""
+    rng = np.random.default_rng(seed)
+    cells = np.stack(np.meshgrid(*map(np.arange, shape), indexing="ij"), -1).reshape(-1, 3)
+    radius = pitch * rng.uniform(0.3, 0.45, len(cells))
+    position = pitch * (cells + 0.5) + (0.5 * pitch - radius)[:, None] * rng.uniform(-1, 1, cells.shape)
+    return {"position": position, "radius": radius}
+
+
+def test_mappings_of_a_deposit(monkeypatch, tmp_path):
+    """A row for each mapping; the facets' modulus is that of the law, and exactly so in tension."""
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    import mapping
+
+    long = 0.25 * (700 / 14160) ** (1 / 3)  # as the specimen is high
+    attributes = {"seed": 3, "friction": 0.2, "solid_fraction": 0.4}
+    save(tmp_path / "layer.h5", "deposit", lying_layer(long / 37, (37, 4, 9)), attributes)
+    rows = pd.DataFrame(mapping.solve(700, tmp_path / "layer.h5"), columns=mapping.COLUMNS)
+    assert rows.notna().all().all() and (rows.packing == "700-s3-friction0.2").all()
+    table = rows.set_index(["mapping", rows.kt_over_kn.round(2)])
+    facets = table.loc[("facets", 1.0)]
+    assert facets.E_over_law == pytest.approx(1.0, abs=0.06)
+    assert facets.E_tension_over_law == pytest.approx(1.0, abs=1e-5)
+    assert facets.macroscopic_poisson == pytest.approx(0.0, abs=1e-5)
+    assert table.loc[("facets at mid-gap", 1.0)].E_over_law < facets.E_over_law
+    assert table.loc[("facets with moments", 1.0)].E_over_law > facets.E_over_law
+    assert table.loc[("facets with moments", 1.0)].bonds == 3 * facets.bonds
+    assert abs(table.loc[("paper", 0.37)].E_tension_over_law - 1.0) > 0.05
+    poisson = mapping.poisson(700, tmp_path / "layer.h5").set_index("kt / kn")
+    assert poisson.loc[1.0].tolist() == [1.0, 1.0, 0.0, 0.0]
+    assert (poisson["network Poisson's ratio"].diff().dropna() < 0).all() and len(poisson) == 11
+    both = mapping.summary(mapping.collect([write(tmp_path / f"{k}.csv", rows) for k in range(2)]))
+    assert (both.packings == 2).all() and len(both) == len(rows)
+
+
+def write(path, rows):
+    write_table(path, rows)
+    return path
+
+
+def test_three_points_have_the_moments_of_a_facet(monkeypatch, make_beam):
+    """Area, first and second moments; and they lie within it."""
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    import mapping
+
+    from asphalt_nscd.specimen.network import trapezoid
+    from asphalt_nscd.specimen.power_diagram import power_diagram
+
+    beam = make_beam(area="facets")
+    network = mapping.moments(beam.network, beam)
+    facets = power_diagram(beam.position, beam.radius, trapezoid(beam.geometry))
+    bonded = facets.second < beam.radius.size + 2
+    points, area = network.point.reshape(-1, 3, 3), network.area.reshape(-1, 3)
+    np.testing.assert_allclose(area.sum(axis=1), facets.area[bonded], rtol=1e-14)
+    np.testing.assert_allclose(points.mean(axis=1), facets.centroid[bonded], atol=1e-15)
+    within = np.einsum("bpa,bka->bpk", points - points.mean(axis=1)[:, None], facets.frame[bonded])
+    second = np.einsum("bpk,bpl->bkl", within, within) / 3.0
+    uu, vv, uv = facets.spread[bonded].T
+    scale = facets.area.mean()
+    for found, expected in (
+        (second[:, 1, 1], uu),
+        (second[:, 2, 2], vv),
+        (second[:, 1, 2], uv),
+        (second[:, 0, 0], 0),
+    ):
+        np.testing.assert_allclose(found, expected, atol=1e-12 * scale)
+
+
+def test_counts_keep_the_grading(monkeypatch):
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    import mapping
+
+    table = mapping.scaled_counts(1416, BENCHMARKS.parent / "data/paper/table2_counts.csv")
+    assert table.diameter_mm.tolist() == [2, 4, 6.3, 8, 10] and table["count"].tolist() == [
+        1180,
+        159,
+        49,
+        21,
+        7,
+    ]

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.measurements.twopoint import bending_share
+from asphalt_nscd.specimen.system import affine_modulus, affine_poisson, bending_system
 
 POISSON, YIELD = 0.35, 2.7e6
 
@@ -43,6 +44,45 @@ def test_weights_and_strengths(beam):
     np.testing.assert_allclose(system.strength[~plate], YIELD * network.area[~plate], rtol=1e-14)
     np.testing.assert_array_equal(system.gap, network.gap)
     assert system.friction == 0.7
+
+
+def test_weights_of_facets(make_beam):
+    """A / l in all three directions, over the part of bending in the deflection; poisson has no say."""
+    beam = make_beam(area="facets")
+    system = bending_system(beam, POISSON, YIELD, 0.7)
+    network, n = beam.network, beam.radius.size
+    weight = system.weight.reshape(-1, 3)
+    share = bending_share(beam.geometry, 0.0)
+    assert 0.5 < share < 0.98
+    np.testing.assert_allclose(weight, np.tile(network.form[:, None] / share, 3), rtol=1e-14)
+    np.testing.assert_array_equal(bending_system(beam, 0.1, YIELD, 0.7).weight, system.weight)
+    plate = network.second >= n
+    np.testing.assert_allclose(system.strength[~plate], YIELD * network.area[~plate], rtol=1e-14)
+    weaker = bending_system(beam, POISSON, YIELD, 0.7, kt_over_kn=0.4).weight.reshape(-1, 3)
+    np.testing.assert_allclose(weaker[:, 1:] / weaker[:, :1], 0.4, rtol=1e-14)
+    expected = 1.0 / (affine_modulus(0.4) * bending_share(beam.geometry, affine_poisson(0.4)))
+    np.testing.assert_allclose(weaker[:, 0] / network.form, expected, rtol=1e-14)
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.37, 1.0, 3.0])
+def test_affine_constants(ratio):
+    """Against the stiffness of bonds along the axes of an icosahedron, isotropic in fourth order.
+
+    sum(A l) = 3 V; C = sum(A l (n n n n + ratio (n n d - n n n n))) / V, d the unit tensor.
+    """
+    golden = (1 + np.sqrt(5)) / 2
+    axes = np.array(
+        [[0, 1, golden], [0, -1, golden], [1, golden, 0], [-1, golden, 0], [golden, 0, 1], [golden, 0, -1]]
+    )
+    axes = axes / np.linalg.norm(axes, axis=1)[:, None]
+    four = np.einsum("fi,fj,fk,fl->ijkl", axes, axes, axes, axes)
+    two = np.einsum("fi,fl,jk->ijkl", axes, axes, np.eye(3))
+    two = (two + two.transpose(1, 0, 2, 3) + two.transpose(0, 1, 3, 2) + two.transpose(1, 0, 3, 2)) / 4
+    stiffness = 3 / 6 * ((1 - ratio) * four + ratio * two)
+    lame, shear = stiffness[0, 0, 1, 1], stiffness[0, 1, 0, 1]
+    assert stiffness[0, 0, 0, 0] == pytest.approx(lame + 2 * shear, rel=1e-12)  # isotropic
+    assert affine_modulus(ratio) == pytest.approx(shear * (3 * lame + 2 * shear) / (lame + shear), rel=1e-12)
+    assert affine_poisson(ratio) == pytest.approx(lame / (2 * (lame + shear)), rel=1e-12, abs=1e-15)
 
 
 def test_blocked_head_has_no_rotation(beam):

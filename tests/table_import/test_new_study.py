@@ -60,7 +60,7 @@ def test_german_table_becomes_a_full_size_study():
     study = accepted(config)
     assert "E_MPa from column '|E*| [GPa]', converted from GPa" in notes
     assert (study["temperatures_C"], study["frequencies_Hz"]) == ([10, 15], [1, 10])
-    assert study["specimens"]["seeds"] == [1, 2, 3, 4]
+    assert study["specimens"]["seeds"] == [1, 2, 3, 4] and study["specimens"]["bonds"]["area"] == "facets"
     assert read_csv(study["specimens"]["counts_table"]).columns["count"] == [
         "11798",
         "1588",

@@ -15,7 +15,7 @@ from asphalt_nscd.verification.study import COLUMNS, THEMES, joined, require_pas
 from asphalt_nscd.workflow_support.sources import PACKAGE
 
 
-@pytest.mark.parametrize("theme", ["law", "accounts", "methods"])
+@pytest.mark.parametrize("theme", ["law", "facets", "accounts", "methods"])
 def test_cheap_themes_pass(theme):
     rows = verify(theme)
     assert list(rows.columns) == COLUMNS and len(rows) >= 9

@@ -48,7 +48,7 @@ rule trim:
         "<results>/specimens/{sample}.h5",
     params:
         geometry=text(STUDY["specimens"]["geometry"]),
-        bonds=options(STUDY["specimens"]["bonds"], "volume_reduction", "gap_max_mm"),
+        bonds=options(STUDY["specimens"]["bonds"], "area", "volume_reduction", "gap_max_mm"),
     log:
         "<results>/logs/trim/{sample}.log",
     benchmark:
@@ -68,7 +68,7 @@ rule condense:
     output:
         "<results>/models/{head}/{sample}.h5",
     params:
-        bonds=options(STUDY["specimens"]["bonds"], "poisson", "yield_Pa", "friction"),
+        bonds=options(STUDY["specimens"]["bonds"], "poisson", "kt_over_kn", "yield_Pa", "friction"),
     resources:
         mem_mb=lambda wildcards, attempt: 2700 * attempt,
     log:

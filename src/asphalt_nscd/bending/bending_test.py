@@ -65,11 +65,11 @@ class Model:
 
 def condense(
     specimen_file: str | Path, head: str, poisson: float, yield_stress: float, friction: float,
-    output: str | Path,
+    output: str | Path, kt_over_kn: float = 1.0,
 ) -> None:  # fmt: skip
     """Assemble the system of a specimen, find its basis and directions for breaks, and save all."""
     specimen = read_specimen(specimen_file)
-    system = bending_system(specimen, poisson, yield_stress, friction, head)
+    system = bending_system(specimen, poisson, yield_stress, friction, head, kt_over_kn=kt_over_kn)
     g, shifted = system.operator, shifted_factor(system)
     basis = ritz_basis(system, KRYLOV_STEPS, shifted)
     arrays = {

@@ -11,7 +11,16 @@ from asphalt_nscd.cli import _options
 @click.argument("specimen", type=_options.File)
 @click.option("--head", default="free", type=click.Choice(["free", "blocked"]), help="Rotation of the head.")
 @click.option(
-    "--poisson", default=0.35, type=_options.Number(above=-1.0, high=0.5), help="Ratio nu of Eqs. (8)-(11)."
+    "--poisson",
+    default=0.35,
+    type=_options.Number(above=-1.0, high=0.5),
+    help="Ratio nu of Eqs. (8)-(11); for bonds by --area paper.",
+)
+@click.option(
+    "--kt-over-kn",
+    default=1.0,
+    type=_options.Number(above=0.0, high=10.0),
+    help="Tangential over normal stiffness; for bonds by --area facets.",
 )
 @click.option(
     "--yield-pa", default=2.7e6, type=_options.POSITIVE, help="Yield stress of bonds between spheres, Pa."
@@ -21,9 +30,10 @@ from asphalt_nscd.cli import _options
 )
 @_options.output
 def command(
-    specimen: Path, head: str, poisson: float, yield_pa: float, friction: float, output: Path
+    specimen: Path, head: str, poisson: float, kt_over_kn: float, yield_pa: float, friction: float,
+    output: Path,
 ) -> None:  # fmt: skip
     """Assemble the bonded system of a specimen and its reduced form, which serves every test on it."""
     from asphalt_nscd.bending.bending_test import condense
 
-    condense(specimen, head, poisson, yield_pa, friction, output)
+    condense(specimen, head, poisson, yield_pa, friction, output, kt_over_kn)

@@ -18,13 +18,22 @@ from asphalt_nscd.cli import _options
     help="Part of each sphere's volume taken away.",
 )
 @click.option(
-    "--gap-max-mm", default=2.0, type=_options.POSITIVE, help="Pairs with a smaller gap are bonded, mm."
+    "--area",
+    default="paper",
+    type=click.Choice(["paper", "facets"]),
+    help="Area of a bond: pi rmin^2 of Eqs. (30)-(33), or the facet between the cells of two spheres.",
+)
+@click.option(
+    "--gap-max-mm",
+    default=2.0,
+    type=_options.POSITIVE,
+    help="Pairs with a smaller gap are bonded, mm; with --area paper.",
 )
 @_options.output
 def command(
-    deposit: Path, geometry: Any, volume_reduction: float, gap_max_mm: float, output: Path
+    deposit: Path, geometry: Any, volume_reduction: float, area: str, gap_max_mm: float, output: Path
 ) -> None:  # fmt: skip
     """Cut the specimen from a deposit, turn it upright, shrink its spheres and bond them."""
     from asphalt_nscd.specimen.preparation import trim_deposit
 
-    trim_deposit(deposit, geometry, volume_reduction, gap_max_mm * 1e-3, output)
+    trim_deposit(deposit, geometry, volume_reduction, gap_max_mm * 1e-3, output, area)

@@ -9,7 +9,12 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
+from asphalt_nscd.specimen.power_diagram import Region, frames, power_diagram
+
+AREAS = ("paper", "facets")
+"""What the area of a bond is: pi rmin^2 of Eqs. (30)-(33), or its facet of the power diagram."""
 
 
 @dataclass(frozen=True)
@@ -19,14 +24,14 @@ class Network:
     first: np.ndarray  # (b,) body
     second: np.ndarray  # (b,) body
     frame: np.ndarray  # (b, 3, 3) rows: normal from first to second, two tangents
-    point: np.ndarray  # (b, 3) m, middle of the gap, where the bond acts
+    point: np.ndarray  # (b, 3) m, where the bond acts: middle of the gap, or centroid of the facet
     gap: np.ndarray  # (b,) m
     length: np.ndarray  # (b,) m, l0 between the barycentres
-    area: np.ndarray  # (b,) m2, pi rmin^2
+    area: np.ndarray  # (b,) m2, pi rmin^2, or the facet
 
     @property
     def form(self) -> np.ndarray:
-        """g = pi rmin^2 / l0 [m] of Eqs. (30)-(33): stiffness per modulus, (b,)."""
+        """g = A / l0 [m], as in Eqs. (30)-(33): stiffness per modulus, (b,)."""
         return self.area / self.length
 
     def arrays(self) -> dict[str, np.ndarray]:
@@ -65,12 +70,30 @@ def bond_network(position: np.ndarray, radius: np.ndarray, height: float, reach:
     first, second, normal, point, gap, length, rmin = (
         np.concatenate(column) for column in zip(*parts, strict=True)
     )
-    return Network(first, second, _frames(normal), point, gap, length, np.pi * rmin**2)
+    return Network(first, second, frames(normal), point, gap, length, np.pi * rmin**2)
 
 
-def _frames(normal: np.ndarray) -> np.ndarray:
-    """Orthonormal frames (b, 3, 3) whose first rows are the normals."""
-    axis = np.eye(3)[np.argmin(np.abs(normal), axis=1)]
-    tangent = np.cross(normal, axis)
-    tangent /= np.linalg.norm(tangent, axis=1)[:, None]
-    return np.stack([normal, tangent, np.cross(normal, tangent)], axis=1)
+def facet_network(position: np.ndarray, radius: np.ndarray, geometry: Geometry) -> Network:
+    """Bond every pair of spheres whose cells share a facet, and every sphere whose cell reaches an end plate.
+
+    position (n, 3) [m] inside the specimen, z = 0 at the foot; radius (n,) [m]. A bond acts at the centroid of its
+    facet: then spheres displaced by any uniform strain without turning are in equilibrium where the
+    tangential stiffness is the normal one (docs/mapping.md).
+    """
+    n = radius.size
+    facets = power_diagram(position, radius, trapezoid(geometry))
+    bonded = facets.second < n + 2  # the other faces are free
+    i, j = facets.first[bonded], facets.second[bonded]
+    length = facets.length[bonded]
+    gap = length - radius[i] - np.where(j < n, radius[np.minimum(j, n - 1)], 0.0)
+    return Network(i, j, facets.frame[bonded], facets.centroid[bonded], gap, length, facets.area[bonded])
+
+
+def trapezoid(geometry: Geometry) -> Region:
+    """The specimen between the planes of head, foot and the four free faces, in this order."""
+    slope = (geometry.B - geometry.b) / (2.0 * geometry.h)
+    side = np.array([1.0, 0.0, slope]) / np.hypot(1.0, slope)
+    normal = np.array([[0, 0, 1], [0, 0, -1], side, side * [-1, 1, 1], [0, 1, 0], [0, -1, 0]])
+    half = geometry.B / 2.0 * side[0]
+    offset = np.array([geometry.h, 0.0, half, half, geometry.e / 2.0, geometry.e / 2.0])
+    return Region(normal, offset, np.array([0.0, 0.0, geometry.h / 2.0]))

@@ -81,19 +81,21 @@ def layer_statistics(
 
 def trim_deposit(
     deposit_file: str | Path, geometry: Mapping[str, float] | str | Path, volume_reduction: float,
-    gap_max: float, output: str | Path,
+    gap_max: float, output: str | Path, area: str = "paper",
 ) -> None:  # fmt: skip
-    """Cut a specimen from a deposit, bond pairs with a gap below gap_max [m], and save."""
+    """Cut a specimen from a deposit, bond its spheres (`trim`; gap_max [m] is its reach), and save."""
     record = load(deposit_file, "deposit")
     shape = read_geometry(geometry, ["specimen"])["specimen"]
     require_within(shape, record.arrays["box"])
-    specimen = trim(record.arrays["position"], record.arrays["radius"], shape, volume_reduction, gap_max)
+    specimen = trim(
+        record.arrays["position"], record.arrays["radius"], shape, volume_reduction, gap_max, area
+    )
     network = specimen.network
     attributes = {
         **{name: record.attributes[name] for name in ("seed", "layer_height_m", "solid_fraction")},
         **asdict(specimen.geometry),
         "spheres": specimen.radius.size, "bonds": network.first.size, "density": specimen.density,
-        "volume_reduction": volume_reduction, "gap_max_m": gap_max,
+        "volume_reduction": volume_reduction, "gap_max_m": gap_max, "area": area,
         "loose_grains": specimen.loose_grains, "smallest_gap_m": float(network.gap.min()),
     }  # fmt: skip
     arrays = {"position": specimen.position, "radius": specimen.radius}
@@ -108,5 +110,5 @@ def read_specimen(path: str | Path) -> Specimen:
         geometry=Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__}),
         position=arrays["position"], radius=arrays["radius"], density=attributes["density"],
         network=Network(**{name: arrays[f"network/{name}"] for name in Network.__dataclass_fields__}),
-        loose_grains=attributes["loose_grains"],
+        loose_grains=attributes["loose_grains"], area=attributes.get("area", "paper"),
     )  # fmt: skip

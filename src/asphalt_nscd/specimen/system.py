@@ -4,20 +4,42 @@ from __future__ import annotations
 
 import numpy as np
 
+from asphalt_nscd.measurements.twopoint import Geometry, bending_share
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.specimen.trimming import Specimen
 
 HEADS = ("free", "blocked")
 
 
+def affine_modulus(kt_over_kn: float) -> float:
+    """E of an isotropic network that fills the volume, over that of its bonds, where all spheres follow the strain."""
+    return (2.0 + 3.0 * kt_over_kn) / (4.0 + kt_over_kn)
+
+
+def affine_poisson(kt_over_kn: float) -> float:
+    """Poisson's ratio of that network: from 1/4 without tangential stiffness to -1 with no other."""
+    return (1.0 - kt_over_kn) / (4.0 + kt_over_kn)
+
+
+def facet_share(geometry: Geometry, kt_over_kn: float) -> np.ndarray:
+    """Normal and two tangential stiffnesses (3,) of a facet over E A / l, E being the modulus of the law.
+
+    The law is that of |E*| by Eqs. (1)-(3), which count bending alone: the material is stiffer by the part
+    that shear has in the deflection. One constant from theory (docs/mapping.md), none from a specimen.
+    """
+    modulus = affine_modulus(kt_over_kn) * bending_share(geometry, affine_poisson(kt_over_kn))
+    return np.array([1.0, kt_over_kn, kt_over_kn]) / modulus
+
+
 def bending_system(
     specimen: Specimen, poisson: float, yield_stress: float, friction: float, head: str = "free",
-    gravity: float = 9.81,
+    gravity: float = 9.81, kt_over_kn: float = 1.0,
 ) -> BondedSystem:  # fmt: skip
     """Foot fixed, head driven along x; the head's rotation is "free" or "blocked".
 
     The head is a plate of the mobile mass with the inertia of a thin rectangle b x e; its other two
-    translations are free. Plate bonds do not yield. yield_stress [Pa] acts on pi rmin^2.
+    translations are free. Plate bonds do not yield. yield_stress [Pa] acts on the area of a bond.
+    poisson is that of Eqs. (8)-(11) for bonds of area "paper", kt_over_kn that of "facets".
     """
     n, geometry, network = specimen.radius.size, specimen.geometry, specimen.network
     ball = specimen.density * 4.0 / 3.0 * np.pi * specimen.radius**3
@@ -35,7 +57,10 @@ def bending_system(
     kept = np.arange(6 * (n + 1))
     if head == "blocked":
         kept = kept[:-3]
-    share = np.array([1.0, 0.5 / (1.0 + poisson), 0.5 / (1.0 + poisson)])
+    if specimen.area == "facets":
+        share = facet_share(geometry, kt_over_kn)
+    else:
+        share = np.array([1.0, 0.5 / (1.0 + poisson), 0.5 / (1.0 + poisson)])
     strength = yield_stress * network.area
     strength[np.maximum(network.first, network.second) >= n] = np.inf
     return BondedSystem(

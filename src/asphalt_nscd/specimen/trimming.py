@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.specimen.network import Network, bond_network
+from asphalt_nscd.specimen.network import Network, bond_network, facet_network
 
 FEWEST_BONDS = 3
 """Below three bonds a sphere can still move freely: such grains fall out when the layer is cut."""
@@ -29,6 +29,7 @@ class Specimen:
     density: float  # kg/m3, matched to the mass of the geometry
     network: Network
     loose_grains: int  # removed because they had fewer than three bonds or hung on no chain to the foot
+    area: str = "paper"  # of the bonds, one of `network.AREAS`
 
 
 def layer_height(position: np.ndarray, radius: np.ndarray) -> float:
@@ -37,12 +38,14 @@ def layer_height(position: np.ndarray, radius: np.ndarray) -> float:
 
 
 def trim(
-    position: np.ndarray, radius: np.ndarray, geometry: Geometry, volume_reduction: float, reach: float
-) -> Specimen:
+    position: np.ndarray, radius: np.ndarray, geometry: Geometry, volume_reduction: float, reach: float,
+    area: str = "paper",
+) -> Specimen:  # fmt: skip
     """Cut the specimen from the middle of a layer (length along x, width along y, height along z).
 
     Grains whose barycentre lies outside the trapezoid are removed. The volume of each sphere is
     reduced by the fraction volume_reduction, and the density raised until the mass is right.
+    Pairs with a gap below reach [m] are bonded (area "paper"), or those that share a facet ("facets").
     """
     height = layer_height(position, radius)
     if height < geometry.B:
@@ -62,11 +65,14 @@ def trim(
             raise InputError(
                 "no sphere is left after trimming; pour more spheres or raise the bond distance."
             )
-        network = bond_network(upright, shrunk, geometry.h, reach)
-        held, joined = _held(network, shrunk.size)
-        if held.all():
+        if area == "facets":
+            network = facet_network(upright, shrunk, geometry)
+        else:
+            network = bond_network(upright, shrunk, geometry.h, reach)
+        kept, joined = held(network, shrunk.size)
+        if kept.all():
             break
-        upright, shrunk = upright[held], shrunk[held]
+        upright, shrunk = upright[kept], shrunk[kept]
     if not joined:
         raise InputError(
             "no chain of bonds joins the foot and the head of the specimen; make the box as long as the "
@@ -78,11 +84,11 @@ def trim(
             f"volume, and make the box as long as the specimen is high ({1e3 * geometry.h:.1f} mm)."
         )
     density = geometry.mass / float((4.0 / 3.0 * np.pi * shrunk**3).sum())
-    return Specimen(geometry, upright, shrunk, density, network, candidates - shrunk.size)
+    return Specimen(geometry, upright, shrunk, density, network, candidates - shrunk.size, area)
 
 
-def _held(network: Network, n: int) -> tuple[np.ndarray, bool]:
-    """(n,) which spheres are held fast by bonds, and whether the head hangs together with the foot."""
+def held(network: Network, n: int) -> tuple[np.ndarray, bool]:
+    """(n,) which of n spheres are held fast by bonds, and whether the head hangs together with the foot."""
     ends = network.first, network.second
     count = np.bincount(np.concatenate(ends), minlength=n + 2)[:n]
     graph = sparse.coo_array((np.ones(network.first.size), ends), shape=(n + 2, n + 2))

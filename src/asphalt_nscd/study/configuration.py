@@ -24,7 +24,7 @@ _TYPES = {
     "number": "a number", "integer": "a whole number",
 }  # fmt: skip
 # Folders of results/ that belong to no study.
-RESERVED = ("benchmark", "cluster", "faults", "fuzz", "published", "verification")
+RESERVED = ("benchmark", "cluster", "faults", "fuzz", "mapping", "published", "verification")
 _OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
 
 

@@ -8,7 +8,7 @@ from scipy import sparse
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
-from asphalt_nscd.specimen.network import bond_network
+from asphalt_nscd.specimen.network import bond_network, facet_network
 from asphalt_nscd.specimen.trimming import Specimen
 
 # Moduli of Table 3 at 15 degC, viscosities lowered until transients die within two cycles at 40 Hz
@@ -23,9 +23,9 @@ def elastic(modulus: float) -> BondLaw:
 
 def jittered_beam(
     seed: int = 1, shape: tuple[int, int, int] = (3, 2, 9), spacing: float = 4e-3, fill: float = 0.42,
-    reach: float = 2e-3,
+    reach: float = 2e-3, area: str = "paper",
 ) -> Specimen:  # fmt: skip
-    """A prismatic beam of spheres on a cubic lattice, each moved within its cell.
+    """A prismatic beam of spheres on a cubic lattice, each moved within its cell; bonds as in `trim`.
 
     fill: largest radius over `spacing` [m]; a sphere stays inside its cell, so that none overlap.
     """
@@ -36,10 +36,13 @@ def jittered_beam(
     position = spacing * (cells + 0.5) + slack * rng.uniform(-1.0, 1.0, cells.shape)
     width, thickness, height = spacing * np.array(shape)
     position -= np.array([width / 2, thickness / 2, 0.0])
-    network = bond_network(position, radius, height, reach)
     geometry = Geometry(b=width, B=width, e=thickness, h=height, mass=4e-3, mobile_mass=2e-3)
+    if area == "facets":
+        network = facet_network(position, radius, geometry)
+    else:
+        network = bond_network(position, radius, height, reach)
     density = geometry.mass / float((4 / 3 * np.pi * radius**3).sum())
-    return Specimen(geometry, position, radius, density, network, 0)
+    return Specimen(geometry, position, radius, density, network, 0, area)
 
 
 def system_of(

@@ -11,7 +11,9 @@ import pandas as pd
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.verification.row import FAILED, PASSED, Row
 
-THEMES = ("spheres", "contacts", "coupled", "law", "beams", "methods", "accounts", "fracture", "determinism")
+THEMES = (
+    "spheres", "contacts", "coupled", "law", "beams", "facets", "methods", "accounts", "fracture", "determinism",
+)  # fmt: skip
 MUTATIONS = "mutations"  # a theme too, but one that takes many times as long
 COLUMNS = ["theme", "name", "expected", "found", "error", "tolerance", "verdict", "source"]
 

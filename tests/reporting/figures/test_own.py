@@ -9,7 +9,7 @@ from tiny_results import LAWS, modulus
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
-from asphalt_nscd.reporting.figures import fig_forces, fig_packing, fig_ratio, fig_readings
+from asphalt_nscd.reporting.figures import fig_forces, fig_mapping, fig_packing, fig_ratio, fig_readings
 
 
 def test_ratio_and_phase_difference_of_every_test(results):
@@ -106,3 +106,22 @@ def test_chains_leave_out_plates_and_what_lies_off_the_middle(results):
 def test_model_of_another_specimen_is_refused(results):
     with pytest.raises(InputError, match="is of another specimen"):
         fig_forces.draw(model=results.model("s2"), specimen=results.specimen())
+
+
+def test_mappings_by_size_and_packing(tmp_path):
+    """Facets with equal stiffnesses and the paper's bonds; the right panel holds the size of most packings."""
+    rows = [
+        ("paper", 0.37, 1000, 600, 0.60, 0.55), ("paper", 0.37, 14160, 9000, 0.67, 1.06),
+        ("paper", 0.37, 14160, 9100, 0.65, 1.03), ("paper", 0.37, 30000, 20000, 0.69, 1.2),
+        ("facets", 1.0, 1000, 600, 0.60, 0.98), ("facets", 1.0, 14160, 9000, 0.67, 1.002),
+        ("facets", 0.37, 14160, 9000, 0.67, 0.99), ("facets with moments", 1.0, 14160, 9000, 0.67, 1.006),
+    ]  # fmt: skip
+    columns = ["mapping", "kt_over_kn", "spheres", "spheres_in_specimen", "solid_fraction", "E_over_law"]
+    pd.DataFrame(rows, columns=columns).to_csv(tmp_path / "mapping.csv", index=False)
+    size, density = fig_mapping.draw(mapping=[tmp_path / "mapping.csv"]).axes
+    seen = [
+        [line.get_ydata().tolist() for line in axes.lines if line.get_marker() != "None"]
+        for axes in (size, density)
+    ]
+    assert seen == [[[0.55, 1.06, 1.03, 1.2], [0.98, 1.002]], [[1.06, 1.03], [1.002]]]
+    assert size.get_xscale() == "log" and density.get_xlabel() == "solid fraction of the deposit"

@@ -1,0 +1,75 @@
+"""A prism cut out of a layer and pulled between its end plates: modulus and Poisson's ratio of a network."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from asphalt_nscd.measurements.twopoint import Geometry, form_factor
+from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
+from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis
+from asphalt_nscd.specimen.network import Network
+from asphalt_nscd.specimen.trimming import Specimen, held
+
+MEASURED = 1.0 / 3.0  # of the length, in the middle: where strain is measured
+
+
+def cut_prism(
+    position: np.ndarray, radius: np.ndarray, corner: np.ndarray, geometry: Geometry,
+    bond: Callable[[np.ndarray, np.ndarray], Network],
+) -> Specimen:  # fmt: skip
+    """Spheres of a layer whose centres lie in a prism b x e x h; its length h along x of the layer, b along z.
+
+    corner (3,) [m]: least x, y, z of the prism in the layer. Spheres that hang on no chain of bonds
+    between the ends are left out. Density 1 kg/m3: for statics.
+    """
+    size = np.array([geometry.h, geometry.e, geometry.b])
+    local = position - corner
+    inside = ((local > 0.0) & (local < size)).all(axis=1)
+    upright = np.stack([local[:, 2] - geometry.b / 2, local[:, 1] - geometry.e / 2, local[:, 0]], axis=1)[
+        inside
+    ]
+    radius = radius[inside]
+    while True:
+        network = bond(upright, radius)
+        kept, _ = held(network, radius.size)
+        if kept.all():
+            return Specimen(geometry, upright, radius, 1.0, network, int(inside.sum()) - radius.size)
+        upright, radius = upright[kept], radius[kept]
+
+
+def pull(prism: Specimen, share: np.ndarray) -> tuple[float, float]:
+    """(E over the modulus of the bonds, Poisson's ratio) of a prism whose ends are pulled apart.
+
+    share (3,): normal and two tangential stiffnesses of a bond over A / l. The plates neither turn nor contract.
+    Strains are slopes of a line through the displacements of the spheres in the middle third of the length; Poisson's
+    ratio is the mean of both lateral ones. Force over the nominal section b e.
+    """
+    n, geometry, network = prism.radius.size, prism.geometry, prism.network
+    position = np.concatenate([prism.position, [[0.0, 0.0, geometry.h]]])
+    operator = opening_operator(network.first, network.second, network.frame, network.point, position)
+    kept = np.append(np.arange(6 * n), 6 * n + 2)  # the head moves along z alone
+    bonds, ones = network.first.size, np.ones(6 * n + 1)
+    system = BondedSystem(
+        operator=operator[:, kept], weight=(network.form[:, None] * share).ravel(), mass=1e-9 * ones,
+        load=0.0 * ones, driven=6 * n, gap=network.gap, strength=np.full(bonds, np.inf), friction=0.0,
+        position=position,
+    )  # fmt: skip
+    motion = ritz_basis(system, 0)[:, 0]
+    middle = np.abs(prism.position[:, 2] - geometry.h / 2) < MEASURED * geometry.h / 2
+    along = motion[: 6 * n].reshape(n, 6)[middle, :3]
+    strain = [np.polyfit(prism.position[middle, k], along[:, k], 1)[0] for k in range(3)]
+    stress = stiffness(system, motion) / (geometry.b * geometry.e)
+    return stress / strain[2], -(strain[0] + strain[1]) / (2.0 * strain[2])
+
+
+def static_ratio(system: BondedSystem, geometry: Geometry) -> float:
+    """c: static |E*| of a bending test by Eq. (1), over the modulus of the bonds."""
+    return form_factor(geometry) * stiffness(system, ritz_basis(system, 0)[:, 0])
+
+
+def stiffness(system: BondedSystem, motion: np.ndarray) -> float:
+    """Twice the energy of a motion (d,) of unit head per unit modulus [m]: its static stiffness."""
+    opening = system.operator @ motion
+    return float(system.weight @ opening**2)

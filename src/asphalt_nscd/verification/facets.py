@@ -1,0 +1,112 @@
+"""Bonds that are facets of the power diagram, against geometry, elasticity and beams."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asphalt_nscd.measurements.twopoint import bending_share
+from asphalt_nscd.nscd.bonds.system import opening_operator
+from asphalt_nscd.specimen.network import trapezoid
+from asphalt_nscd.specimen.power_diagram import power_diagram
+from asphalt_nscd.specimen.prism import pull, static_ratio
+from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.specimen.trimming import Specimen
+from asphalt_nscd.verification.row import Checks, Row
+from asphalt_nscd.verification.specimens import jittered_beam
+
+checks = Checks()
+
+STRAIN = np.array([[0.7, 0.3, -0.5], [0.3, -0.4, 0.2], [-0.5, 0.2, 1.0]])
+LEFT_OUT = 1e-5  # relative; facets of negligible area are no bonds
+
+
+def block() -> Specimen:
+    """Spheres of many sizes in a prism of 24 x 20 x 48 mm, out of a lattice."""
+    return jittered_beam(seed=4, shape=(6, 5, 12), fill=0.45, area="facets")
+
+
+@checks
+def cells() -> list[Row]:
+    """Pyramids over the facets fill the specimen; each cell is closed and obeys the divergence theorem."""
+    specimen, source = block(), "divergence theorem"
+    n, geometry = specimen.radius.size, specimen.geometry
+    facets = power_diagram(specimen.position, specimen.radius, trapezoid(geometry))
+    volume = geometry.b * geometry.e * geometry.h
+    own, normal = facets.second < n, facets.frame[:, 0]
+    vector = facets.area[:, None] * normal
+    out = np.zeros((n, 3))
+    np.add.at(out, facets.first, vector)
+    np.add.at(out, facets.second[own], -vector[own])
+    arms = np.einsum("fi,fj->ij", facets.centroid - specimen.position[facets.first], vector)
+    arms -= np.einsum(
+        "fi,fj->ij", (facets.centroid[own] - specimen.position[facets.second[own]]), vector[own]
+    )
+    misfit = np.abs(arms - volume * np.eye(3)).max() / volume
+    area = np.abs(out).max() / facets.area.mean()
+    return [
+        Row("volume of cells, sum A l / 3 (m3)", volume, facets.volume, LEFT_OUT, "the specimen"),
+        Row("closed cells, largest sum A n over a mean facet", 0.0, area, 10 * LEFT_OUT, source),
+        Row("sum A (c - x) n over the specimen less V I", 0.0, misfit, LEFT_OUT, source),
+    ]
+
+
+@checks
+def patch() -> list[Row]:
+    """kt = kn, all spheres displaced by a uniform strain: in equilibrium, with the stress E strain."""
+    specimen, source = block(), "sum A n = 0 and sum A (c - x) n = V I in each cell"
+    network, n, geometry = specimen.network, specimen.radius.size, specimen.geometry
+    operator = opening_operator(
+        network.first, network.second, network.frame, network.point, specimen.position
+    )
+    motion = np.hstack([specimen.position @ STRAIN, np.zeros((n, 3))]).ravel()
+    force = np.repeat(network.form, 3) * (operator @ motion)
+    half = np.array([geometry.b, geometry.e, geometry.h]) / 2
+    centre = np.array([0.0, 0.0, half[2]])
+    deep = (half - np.abs(specimen.position - centre) > 6e-3).all(axis=1)
+    load = (operator.T @ force).reshape(n, 6)[deep]
+    scale = network.area.mean()
+    within = deep[network.first] & (network.second < n)
+    within &= deep[np.minimum(network.second, n - 1)]
+    traction = np.einsum("bk,bka->ba", force.reshape(-1, 3)[within], network.frame[within])
+    error = traction - network.area[within, None] * network.frame[within, 0] @ STRAIN
+    return [
+        Row("uniform strain, largest force on a sphere", 0.0, np.abs(load[:, :3]).max() / scale, 10 * LEFT_OUT, source),
+        Row(
+            "uniform strain, largest torque on a sphere (mm)", 0.0, 1e3 * np.abs(load[:, 3:]).max() / scale,
+            10 * LEFT_OUT, source,
+        ),
+        Row("uniform strain, traction of a facet", 0.0, np.abs(error).max() / scale, 1e-12, "sigma n = E strain n"),
+    ]  # fmt: skip
+
+
+@checks
+def tension() -> list[Row]:
+    """A prism with free faces, kt = kn: the modulus of the law in any packing, and no contraction."""
+    rows = []
+    for seed, fill in ((4, 0.45), (5, 0.25)):
+        modulus, poisson = pull(
+            jittered_beam(seed=seed, shape=(5, 4, 12), fill=fill, area="facets"), np.ones(3)
+        )
+        rows.append(
+            Row(f"pulled prism of packing {seed}, E over the law", 1.0, modulus, LEFT_OUT, "patch test")
+        )
+        rows.append(Row("the same, Poisson's ratio", 0.0, poisson, LEFT_OUT, "patch test"))
+    return rows
+
+
+@checks
+def bending() -> list[Row]:
+    """Cantilevers of facets against Timoshenko's beam, whose shear Eq. (3) leaves out.
+
+    A facet acts at its centroid and has no moment of its own: N of them over the width of the beam have a
+    second moment smaller by the part 1/N^2.
+    """
+    rows = []
+    for count in (6, 10):
+        beam = jittered_beam(seed=6, shape=(count, 3, 36), area="facets")
+        share = bending_share(beam.geometry, 0.0)
+        expected = 1.0 / (1.0 / (1.0 - count**-2) + 1.0 / share - 1.0)
+        found = share * static_ratio(bending_system(beam, 0.35, np.inf, 0.7), beam.geometry)
+        name = f"cantilever of {count} facets over its width, Eq. (3) over the law"
+        rows.append(Row(name, expected, found, 0.006, "Timoshenko, k = 5/6, nu = 0"))
+    return rows
