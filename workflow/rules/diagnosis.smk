@@ -55,7 +55,7 @@ rule diagnosis_page:
         map="<results>/figures/fig_residual_map.png",
         table4="<results>/table4.csv",
         code=code("diagnosis-page"),
-        template=os.path.relpath(PACKAGE / "diagnosis/page.html"),
+        template=os.path.relpath(PACKAGE / "reporting/pages/diagnosis_page.html"),
     output:
         report(
             "<results>/pages/diagnosis.html",

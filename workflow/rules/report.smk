@@ -177,7 +177,7 @@ rule report:
         diagnosis=DIAGNOSED[0],
         map="<results>/figures/fig_residual_map.png",
         code=code("report"),
-        template=os.path.relpath(PACKAGE / "report/report.html"),
+        template=os.path.relpath(PACKAGE / "reporting/pages/report.html"),
     output:
         "<results>/report.html",
     params:
