@@ -30,7 +30,8 @@ use rule simulate as simulate_pascal with:
     # A specimen a thousand times softer: its own resonance falls among the tests.
     input:
         compiled="<results>/compiled/simulate",
-        model=f"<results>/models/{HEAD}/{{sample}}.h5",
+        model=MODEL,
+        excerpt=EXCERPT,
         law="<results>/laws/pascal/T{temperature}.json",
         code=code("simulate"),
     output:
@@ -53,6 +54,7 @@ use rule simulate as simulate_blocked with:
     input:
         compiled="<results>/compiled/simulate",
         model="<results>/models/blocked/{sample}.h5",
+        excerpt="<results>/models/blocked/{sample}.excerpt.h5",
         law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
         code=code("simulate"),
     params:

@@ -2,6 +2,7 @@
 
 HEAD = STUDY["test"]["head"]
 LAWS = STUDY["laws"]["simulate"]
+MODEL, EXCERPT = (f"<results>/models/{HEAD}/{{sample}}.{kind}" for kind in ("h5", "excerpt.h5"))
 TESTS = "<results>/tests/{sample}/T{temperature}/f{frequency}.h5"
 
 
@@ -19,7 +20,8 @@ rule simulate:
     # One test: a sample, a temperature, a frequency.
     input:
         compiled="<results>/compiled/simulate",
-        model=f"<results>/models/{HEAD}/{{sample}}.h5",
+        model=MODEL,
+        excerpt=EXCERPT,
         law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
         code=code("simulate"),
     output:
@@ -37,7 +39,7 @@ rule simulate:
     message:
         "Test sample {wildcards.sample} at {wildcards.temperature} degC and {wildcards.frequency} Hz"
     shell:
-        "asphalt-nscd simulate {input.model} --law-source {params.source} --temperature-c {wildcards.temperature} {params.test} {params.tests} > {log} 2>&1"
+        "asphalt-nscd simulate {input.model} --excerpt {input.excerpt} --law-source {params.source} --temperature-c {wildcards.temperature} {params.test} {params.tests} > {log} 2>&1"
 
 
 rule simulations:

@@ -38,7 +38,8 @@ use rule simulate as simulate_extended with:
     # The same tests, extended.
     input:
         compiled="<results>/compiled/simulate",
-        model=f"<results>/models/{HEAD}/{{sample}}.h5",
+        model=MODEL,
+        excerpt=EXCERPT,
         law=EXTENDED_LAWS,
         rig="<results>/extended/rigs/{sample}.json",
         code=code("simulate"),

@@ -26,7 +26,8 @@ use rule simulate as simulate_scaled with:
     # The same tests with the changed law.
     input:
         compiled="<results>/compiled/simulate",
-        model=f"<results>/models/{HEAD}/{{sample}}.h5",
+        model=MODEL,
+        excerpt=EXCERPT,
         law=SCALED_LAW,
         code=code("simulate"),
     output:
