@@ -17,6 +17,7 @@ use rule published_law as pascal_law with:
     output:
         "<results>/laws/pascal/T{temperature}.json",
     params:
+        table=STUDY["laws"].get("published", {}).get("table"),
         unit="Pa",
     log:
         "<results>/logs/pascal_law/T{temperature}.log",

@@ -14,7 +14,7 @@ MARGIN = 1e-9
 """Relative; sums of a few dozen terms round by 1e-14."""
 
 LEADING, OTHERS, NARROW = 1500, 30, 300
-"""Bonds listed in an excerpt: the first by the driven motion and by the load, by each other coordinate, by their gap."""
+"""Bonds listed in an excerpt: the first by driven motion and by load, by each other coordinate, by their gap."""
 
 
 class BeyondExcerpt(Exception):
