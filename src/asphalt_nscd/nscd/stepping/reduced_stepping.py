@@ -13,11 +13,17 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices, actuator_force, follow_actuator
+from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices
 from asphalt_nscd.nscd.bonds.law import BondLaw
-from asphalt_nscd.nscd.compiled import compiled
 from asphalt_nscd.nscd.stepping.bond_bounds import BeyondExcerpt
 from asphalt_nscd.nscd.stepping.excerpt import Excerpt
+from asphalt_nscd.nscd.stepping.reduced_steps import (
+    CLOSED_GAP,
+    DONE,
+    OUTSIDE_ENVELOPE,
+    YIELD,
+    advance_reduced,
+)
 
 if TYPE_CHECKING:  # sparse matrices, which take as long to import as a test without breaks to run
     from asphalt_nscd.nscd.bonds.implicit_operator import ShiftedOperator
@@ -41,8 +47,6 @@ _PROJECTED = ("mass", "stiffness", "load", "residual_factor", "head_norm", "load
 _REACHED = (
     "maxima", "may_yield", "may_close", "reached_sigma", "reached_motion", "sigma_envelope", "motion_envelope",
 )  # fmt: skip
-
-_DONE, _OUTSIDE_ENVELOPE, _YIELD, _CLOSED_GAP, _RESIDUAL = range(5)
 
 
 @dataclass
@@ -127,16 +131,16 @@ class ReducedStepper:
         while True:
             taken, code, bond = self._advance(driven[done:], force[done:], velocity[done:])
             done += taken
-            if code == _DONE:
+            if code == DONE:
                 return force, velocity
-            if code == _OUTSIDE_ENVELOPE:
+            if code == OUTSIDE_ENVELOPE:
                 self._widen_envelope(np.abs(self._trial[1]), np.abs(self._trial[2]))
                 continue
-            if code == _CLOSED_GAP:
+            if code == CLOSED_GAP:
                 raise FullSystemNeeded("a gap closes", force[:done], velocity[:done])
             if self.enrichments >= self.most_enrichments:
                 raise FullSystemNeeded("too many enrichments", force[:done], velocity[:done])
-            if code == _YIELD:
+            if code == YIELD:
                 self.state.broken.append(bond)
             self._enrich(code)
 
@@ -212,7 +216,7 @@ class ReducedStepper:
         model, state, law = self._part, self.state, self.law
         self._trial = np.zeros((3, model.size))
         inverse = self._step_inverse()
-        taken, code, watched = _advance_reduced(
+        taken, code, watched = advance_reduced(
             driven, self.devices.of_head, *self._seen_from_head(inverse), model.mass, model.stiffness,
             model.load, inverse, law.dt, law.compliance, law.memory, law.recall, law.keep, law.gain,
             model.residual_factor, model.head_norm, model.load_norm, self.tolerance,
@@ -221,7 +225,7 @@ class ReducedStepper:
             self._maxima, state.displacement, state.velocity, state.sigma, state.kelvin, self._trial,
             force, velocity,
         )  # fmt: skip
-        return taken, code, int(self._may_yield[watched]) if code == _YIELD else -1
+        return taken, code, int(self._may_yield[watched]) if code == YIELD else -1
 
     def _step_inverse(self) -> np.ndarray:
         model = self._part
@@ -275,7 +279,7 @@ class ReducedStepper:
 
         self.enrichments += 1
         whole, model = self.model, None
-        if code == _YIELD and self._stand_by is not None:
+        if code == YIELD and self._stand_by is not None:
             model = self._stand_by.model(whole.system, self._ritz, self.state.broken)
         if model is None:
             self._stand_by = None  # its projection knows nothing of the directions now found
@@ -315,108 +319,3 @@ def _widened(coordinates: np.ndarray, more: int) -> np.ndarray:
     """Coordinates in a basis with further columns at its end."""
     padding = [(0, 0)] * (coordinates.ndim - 1) + [(0, more)]
     return np.pad(coordinates, padding)
-
-
-@compiled
-def _advance_reduced(
-    driven, devices, impedance, head_inertia, head_strain, head_load, mass, stiffness, load, inverse,
-    dt, compliance, memory, recall, keep, gain,
-    residual_factor, head_norm, load_norm, tolerance, reaction, beyond_head, closing, sigma_envelope,
-    motion_envelope, reached_sigma, reached_motion, maxima, q, v, s, kelvin, trial, force, velocity,
-):  # fmt: skip
-    """Steps until the end or the first violation: (steps taken, code, index into the watched bonds).
-
-    State arrays change in place, step by step; `trial` receives v+, s+, q+ of the refused step.
-    """
-    k = q.shape[0]
-    kept = velocity.shape[1]
-    scale = dt / compliance
-    explicit = np.empty(k)
-    known = np.empty(k)
-    combined = np.empty(2 * k + 1)
-    new_v, new_s, new_q = trial[0], trial[1], trial[2]
-    for n in range(driven.shape[0]):
-        for a in range(k):
-            explicit[a] = memory * s[a]
-            for e in range(recall.shape[0]):
-                explicit[a] -= recall[e] * kelvin[e, a]
-        free_force = -head_load
-        for a in range(k):
-            free_force -= head_inertia[a] * v[a] + head_strain[a] * explicit[a]
-        new_v[0], friction = follow_actuator(devices, dt, free_force, impedance, driven[n], q[0], v[0])
-        for a in range(1, k):
-            known[a] = dt * load[a] - (mass[a, 0] + scale * stiffness[a, 0]) * new_v[0]
-            for b in range(k):
-                known[a] += mass[a, b] * v[b] + scale * stiffness[a, b] * explicit[b]
-        for a in range(1, k):
-            new_v[a] = 0.0
-            for b in range(1, k):
-                new_v[a] += inverse[a - 1, b - 1] * known[b]
-        outside = False
-        for a in range(k):
-            new_s[a] = (explicit[a] - new_v[a]) / compliance
-            new_q[a] = q[a] + dt * new_v[a]
-            outside |= abs(new_s[a]) > sigma_envelope[a] or abs(new_q[a]) > motion_envelope[a]
-            combined[a] = (new_v[a] - v[a]) / dt
-            combined[k + a] = new_s[a]
-        combined[2 * k] = 1.0
-        if outside:
-            return n, _OUTSIDE_ENVELOPE, -1
-        # an inaccurate trial must not decide on gaps and yield, nor one without its contacts on yield
-        stress = max(maxima[0], abs(new_s[0]))
-        size = head_norm * stress + load_norm
-        missing = _norm_of_product(residual_factor, combined)
-        if not missing <= tolerance * size:
-            return n, _RESIDUAL, -1
-        for c in range(closing.shape[0]):
-            share = 0.0
-            for a in range(k):
-                share += closing[c, a] * new_q[a]
-            if share > 1.0:
-                return n, _CLOSED_GAP, c
-        worst, most = -1, maxima[2]
-        for c in range(reaction.shape[0]):
-            if beyond_head[c, 0] * abs(new_s[0]) + beyond_head[c, 1] > most:
-                share = _utilisation(reaction[c], new_s)
-                if share > most:
-                    worst, most = c, share
-        if most > 1.0:
-            return n, _YIELD, worst
-        maxima[2] = most
-        maxima[0] = stress
-        if size > 0.0:
-            maxima[1] = max(maxima[1], missing / size)
-        force[n] = -load[0]
-        for b in range(k):
-            force[n] += mass[0, b] * combined[b] - stiffness[0, b] * new_s[b]
-        force[n] = actuator_force(devices, dt, force[n], friction, q[0], v[0], new_v[0])
-        for a in range(k):
-            v[a], s[a], q[a] = new_v[a], new_s[a], new_q[a]
-            for e in range(recall.shape[0]):
-                kelvin[e, a] = keep[e] * kelvin[e, a] - gain[e] * new_s[a]
-            reached_sigma[a] = max(reached_sigma[a], abs(s[a]))
-            reached_motion[a] = max(reached_motion[a], abs(q[a]))
-            if a < kept:
-                velocity[n, a] = v[a]
-    return driven.shape[0], _DONE, -1
-
-
-@compiled
-def _utilisation(reaction, s):
-    normal = tangent = other = 0.0
-    for a in range(s.shape[0]):
-        normal += reaction[0, a] * s[a]
-        tangent += reaction[1, a] * s[a]
-        other += reaction[2, a] * s[a]
-    return max(-normal, np.sqrt(tangent * tangent + other * other))
-
-
-@compiled
-def _norm_of_product(upper, vector):
-    square = 0.0
-    for a in range(upper.shape[0]):
-        row = 0.0
-        for b in range(a, upper.shape[1]):
-            row += upper[a, b] * vector[b]
-        square += row * row
-    return np.sqrt(square)
