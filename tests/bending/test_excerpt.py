@@ -112,12 +112,12 @@ def test_an_excerpt_answers_as_all_bonds_would_or_not_at_all():
     assert (answered > 20).all() and (answered[[0, 3]] < 300).all(), answered
 
 
-def test_a_quick_test_imports_no_sparse_matrices(folder):
-    """By which it would take twice as long."""
+def test_a_quick_test_imports_neither_sparse_matrices_nor_numba(folder):
+    """By which it would take several times as long."""
     said = (
         "import sys; from asphalt_nscd.cli import group; "
         "group.main(sys.argv[1:], standalone_mode=False); "
-        "print([name for name in ('scipy.sparse', 'pandas') if name in sys.modules])"
+        "print([name for name in ('scipy', 'numba', 'pandas') if name in sys.modules])"
     )
     command = [
         "simulate", "strong.h5", "--excerpt", "strong.excerpt.h5", "--law", "law.json", "--temperature-c", "15",

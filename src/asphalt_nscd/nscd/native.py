@@ -13,6 +13,7 @@ import json
 import os
 import tempfile
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
@@ -30,7 +31,8 @@ def native(name: str, build: Callable[[], tuple[str, str]]) -> int:
     content = _read(path)
     if content is None:
         content = _compile(*build())
-        _write(path, content)
+        with suppress(OSError):  # where it cannot be kept, each job makes it
+            _write(path, content)
     header, _, code = content.partition(b"\n")
     told = json.loads(header)
     abort = ctypes.cast(ctypes.CDLL(None).abort, ctypes.c_void_p).value
@@ -75,7 +77,7 @@ def _read(path: Path) -> bytes | None:
     """What was written, if it is there and whole: a processor would run anything."""
     try:
         digest, _, content = path.read_bytes().partition(b"\n")
-    except FileNotFoundError:
+    except OSError:
         return None
     return content if hashlib.sha256(content).hexdigest().encode() == digest else None
 

@@ -139,7 +139,8 @@ def native_steps(
         number[0], number[1], number[2], number[3], number[4], number[5], number[6], number[7],
     )  # fmt: skip
     found = take_steps(
-        carray(driven, n), (device[0], device[1], device[2], device[3]), impedance, carray(head_inertia, k), carray(head_strain, k), head_load,
+        carray(driven, n), (device[0], device[1], device[2], device[3]), impedance,
+        carray(head_inertia, k), carray(head_strain, k), head_load,
         carray(mass, (k, k)), carray(stiffness, (k, k)), carray(load, k), carray(inverse, (k - 1, k - 1)),
         dt, compliance, memory, carray(recall, elements), carray(keep, elements), carray(gain, elements),
         carray(residual_factor, (rows, columns)), head_norm, load_norm, tolerance,
