@@ -40,11 +40,9 @@ endif
 
 paper: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
-	@echo "Report: $(CURDIR)/results/paper/report.html"
 
 smoke: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/smoke.yaml
-	@echo "Report: $(CURDIR)/results/smoke/report.html"
 
 blind: $(READY)
 	@.venv/bin/snakemake blind --cores $(CORES) --configfile config/blind.yaml

@@ -11,6 +11,11 @@ include: "workflow/rules/common.smk"
 report: "workflow/report/study.rst"
 
 
+onsuccess:
+    if Path(REPORT).is_file():
+        logger.info(f"Report: {Path(REPORT).resolve()}")
+
+
 onerror:
     # Last, and without the noise above.
     for sentence in failures(log):
@@ -29,6 +34,7 @@ include: "workflow/rules/extension.smk"  # the simulation extended by it
 include: "workflow/rules/exports.smk"  # the law for other programs
 include: "workflow/rules/contents.smk"  # figures and tables, and their data
 include: "workflow/rules/report.smk"  # figures, tables, report
+include: "workflow/rules/stages.smk"  # each stage by its name
 include: "workflow/rules/publish.smk"  # what is committed
 include: "workflow/rules/verification.smk"  # is the core right
 include: "workflow/rules/benchmark.smk"  # how fast is it beside its peers

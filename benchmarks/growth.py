@@ -24,7 +24,8 @@ import numpy as np
 import pandas as pd
 from rows import Clock, write_rows
 
-from asphalt_nscd.bending.bending_test import bond_law, condense, read_model, run_test
+from asphalt_nscd.bending.bending_test import bond_law, run_test
+from asphalt_nscd.bending.model import condense, read_model
 from asphalt_nscd.measurements.signals import harmonic_response
 from asphalt_nscd.measurements.twopoint import complex_modulus
 from asphalt_nscd.nscd.bonds.implicit_operator import LARGEST_FACTORED

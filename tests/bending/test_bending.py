@@ -8,15 +8,9 @@ import click
 import numpy as np
 import pytest
 
-from asphalt_nscd.bending.bending_test import (
-    Model,
-    bond_law,
-    condense,
-    read_model,
-    run_test,
-    simulate,
-)
+from asphalt_nscd.bending.bending_test import bond_law, run_test, simulate
 from asphalt_nscd.bending.layers import LAYERS
+from asphalt_nscd.bending.model import Model, condense, read_model
 from asphalt_nscd.cli import group
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save

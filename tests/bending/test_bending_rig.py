@@ -7,7 +7,8 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.bending.bending_test import condense, read_model, run_test, simulate
+from asphalt_nscd.bending.bending_test import run_test, simulate
+from asphalt_nscd.bending.model import condense, read_model
 from asphalt_nscd.bending.rig import Rig, write_rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save

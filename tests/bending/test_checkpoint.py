@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.bending.bending_test import Model, run_test
+from asphalt_nscd.bending.bending_test import run_test
 from asphalt_nscd.bending.checkpoint import Checkpoint
+from asphalt_nscd.bending.model import Model
 from asphalt_nscd.files.errors import DamagedFile, InputError
 from asphalt_nscd.nscd.bonds.implicit_operator import ShiftedOperator
 from asphalt_nscd.nscd.stepping.break_modes import StandBy

@@ -86,7 +86,7 @@ def test_least_study_is_the_tests_and_their_figures(workspace):
         measurements=workspace.measure(), laws={"simulate": "fitted"}, **dict.fromkeys(OPTIONAL)
     )
     jobs = workspace.planned()
-    assert jobs["simulate"] == 2 and jobs["fit"] == 2 and jobs["fig09"] == 1
+    assert jobs["simulate"] == 4 and jobs["fit"] == 2 and jobs["fig09"] == 1
     assert jobs["reduced_specimen"] == jobs["diagnose"] == jobs["fig_limits"] == 1
     others = {
         "reconstruct",
@@ -103,27 +103,27 @@ def test_least_study_is_the_tests_and_their_figures(workspace):
 def test_the_paper_is_120_tests_on_four_samples(workspace):
     (workspace.folder / "study.yaml").write_text((workspace.folder / "config/paper.yaml").read_text())
     jobs = workspace.planned("results/paper/simulations.csv")
-    assert jobs["simulate"] == 24 and jobs["deposit"] == 4  # five frequencies each
+    assert jobs["simulate"] == 120 and jobs["deposit"] == 4
     said = workspace.run("results/paper/simulations.csv", "--dry-run", "--printshellcmds").stdout
     written = re.findall(r"--frequency-hz (\S+) --law \S+/(T\S+).json --output \S+/(s\d/T\S+/f\S+).h5", said)
     assert len(set(written)) == 120
     assert all(output.endswith(f"/{temperature}/f{frequency}") for frequency, temperature, output in written)
     jobs = workspace.planned()
-    assert jobs["simulate_scaled"] == 32 and jobs["audit"] == 1
+    assert jobs["simulate_scaled"] == 160 and jobs["simulate_extended"] == 120 and jobs["audit"] == 1
     assert {f"fig{number:02d}" for number in (1, *range(5, 15))} | {"table2", "table3", "table4"} <= set(jobs)
 
 
 def test_timings_are_those_of_the_study_s_own_jobs(workspace):
     """Not of a temperature that was left out since."""
     workspace.configure(temperatures_C=[20])
-    left = workspace.folder / "results/smoke/benchmarks/simulate/s1/T0.tsv"
+    left = workspace.folder / "results/smoke/benchmarks/simulate/s1/T0/f3.tsv"
     left.parent.mkdir(parents=True)
     left.touch()
     said = workspace.run("results/smoke/timings.csv", "--dry-run").stdout
     (command,) = (line.split() for line in said.splitlines() if "asphalt-nscd timings" in line)
     timed = [word.removeprefix("results/smoke/benchmarks/") for word in command if word.endswith(".tsv")]
-    assert {"simulate/s1/T20.tsv", "deposit/s1.tsv", "reconstruct.tsv", "fig09.tsv"} <= set(timed)
-    assert "simulate/s1/T0.tsv" not in timed and "timings.tsv" not in timed
+    assert {"simulate/s1/T20/f3.tsv", "deposit/s1.tsv", "reconstruct.tsv", "fig09.tsv"} <= set(timed)
+    assert "simulate/s1/T0/f3.tsv" not in timed and "timings.tsv" not in timed
 
 
 def test_what_the_study_says_of_the_diagnosis_reaches_it(workspace):

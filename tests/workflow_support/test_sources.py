@@ -83,6 +83,46 @@ def test_a_stamp_changes_with_the_content_only(tmp_path, package):
     first, kept = path.read_text(), path.stat().st_mtime_ns
     files[0].touch()
     assert sources.stamp(tmp_path, "plotting", files).stat().st_mtime_ns == kept
-    files[0].write_text(files[0].read_text() + "# changed\n")
+    kernel = next(file for file in files if file.name == "kernel.py")
+    kernel.write_text('"""What it does."""\n# and why\n')
+    assert sources.stamp(tmp_path, "plotting", files).read_text() == first
+    kernel.write_text("SIGN = -1\n")
     assert sources.stamp(tmp_path, "plotting", files).read_text() != first
     assert path.stat().st_mtime_ns == max(file.stat().st_mtime_ns for file in files)
+
+
+def test_a_string_that_is_no_docstring_counts(tmp_path, package):
+    """In a module that ends up without statements too."""
+    file = package / "errors.py"
+    seen = set()
+    for content in (
+        "",
+        '"""Errors."""\n',
+        '"""Errors"""\nWHAT = "a"\n',
+        'WHAT = "b"\n',
+        "def f():\n    'Errors'\n",
+    ):
+        file.write_text(content)
+        sources._meaning.cache_clear()
+        seen.add(sources.stamp(tmp_path, "errors", [file]).read_text())
+    assert len(seen) == 4
+
+
+def test_a_row_s_stamp_changes_with_its_row_only(tmp_path):
+    table = tmp_path / "laws.csv"
+
+    def stamps(text):
+        table.write_text(text)
+        return [
+            sources.stamp_of_row(tmp_path / "rows", table, "temperature_C", value).read_text()
+            for value in (0.0, 20.0)
+        ]
+
+    cold, warm = stamps("temperature_C,E\n0,1\n20,2\n")
+    assert stamps("# measured\ntemperature_C,E\n0.0,1\n20,3\n")[1] != warm
+    assert stamps("temperature_C,E\n0,1\n20,3\n")[0] == cold
+    assert stamps("temperature_C,E\n20,2\n0,1\n") == [cold, warm]
+    missing = stamps("temperature_C,E\n20,2\n")
+    assert missing[0] != cold and missing[1] == warm
+    table.unlink()
+    assert sources.stamp_of_row(tmp_path / "rows", table, "temperature_C", 0.0).is_file()

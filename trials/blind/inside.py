@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.bending.bending_test import Model, bond_law, read_model, run_test
+from asphalt_nscd.bending.bending_test import bond_law, run_test
+from asphalt_nscd.bending.model import Model, read_model
 from asphalt_nscd.bending.rig import Rig
 from asphalt_nscd.rheology.conversion import kelvin_chain
 

@@ -10,12 +10,14 @@ from faults.study import Run, Study
 
 DEPOSIT_LOG = "deposit/s1.log"
 DEPOSIT, MODEL, TEST = "deposits/s1.h5", "models/free/s1.h5", "tests/s1/T20/f10.h5"
+EXCERPT = "models/free/s1.excerpt.h5"
 ALL = "report.html"
 # A file of results, and one that is made from it.
 READ = {
     DEPOSIT: "specimens/s1.h5",
     "specimens/s1.h5": MODEL,
-    MODEL: TEST,
+    MODEL: "diagnosis/specimens/s1.h5",
+    EXCERPT: TEST,
     TEST: "simulations.csv",
     "laws/published/T20.json": TEST,
     "measured.csv": "laws/fitted/T20.json",

@@ -13,6 +13,8 @@ from faults.damaged import cut
 from faults.fault import TEST
 from faults.study import Run, Study
 
+CACHE = "ASPHALT_NSCD_CACHE"
+
 
 def clock_set_back(study: Study) -> Run:
     """Results were made while the clock went a day ahead; then an input is changed, and changed again."""
@@ -82,9 +84,11 @@ def _cut(study: Study, name: str, share: float) -> Run:
     return done
 
 
-def with_environment(name: str, value: Callable[[Study], str]) -> Callable[[Study], Run]:
+def with_environment(output: str, name: str, value: Callable[[Study], str]) -> Callable[[Study], Run]:
+    """A run that makes `output` anew with another value of an environment variable."""
+
     def disturb(study: Study) -> Run:
-        (study.results / TEST).unlink()
+        (study.results / output).unlink()
         return subprocess.run(
             study.command("--cores", "2", *study.targets), cwd=study.folder, capture_output=True, text=True,
             env=study.environment | {name: value(study)}, errors="replace",
@@ -93,13 +97,21 @@ def with_environment(name: str, value: Callable[[Study], str]) -> Callable[[Stud
     return disturb
 
 
-def damaged_cache(study: Study) -> str:
-    folder = study.folder / "numba"
-    source = Path(os.environ.get("ASPHALT_NSCD_CACHE") or Path.home() / ".cache/asphalt-nscd")
-    shutil.copytree(source, folder)
-    for path in folder.rglob("*.nb?"):
-        cut(path)
-    return str(folder)
+def damaged_cache(pattern: str) -> Callable[[Study], str]:
+    """A copy of what has been compiled, with the files that match a pattern cut in half."""
+
+    def cache(study: Study) -> str:
+        folder = study.folder / "numba"
+        source = Path(os.environ.get(CACHE) or Path.home() / ".cache/asphalt-nscd")
+        shutil.copytree(source, folder)
+        found = list(folder.rglob(pattern))
+        if not found:
+            raise FileNotFoundError(f"{source}: holds no {pattern}")
+        for path in found:
+            cut(path)
+        return str(folder)
+
+    return cache
 
 
 def no_cache(study: Study) -> str:

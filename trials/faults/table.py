@@ -6,7 +6,7 @@ import signal
 
 from faults.damaged import cut, damaged, decayed, edited, emptied, flipped, other_kind, without_its_last_line
 from faults.ended import half_written, signalled, two_at_once, workflow_signalled
-from faults.fault import ALL, CORE, DEPOSIT, DEPOSIT_LOG, READ, SET_ASIDE, TEST, Fault
+from faults.fault import ALL, CORE, DEPOSIT, DEPOSIT_LOG, MODEL, READ, SET_ASIDE, TEST, Fault
 from faults.storage import (
     full_disk,
     little_memory,
@@ -16,6 +16,7 @@ from faults.storage import (
     results_is_a_file,
 )
 from faults.surroundings import (
+    CACHE,
     clock_ahead,
     clock_set_back,
     configuration_in_half,
@@ -79,8 +80,9 @@ def standing() -> dict[str, list[Fault]]:
             Fault("input table gone", table_gone, "error: .*smoke_counts.csv"),
             Fault("input table cut", table_in_half, "error: .*table3_burgers.csv", TEST),
             Fault("configuration cut", configuration_in_half, "error: .*study.yaml"),
-            Fault("compiled core damaged", with_environment("ASPHALT_NSCD_CACHE", damaged_cache), CORE, TEST),
-            Fault("compiled core has no place", with_environment("ASPHALT_NSCD_CACHE", no_cache), None, TEST),
-            Fault("locale without Unicode", with_environment("LC_ALL", lambda study: "C"), None, TEST),
+            Fault("compiled core damaged", with_environment(MODEL, CACHE, damaged_cache("*.nb?")), CORE, MODEL),
+            Fault("compiled kernel damaged", with_environment(TEST, CACHE, damaged_cache("*.native")), None, TEST),
+            Fault("compiled core has no place", with_environment(TEST, CACHE, no_cache), None, TEST),
+            Fault("locale without Unicode", with_environment(TEST, "LC_ALL", lambda study: "C"), None, TEST),
         ],
     }  # fmt: skip

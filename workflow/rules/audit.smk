@@ -17,6 +17,7 @@ use rule published_law as pascal_law with:
     output:
         "<results>/laws/pascal/T{temperature}.json",
     params:
+        table=STUDY["laws"].get("published", {}).get("table"),
         unit="Pa",
     log:
         "<results>/logs/pascal_law/T{temperature}.log",
@@ -30,7 +31,8 @@ use rule simulate as simulate_pascal with:
     # A specimen a thousand times softer: its own resonance falls among the tests.
     input:
         compiled="<results>/compiled/simulate",
-        model=f"<results>/models/{HEAD}/{{sample}}.h5",
+        model=MODEL,
+        excerpt=EXCERPT,
         law="<results>/laws/pascal/T{temperature}.json",
         code=code("simulate"),
     output:
@@ -53,6 +55,7 @@ use rule simulate as simulate_blocked with:
     input:
         compiled="<results>/compiled/simulate",
         model="<results>/models/blocked/{sample}.h5",
+        excerpt="<results>/models/blocked/{sample}.excerpt.h5",
         law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
         code=code("simulate"),
     params:

@@ -2,6 +2,7 @@
 
 HEAD = STUDY["test"]["head"]
 LAWS = STUDY["laws"]["simulate"]
+MODEL, EXCERPT = (f"<results>/models/{HEAD}/{{sample}}.{kind}" for kind in ("h5", "excerpt.h5"))
 TESTS = "<results>/tests/{sample}/T{temperature}/f{frequency}.h5"
 
 
@@ -16,14 +17,15 @@ def tests(wildcards, input, output):
 
 
 rule simulate:
-    # The tests of one sample at one temperature, a file for each frequency.
+    # One test: a sample, a temperature, a frequency.
     input:
         compiled="<results>/compiled/simulate",
-        model=f"<results>/models/{HEAD}/{{sample}}.h5",
+        model=MODEL,
+        excerpt=EXCERPT,
         law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
         code=code("simulate"),
     output:
-        expand(TESTS, frequency=FREQUENCIES, allow_missing=True),
+        TESTS,
     params:
         source=LAWS,
         tests=tests,
@@ -31,13 +33,13 @@ rule simulate:
     resources:
         mem_mb=lambda wildcards, attempt: 1600 * attempt,
     log:
-        "<results>/logs/simulate/{sample}/T{temperature}.log",
+        "<results>/logs/simulate/{sample}/T{temperature}/f{frequency}.log",
     benchmark:
-        "<results>/benchmarks/simulate/{sample}/T{temperature}.tsv"
+        "<results>/benchmarks/simulate/{sample}/T{temperature}/f{frequency}.tsv"
     message:
-        "Test sample {wildcards.sample} at {wildcards.temperature} degC"
+        "Test sample {wildcards.sample} at {wildcards.temperature} degC and {wildcards.frequency} Hz"
     shell:
-        "asphalt-nscd simulate {input.model} --law-source {params.source} --temperature-c {wildcards.temperature} {params.test} {params.tests} > {log} 2>&1"
+        "asphalt-nscd simulate {input.model} --excerpt {input.excerpt} --law-source {params.source} --temperature-c {wildcards.temperature} {params.test} {params.tests} > {log} 2>&1"
 
 
 rule simulations:

@@ -13,7 +13,7 @@ from asphalt_nscd.workflow_support.failures import failures
 from asphalt_nscd.study.preflight import require_feasible
 from asphalt_nscd.workflow_support.lock import release_stale_locks, hold_own_locks
 from asphalt_nscd.files.paths import require_writable
-from asphalt_nscd.workflow_support.sources import PACKAGE, modules_of, source_files, stamp
+from asphalt_nscd.workflow_support.sources import PACKAGE, modules_of, source_files, stamp, stamp_of_row
 from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
 
 ALONE = workflow.is_main_process and release_stale_locks(".snakemake")
@@ -40,6 +40,7 @@ try:
         require_writable(f"results/{STUDY['study']}")
         mistrust_future(f"results/{STUDY['study']}")
         mistrust_future(".snakemake/code")
+        mistrust_future(".snakemake/rows")
         if ALONE and not workflow.output_settings.dryrun:
             _damaged = damaged(f"results/{STUDY['study']}")
             if _damaged:
@@ -50,6 +51,7 @@ except InputError as error:
 pathvars:
     results=f"results/{STUDY['study']}",
 
+REPORT = f"results/{STUDY['study']}/report.html"
 TEMPERATURES = [label(value) for value in STUDY["temperatures_C"]]
 FREQUENCIES = [label(value) for value in STUDY["frequencies_Hz"]]
 SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
@@ -71,6 +73,15 @@ def code(step, *modules):
     """What stands for the source behind a step of the command line and modules that it picks by name."""
     files = source_files(f"cli.{step.replace('-', '_')}", *modules)
     return stamp(".snakemake/code", "-".join([step, *modules[:1]]), files).as_posix()
+
+
+def row_at(table):
+    """What stands for the row of a table at the temperature of a job; none where the study has no such table."""
+    if not table:
+        return []
+    return lambda wildcards: stamp_of_row(
+        ".snakemake/rows", table, "temperature_C", float(wildcards.temperature)
+    ).as_posix()
 
 
 def text(value):

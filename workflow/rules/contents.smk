@@ -165,7 +165,7 @@ KEPT = [
     USED_LAWS,
     DEPOSITS,
     expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
-    expand("<results>/models/{head}/{sample}.h5", head=HEAD, sample=SAMPLES),
+    expand([MODEL, EXCERPT], sample=SAMPLES),
     expand("<results>/diagnosis/specimens/{sample}.h5", sample=SAMPLES if COMMON_LAW else FIRST),
     rules.simulations.input.tests,
 ]
@@ -191,13 +191,13 @@ if "sensitivity" in STUDY:
 if "audit" in STUDY:
     KEPT += [
         f"<results>/laws/pascal/T{label(AUDIT['temperature_C'])}.json",
-        f"<results>/models/blocked/s{AUDIT['seed']}.h5",
+        expand("<results>/models/blocked/s{seed}.{kind}", seed=AUDIT["seed"], kind=["h5", "excerpt.h5"]),
         rules.readings.input.tests,
     ]
 if "packing_study" in STUDY:
     KEPT += [
         rules.packing.input.deposits,
         expand("<results>/specimens/{sample}.h5", sample=PACKED),
-        expand("<results>/models/{head}/{sample}.h5", head=HEAD, sample=PACKED),
+        expand([MODEL, EXCERPT], sample=PACKED),
         rules.packing.input.tests,
     ]

@@ -38,22 +38,23 @@ use rule simulate as simulate_extended with:
     # The same tests, extended.
     input:
         compiled="<results>/compiled/simulate",
-        model=f"<results>/models/{HEAD}/{{sample}}.h5",
-        law=expand(EXTENDED_LAWS, frequency=FREQUENCIES, allow_missing=True),
+        model=MODEL,
+        excerpt=EXCERPT,
+        law=EXTENDED_LAWS,
         rig="<results>/extended/rigs/{sample}.json",
         code=code("simulate"),
     output:
-        expand(EXTENDED, frequency=FREQUENCIES, allow_missing=True),
+        EXTENDED,
     params:
         source="diagnosis",
         tests=tests,
         test=lambda wildcards, input: f"{options(STUDY['test'], 'amplitude_m', 'cycles', 'time_step_s', 'rest_steps')} --rig {input.rig}",
     log:
-        "<results>/logs/simulate_extended/{sample}/T{temperature}.log",
+        "<results>/logs/simulate_extended/{sample}/T{temperature}/f{frequency}.log",
     benchmark:
-        "<results>/benchmarks/simulate_extended/{sample}/T{temperature}.tsv"
+        "<results>/benchmarks/simulate_extended/{sample}/T{temperature}/f{frequency}.tsv"
     message:
-        "Test sample {wildcards.sample} again, extended, at {wildcards.temperature} degC"
+        "Test sample {wildcards.sample} extended, at {wildcards.temperature} degC and {wildcards.frequency} Hz"
 
 
 use rule simulations as extended_simulations with:

@@ -20,13 +20,14 @@ rule fit:
 
 
 rule published_law:
-    # As printed in Table 3, read in the unit that the study states.
+    # As printed in Table 3, read in the unit that the study states. Other rows of the table do not count.
     input:
-        table=STUDY["laws"]["published"]["table"] if "published" in STUDY["laws"] else [],
+        row=row_at(STUDY["laws"].get("published", {}).get("table")),
         code=code("published-law"),
     output:
         "<results>/laws/published/T{temperature}.json",
     params:
+        table=STUDY["laws"].get("published", {}).get("table"),
         unit=STUDY["laws"].get("published", {}).get("unit"),
     priority: 20  # before anything is poured: the measurements may yet be refused
     log:
@@ -36,4 +37,4 @@ rule published_law:
     message:
         "Take the published Burgers law at {wildcards.temperature} degC, Table 3"
     shell:
-        "asphalt-nscd published-law {input.table:q} --temperature-c {wildcards.temperature} --unit {params.unit} --output {output} > {log} 2>&1"
+        "asphalt-nscd published-law {params.table:q} --temperature-c {wildcards.temperature} --unit {params.unit} --output {output} > {log} 2>&1"

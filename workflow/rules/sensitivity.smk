@@ -26,21 +26,22 @@ use rule simulate as simulate_scaled with:
     # The same tests with the changed law.
     input:
         compiled="<results>/compiled/simulate",
-        model=f"<results>/models/{HEAD}/{{sample}}.h5",
+        model=MODEL,
+        excerpt=EXCERPT,
         law=SCALED_LAW,
         code=code("simulate"),
     output:
-        expand(SCALED_TESTS, frequency=FREQUENCIES, allow_missing=True),
+        SCALED_TESTS,
     params:
         source="{parameter}:{factor}",
         tests=tests,
         test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s", "rest_steps"),
     log:
-        "<results>/logs/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}.log",
+        "<results>/logs/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}/f{frequency}.log",
     benchmark:
-        "<results>/benchmarks/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}.tsv"
+        "<results>/benchmarks/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}/f{frequency}.tsv"
     message:
-        "Test sample {wildcards.sample} with {wildcards.parameter} times {wildcards.factor}"
+        "Test sample {wildcards.sample} with {wildcards.parameter} times {wildcards.factor}, {wildcards.frequency} Hz"
 
 
 use rule simulations as sensitivity with:

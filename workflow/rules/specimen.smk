@@ -60,13 +60,14 @@ rule trim:
 
 
 rule condense:
-    # Assemble the bonded system once for all tests on a sample, with its reduced form.
+    # Assemble the bonded system once for all tests on a sample, with its reduced form and the excerpt most tests need.
     input:
         compiled="<results>/compiled/simulate",
         specimen="<results>/specimens/{sample}.h5",
         code=code("condense"),
     output:
-        "<results>/models/{head}/{sample}.h5",
+        model="<results>/models/{head}/{sample}.h5",
+        excerpt="<results>/models/{head}/{sample}.excerpt.h5",
     params:
         bonds=options(STUDY["specimens"]["bonds"], "poisson", "kt_over_kn", "yield_Pa", "friction"),
     resources:
@@ -78,7 +79,7 @@ rule condense:
     message:
         "Condense the bonds of sample {wildcards.sample}, head {wildcards.head} to rotate"
     shell:
-        "asphalt-nscd condense {input.specimen} --head {wildcards.head} {params.bonds} --output {output} > {log} 2>&1"
+        "asphalt-nscd condense {input.specimen} --head {wildcards.head} {params.bonds} --output {output.model} --excerpt-output {output.excerpt} > {log} 2>&1"
 
 
 use rule deposit as deposit_loose with:

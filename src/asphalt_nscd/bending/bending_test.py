@@ -1,112 +1,42 @@
-"""The complex modulus test on a numerical specimen: condense a specimen, then simulate tests on it."""
+"""The complex modulus test on a numerical specimen, condensed before."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import sparse
 
 from asphalt_nscd.bending.checkpoint import Checkpoint, digest
-from asphalt_nscd.bending.layers import Layers
+from asphalt_nscd.bending.excerpt import ModelExcerpt, read_excerpt
+from asphalt_nscd.bending.layers import LayerHeights, Layers
 from asphalt_nscd.bending.rig import Rig, read_rig
-from asphalt_nscd.bending.stepwise import condensed_steps, reduced_steps
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.store import load, save
+from asphalt_nscd.files.store import save
 from asphalt_nscd.measurements.signals import harmonic_response, peak_response, require_steps
 from asphalt_nscd.measurements.twopoint import Geometry, complex_modulus, norm_and_phase
 from asphalt_nscd.nscd.bonds.law import BondLaw
-from asphalt_nscd.nscd.bonds.multigrid import Multigrid
-from asphalt_nscd.nscd.bonds.system import BondedSystem
-from asphalt_nscd.nscd.stepping import harmonic
-from asphalt_nscd.nscd.stepping.break_modes import StandBy
-from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
-from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
-from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis, shifted_factor
 from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.laws_io import read_bond_law
-from asphalt_nscd.specimen.preparation import read_specimen
-from asphalt_nscd.specimen.system import bending_system
+
+if TYPE_CHECKING:  # sparse matrices, imported below where a test needs them: that takes as long as most tests
+    from asphalt_nscd.bending.model import Model
+    from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
+    from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 
 METHODS = ("reduced", "condensed", "sweeps", "harmonic")
-KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
 RESIDUAL_TOLERANCE = 1e-6  # of the full equations, relative to the load of the head
 REDUCED_CYCLES = 2  # the last ones, for the harmonic fit; the paper's peaks are those of the last cycle
 PROFILE_SAMPLES = 200  # of the mean velocity against height over the last cycle, Fig. 8
 
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
-
-
-@dataclass(frozen=True)
-class Model:
-    """A specimen ready for tests."""
-
-    system: BondedSystem
-    basis: np.ndarray  # (d, k) of the reduced form
-    geometry: Geometry
-    sphere_height: np.ndarray  # (n,) m
-    name: str
-    head: str
-    stand_by: StandBy | None = None  # directions for breaks
-
-    @cached_property
-    def layers(self) -> Layers:
-        """Over which velocities are averaged."""
-        return Layers.of(self.sphere_height, self.geometry.h, self.system.mass.size)
-
-
-def condense(
-    specimen_file: str | Path, head: str, poisson: float, yield_stress: float, friction: float,
-    output: str | Path, kt_over_kn: float = 1.0,
-) -> None:  # fmt: skip
-    """Assemble the system of a specimen, find its basis and directions for breaks, and save all."""
-    specimen = read_specimen(specimen_file)
-    system = bending_system(specimen, poisson, yield_stress, friction, head, kt_over_kn=kt_over_kn)
-    g, shifted = system.operator, shifted_factor(system)
-    basis = ritz_basis(system, KRYLOV_STEPS, shifted)
-    arrays = {
-        "basis": basis, "operator/indptr": g.indptr, "operator/indices": g.indices,
-        "operator/data": g.data, "weight": system.weight, "mass": system.mass, "load": system.load,
-        "gap": system.gap, "strength": system.strength, "position": system.position,
-        "sphere_height": specimen.position[:, 2],
-    }  # fmt: skip
-    if not isinstance(shifted, Multigrid):  # by which they cost more than the few breaks they may save
-        stand_by = StandBy.of(system, basis, shifted).arrays()
-        arrays |= {f"stand_by/{name}": value for name, value in stand_by.items()}
-    attributes = {
-        "name": Path(specimen_file).stem, "head": head, "driven": system.driven, "friction": friction,
-        **{name: getattr(specimen.geometry, name) for name in Geometry.__dataclass_fields__},
-    }  # fmt: skip
-    save(output, "model", arrays, attributes)
-
-
-def read_model(path: str | Path) -> Model:
-    """The model in a file made by `condense`."""
-    arrays, attributes = (record := load(path, "model")).arrays, record.attributes
-    system = BondedSystem(
-        operator=sparse.csr_matrix(
-            (arrays["operator/data"], arrays["operator/indices"], arrays["operator/indptr"]),
-            shape=(arrays["weight"].size, arrays["mass"].size),
-        ),
-        weight=arrays["weight"], mass=arrays["mass"], load=arrays["load"], driven=attributes["driven"],
-        gap=arrays["gap"], strength=arrays["strength"], friction=attributes["friction"],
-        position=arrays["position"],
-    )  # fmt: skip
-    geometry = Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__})
-    prefix = "stand_by/"
-    own = {name.removeprefix(prefix): value for name, value in arrays.items() if name.startswith(prefix)}
-    return Model(
-        system, arrays["basis"], geometry, arrays["sphere_height"], attributes["name"], attributes["head"],
-        StandBy.from_arrays(own) if own else None,
-    )  # fmt: skip
 
 
 def bond_law(law: Burgers | KelvinChain) -> BondLaw:
@@ -131,7 +61,7 @@ class Record:
 
 
 def run_test(
-    model: Model, law: BondLaw, frequency: float, amplitude: float, cycles: float, time_step: float,
+    model: Model | ModelExcerpt, law: BondLaw, frequency: float, amplitude: float, cycles: float, time_step: float,
     rest_steps: int, method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
     progress: Progress = lambda done, total: None, rig: Rig = Rig(), scheme: str = "euler",
     energy: bool = False, checkpoint: Checkpoint | None = None,
@@ -164,14 +94,20 @@ def run_test(
     recorded = omega * (times - rig.channel_delay) - rig.phase_offset
     displacement = np.where(recorded > 0.0, amplitude * np.sin(recorded), 0.0)
     if method == "harmonic":
-        stiffness = harmonic.driving_force(model.system, law.discrete_modulus(omega, 0.0), omega)
+        from asphalt_nscd.nscd.stepping import harmonic
+
+        stiffness = harmonic.driving_force(model.whole.system, law.discrete_modulus(omega, 0.0), omega)
         amplitude_of_force = amplitude * harmonic.actuator_stiffness(stiffness, rig, omega)
         force = (amplitude_of_force * np.exp(1j * omega * times)).imag
         return Record(times, displacement, force, [], np.nan, {})
     if method == "sweeps":
-        state = CondensedState.at_rest(model.system, law)
-        stepper = SweepingStepper(model.system, law, time_step, state, tolerance, most_sweeps)
-        force, velocity = _march(stepper, driven, 0.0, time_step, model.layers, progress)
+        from asphalt_nscd.nscd.stepping.condensed import CondensedState
+        from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
+
+        whole = model.whole
+        state = CondensedState.at_rest(whole.system, law)
+        stepper = SweepingStepper(whole.system, law, time_step, state, tolerance, most_sweeps)
+        force, velocity = _march(stepper, driven, 0.0, time_step, whole.layers, progress)
         broken, residual = state.broken, stepper.largest_change
         details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most_sweeps}
     elif method == "reduced" and scheme == "euler" and not energy and checkpoint is None:
@@ -179,17 +115,19 @@ def run_test(
             model, law, time_step, driven, rig, progress
         )
     else:
-        coefficients = Scheme.named(scheme, omega * time_step)
+        from asphalt_nscd.bending.stepwise import condensed_steps, reduced_steps
+
+        coefficients, whole = Scheme.named(scheme, omega * time_step), model.whole
         if method == "condensed":
             steps = condensed_steps(
-                model.system, law, coefficients, time_step, driven, rig, model.layers, progress,
+                whole.system, law, coefficients, time_step, driven, rig, whole.layers, progress,
                 checkpoint,
             )  # fmt: skip
             residual, details = np.nan, {}
         else:
-            stepper = _reduced_stepper(model, law, time_step / coefficients.a, rig)
+            stepper = _reduced_stepper(whole, law, time_step / coefficients.a, rig)
             steps = reduced_steps(
-                stepper, law, coefficients, time_step, driven, model.layers, progress, checkpoint
+                stepper, law, coefficients, time_step, driven, whole.layers, progress, checkpoint
             )
             residual, details = _certified(stepper, steps.full_steps)
         force, velocity, broken = steps.force, steps.velocity, steps.broken
@@ -200,21 +138,28 @@ def run_test(
 
 
 def _run_reduced(
-    model: Model, law: BondLaw, time_step: float, driven: np.ndarray, rig: Rig, progress: Progress
+    model: Model | ModelExcerpt,
+    law: BondLaw,
+    time_step: float,
+    driven: np.ndarray,
+    rig: Rig,
+    progress: Progress,
 ) -> tuple[np.ndarray, np.ndarray, list[int], float, dict[str, float | int]]:
     stepper = _reduced_stepper(model, law, time_step, rig)
-    along = (model.layers.mean @ model.basis).T
+    along = model.along
     full_steps = 0
     broken = stepper.state.broken
     try:
         force, coordinates = stepper.run(driven)
         velocity = coordinates @ along
     except FullSystemNeeded as accepted:
-        done = accepted.force.size
+        from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
+
+        whole, done = model.whole, accepted.force.size
         state = stepper.full_state()
         rest, start = driven[done:], driven[done - 1] if done else 0.0
-        full = CondensedStepper(model.system, law, time_step, state, rig, start)
-        further = _march(full, rest, start, time_step, model.layers, progress, lambda: stepper.certify(full))
+        full = CondensedStepper(whole.system, law, time_step, state, rig, start)
+        further = _march(full, rest, start, time_step, whole.layers, progress, lambda: stepper.certify(full))
         force = np.concatenate([accepted.force, further[0]])
         velocity = np.concatenate([accepted.velocity @ along, further[1]])
         full_steps, broken = rest.size, state.broken
@@ -222,9 +167,8 @@ def _run_reduced(
     return force, velocity, broken, *_certified(stepper, full_steps)
 
 
-def _reduced_stepper(model: Model, law: BondLaw, time_step: float, rig: Rig) -> ReducedStepper:
-    system, basis, stand_by = model.system, model.basis, model.stand_by
-    reduced = ReducedModel(system, basis) if stand_by is None else stand_by.model(system, basis, [])
+def _reduced_stepper(model: Model | ModelExcerpt, law: BondLaw, time_step: float, rig: Rig) -> ReducedStepper:
+    reduced, stand_by = model.reduced_form
     return ReducedStepper(reduced, law, time_step, RESIDUAL_TOLERANCE, devices=rig, stand_by=stand_by)
 
 
@@ -255,24 +199,33 @@ def _march(
     return force, mean
 
 
+def read_subject(model_file: str | Path, excerpt_file: str | Path | None = None) -> Model | ModelExcerpt:
+    """What to test: a model made by `condense`, or its excerpt, which reads the model only where a test needs it."""
+    if excerpt_file is not None:
+        return read_excerpt(excerpt_file, model_file)
+    from asphalt_nscd.bending.model import read_model
+
+    return read_model(model_file)
+
+
 def simulate(
     model_file: str | Path, law_file: str | Path, temperature: float, frequency: float, amplitude: float,
     cycles: float, time_step: float, rest_steps: int, output: str | Path, law_source: str = "",
     method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
     progress: Progress = lambda done, total: None, rig_file: str | Path | None = None, scheme: str = "euler",
     energy: bool = False, checkpoint_file: str | Path | None = None, checkpoint_every: int = 100,
-    model: Model | None = None,
+    model: Model | ModelExcerpt | None = None,
 ) -> None:  # fmt: skip
     """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking.
 
-    model: what `model_file` holds, where it has been read already.
+    model: what `model_file` holds, or its excerpt, where that has been read already.
     """
     if cycles < 1.0:
         raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
     require_steps(time_step, frequency)
     law = read_bond_law(law_file)
     rig = Rig() if rig_file is None else read_rig(rig_file)
-    model = read_model(model_file) if model is None else model
+    model = read_subject(model_file) if model is None else model
     checkpoint = None
     if checkpoint_file is not None:
         run = {
@@ -297,7 +250,7 @@ def simulate(
     peak = peak_response(*history, cycles=1)
     columns: dict[str, float | int | str] = {
         "specimen": model.name, "temperature_C": temperature, "frequency_Hz": frequency,
-        "spheres": model.sphere_height.size, "bonds": model.system.gap.size,
+        "spheres": model.spheres, "bonds": model.bonds,
         "broken_bonds": len(record.broken), "steps": record.time.size,
     }  # fmt: skip
     moduli = {
@@ -328,7 +281,7 @@ def _modulus(geometry: Geometry, frequency: float, response) -> complex:
     )
 
 
-def _velocity_profile(layers: Layers, record: Record, frequency: float) -> dict[str, np.ndarray]:
+def _velocity_profile(layers: LayerHeights, record: Record, frequency: float) -> dict[str, np.ndarray]:
     """Mean velocity of the spheres along the drive in layers of equal height, over the last cycle."""
     if record.velocity is None:
         return {}

@@ -3,24 +3,35 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import sparse
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 LAYERS = 50
 
 
 @dataclass(frozen=True)
-class Layers:
+class LayerHeights:
     """Layers of equal height."""
 
     height: np.ndarray  # (l,) m, of their middles above the foot
     spheres: np.ndarray  # (l,) number of spheres in each
+
+
+@dataclass(frozen=True)
+class Layers(LayerHeights):
+    """With what averages over them."""
+
     mean: sparse.csr_matrix  # (l, d): velocities of all bodies to mean velocities along the drive
 
     @classmethod
     def of(cls, sphere_height: np.ndarray, height: float, degrees: int) -> Layers:
         """sphere_height (n,) [m]; height [m] of the specimen; degrees d of freedom, six for each sphere first."""
+        from scipy import sparse
+
         edges = np.linspace(0.0, height, LAYERS + 1)
         layer = np.clip(np.digitize(sphere_height, edges) - 1, 0, LAYERS - 1)
         spheres = np.bincount(layer, minlength=LAYERS)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.bending.bending_test import METHODS, Model, run_test
+from asphalt_nscd.bending.bending_test import METHODS, run_test
+from asphalt_nscd.bending.model import Model
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.contacts.friction import solve_contacts

@@ -28,12 +28,18 @@ from asphalt_nscd.cli import _options
 @click.option(
     "--friction", default=0.7, type=_options.NOT_NEGATIVE, help="Coefficient of friction where a gap closes."
 )
+@click.option(
+    "--excerpt-output",
+    default=None,
+    type=_options.File,
+    help="Small file to write with what `simulate --excerpt` needs of it for most tests.",
+)
 @_options.output
 def command(
     specimen: Path, head: str, poisson: float, kt_over_kn: float, yield_pa: float, friction: float,
-    output: Path,
+    output: Path, excerpt_output: Path | None,
 ) -> None:  # fmt: skip
     """Assemble the bonded system of a specimen and its reduced form, which serves every test on it."""
-    from asphalt_nscd.bending.bending_test import condense
+    from asphalt_nscd.bending.model import condense
 
-    condense(specimen, head, poisson, yield_pa, friction, output, kt_over_kn)
+    condense(specimen, head, poisson, yield_pa, friction, output, excerpt_output, kt_over_kn)

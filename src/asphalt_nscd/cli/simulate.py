@@ -10,6 +10,12 @@ from asphalt_nscd.cli import _options, _progress
 @click.command()
 @click.argument("model", type=_options.File)
 @click.option(
+    "--excerpt",
+    default=None,
+    type=_options.File,
+    help="Excerpt of the model, made beside it: the model is read only where a test needs more, as for a break.",
+)
+@click.option(
     "--law",
     "laws",
     required=True,
@@ -79,7 +85,7 @@ from asphalt_nscd.cli import _options, _progress
 )
 @_options.outputs
 def command(
-    model: Path, laws: tuple[Path, ...], law_source: str, temperature_c: float,
+    model: Path, excerpt: Path | None, laws: tuple[Path, ...], law_source: str, temperature_c: float,
     frequencies: tuple[float, ...], amplitude_m: float,
     cycles: float, time_step_s: float, rest_steps: int, method: str, tolerance: float, most_sweeps: int,
     rig: Path | None, scheme: str, energy: bool, checkpoint: Path | None, checkpoint_every: int,
@@ -94,9 +100,9 @@ def command(
         )
     if checkpoint is not None and tests > 1:
         raise click.UsageError("--checkpoint keeps one test; give one --frequency-hz.")
-    from asphalt_nscd.bending.bending_test import read_model, simulate
+    from asphalt_nscd.bending.bending_test import read_subject, simulate
 
-    specimen = read_model(model)
+    specimen = read_subject(model, excerpt)
     for law, frequency, output in zip(laws * (tests // len(laws)), frequencies, outputs, strict=True):
         with _progress.bars("steps") as report:
             simulate(

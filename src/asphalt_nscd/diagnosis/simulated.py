@@ -45,7 +45,7 @@ class NumericalSpecimen:
 
 def reduce_model(model_file: str | Path, output: str | Path) -> None:
     """Keep of a condensed model what a diagnosis needs; write it."""
-    from asphalt_nscd.bending.bending_test import read_model
+    from asphalt_nscd.bending.model import read_model
     from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
 
     model = read_model(model_file)

@@ -84,6 +84,7 @@ class Record:
 
     arrays: dict[str, np.ndarray]
     attributes: dict[str, Any]
+    digest: str  # of kind, arrays and attributes
 
 
 def save(
@@ -91,8 +92,8 @@ def save(
     kind: str,
     arrays: Mapping[str, np.ndarray],
     attributes: Mapping[str, float | int | str],
-) -> None:
-    """Write one HDF5 result file of the given kind.
+) -> str:
+    """Write one HDF5 result file of the given kind; returns the digest of its content.
 
     Names may contain slashes (groups). The digest of all arrays and attributes is kept in the
     file, so that a truncated or altered one is refused by `load`. Provenance (versions, commit)
@@ -109,10 +110,11 @@ def save(
             file.attrs[name] = attribute
         file.attrs["kind"] = kind
         file.attrs["format_version"] = FORMAT_VERSION
-        file.attrs["digest"] = _digest(kind, arrays, attributes)
+        file.attrs["digest"] = digest = _digest(kind, arrays, attributes)
         file.attrs["provenance"] = json.dumps(provenance())
     with atomic_path(path) as temporary:
         temporary.write_bytes(content.getbuffer())
+    return digest
 
 
 def load(path: str | Path, kind: str) -> Record:
@@ -141,7 +143,7 @@ def load(path: str | Path, kind: str) -> Record:
         raise DamagedFile(path, f"format {format_version}, this version reads {FORMAT_VERSION}")
     if digest != _digest(kind, arrays, attributes):
         raise DamagedFile(path, "content does not match its digest, so the file is damaged")
-    return Record(arrays, attributes)
+    return Record(arrays, attributes, digest)
 
 
 def provenance() -> dict[str, Any]:

@@ -15,8 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from asphalt_nscd.bending.bending_test import Model, run_test
+from asphalt_nscd.bending.bending_test import run_test
 from asphalt_nscd.bending.checkpoint import Checkpoint
+from asphalt_nscd.bending.model import Model
 from asphalt_nscd.nscd.stepping.break_modes import StandBy
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
 from asphalt_nscd.verification.methods import beam

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import csv
 import hashlib
 import os
 from collections.abc import Sequence
@@ -35,20 +36,60 @@ def source_files(*modules: str) -> list[Path]:
 
 
 def stamp(folder: str | Path, name: str, files: Sequence[Path]) -> Path:
-    """A file that stands for the content of many, rewritten only when one of them changed.
+    """A file that stands for the meaning of many source files, rewritten only when one of them changed.
 
-    Snakemake looks at each input of each waiting job whenever a job ends, so one is better than thirty.
+    Comments, docstrings and layout mean nothing. Snakemake looks at each input of each waiting job
+    whenever a job ends, so one file is better than thirty.
     """
     digest = hashlib.sha256()
     for file in files:
-        digest.update(f"{file.relative_to(PACKAGE)}\n".encode() + file.read_bytes())
-    path = Path(folder, name)
-    if not path.is_file() or path.read_text() != digest.hexdigest():
+        digest.update(f"{file.relative_to(PACKAGE)}\n{_meaning(file, file.stat().st_mtime_ns)}\n".encode())
+    return _keep(Path(folder, name), digest.hexdigest(), files)
+
+
+def stamp_of_row(folder: str | Path, table: str | Path, key: str, value: float) -> Path:
+    """The same for the row of a CSV table in which column `key` is `value`: other rows do not count.
+
+    A table that cannot be read, or has no such row, stands as a whole: whoever reads it says what is wrong.
+    """
+    path = Path(table)
+    text = path.read_text(encoding="utf-8-sig", errors="replace") if path.is_file() else ""
+    rows = list(csv.reader(line for line in text.splitlines() if not line.startswith("#")))
+    content = text
+    if rows and key in rows[0]:
+        column = rows[0].index(key)
+        found = [row for row in rows[1:] if len(row) > column and _is_number(row[column], value)]
+        content = repr((rows[0], found)) if found else text
+    digest = hashlib.sha256(content.encode()).hexdigest()
+    return _keep(Path(folder, f"{path.stem}-{value:g}"), digest, [path] if path.is_file() else [])
+
+
+def _keep(path: Path, content: str, files: Sequence[Path]) -> Path:
+    """Write a stamp of `files` unless it stands already."""
+    if not path.is_file() or path.read_text() != content:
         with atomic_path(path) as temporary:
-            temporary.write_text(digest.hexdigest())
-        newest = max(file.stat().st_mtime_ns for file in files)
+            temporary.write_text(content)
+        newest = max((file.stat().st_mtime_ns for file in files), default=0)
         os.utime(path, ns=(newest, newest))  # a lost stamp must not look like a change
     return path
+
+
+def _is_number(text: str, value: float) -> bool:
+    try:
+        return float(text) == value
+    except ValueError:
+        return False
+
+
+@cache
+def _meaning(file: Path, mtime_ns: int) -> str:
+    """The syntax tree of a module without its docstrings; mtime_ns: of which moment."""
+    tree = ast.parse(file.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            if ast.get_docstring(node, clean=False) is not None:
+                node.body = node.body[1:]
+    return ast.dump(tree, annotate_fields=False)
 
 
 def modules_of(package: str) -> list[str]:

@@ -9,7 +9,8 @@ import pytest
 from scipy import sparse
 
 from asphalt_nscd.measurements.signals import harmonic_response
-from asphalt_nscd.nscd.bonds.head import HeadDevices, actuator_force, follow_actuator
+from asphalt_nscd.nscd.bonds.head import HeadDevices
+from asphalt_nscd.nscd.bonds.head_kernels import actuator_force, follow_actuator
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper

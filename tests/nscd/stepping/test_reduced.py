@@ -113,19 +113,19 @@ def test_bounds_hold_everywhere_in_the_envelope(beam_system):
     rng = np.random.default_rng(4)
     k = model.basis.shape[1]
     sigma, motion = 10 ** rng.uniform(2, 5, k), 10 ** rng.uniform(-5, -3, k)
-    bound = model.utilisation_bound(sigma)
-    may_yield, may_close = model.candidates(sigma, motion)
+    bound = model.bounds.utilisation(sigma)
+    may_yield, may_close = model.bounds.candidates(sigma, motion)
     assert 0 < may_yield.size < bound.size and 0 < may_close.size < bound.size
     for _ in range(200):
         s, q = sigma * rng.choice([-1, 1, 0.3], k), motion * rng.choice([-1, 1, 0.3], k)
         share = beam_system.utilisation(model.weight * (model.opening @ s))
         assert (share <= bound * (1 + 1e-12)).all()
         assert np.isin(np.flatnonzero(share > 1.0), may_yield).all()
-        head, others = model.beyond_head(np.arange(share.size), sigma).T
+        head, others = model.bounds.beyond_head(np.arange(share.size), sigma).T
         assert (share <= (head * abs(s[0]) + others) * (1 + 1e-12)).all()
         closed = beam_system.gap + model.opening[::3] @ q < 0
         assert np.isin(np.flatnonzero(closed), may_close).all()
-        assert (beam_system.gap + model.opening[::3] @ q).min() >= model.smallest_gap(motion) - 1e-18
+        assert (beam_system.gap + model.opening[::3] @ q).min() >= model.bounds.smallest_gap(motion) - 1e-18
 
 
 def test_naive_twin_of_the_bounds(beam_system):
@@ -133,6 +133,9 @@ def test_naive_twin_of_the_bounds(beam_system):
     model = ReducedModel(beam_system, ritz_basis(beam_system, 2), broken=[11])
     for a, unit in enumerate(np.eye(model.basis.shape[1])):
         reaction = (model.weight * model.opening[:, a]).reshape(-1, 3)
-        found, wanted = model.utilisation_bound(unit), np.linalg.norm(reaction, axis=1) / beam_system.strength
+        found, wanted = (
+            model.bounds.utilisation(unit),
+            np.linalg.norm(reaction, axis=1) / beam_system.strength,
+        )
         np.testing.assert_allclose(found, wanted, rtol=1e-14)
-        assert model.smallest_gap(unit) == (beam_system.gap - np.abs(model.opening[::3, a])).min()
+        assert model.bounds.smallest_gap(unit) == (beam_system.gap - np.abs(model.opening[::3, a])).min()

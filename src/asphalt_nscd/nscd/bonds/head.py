@@ -7,14 +7,12 @@ actuator at z+, and a spring k, a Coulomb slider F_s and an extra mass m at the 
     F0 + Z v+ + m (v+ - v)/dt + k (x + dt v+) + r = (z+ - x - dt v+) / C,   r in F_s Sign(v+)
 
 is one monotone inclusion in v+ with an explicit solution. Times C it holds for a rigid clamp too.
-The specimen itself still has a driven head: nothing else about it changes.
+The specimen itself still has a driven head: nothing else about it changes. `head_kernels` solves the balance.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-
-from asphalt_nscd.nscd.compiled import compiled
 
 
 @dataclass(frozen=True)
@@ -36,25 +34,3 @@ class HeadDevices:
 
 
 RIGID = HeadDevices()
-
-
-@compiled
-def follow_actuator(devices, dt, free_force, impedance, actuator, x, v):
-    """(v+, r): head velocity [m/s] and force of the slider [N], by the balance above.
-
-    At rest on a rigid clamp the slider's force is undetermined and taken as zero.
-    """
-    clamp, spring, slider, mass = devices
-    push = clamp * (free_force - mass * v / dt + spring * x) + x - actuator
-    held = min(max(push, -clamp * slider), clamp * slider)
-    velocity = (held - push) / (clamp * (impedance + mass / dt + spring * dt) + dt)
-    if velocity != 0.0:
-        return velocity, slider if velocity > 0.0 else -slider
-    return velocity, -push / clamp if clamp > 0.0 else 0.0
-
-
-@compiled
-def actuator_force(devices, dt, force, friction, x, v, velocity):
-    """Force of the actuator [N] where the head, moving at v+, takes `force` and `friction`."""
-    _, spring, _, mass = devices
-    return force + friction + spring * (x + dt * velocity) + mass * (velocity - v) / dt

@@ -14,7 +14,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices, actuator_force, follow_actuator
+from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices
+from asphalt_nscd.nscd.bonds.head_kernels import actuator_force, follow_actuator
 from asphalt_nscd.nscd.bonds.implicit_operator import ShiftedOperator
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem

@@ -18,6 +18,7 @@ from asphalt_nscd.nscd.bonds.implicit_operator import factorise
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.compiled import compiled
+from asphalt_nscd.nscd.stepping.bond_bounds import BondBounds
 from asphalt_nscd.nscd.stepping.projection import Projection, rows_of
 
 DEPENDENT = 1e-9
@@ -114,8 +115,13 @@ class ReducedModel:
         self.weight = system.weight.copy()
         self.weight[rows_of(broken)] = 0.0
         self.opening = system.operator @ basis  # G Phi (3 b, k)
-        # of each bond, what a unit of each coordinate can at most contribute (b, k)
-        self._utilised, self._closed = _contributions(self.opening, self._share_of_strength, system.gap)
+        utilised, closed = _contributions(self.opening, self._share_of_strength, system.gap)
+        self.bounds = BondBounds(np.arange(system.gap.size), utilised, closed, system.gap)
+
+    @property
+    def size(self) -> int:
+        """Number k of coordinates."""
+        return self.load.size
 
     @property
     def _share_of_strength(self) -> np.ndarray:
@@ -138,25 +144,6 @@ class ReducedModel:
     def with_basis(self, basis: np.ndarray, broken: Sequence[int]) -> ReducedModel:
         """The same system on another basis with the bonds `broken` removed."""
         return ReducedModel(self.system, basis, broken)
-
-    def utilisation_bound(self, sigma: np.ndarray) -> np.ndarray:
-        """Upper bound (b,) of the yield measure while |s| <= sigma (k,)."""
-        return self._utilised @ sigma
-
-    def smallest_gap(self, motion: np.ndarray) -> float:
-        """Lower bound [m] of all gaps while |q| <= motion (k,)."""
-        return float((self.system.gap * (1.0 - self._closed @ motion)).min())
-
-    def candidates(self, sigma: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Bonds that could yield, and gaps that could close, while |s| <= sigma and |q| <= motion."""
-        may_yield = np.flatnonzero(self.utilisation_bound(sigma) > 1.0)
-        may_close = np.flatnonzero(self._closed @ motion > 1.0)
-        return may_yield, may_close
-
-    def beyond_head(self, bonds: np.ndarray, sigma: np.ndarray) -> np.ndarray:
-        """(n, 2) for bonds (n,): while |s| <= sigma, the yield measure is below [:, 0] |s_0| + [:, 1]."""
-        part = self._utilised[bonds]
-        return np.column_stack([part[:, 0], part[:, 1:] @ sigma[1:]])
 
 
 @compiled

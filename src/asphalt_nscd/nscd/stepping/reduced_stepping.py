@@ -7,18 +7,31 @@ removed, and the basis is enriched by the exact correction of that step, until t
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices, actuator_force, follow_actuator
-from asphalt_nscd.nscd.bonds.implicit_operator import ShiftedOperator
+from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices
 from asphalt_nscd.nscd.bonds.law import BondLaw
-from asphalt_nscd.nscd.compiled import compiled
-from asphalt_nscd.nscd.stepping.break_modes import StandBy
-from asphalt_nscd.nscd.stepping.condensed import CLOSED, CondensedState, CondensedStepper
-from asphalt_nscd.nscd.stepping.projection import Projection, rows_of
-from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, append_columns
+from asphalt_nscd.nscd.stepping.bond_bounds import BeyondExcerpt
+from asphalt_nscd.nscd.stepping.excerpt import Excerpt
+from asphalt_nscd.nscd.stepping.reduced_steps import (
+    CLOSED_GAP,
+    DONE,
+    OUTSIDE_ENVELOPE,
+    YIELD,
+    advance_reduced,
+)
+
+if TYPE_CHECKING:  # sparse matrices, which take as long to import as a test without breaks to run
+    from asphalt_nscd.nscd.bonds.implicit_operator import ShiftedOperator
+    from asphalt_nscd.nscd.stepping.break_modes import StandBy
+    from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+    from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
+
+Answer = TypeVar("Answer")
 
 FIRST_ENRICHMENT, LARGEST_ENRICHMENT = 4, 16
 """Vectors added at a violation: the correction of the refused step, and those its inertia will need.
@@ -34,8 +47,6 @@ _PROJECTED = ("mass", "stiffness", "load", "residual_factor", "head_norm", "load
 _REACHED = (
     "maxima", "may_yield", "may_close", "reached_sigma", "reached_motion", "sigma_envelope", "motion_envelope",
 )  # fmt: skip
-
-_DONE, _OUTSIDE_ENVELOPE, _YIELD, _CLOSED_GAP, _RESIDUAL = range(5)
 
 
 @dataclass
@@ -73,14 +84,14 @@ class ReducedStepper:
     """Steps a reduced model at constant dt and law; `state` starts at rest."""
 
     def __init__(
-        self, model: ReducedModel, law: BondLaw, dt: float, tolerance: float,
+        self, model: ReducedModel | Excerpt, law: BondLaw, dt: float, tolerance: float,
         most_enrichments: int = MOST_ENRICHMENTS, devices: HeadDevices = RIGID,
         stand_by: StandBy | None = None,
     ) -> None:  # fmt: skip
-        """stand_by: directions for breaks, on the basis of `model`."""
-        k = model.basis.shape[1]
+        """stand_by: directions for breaks, on the basis of `model`; an excerpt brings its own."""
+        k = model.size
         elements = np.size(law.kelvin_springs)
-        self.model, self.dt, self.tolerance, self.devices = model, dt, tolerance, devices
+        self._part, self.dt, self.tolerance, self.devices = model, dt, tolerance, devices
         self.law = law.step(dt)
         self.state = ReducedState(np.zeros(k), np.zeros(k), np.zeros(k), np.zeros((elements, k)))
         self.enrichments, self.most_enrichments = 0, most_enrichments
@@ -89,9 +100,25 @@ class ReducedStepper:
         self._smallest_gap = np.inf  # where the full system took over
         self._may_yield = np.empty(0, np.int64)
         self._reached_sigma, self._reached_motion = np.zeros(k), np.zeros(k)
-        self._stand_by, self._ritz = stand_by, model.basis
+        self._stand_by, self._ritz = stand_by, None if isinstance(model, Excerpt) else model.basis
         self._operator: ShiftedOperator | None = None
         self._watch(np.zeros(k), np.zeros(k))
+
+    @property
+    def model(self) -> ReducedModel:
+        """The whole model, read now where there was only an excerpt of it."""
+        if isinstance(self._part, Excerpt):
+            self._part, self._stand_by = self._part.whole()
+            self._ritz = self._part.basis
+            self._maxima[2] = self._borne()  # of bonds that the excerpt did not list
+        return self._part
+
+    def _of_bonds(self, question: Callable[[ReducedModel | Excerpt], Answer]) -> Answer:
+        """The answer of the excerpt if it has one, else that of the whole model."""
+        try:
+            return question(self._part)
+        except BeyondExcerpt:
+            return question(self.model)
 
     def run(self, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Follow the displacements (n,) [m] of the actuator, one per step.
@@ -99,24 +126,21 @@ class ReducedStepper:
         Returns its force (n,) [N] and the velocity coordinates (n, k) of the basis as it
         was at the call. Raises FullSystemNeeded, with what was accepted, where it cannot go on.
         """
-        force, velocity = np.empty(driven.size), np.zeros((driven.size, self.model.basis.shape[1]))
+        force, velocity = np.empty(driven.size), np.zeros((driven.size, self._part.size))
         done = 0
         while True:
             taken, code, bond = self._advance(driven[done:], force[done:], velocity[done:])
             done += taken
-            if code == _DONE:
+            if code == DONE:
                 return force, velocity
-            if code == _OUTSIDE_ENVELOPE:
-                for growth in (FAR, 2.0):
-                    self._watch(growth * np.abs(self._trial[1]), growth * np.abs(self._trial[2]))
-                    if not self._may_yield.size + self._may_close.size:
-                        break
+            if code == OUTSIDE_ENVELOPE:
+                self._widen_envelope(np.abs(self._trial[1]), np.abs(self._trial[2]))
                 continue
-            if code == _CLOSED_GAP:
+            if code == CLOSED_GAP:
                 raise FullSystemNeeded("a gap closes", force[:done], velocity[:done])
             if self.enrichments >= self.most_enrichments:
                 raise FullSystemNeeded("too many enrichments", force[:done], velocity[:done])
-            if code == _YIELD:
+            if code == YIELD:
                 self.state.broken.append(bond)
             self._enrich(code)
 
@@ -126,6 +150,8 @@ class ReducedStepper:
 
     def full_state(self) -> CondensedState:
         """The state of the full system at this instant."""
+        from asphalt_nscd.nscd.stepping.condensed import CondensedState
+
         state, basis, opening = self.state, self.model.basis, self.model.opening
         return CondensedState(
             displacement=basis @ state.displacement, velocity=basis @ state.velocity,
@@ -143,11 +169,14 @@ class ReducedStepper:
 
     def put(self, arrays: dict[str, np.ndarray]) -> None:
         """Make a new stepper what another one was that gave these `arrays`."""
+        from asphalt_nscd.nscd.stepping.projection import Projection
+        from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
+
         broken = arrays["broken"].tolist()
         small = {name: arrays[name] for name in _PROJECTED}
         small |= {name: small[name].item() for name in ("head_norm", "load_norm")}
         nothing = {"opening": np.empty((0, small["load"].size)), "weight": np.empty(0)}
-        self.model = ReducedModel(self.model.system, arrays["basis"], broken, Projection(**small, **nothing))
+        self._part = ReducedModel(self.model.system, arrays["basis"], broken, Projection(**small, **nothing))
         self.state = ReducedState(
             *(arrays[name] for name in ("displacement", "velocity", "sigma", "kelvin")), broken
         )
@@ -160,6 +189,8 @@ class ReducedStepper:
 
     def certify(self, full: CondensedStepper) -> None:
         """Count the last step of the full system, which went on from `full_state`, in the certificate."""
+        from asphalt_nscd.nscd.stepping.condensed import CLOSED
+
         model, system = self.model, self.model.system
         stress = abs(full.missing[system.driven]) / model.stiffness[0, 0]
         self._maxima[0] = max(self._maxima[0], stress)
@@ -173,21 +204,19 @@ class ReducedStepper:
 
     def certificate(self) -> Certificate:
         """Bounds over all accepted steps."""
-        model = self.model
-        share = model.utilisation_bound(self._reached_sigma)
-        share[self._may_yield] = 0.0
+        gap = self._of_bonds(lambda part: part.bounds.smallest_gap(self._reached_motion))
         return Certificate(
             largest_residual=float(self._maxima[1]),
-            largest_utilisation=max(float(share.max(initial=0.0)), float(self._maxima[2])),
-            smallest_gap=min(model.smallest_gap(self._reached_motion), self._smallest_gap),
+            largest_utilisation=self._of_bonds(lambda part: self._borne(of_all=True)),
+            smallest_gap=min(gap, self._smallest_gap),
             enrichments=self.enrichments,
         )
 
     def _advance(self, driven: np.ndarray, force: np.ndarray, velocity: np.ndarray) -> tuple[int, int, int]:
-        model, state, law = self.model, self.state, self.law
-        self._trial = np.zeros((3, model.basis.shape[1]))
+        model, state, law = self._part, self.state, self.law
+        self._trial = np.zeros((3, model.size))
         inverse = self._step_inverse()
-        taken, code, watched = _advance_reduced(
+        taken, code, watched = advance_reduced(
             driven, self.devices.of_head, *self._seen_from_head(inverse), model.mass, model.stiffness,
             model.load, inverse, law.dt, law.compliance, law.memory, law.recall, law.keep, law.gain,
             model.residual_factor, model.head_norm, model.load_norm, self.tolerance,
@@ -196,15 +225,15 @@ class ReducedStepper:
             self._maxima, state.displacement, state.velocity, state.sigma, state.kelvin, self._trial,
             force, velocity,
         )  # fmt: skip
-        return taken, code, int(self._may_yield[watched]) if code == _YIELD else -1
+        return taken, code, int(self._may_yield[watched]) if code == YIELD else -1
 
     def _step_inverse(self) -> np.ndarray:
-        model = self.model
+        model = self._part
         return np.linalg.inv((model.mass + self.dt / self.law.compliance * model.stiffness)[1:, 1:])
 
     def _seen_from_head(self, inverse: np.ndarray) -> tuple[float, np.ndarray, np.ndarray, float]:
         """(Z, a, b, c) of the coming step: the head takes the force Z v+ - a v - b explicit - c."""
-        model, dt, compliance = self.model, self.dt, self.law.compliance
+        model, dt, compliance = self._part, self.dt, self.law.compliance
         step = model.mass / dt + model.stiffness / compliance
         following = np.concatenate([[1.0], -dt * (inverse @ step[1:, 0])])  # motion for v+ = 1
         return (
@@ -212,34 +241,51 @@ class ReducedStepper:
             model.stiffness @ following / compliance, float(following @ model.load),
         )  # fmt: skip
 
+    def _widen_envelope(self, sigma: np.ndarray, motion: np.ndarray) -> None:
+        """Far beyond |s| and |q| (k,) if no bond could yield or close there, else to their double."""
+        s, q = self._beyond(FAR * sigma, FAR * motion)
+        growth = 2.0 if self._of_bonds(lambda part: part.bounds.any_candidate(s, q)) else FAR
+        self._watch(growth * sigma, growth * motion)
+
     def _watch(self, sigma: np.ndarray, motion: np.ndarray) -> None:
         """Widen the envelope of s and q, and list the bonds that could yield or close within it."""
-        self._sigma_envelope = np.maximum(sigma, 2.0 * self._reached_sigma)
-        self._motion_envelope = np.maximum(motion, 2.0 * self._reached_motion)
-        watched = self._may_yield
-        self._may_yield, self._may_close = self.model.candidates(self._sigma_envelope, self._motion_envelope)
-        # of what the others have borne so far, only the bound is known
-        borne = np.delete(self.model.utilisation_bound(self._reached_sigma), watched)
-        self._maxima[2] = max(self._maxima[2], borne.max(initial=0.0))
+        self._maxima[2] = self._borne()
+        s, q = self._sigma_envelope, self._motion_envelope = self._beyond(sigma, motion)
+        self._may_yield, self._may_close = self._of_bonds(lambda part: part.bounds.candidates(s, q))
         self._look_at()
+
+    def _beyond(self, sigma: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """An envelope that holds these and twice what has been reached."""
+        return np.maximum(sigma, 2.0 * self._reached_sigma), np.maximum(motion, 2.0 * self._reached_motion)
+
+    def _borne(self, of_all: bool = False) -> float:
+        """The largest utilisation so far; of bonds that are not watched only a bound is known.
+
+        That of bonds that an excerpt does not list, none of which is ever watched, has grown most in the end.
+        """
+        reached, watched, most = self._reached_sigma, self._may_yield, float(self._maxima[2])
+        return self._part.bounds.largest_utilisation(reached, watched, most, of_all)
 
     def _look_at(self) -> None:
         """What of the model shows whether the bonds watched yield or close."""
-        self._reaction = self.model.reaction_of(self._may_yield)
-        self._beyond_head = self.model.beyond_head(self._may_yield, self._sigma_envelope)
-        self._closing = self.model.closing_of(self._may_close)
+        part = self._part
+        self._reaction = part.reaction_of(self._may_yield)
+        self._beyond_head = part.bounds.beyond_head(self._may_yield, self._sigma_envelope)
+        self._closing = part.closing_of(self._may_close)
 
     def _enrich(self, code: int) -> None:
         """Widen the basis until it holds the step just refused, at the head velocity just tried."""
+        from asphalt_nscd.nscd.stepping.reduced_model import append_columns
+
         self.enrichments += 1
-        model = None
-        if code == _YIELD and self._stand_by is not None:
-            model = self._stand_by.model(self.model.system, self._ritz, self.state.broken)
+        whole, model = self.model, None
+        if code == YIELD and self._stand_by is not None:
+            model = self._stand_by.model(whole.system, self._ritz, self.state.broken)
         if model is None:
             self._stand_by = None  # its projection knows nothing of the directions now found
-            basis = append_columns(self.model.system, self.model.basis, self._corrections())
-            model = self.model.with_basis(basis, self.state.broken)
-        more, self.model = model.basis.shape[1] - self.state.sigma.size, model
+            basis = append_columns(whole.system, whole.basis, self._corrections())
+            model = whole.with_basis(basis, self.state.broken)
+        more, self._part = model.size - self.state.sigma.size, model
         for name in ("displacement", "velocity", "sigma", "kelvin"):
             setattr(self.state, name, _widened(getattr(self.state, name), more))
         self._reached_sigma = _widened(self._reached_sigma, more)
@@ -248,6 +294,9 @@ class ReducedStepper:
 
     def _corrections(self) -> np.ndarray:
         """What the refused step misses of the full solution, and what its inertia will need (d, columns)."""
+        from asphalt_nscd.nscd.bonds.implicit_operator import ShiftedOperator
+        from asphalt_nscd.nscd.stepping.projection import rows_of
+
         model, system, state, dt = self.model, self.model.system, self.state, self.dt
         weight = system.weight.copy()
         weight[rows_of(state.broken)] = 0.0
@@ -270,108 +319,3 @@ def _widened(coordinates: np.ndarray, more: int) -> np.ndarray:
     """Coordinates in a basis with further columns at its end."""
     padding = [(0, 0)] * (coordinates.ndim - 1) + [(0, more)]
     return np.pad(coordinates, padding)
-
-
-@compiled
-def _advance_reduced(
-    driven, devices, impedance, head_inertia, head_strain, head_load, mass, stiffness, load, inverse,
-    dt, compliance, memory, recall, keep, gain,
-    residual_factor, head_norm, load_norm, tolerance, reaction, beyond_head, closing, sigma_envelope,
-    motion_envelope, reached_sigma, reached_motion, maxima, q, v, s, kelvin, trial, force, velocity,
-):  # fmt: skip
-    """Steps until the end or the first violation: (steps taken, code, index into the watched bonds).
-
-    State arrays change in place, step by step; `trial` receives v+, s+, q+ of the refused step.
-    """
-    k = q.shape[0]
-    kept = velocity.shape[1]
-    scale = dt / compliance
-    explicit = np.empty(k)
-    known = np.empty(k)
-    combined = np.empty(2 * k + 1)
-    new_v, new_s, new_q = trial[0], trial[1], trial[2]
-    for n in range(driven.shape[0]):
-        for a in range(k):
-            explicit[a] = memory * s[a]
-            for e in range(recall.shape[0]):
-                explicit[a] -= recall[e] * kelvin[e, a]
-        free_force = -head_load
-        for a in range(k):
-            free_force -= head_inertia[a] * v[a] + head_strain[a] * explicit[a]
-        new_v[0], friction = follow_actuator(devices, dt, free_force, impedance, driven[n], q[0], v[0])
-        for a in range(1, k):
-            known[a] = dt * load[a] - (mass[a, 0] + scale * stiffness[a, 0]) * new_v[0]
-            for b in range(k):
-                known[a] += mass[a, b] * v[b] + scale * stiffness[a, b] * explicit[b]
-        for a in range(1, k):
-            new_v[a] = 0.0
-            for b in range(1, k):
-                new_v[a] += inverse[a - 1, b - 1] * known[b]
-        outside = False
-        for a in range(k):
-            new_s[a] = (explicit[a] - new_v[a]) / compliance
-            new_q[a] = q[a] + dt * new_v[a]
-            outside |= abs(new_s[a]) > sigma_envelope[a] or abs(new_q[a]) > motion_envelope[a]
-            combined[a] = (new_v[a] - v[a]) / dt
-            combined[k + a] = new_s[a]
-        combined[2 * k] = 1.0
-        if outside:
-            return n, _OUTSIDE_ENVELOPE, -1
-        # an inaccurate trial must not decide on gaps and yield, nor one without its contacts on yield
-        stress = max(maxima[0], abs(new_s[0]))
-        size = head_norm * stress + load_norm
-        missing = _norm_of_product(residual_factor, combined)
-        if not missing <= tolerance * size:
-            return n, _RESIDUAL, -1
-        for c in range(closing.shape[0]):
-            share = 0.0
-            for a in range(k):
-                share += closing[c, a] * new_q[a]
-            if share > 1.0:
-                return n, _CLOSED_GAP, c
-        worst, most = -1, maxima[2]
-        for c in range(reaction.shape[0]):
-            if beyond_head[c, 0] * abs(new_s[0]) + beyond_head[c, 1] > most:
-                share = _utilisation(reaction[c], new_s)
-                if share > most:
-                    worst, most = c, share
-        if most > 1.0:
-            return n, _YIELD, worst
-        maxima[2] = most
-        maxima[0] = stress
-        if size > 0.0:
-            maxima[1] = max(maxima[1], missing / size)
-        force[n] = -load[0]
-        for b in range(k):
-            force[n] += mass[0, b] * combined[b] - stiffness[0, b] * new_s[b]
-        force[n] = actuator_force(devices, dt, force[n], friction, q[0], v[0], new_v[0])
-        for a in range(k):
-            v[a], s[a], q[a] = new_v[a], new_s[a], new_q[a]
-            for e in range(recall.shape[0]):
-                kelvin[e, a] = keep[e] * kelvin[e, a] - gain[e] * new_s[a]
-            reached_sigma[a] = max(reached_sigma[a], abs(s[a]))
-            reached_motion[a] = max(reached_motion[a], abs(q[a]))
-            if a < kept:
-                velocity[n, a] = v[a]
-    return driven.shape[0], _DONE, -1
-
-
-@compiled
-def _utilisation(reaction, s):
-    normal = tangent = other = 0.0
-    for a in range(s.shape[0]):
-        normal += reaction[0, a] * s[a]
-        tangent += reaction[1, a] * s[a]
-        other += reaction[2, a] * s[a]
-    return max(-normal, np.sqrt(tangent * tangent + other * other))
-
-
-@compiled
-def _norm_of_product(upper, vector):
-    square = 0.0
-    for a in range(upper.shape[0]):
-        row = 0.0
-        for b in range(a, upper.shape[1]):
-            row += upper[a, b] * vector[b]
-        square += row * row
-    return np.sqrt(square)

@@ -1,0 +1,85 @@
+"""The excerpt of a condensed model: a small file with all that a test needs while no bond comes near to breaking."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from asphalt_nscd.bending.layers import LayerHeights
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import load, save
+from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.nscd.stepping.excerpt import Excerpt
+
+if TYPE_CHECKING:  # sparse matrices, which take as long to import as a test to run
+    from asphalt_nscd.bending.model import Model
+
+KIND = "model excerpt"
+REDUCED = "reduced/"
+
+
+@dataclass(frozen=True)
+class ModelExcerpt:
+    """Stands for a `Model` in a test by its reduced form; reads the model where it must."""
+
+    reduced_form: tuple[Excerpt, None]
+    along: np.ndarray  # (k, l): coordinates of velocity to means over the layers
+    layers: LayerHeights
+    geometry: Geometry
+    name: str
+    head: str
+    spheres: int
+    bonds: int
+    read_whole: Callable[[], Model]
+
+    @property
+    def whole(self) -> Model:
+        """The model, read once."""
+        return self.read_whole()
+
+
+def write_excerpt(path: str | Path, model: Model, digest: str) -> None:
+    """digest: that of the file with the whole model."""
+    reduced, _ = model.reduced_form
+    excerpt = Excerpt.of(reduced, lambda: model.reduced_form)
+    arrays = {
+        "layer_height": model.layers.height, "layer_spheres": model.layers.spheres, "along": model.along.T,
+        **{REDUCED + name: value for name, value in excerpt.arrays().items()},
+    }  # fmt: skip
+    attributes = {
+        "name": model.name, "head": model.head, "spheres": model.spheres, "bonds": model.bonds,
+        "model_digest": digest,
+        **{name: getattr(model.geometry, name) for name in Geometry.__dataclass_fields__},
+    }  # fmt: skip
+    save(path, KIND, arrays, attributes)
+
+
+def read_excerpt(path: str | Path, model_file: str | Path) -> ModelExcerpt:
+    """The excerpt in a file made by `condense` beside `model_file`, which is read only if a test needs it."""
+    arrays, attributes = (record := load(path, KIND)).arrays, record.attributes
+
+    @cache
+    def whole() -> Model:
+        from asphalt_nscd.bending.model import read_model
+
+        model = read_model(model_file)
+        if model.digest != attributes["model_digest"]:
+            raise InputError(
+                f"{path}: excerpt of another model than {model_file}; make both by one `condense`."
+            )
+        return model
+
+    small = {name.removeprefix(REDUCED): value for name, value in arrays.items() if name.startswith(REDUCED)}
+    return ModelExcerpt(
+        reduced_form=(Excerpt.from_arrays(small, lambda: whole().reduced_form), None),
+        along=arrays["along"].T,
+        layers=LayerHeights(arrays["layer_height"], arrays["layer_spheres"]),
+        geometry=Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__}),
+        **{name: attributes[name] for name in ("name", "head", "spheres", "bonds")},
+        read_whole=whole,
+    )

@@ -1,0 +1,126 @@
+"""A specimen condensed for tests: the whole model, and the excerpt of it that most tests need."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from scipy import sparse
+
+from asphalt_nscd.bending.excerpt import write_excerpt
+from asphalt_nscd.bending.layers import Layers
+from asphalt_nscd.files.store import Record, load, save
+from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.nscd.bonds.multigrid import Multigrid
+from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.stepping.break_modes import StandBy
+from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis, shifted_factor
+from asphalt_nscd.specimen.preparation import read_specimen
+from asphalt_nscd.specimen.system import bending_system
+
+KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
+
+
+@dataclass(frozen=True)
+class Model:
+    """A specimen ready for tests."""
+
+    system: BondedSystem
+    basis: np.ndarray  # (d, k) of the reduced form
+    geometry: Geometry
+    sphere_height: np.ndarray  # (n,) m
+    name: str
+    head: str
+    stand_by: StandBy | None = None  # directions for breaks
+    digest: str = ""  # of its file
+
+    @property
+    def whole(self) -> Model:
+        """Itself, as that of a `ModelExcerpt`."""
+        return self
+
+    @property
+    def spheres(self) -> int:
+        """How many."""
+        return self.sphere_height.size
+
+    @property
+    def bonds(self) -> int:
+        """How many, broken ones included."""
+        return self.system.gap.size
+
+    @property
+    def reduced_form(self) -> tuple[ReducedModel, StandBy | None]:
+        """Without broken bonds; and directions for breaks."""
+        if self.stand_by is None:
+            return ReducedModel(self.system, self.basis), None
+        reduced = self.stand_by.model(self.system, self.basis, [])
+        assert reduced is not None, "without broken bonds there is nothing to miss"
+        return reduced, self.stand_by
+
+    @property
+    def along(self) -> np.ndarray:
+        """Coordinates of velocity to means over the layers (k, l)."""
+        return (self.layers.mean @ self.basis).T
+
+    @cached_property
+    def layers(self) -> Layers:
+        """Over which velocities are averaged."""
+        return Layers.of(self.sphere_height, self.geometry.h, self.system.mass.size)
+
+
+def condense(
+    specimen_file: str | Path, head: str, poisson: float, yield_stress: float, friction: float,
+    output: str | Path, excerpt_output: str | Path | None = None, kt_over_kn: float = 1.0,
+) -> None:  # fmt: skip
+    """Assemble the system of a specimen, find its basis and directions for breaks, and save all.
+
+    excerpt_output: for what most tests need of it.
+    """
+    specimen = read_specimen(specimen_file)
+    system = bending_system(specimen, poisson, yield_stress, friction, head, kt_over_kn=kt_over_kn)
+    g, shifted = system.operator, shifted_factor(system)
+    basis = ritz_basis(system, KRYLOV_STEPS, shifted)
+    arrays = {
+        "basis": basis, "operator/indptr": g.indptr, "operator/indices": g.indices,
+        "operator/data": g.data, "weight": system.weight, "mass": system.mass, "load": system.load,
+        "gap": system.gap, "strength": system.strength, "position": system.position,
+        "sphere_height": specimen.position[:, 2],
+    }  # fmt: skip
+    if not isinstance(shifted, Multigrid):  # by which they cost more than the few breaks they may save
+        stand_by = StandBy.of(system, basis, shifted).arrays()
+        arrays |= {f"stand_by/{name}": value for name, value in stand_by.items()}
+    attributes = {
+        "name": Path(specimen_file).stem, "head": head, "driven": system.driven, "friction": friction,
+        **{name: getattr(specimen.geometry, name) for name in Geometry.__dataclass_fields__},
+    }  # fmt: skip
+    digest = save(output, "model", arrays, attributes)
+    if excerpt_output is not None:
+        write_excerpt(excerpt_output, _model(Record(arrays, attributes, digest)), digest)
+
+
+def read_model(path: str | Path) -> Model:
+    """The model in a file made by `condense`."""
+    return _model(load(path, "model"))
+
+
+def _model(record: Record) -> Model:
+    arrays, attributes = record.arrays, record.attributes
+    system = BondedSystem(
+        operator=sparse.csr_matrix(
+            (arrays["operator/data"], arrays["operator/indices"], arrays["operator/indptr"]),
+            shape=(arrays["weight"].size, arrays["mass"].size),
+        ),
+        weight=arrays["weight"], mass=arrays["mass"], load=arrays["load"], driven=attributes["driven"],
+        gap=arrays["gap"], strength=arrays["strength"], friction=attributes["friction"],
+        position=arrays["position"],
+    )  # fmt: skip
+    geometry = Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__})
+    prefix = "stand_by/"
+    own = {name.removeprefix(prefix): value for name, value in arrays.items() if name.startswith(prefix)}
+    return Model(
+        system, arrays["basis"], geometry, arrays["sphere_height"], attributes["name"], attributes["head"],
+        StandBy.from_arrays(own) if own else None, record.digest,
+    )  # fmt: skip

@@ -1,0 +1,123 @@
+"""How near bonds come to yield and gaps to closing, bounded while the coordinates stay within an envelope.
+
+An excerpt lists the few bonds that matter and one bound for all others. Whatever that bound cannot settle
+raises `BeyondExcerpt`, so an answer is always that of all bonds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+MARGIN = 1e-9
+"""Relative; sums of a few dozen terms round by 1e-14."""
+
+LEADING, OTHERS, NARROW = 1500, 30, 300
+"""Bonds listed in an excerpt: the first by driven motion and by load, by each other coordinate, by their gap."""
+
+
+class BeyondExcerpt(Exception):
+    """The question needs all bonds."""
+
+
+@dataclass(frozen=True)
+class Rest:
+    """Of all bonds that are not listed: the largest contribution of each coordinate, the smallest gap."""
+
+    utilised: np.ndarray  # (k,) yield measure per unit of s
+    closed: np.ndarray  # (k,) share of the gap that closes per unit of q
+    travel: np.ndarray  # (k,) m of the gap per unit of q
+    gap: float  # m
+
+
+@dataclass(frozen=True)
+class BondBounds:
+    """Contributions of each coordinate, taken alone and positive, to the state of bonds."""
+
+    number: np.ndarray  # (n,) of the bonds listed, ascending
+    utilised: np.ndarray  # (n, k) yield measure per unit of s
+    closed: np.ndarray  # (n, k) share of the gap that closes per unit of q
+    gap: np.ndarray  # (n,) m
+    rest: Rest | None = None  # None where all bonds are listed
+
+    def utilisation(self, sigma: np.ndarray) -> np.ndarray:
+        """Upper bound (n,) of the yield measure while |s| <= sigma (k,)."""
+        return _of_each(self.utilised, sigma)
+
+    def candidates(self, sigma: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Numbers of bonds that could yield, and whose gaps could close, while |s| <= sigma and |q| <= motion."""
+        rest = self.rest
+        if rest is not None and not self._all_below_one(rest, sigma, motion):
+            raise BeyondExcerpt
+        may_yield = self.number[self.utilisation(sigma) > 1.0]
+        return may_yield, self.number[_of_each(self.closed, motion) > 1.0]
+
+    def any_candidate(self, sigma: np.ndarray, motion: np.ndarray) -> bool:
+        """Whether there are any."""
+        if (self.utilisation(sigma) > 1.0).any() or (_of_each(self.closed, motion) > 1.0).any():
+            return True
+        if self.rest is not None and not self._all_below_one(self.rest, sigma, motion):
+            raise BeyondExcerpt
+        return False
+
+    def largest_utilisation(
+        self, sigma: np.ndarray, without: np.ndarray, least: float, of_all: bool = True
+    ) -> float:
+        """The largest bound of all bonds, or of those listed, but for those numbered `without`; at least `least`."""
+        others = ~np.isin(self.number, without)
+        largest = max(least, float(self.utilisation(sigma)[others].max(initial=0.0)))
+        if of_all and self.rest is not None and float(self.rest.utilised @ sigma) * (1.0 + MARGIN) > largest:
+            raise BeyondExcerpt
+        return largest
+
+    def smallest_gap(self, motion: np.ndarray) -> float:
+        """Lower bound [m] of all gaps while |q| <= motion (k,)."""
+        smallest = float((self.gap * (1.0 - _of_each(self.closed, motion))).min())
+        if self.rest is not None and self.rest.gap - float(self.rest.travel @ motion) < smallest + (
+            MARGIN * self.rest.gap
+        ):
+            raise BeyondExcerpt
+        return smallest
+
+    def beyond_head(self, bonds: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+        """(m, 2) for listed bonds (m,): while |s| <= sigma, the yield measure is below [:, 0] |s_0| + [:, 1]."""
+        part = self.utilised[self.places(bonds)]
+        return np.column_stack([part[:, 0], part[:, 1:] @ sigma[1:]])
+
+    def places(self, bonds: np.ndarray) -> np.ndarray:
+        """Places (m,) in the list of bonds (m,) by number."""
+        return np.searchsorted(self.number, bonds)
+
+    def excerpt(self) -> tuple[BondBounds, np.ndarray]:
+        """The bonds that come first by each coordinate or by their gap, a bound for the others, and which they are."""
+        chosen = np.zeros(self.number.size, bool)
+        leading = [LEADING] * 2 + [OTHERS] * (self.utilised.shape[1] - 2)
+        for a, count in enumerate(leading):
+            chosen[_first(self.utilised[:, a], count)] = True
+            chosen[_first(self.closed[:, a], count if a else NARROW)] = True
+        chosen[_first(-self.gap, NARROW)] = True
+        left = ~chosen
+        travel = self.closed[left] * self.gap[left, None]
+        rest = Rest(
+            self.utilised[left].max(axis=0, initial=0.0), self.closed[left].max(axis=0, initial=0.0),
+            travel.max(axis=0, initial=0.0), float(self.gap[left].min(initial=np.inf)),
+        )  # fmt: skip
+        listed = BondBounds(
+            self.number[chosen], self.utilised[chosen], self.closed[chosen], self.gap[chosen], rest
+        )
+        return listed, np.flatnonzero(chosen)
+
+    @staticmethod
+    def _all_below_one(rest: Rest, sigma: np.ndarray, motion: np.ndarray) -> bool:
+        return max(float(rest.utilised @ sigma), float(rest.closed @ motion)) * (1.0 + MARGIN) <= 1.0
+
+
+def _of_each(contributions: np.ndarray, envelope: np.ndarray) -> np.ndarray:
+    """Sums (n,); a matrix product would round a row by its place among the others."""
+    return (contributions * envelope).sum(axis=1)
+
+
+def _first(values: np.ndarray, count: int) -> np.ndarray:
+    """Places of the `count` largest of (n,)."""
+    return np.argsort(-values, kind="stable")[:count]

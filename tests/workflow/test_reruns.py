@@ -1,0 +1,113 @@
+"""What runs again after a change, by dry runs over a study whose files are all there."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+
+import pytest
+import yaml
+from workspace import ROOT, Workspace
+
+TABLE = "data/paper/table3_burgers.csv"
+
+
+class Finished(Workspace):
+    """A study as if it had been run: files without content, and Snakemake's records of them."""
+
+    @property
+    def environment(self) -> dict[str, str]:
+        return super().environment | {"PYTHONPATH": str(self.folder / "src")}
+
+    def finish(self) -> None:
+        shutil.copytree(ROOT / "src", self.folder / "src", ignore=shutil.ignore_patterns("__pycache__"))
+        made = re.findall(r"^(results/\S+)\t", self.run("--summary").stdout, re.MULTILINE)
+        assert made
+        for name in made:
+            path = self.folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.touch()
+        done = self.run("--touch", "--cores", "1")
+        assert done.returncode == 0, done.stderr
+        assert self.planned() == {}
+
+    def tests(self) -> list[str]:
+        """Files of the campaign that a dry run would make again."""
+        said = self.run("--dry-run")
+        assert said.returncode == 0, said.stderr
+        return re.findall(r"--output (results/paper/tests/\S+)", said.stdout + said.stderr)
+
+    def edit(self, name: str, old: str, new: str) -> None:
+        path = self.folder / name
+        text = path.read_text()
+        assert old in text
+        path.write_text(text.replace(old, new, 1))
+
+
+@pytest.fixture(scope="module")
+def paper(tmp_path_factory):
+    study = Finished(tmp_path_factory.mktemp("paper"))
+    content = yaml.safe_load((ROOT / "config/paper.yaml").read_text())
+    (study.folder / "study.yaml").write_text(yaml.safe_dump(content))
+    study.finish()
+    return study
+
+
+@pytest.fixture
+def restored(paper):
+    """The study, put back after the test."""
+    paths = [paper.folder / name for name in (TABLE, "src/asphalt_nscd/nscd/bonds/law.py")]
+    kept = [(path, path.read_bytes(), path.stat()) for path in paths]
+    yield paper
+    for path, content, times in kept:
+        path.write_bytes(content)
+        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+    for path in paper.folder.glob("results/**/*.gone"):
+        path.rename(path.with_suffix(""))
+    assert paper.planned() == {}
+
+
+def test_one_temperature_of_table_3_is_its_twenty_tests(restored):
+    restored.edit(TABLE, "15,2.43e7", "15,2.44e7")
+    again = restored.tests()
+    assert len(again) == 20 and all("/T15/" in path for path in again)
+    jobs = restored.planned()
+    # by way of the measurements, which are reconstructed from the whole table, and the diagnosis
+    assert jobs["published_law"] == 1 and jobs["reconstruct"] == jobs["diagnose"] == jobs["fig09"] == 1
+    assert not {"deposit", "trim", "condense", "simulate_scaled"} & set(jobs)
+    assert restored.planned("results/paper/sensitivity.csv") == {}
+
+
+def test_a_row_of_a_temperature_that_the_study_does_not_have_reruns_no_test(restored):
+    path = restored.folder / TABLE
+    path.write_text(path.read_text() + "40,1e7,1e6,1e7,1e5\n")
+    assert restored.planned("results/paper/simulations.csv") == {}
+
+
+def test_one_missing_result_is_one_test(restored):
+    path = restored.folder / "results/paper/tests/s2/T0/f10.h5"
+    path.rename(path.with_suffix(".h5.gone"))
+    assert restored.tests() == ["results/paper/tests/s2/T0/f10.h5"]
+
+
+def test_a_comment_reruns_nothing_and_another_sign_all_that_it_concerns(restored):
+    law = "src/asphalt_nscd/nscd/bonds/law.py"
+    restored.edit(law, '"""The bond law:', '"""The law of all bonds:')
+    restored.edit(law, "import numpy as np\n", "import numpy as np  # arrays\n\n# of bonds\n")
+    os.utime(restored.folder / law)
+    assert restored.planned() == {}
+    restored.edit(law, "self.memory * sigma - ", "self.memory * sigma + ")
+    jobs = restored.planned()
+    assert jobs["simulate"] == 120 and jobs["simulate_extended"] == 120
+    assert not {"deposit", "reconstruct", "fit"} & set(jobs)
+
+
+def test_each_stage_is_a_target(restored):
+    stages = ("laws", "deposits", "specimens", "tests", "tables", "figures", "diagnosis", "extended", "audit")
+    for name in stages:
+        assert f"`{name}`" in (ROOT / "docs/workflow.md").read_text()
+    # Snakemake makes what is asked for by the name of its own rule
+    assert restored.planned(*stages) in ({}, {"audit": 1, "tables": 1})
+    assert restored.planned("deposits", "--forceall") == {"compile": 1, "deposit": 4, "deposits": 1}
+    assert restored.planned("tests", "--forceall")["simulate"] == 120
