@@ -16,12 +16,8 @@ EQUATIONS = re.findall(
     README.split("## From equation to code")[1],
     re.MULTILINE,
 )
-PAGES = [
-    "README.md",
-    "ARCHITECTURE.md",
-    "CONTRIBUTING.md",
-    *(f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md")),
-]
+DOCS = [f"docs/{path.name}" for path in sorted((ROOT / "docs").glob("*.md"))]
+PAGES = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", *DOCS]
 
 
 @pytest.mark.parametrize("name", [name for *_, cell in EQUATIONS for name in re.findall(r"`([\w.]+)`", cell)])
