@@ -11,6 +11,7 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from asphalt_nscd.diagnosis import report, run
+from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA
 from asphalt_nscd.rheology.shift import Arrhenius
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
@@ -139,11 +140,12 @@ def test_a_law_for_all_temperatures_is_written_and_told_of_where_it_is_far_off(d
 
 def test_amplitudes_stand_with_their_interval_in_the_summary(diagnosed):
     content = content_of(diagnosed[1])
-    said = run.summary(content)
+    said = summary(content)
     for rung in content["ladder"]:
         name, first = next(iter(rung["parameters"].items()))
+        factor = {"s": 1e3, "Pa": 1e-6, "1/Pa": 1e12, "kg": 1e3}.get(first["unit"], 1.0)
         assert first["std_error"] is None or (
-            f"{name} {first['value']:.3g} +- {1.96 * first['std_error']:.2g}" in said
+            f"{name} {factor * first['value']:.3g} +- {1.96 * factor * first['std_error']:.2g}" in said
         )
 
 

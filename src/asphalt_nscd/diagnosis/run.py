@@ -1,4 +1,4 @@
-"""A diagnosis from files to files, and its summary for the terminal."""
+"""A diagnosis from files to files."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from tabulate import tabulate
-
 from asphalt_nscd.diagnosis import quality, report, suspects, within_isotherm
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
@@ -16,21 +14,11 @@ from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
 from asphalt_nscd.diagnosis.simulated import read_specimen
-from asphalt_nscd.diagnosis.written import CONFIDENCE, UNJUDGED
+from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
-
-VERDICTS = {
-    "explained": "explained: what is left is replicate scatter.",
-    "unexplained_structure": "unexplained structure: something is left that no single cause of the catalogue explains.",
-    "nothing_to_explain": "nothing to explain: the Burgers laws miss the measurements by no more than scatter.",
-}
-HELD_OUT = {
-    "isotherms held out / scatter": "leave_one_isotherm_out",
-    "frequencies held out / scatter": "leave_one_frequency_out",
-}
 
 
 def run(
@@ -82,7 +70,8 @@ def run(
             std_error=fit.std_error, unseen=fit.unseen, from_prior=fit.from_prior,
         )  # fmt: skip
     write_json(folder / "diagnosis.json", content)
-    return summary(content)
+    written = ["diagnosis.json", "residuals.csv", "causality.csv", *([] if fit is None else ["law.json"])]
+    return f"{summary(content)}\n\nWritten to {folder}: {', '.join(written)}."
 
 
 def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
@@ -137,72 +126,3 @@ def _checksums(files: Sequence[Path]) -> dict[str, Any]:
     if len(sums) == 1:
         return {"sha256": sums[0][1]}
     return {"files": [{"name": name, "sha256": digest} for name, digest in sums]}
-
-
-def _size(parameters: dict[str, Any]) -> str:
-    """The first parameter, which is the amplitude, with its 95 % interval."""
-    name, amplitude = next(iter(parameters.items()))
-    if name == "reference_temperature":  # of a law whose shift these tests do not determine
-        return ""
-    error = amplitude["std_error"]
-    return (
-        f"{name} {amplitude['value']:.3g}"
-        + ("" if error is None else f" +- {CONFIDENCE * error:.2g}")
-        + f" {amplitude['unit']}"
-    )
-
-
-def summary(content: dict[str, Any]) -> str:
-    """The ladder as a table, with verdict, limits and notes."""
-    rows = []
-    for rung in content["ladder"]:
-        inside, held = rung["gain"]["in_sample"], rung["gain"]["held_out"]
-        rows.append([
-            rung["cause"], "" if rung["where"] is None else rung["where"],
-            _size(rung["parameters"]),
-            f"{rung['p_value']:.1g}" if rung["p_value"] > 1e-6 else "< 1e-6",
-            *(f"{inside[k]['before']:.2f} -> {inside[k]['after']:.2f}" for k in ("mre_E_percent", "mre_phase_percent")),
-            *(
-                "{before:.2f} -> {after:.2f}".format(**held[way]["rms_over_scatter"]) if way in held else ""
-                for way in HELD_OUT.values()
-            ),
-        ])  # fmt: skip
-    headers = [
-        "cause",
-        "where",
-        "parameter, 95 %",
-        "p",
-        "error |E*| %",
-        "error phase %",
-        *HELD_OUT,
-    ]
-    scatter = content["scatter"]
-    judged = content["verdict"] != "nothing_to_explain" or content["tested"]
-    read = content.get("reading", {"notes": []})
-    lines = [
-        *read["notes"],
-        *([""] if read["notes"] else []),
-        f"{content['tests']} tests, scatter {scatter['modulus_percent']:.3g} % in |E*|, "
-        f"{scatter['phase_deg']:.3g} deg in phase.",
-        "",
-        tabulate(rows, headers) if rows else "No cause beats chance.",
-        "",
-        VERDICTS[content["verdict"]] if judged else f"{UNJUDGED}.",
-    ]
-    left = content["largest_pattern_left"]
-    if content["verdict"] == "unexplained_structure" and left is not None:
-        lines.append(
-            f"Largest pattern left: {left['pattern']}, {left['z']:.1f} standard deviations of one pattern, "
-            f"p = {left['p_value']:.2g} among all."
-        )
-    if content["withdrawn"]:
-        lines.append(
-            "Considered but not named, for too much is left: " + ", ".join(content["withdrawn"]) + "."
-        )
-    lines += [
-        f"{rung['cause']} fits no better than {', '.join(rung['as_good'])}: one of these."
-        for rung in content["ladder"]
-        if rung["as_good"]
-    ]
-    lines += content["notes"]
-    return "\n".join(lines)

@@ -77,6 +77,7 @@ def sections(diagnosis: list[Path], map: list[Path], table4: Sequence[Path] = ()
             (*_members([row["cause"]], content), row["needs"]) for row in content["not_testable"]
         ],
         "alike": [_members(group, content) for group in content["indistinguishable"]],
+        "suspects": [_suspect(one) for one in content.get("suspect_tests", [])],
         "withdrawn": _members(content["withdrawn"], content),
         "next": [(_cause(rung), rung["confirmed_by"]) for rung in ladder],
     }
@@ -136,9 +137,15 @@ def _rung(rung: dict[str, Any]) -> dict[str, Any]:
     return {
         "cause": _cause(rung), "sentence": rung["sentence"], "p": _chance(rung["p_value"]),
         "parameters": [_estimate(name, value) for name, value in rung["parameters"].items()],
+        "hangs_on": rung.get("hangs_on", []),
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {name: _gain(gain["held_out"][name]) for name in HELD_OUT if name in gain["held_out"]},
     }  # fmt: skip
+
+
+def _suspect(one: dict[str, Any]) -> list[str]:
+    where = [one["specimen"], place_name(one["temperature_C"]), f"{one['frequency_Hz']:g} Hz"]
+    return [*where, "yes" if one["used"] else "no", "; ".join(one["reasons"])]
 
 
 def _members(names: list[str], content: dict[str, Any]) -> list[str]:
