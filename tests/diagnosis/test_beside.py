@@ -1,0 +1,110 @@
+"""Causes in a table that holds more than its law, its causes and its scatter."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.diagnosis import beside, discrepancy, scatter, start
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum import HuetSayegh
+
+LAW = HuetSayegh(
+    static_modulus=80e6, glassy_modulus=32e9, k=0.22, h=0.6, delta=2.3, tau=0.3, shift=WLF(18.0, 140.0, 15.0)
+)
+TEMPERATURES, FREQUENCIES = (-10.0, 4.0, 21.0, 37.0, 54.0), (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)
+
+
+def table(offset: float = 0.0, delay: float = 0.0, broken: float = 1.0, seed: int = 3) -> Observations:
+    """Three specimens; hot isotherms break causality, `broken` times; offset [deg] and delay [s] in every test."""
+    random = np.random.default_rng(seed)
+    grid = np.array([(s, t, f) for s in range(3) for t in TEMPERATURES for f in FREQUENCIES])
+    temperature, frequency = grid[:, 1], grid[:, 2]
+    omega = 2.0 * np.pi * frequency
+    modulus = LAW.complex_modulus(omega, temperature)
+    hot = np.where(temperature > 30.0, (temperature - 30.0) / 24.0, 0.0)
+    departure = (
+        broken * hot * (0.08 * np.log(frequency) ** 2 - 1j * np.radians(4.0 * np.log(frequency / 0.1)))
+    )
+    noise = 0.01 * random.standard_normal(grid.shape[0]) + 1j * np.radians(0.3) * random.standard_normal(
+        grid.shape[0]
+    )
+    turned = 1j * (np.radians(offset) + omega * delay)
+    ones = np.ones(grid.shape[0])
+    return Observations(
+        specimen=grid[:, 0].astype(int), names=("A", "B", "C"), temperature=temperature, frequency=frequency,
+        modulus=modulus * np.exp(departure + noise + turned), form_factor=25e3 * ones, inertia=0.0 * ones,
+    )  # fmt: skip
+
+
+def climbed(observed: Observations) -> tuple[list, beside.State]:
+    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+    begun = beside.begin(*start.fit_spectrum(observed, noise))
+    return beside.climb(begun, CATALOGUE, 1000, np.random.default_rng(0))
+
+
+@pytest.mark.parametrize("hidden", [{"offset": 3.0}, {"offset": -3.0}, {"delay": 6e-4}, {"delay": -6e-4}])
+def test_an_effect_of_all_tests_is_found_beside_broken_isotherms(hidden):
+    taken, state = climbed(table(**hidden))
+    name, size = (
+        ("phase_offset", hidden["offset"]) if "offset" in hidden else ("channel_delay", hidden["delay"])
+    )
+    found = [one.candidate.cause.name for one in taken]
+    assert name in found
+    candidate = next(c for c in state.fitted.active if c.cause.name == name)
+    value, error = beside.estimates(state, CATALOGUE)[candidate.key]
+    assert abs(value - size) < 3.0 * error and error < 0.1 * abs(size)
+    assert beside.hangs_on(state, candidate) == []
+
+
+def test_broken_isotherms_alone_get_no_established_name():
+    taken, state = climbed(table())
+    for one in taken:
+        candidate = next(c for c in state.fitted.active if c.key == one.candidate.key)
+        assert beside.hangs_on(state, candidate), one.candidate.key
+
+
+def test_what_breaks_the_hot_isotherms_is_sized_there_and_nowhere_else():
+    observed = table()
+    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+    state = beside.begin(*start.fit_spectrum(observed, noise))
+    size = dict(zip(state.model.processes.names, np.sqrt(state.variances), strict=True))
+    assert min(size["54 degC, modulus"], size["54 degC, phase"]) > 2.0
+    assert max(size["-10 degC, modulus"], size["-10 degC, phase"], size["4 degC, modulus"]) < 1.0
+
+
+def test_limits_grow_with_the_discrepancy():
+    limits = []
+    for observed in (table(broken=0.0), table()):
+        noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+        state = beside.begin(*start.fit_spectrum(observed, noise))
+        found, _, _ = beside.detection_limits(state, CATALOGUE, 500, np.random.default_rng(0))
+        limits.append(found["phase_offset", None])
+    assert limits[0] < limits[1]
+
+
+def test_the_reduced_likelihood_is_that_of_the_whole_covariance():
+    """Woodbury against the dense covariance, differences between two sets of variances."""
+    observed = table().subset(np.arange(0, 90, 3))
+    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+    joint, fitted = start.fit_spectrum(observed, noise)
+    found = discrepancy.processes(joint, fitted)
+    model = discrepancy.reduce(found, fitted)
+    j, law = fitted.jacobian, fitted.precision - fitted.jacobian.T @ fitted.jacobian
+    u = found.factor
+    differences = []
+    for v in (np.full(len(found.names), 0.3), np.linspace(0.1, 2.0, len(found.names))):
+        s = np.sqrt(v)[found.block]
+        reduced = discrepancy._point(model, None, np.log(v)).misfit - 2.0 * np.log1p(v / found.usual**2).sum()
+        covariance = np.eye(u.shape[0]) + (u * s) @ (u * s).T
+        inverse = np.linalg.inv(covariance)
+        precision = j.T @ inverse @ j + law
+        residual = fitted.residual
+        pull = j.T @ inverse @ residual - (j.T @ residual - fitted.gradient)  # less the pull of the prior
+        square = residual @ inverse @ residual - pull @ np.linalg.solve(precision, pull)
+        dense = square + np.linalg.slogdet(covariance)[1] + np.linalg.slogdet(precision)[1]
+        differences.append((reduced, dense))
+    (one, one_dense), (two, two_dense) = differences
+    assert one - two == pytest.approx(one_dense - two_dense, rel=1e-6)
