@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import scatter
+from asphalt_nscd.diagnosis import scatter, suspects
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.report import as_json
@@ -96,7 +96,7 @@ def test_three_good_specimens_lose_no_test():
     lost = 0
     for seed in range(40):
         three = table(seed).subset(np.arange(90))
-        lost += scatter.outliers(three).size > 0
+        lost += any(not one.used for one in suspects.find(three))
     assert lost <= 3
 
 
@@ -104,7 +104,8 @@ def test_one_bad_test_of_three_specimens_is_set_aside():
     three = table(3).subset(np.arange(90))
     modulus = three.modulus.copy()
     modulus[17] *= 1.6
-    assert list(scatter.outliers(replace(three, modulus=modulus))) == [17]
+    found = suspects.find(replace(three, modulus=modulus))
+    assert [one.row for one in found if not one.used] == [17]
 
 
 def test_replicates_closer_than_tests_can_be_are_given_a_floor():

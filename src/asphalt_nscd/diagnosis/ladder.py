@@ -111,7 +111,8 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
     _drop_needless(ladder, draws, random)
     if not _structure_left(ladder):
         return ladder
-    if isinstance(joint.base, FlexibleSpectrum):
+    # One isotherm does not tell what is its own from what is common to all.
+    if isinstance(joint.base, FlexibleSpectrum) and joint.observed.isotherms.size > 1:
         _climb_beside(ladder, joint, start, catalogue, draws, random)
     else:
         _withdraw(ladder, draws, random)

@@ -17,7 +17,6 @@ def test_a_table_without_a_cause_gets_no_confident_name(kind):
     assert not row["failed"] and row["wrong"] == 0, row
 
 
-@pytest.mark.xfail(reason="a real-like table's own structure silences today's inference", strict=True)
 def test_an_offset_in_a_table_with_a_broken_isotherm_is_named_and_sized(monkeypatch):
     monkeypatch.setattr(real, "RATIOS_OF", {"phase_offset": (5.0,)})
     _, row = rows("broken_hot", "phase_offset")
