@@ -15,21 +15,24 @@ from asphalt_nscd.nscd.compiled import compiled
 @compiled
 def find_pairs(position, radius, plane_point, plane_normal, reach):
     """Pairs whose gap is below `reach` [m]; see find_pairs_within."""
+    n, planes = position.shape[0], plane_point.shape[0]
     return find_pairs_within(
-        position, radius, plane_point, plane_normal, np.full(position.shape[0], reach), reach
+        position, radius, plane_point, plane_normal, np.full(n, reach), np.full(planes, reach), n
     )
 
 
 @compiled
-def find_pairs_within(position, radius, plane_point, plane_normal, reach, plane_reach):
-    """Pairs whose gap is below reach[i] (n,) [m] of their larger sphere, or below plane_reach [m].
+def find_pairs_within(position, radius, plane_point, plane_normal, reach, plane_reach, first_plane):
+    """Pairs whose gap is below reach[i] (n,) [m] of their larger sphere, or below plane_reach (p,) [m].
 
     position (n, 3) [m], radius (n,) [m]; planes by point (p, 3) [m] and unit normal (p, 3) that
     points to the spheres. Returns (start, other): sphere i is paired with bodies
-    other[start[i]:start[i + 1]], ascending; body n + k is plane k. Each pair appears once, under
+    other[start[i]:start[i + 1]], ascending; body first_plane + k is plane k. Each pair appears once, under
     its larger sphere (under the lower index when equal).
     """
     n = position.shape[0]
+    if n == 0:
+        return np.zeros(1, np.int64), np.empty(0, np.int64)
     cell, low, shape = _grid(position, radius, reach)
     first, members, sorted_sphere = _fill_cells(position, radius, cell, low, shape)
     start = np.zeros(n + 1, np.int64)
@@ -56,7 +59,7 @@ def find_pairs_within(position, radius, plane_point, plane_normal, reach, plane_
             other = np.concatenate((other, np.empty(max(end, other.shape[0]), np.int64)))
         _sort(other, start[i], start[i] + found)
         found += _planes_near(
-            i, position, radius, plane_point, plane_normal, plane_reach, other, start[i] + found
+            i, position, radius, plane_point, plane_normal, plane_reach, first_plane, other, start[i] + found
         )
         start[i + 1] = start[i] + found
     return start, other[: start[n]].copy()
@@ -97,9 +100,9 @@ def closing_speeds(position, radius, velocity, reach):
 
 @compiled
 def carry_reactions(old_start, old_other, old_reaction, start, other):
-    """Reactions of the old pair list moved to the new one (zero where a pair is new)."""
+    """Reactions of the old pair list moved to the new one (zero where a pair is new); spheres may join."""
     reaction = np.zeros((other.shape[0], 3))
-    for i in range(start.shape[0] - 1):
+    for i in range(min(start.shape[0], old_start.shape[0]) - 1):
         k = old_start[i]
         for c in range(start[i], start[i + 1]):
             while k < old_start[i + 1] and old_other[k] < other[c]:
@@ -187,14 +190,14 @@ def _sort(numbers, begin, end):
 
 
 @compiled
-def _planes_near(i, position, radius, plane_point, plane_normal, reach, out, offset):
+def _planes_near(i, position, radius, plane_point, plane_normal, reach, first_plane, out, offset):
     """Count the planes near sphere i and write them from `offset` on."""
     found = 0
     for k in range(plane_point.shape[0]):
         height = 0.0
         for d in range(3):
             height += (position[i, d] - plane_point[k, d]) * plane_normal[k, d]
-        if height - radius[i] < reach:
-            out[offset + found] = position.shape[0] + k
+        if height - radius[i] < reach[k]:
+            out[offset + found] = first_plane + k
             found += 1
     return found
