@@ -47,7 +47,7 @@ def copy(of: Granulate) -> Granulate:
     for name in ("position", "velocity", "impulse", "plane_point"):
         setattr(other, name, getattr(of, name).copy())
     other._start, other._other, other._reach = of._start, of._other, of._reach
-    other._plane_reach = of._plane_reach
+    other._plane_reach, other._extra = of._plane_reach, of._extra
     other._searched_at, other._planes_at = of._searched_at.copy(), of._planes_at.copy()
     return other
 

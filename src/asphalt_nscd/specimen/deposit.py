@@ -95,6 +95,7 @@ def vibrate(
     plate between rails: its drive pushes with a pressure of at most `shaking.pressure`, and with less
     where grains overlap, down to nothing at MOST_OVERLAP of the smallest radius.
     """
+    numerics = replace(numerics, falling_sweeps=numerics.most_sweeps)
     n, dt = granulate.radius.size, numerics.time_step
     omega = 2.0 * np.pi * shaking.frequency
     length, width = granulate.plane_point[3, 0], granulate.plane_point[4, 1]

@@ -12,7 +12,8 @@ from asphalt_nscd.specimen.trimming import layer_height
 WALL = 5
 """The plane that is the top of the box; the last body of a granulate."""
 WALL_REACH = 3e-3  # m, further than for spheres: a moving plane alone calls for no search
-FALLING = 0.1  # m/s, mean speed
+SEARCH_EVERY = 25  # steps, for which the motion of each sphere is allowed for
+FALLING = 0.01  # m/s, mean speed
 FALLING_SWEEPS = 20
 ALLOWED_OVERLAP = 0.005  # of the smallest radius
 
@@ -110,7 +111,7 @@ class Granulate:
         most_sweeps = numerics.most_sweeps
         if speed.mean() > FALLING:
             most_sweeps = min(most_sweeps, numerics.falling_sweeps)
-        self._search(numerics, margin, float(speed[: self._involved].max(initial=0.0)))
+        self._search(numerics, margin, speed)
         sweeps, change, self.overlap = granular.step(
             self.position, self.radius, self.velocity, self.inverse_mass, self.plane_point,
             self.plane_normal, self.gravity, self._start, self._other, self.impulse, self.drive, dt,
@@ -137,8 +138,9 @@ class Granulate:
         if self._involved == self.radius.size:
             self._lowest = None
 
-    def _search(self, numerics: PouringNumerics, margin: float, speed: float) -> None:
+    def _search(self, numerics: PouringNumerics, margin: float, speeds: np.ndarray) -> None:
         m, n, dt = self._involved, self.radius.size, numerics.time_step
+        speed = float(speeds[:m].max(initial=0.0))
         plane_speed = np.abs(self.velocity[n:, :3]).max(axis=1)
         if self.inverse_mass[-1] > 0.0:  # what its drive makes of the wall's speed within the step
             faster = plane_speed[WALL] + self.drive[1] * self.inverse_mass[-1]
@@ -149,7 +151,8 @@ class Granulate:
         )  # that two spheres may be apart and meet in this step
         nearing = margin + dt * (speed + falling + plane_speed)  # (p,), for a sphere and a plane
         if self._start is not None and self._start.size == m + 1:
-            moved = np.sqrt(((self.position[:m] - self._searched_at) ** 2).sum(axis=1).max(initial=0.0))
+            square = ((self.position[:m] - self._searched_at) ** 2).sum(axis=1)
+            moved = (np.sqrt(square) - self._extra).max(initial=0.0)  # beyond what was allowed for
             planes_moved = np.abs(self.plane_point - self._planes_at).max(axis=1)
             planes_valid = moved + planes_moved + nearing < self._plane_reach
             if 2.0 * moved + furthest < self._reach and planes_valid.all():
@@ -159,12 +162,15 @@ class Granulate:
             self._reach = 0.0
             closing = neighbours.closing_speeds(position, radius, self.velocity[:m, :3], furthest)
             reach, self._plane_reach = margin + dt * closing, nearing
+            self._extra = np.zeros(m)
         else:
+            # a few fast grains shall not call for searches among all: what each moves is allowed for
+            self._extra = np.minimum(SEARCH_EVERY * dt * speeds[:m], numerics.skin)
             self._reach = numerics.skin + furthest
             reach = np.full(m, self._reach)
             self._plane_reach = numerics.skin + nearing + np.where(plane_speed > 0.0, WALL_REACH, 0.0)
         start, other = neighbours.find_pairs_within(
-            position, radius, self.plane_point, self.plane_normal, reach, self._plane_reach, n
+            position, radius, self.plane_point, self.plane_normal, reach, self._extra, self._plane_reach, n
         )
         if self._start is None:
             self.impulse = np.zeros((other.size, 3))
