@@ -68,7 +68,7 @@ def test_what_was_poured(poured, told):
     assert attributes["poured_layer_height_m"] == pytest.approx(
         layer_height(arrays["poured_position"], radius), rel=1e-14
     )
-    assert {stage for stage, *_ in told} == {"pouring", "vibrating", "coming to rest"}
+    assert {stage for stage, *_ in told} == {"pouring", "settling", "vibrating", "coming to rest"}
 
 
 def test_a_seed_stands_for_one_deposit(folder, poured):

@@ -41,7 +41,7 @@ def deposit(
     granulate = Granulate.in_box(position, radius, box, DENSITY, friction)
     granulate.let_fall()
     settle(granulate, numerics, REST_SPEED, LONGEST_POURING, progress, "pouring")
-    stages = {"poured": _stage(granulate, numerics, Course(), progress)}
+    stages = {"poured": _stage(granulate, numerics, Course(), progress, "settling")}
     poured, course, pressure = granulate.position.copy(), Course(), 0.0
     if vibration_time > 0.0:
         course.note(granulate)
@@ -49,7 +49,7 @@ def deposit(
         shaking = Shaking(stroke, vibration_frequency, vibration_time, pressure)
         vibrate(granulate, numerics, shaking, course, progress)
         settle(granulate, numerics, REST_SPEED, LONGEST_REST, progress, "coming to rest")
-        stages["vibrated"] = _stage(granulate, numerics, course, progress)
+        stages["vibrated"] = _stage(granulate, numerics, course, progress, "coming to rest")
         course.note(granulate)
     last = stages["vibrated" if vibration_time > 0.0 else "poured"]
     attributes = {
@@ -68,10 +68,10 @@ def deposit(
 
 
 def _stage(
-    granulate: Granulate, numerics: PouringNumerics, course: Course, progress: Progress
+    granulate: Granulate, numerics: PouringNumerics, course: Course, progress: Progress, name: str
 ) -> dict[str, float]:
     """Bring the layer into equilibrium; what is said of it then."""
-    weight_balance, unbalanced = balance(granulate, numerics, LONGEST_REST, progress, "coming to rest")
+    weight_balance, unbalanced = balance(granulate, numerics, LONGEST_REST, progress, name)
     contacts, gap = granulate.contacts(TOUCHING)
     box = (granulate.plane_point[3, 0], granulate.plane_point[4, 1], granulate.top())
     touched = np.array(course.touched)
