@@ -73,7 +73,7 @@ def prepare(spheres: int, counts_table: str, specimen: str) -> list[Row]:
         )
         deposited, clock = clock.row(), Clock()
         trim_deposit(folder / "deposit.h5", geometry, 0.1, 2e-3, specimen)
-    vibrating = left["vibrating"] - left["pouring"]
+    vibrating = left["vibrating"] - left["settling"]
     scaled_up = vibrating * WHOLE_VIBRATION / VIBRATION
     memory = {"memory_MB": deposited["memory_MB"]}
     return [

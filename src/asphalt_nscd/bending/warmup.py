@@ -11,7 +11,7 @@ from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.contacts.friction import solve_contacts
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis
-from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics
+from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.network import bond_network
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen

@@ -34,7 +34,7 @@ def digest() -> str:
     """Of the states of a pile in motion, of a condensed run with breaking bonds, a reduced one, and contacts."""
     from asphalt_nscd.nscd import solve_contacts
     from asphalt_nscd.nscd.stepping.scheme import VARIABLES
-    from asphalt_nscd.specimen.deposit import PouringNumerics
+    from asphalt_nscd.specimen.granulate import PouringNumerics
     from asphalt_nscd.specimen.lattice import random_lattice
     from asphalt_nscd.verification.assemblies import box_stack
     from asphalt_nscd.verification.methods import march
