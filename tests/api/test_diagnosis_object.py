@@ -126,7 +126,7 @@ def test_how_it_shows_itself(diagnosis):
     )
     html = diagnosis._repr_html_()
     assert "Verdict: explained" in html and "|E*|" in html and "<script" not in html
-    assert str(diagnosis).splitlines()[0] == diagnosis.notes[0]
+    assert str(diagnosis).splitlines()[:2] == ["WHAT WAS READ", diagnosis.notes[0]]
 
 
 def test_export_of_a_diagnosis_is_that_of_its_folder(diagnosis, folder, tmp_path):

@@ -166,7 +166,7 @@ rule benchmark_provenance:
 
 
 rule publish_benchmark:
-    # What is committed of them, and their tables in the README. Only on request:
+    # What is committed of them, and their tables in docs. Only on request:
     #   snakemake --cores 1 publish_benchmark
     input:
         table="results/benchmark/benchmark.csv",
@@ -175,6 +175,6 @@ rule publish_benchmark:
         provenance="results/benchmark/provenance.json",
         code=code("publish"),
     message:
-        "Copy the benchmarks, and fill their tables in the README"
+        "Copy the benchmarks, and fill their tables in docs"
     shell:
-        "asphalt-nscd publish {input.table} {input.beside} {input.growth} {input.provenance} --root results/benchmark --output results/published/benchmark --document README.md --block benchmark={input.beside} --block growth={input.growth}"
+        "asphalt-nscd publish {input.table} {input.beside} {input.growth} {input.provenance} --root results/benchmark --output results/published/benchmark --document docs --block benchmark={input.beside} --block growth={input.growth}"

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -54,7 +55,7 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 def command(
     measurements: tuple[Path, ...], output: Path, sheet: str | None, columns: tuple[tuple[str, str], ...],
-    measured_in: str | None, geometry: object, specimen: Path | None, static_modulus_mpa: float | None,
+    measured_in: str | None, geometry: Any, specimen: Path | None, static_modulus_mpa: float | None,
     modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
     simulations: Path | None,
 ) -> None:  # fmt: skip
@@ -69,7 +70,7 @@ def command(
     from asphalt_nscd.api.tables import campaign_in
 
     scatter = None
-    if modulus_scatter_percent is not None:
+    if modulus_scatter_percent is not None and phase_scatter_deg is not None:
         scatter = modulus_scatter_percent, phase_scatter_deg
     diagnosis = diagnose(
         campaign_in(measurements, sheet, dict(columns), measured_in), geometry=geometry, specimen=specimen,

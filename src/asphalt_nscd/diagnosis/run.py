@@ -10,7 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis import quality, report, suspects, within_isotherm
+from asphalt_nscd.diagnosis import quality, repeatability, report, suspects, within_isotherm
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.numerics import of_campaign
@@ -93,6 +93,12 @@ def conclude(
     if simulations is not None:
         content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
     content["origin"] = origin
+    held = within_isotherm.hold(observed)
+    content["repeatability"] = repeatability.coefficients(diagnosis.observed)
+    content["contradictory_isotherms"] = [
+        {"temperature_C": one.temperature, "sentence": one.sentence}
+        for one in suspects.broken_isotherms(observed, held)
+    ]
     content["provenance"] = {
         **provenance(),
         "measurements": given.name,
@@ -104,7 +110,6 @@ def conclude(
         "static_modulus_Pa": static_modulus,
         "scatter_stated": None if scatter is None else list(scatter),
     }
-    held = within_isotherm.hold(observed)
     law = None
     if fit is not None:
         law = spectrum_content(
