@@ -7,7 +7,7 @@ python=${PYTHON:-$repository/.venv/bin/python}
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 
-left() { git -C "$repository" status --porcelain --ignored | grep -v 'egg-info/$'; }
+left() { git -C "$repository" status --porcelain --ignored | sed '/egg-info/d'; }
 before=$(left)
 "$python" -m pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation \
     --wheel-dir "$place" "$repository"
@@ -15,8 +15,9 @@ before=$(left)
 
 "$python" -m venv --without-pip "$place/venv"
 # Versions as locked, so that the trial does not depend on what was released today.
+sed -n '/^[a-zA-Z0-9]/s/ *\\$//p' "$repository/requirements.txt" >"$place/locked.txt" # without the hashes
 "$python" -m pip --python "$place/venv/bin/python" install --quiet --disable-pip-version-check \
-    --constraint "$repository/requirements.txt" "$place"/asphalt_nscd-*.whl
+    --constraint "$place/locked.txt" "$place"/asphalt_nscd-*.whl
 
 cp -r "$repository/data/tutorial/exports" "$place/exports"
 cd "$place"

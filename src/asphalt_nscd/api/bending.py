@@ -106,7 +106,7 @@ def bend(
 ) -> Test:  # fmt: skip
     """Bend a specimen at one frequency [Hz] and temperature [degC]: two-point bending, Eqs. (1)-(5).
 
-    law: of one temperature, or of all; bonds then follow the Kelvin chain of it within 0.1 %. amplitude_m: of the head;
+    law: of one temperature, or of all; bonds then follow its Kelvin chain within 0.1 %. amplitude_m: of the head;
     without it the strain is that of the paper's 63 um on its own specimen. numerics: Numerics(time_step [s], rest_steps,
     method, scheme). rig: what stands at the head and in the measuring channel. A warning says so where bonds broke.
 
