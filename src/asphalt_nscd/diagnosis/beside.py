@@ -19,7 +19,7 @@ from asphalt_nscd.diagnosis.chance import CHANCE, Scores
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.start import ROUGHNESS, marginal_likelihood
+from asphalt_nscd.diagnosis.start import of_likeliest_roughness
 
 Vector = NDArray[np.float64]
 RUNGS = 4
@@ -69,6 +69,16 @@ class Found:
     rivals: tuple[Candidate, ...]
 
 
+@dataclass(frozen=True)
+class Survey:
+    """Every cause that is not in the fit, as if it were the next one: candidates, directions, estimates (k each)."""
+
+    candidates: list[Candidate]
+    pointing: Direction
+    estimates: list[Estimate]
+    one_sided: NDArray[np.bool_]
+
+
 def begin(plain: Joint, fitted: Fitted) -> State:
     """Law and discrepancy without any cause."""
     found = discrepancy.processes(plain, fitted)
@@ -78,16 +88,18 @@ def begin(plain: Joint, fitted: Fitted) -> State:
 
 def climb(
     state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
-) -> tuple[list[Found], State]:
+) -> tuple[list[Found], State, Survey]:
     """Causes that beat both chance and a discrepancy without a name, one after the other; the last state."""
     taken: list[Found] = []
+    surveyed = survey(state, catalogue)
     while len(taken) < RUNGS:
-        found = _next(state, catalogue, draws, random)
+        found = _next(state, surveyed, draws, random)
         if found is None:
             break
         taken.append(found)
         state = _smoothed(found.after)
-    return taken, state
+        surveyed = survey(state, catalogue)
+    return taken, state, surveyed
 
 
 def _settle(
@@ -116,30 +128,30 @@ def _likeliest(model: Reduced, variances: Vector, cause: Direction | None = None
 
 def _smoothed(state: State) -> State:
     """The same with the roughness of the law that is likeliest beside the discrepancy."""
-    scored, fitted = [], state.fitted
-    for roughness in ROUGHNESS:
-        base = replace(state.plain.base, roughness=roughness)
-        wide = Joint(state.plain.observed, base, state.wide.noise)
-        fitted = wide.fit(fitted.law, fitted.scales, fitted.active, CONVERGED)
-        scored.append((marginal_likelihood(wide, fitted), base, fitted))
-    _, base, fitted = max(scored, key=lambda item: item[0])
-    plain = Joint(state.plain.observed, base, state.plain.noise)
+    wide, fitted = of_likeliest_roughness(state.wide, state.fitted, CONVERGED)
+    plain = Joint(state.plain.observed, wide.base, state.plain.noise)
     return _settle(plain, state.model.processes, fitted, fitted.active, state.variances)
 
 
-def _next(state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator) -> Found | None:
+def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
+    """Candidates that the table can show, each estimated beside the discrepancy."""
     candidates, pointing = _pointing(state, catalogue)
-    if not candidates:
-        return None
-    nothing = _likeliest(state.model, state.variances)
     estimates = [
         _likeliest(state.model, state.variances, pointing.column(k)) for k in range(len(candidates))
     ]
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
+    return Survey(candidates, pointing, estimates, one_sided)
+
+
+def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Found | None:
+    candidates, estimates, one_sided = surveyed.candidates, surveyed.estimates, surveyed.one_sided
+    if not candidates:
+        return None
+    nothing = _likeliest(state.model, state.variances)
     z = np.array([estimate.z for estimate in estimates])
     z = np.where(one_sided, np.maximum(z, 0.0), np.abs(z))
     gains = np.array([nothing.misfit - estimate.misfit for estimate in estimates])
-    by_chance = _by_chance(state, pointing, one_sided, draws, random)
+    by_chance = _by_chance(state, surveyed, draws, random)
     eligible = (z > np.quantile(by_chance, 1.0 - CHANCE)) & (gains > LEAST_GAIN)
     shortlist: dict[tuple, int] = {}
     for k in np.argsort(-np.where(eligible, gains, -np.inf)):
@@ -188,13 +200,11 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
     return [candidates[k] for k in seen], kept
 
 
-def _by_chance(
-    state: State, pointing: Direction, one_sided: NDArray, draws: int, random: np.random.Generator
-) -> Vector:
-    correlation, _ = discrepancy.correlation(state.model, pointing, state.variances)
-    k = one_sided.size
+def _by_chance(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Vector:
+    correlation, _ = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
+    k = surveyed.one_sided.size
     scores = Scores(np.zeros(k), np.ones(k), np.ones(k, bool), correlation)
-    return chance.largest_by_chance(scores, one_sided, state.plain.noise.freedom, draws, random)
+    return chance.largest_by_chance(scores, surveyed.one_sided, state.plain.noise.freedom, draws, random)
 
 
 def of_taken(state: State, candidate: Candidate, rows: NDArray | None = None) -> Estimate:
@@ -261,7 +271,7 @@ def _enough(rest: Observations, name: str) -> bool:
     return left[name] > (0 if name == "specimen" else 1)
 
 
-def estimates(state: State, catalogue: Sequence[Cause]) -> dict[tuple, tuple[float, float]]:
+def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]]:
     """Amplitude of every cause at every place and its standard error, in physical units.
 
     Of a cause that is in the fit, and of each other as if it were the next one. Of several shapes, the one
@@ -271,9 +281,7 @@ def estimates(state: State, catalogue: Sequence[Cause]) -> dict[tuple, tuple[flo
     for active in state.fitted.active:
         own = of_taken(state, active)
         out[active.key] = (own.amplitude * active.typical[0], own.std_error * active.typical[0])
-    candidates, pointing = _pointing(state, catalogue)
-    for k, candidate in enumerate(candidates):
-        one = _likeliest(state.model, state.variances, pointing.column(k))
+    for candidate, one in zip(surveyed.candidates, surveyed.estimates, strict=True):
         typical = candidate.typical[0]
         if candidate.key not in out or one.std_error * typical < out[candidate.key][1]:
             out[candidate.key] = (one.amplitude * typical, one.std_error * typical)
@@ -281,23 +289,19 @@ def estimates(state: State, catalogue: Sequence[Cause]) -> dict[tuple, tuple[flo
 
 
 def detection_limits(
-    state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
+    state: State, surveyed: Survey, draws: int, random: np.random.Generator
 ) -> tuple[dict[tuple, float], list[Candidate], list[tuple[Candidate, Candidate]]]:
     """Limits beside the discrepancy of this table, causes never seen in it, and pairs that look alike."""
-    candidates, pointing = _pointing(state, catalogue)
+    candidates = surveyed.candidates
     sizes: dict[tuple, float] = {}
     unseen: list[Candidate] = []
     alike: list[tuple[Candidate, Candidate]] = []
-    one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     threshold = chance.USUAL_THRESHOLD
     if candidates:
-        by_chance = _by_chance(state, pointing, one_sided, draws, random)
+        by_chance = _by_chance(state, surveyed, draws, random)
         threshold = float(np.quantile(by_chance, 1.0 - CHANCE))
-        errors = np.array([
-            discrepancy.estimate(state.model, pointing.column(k), state.variances).std_error
-            for k in range(len(candidates))
-        ])  # fmt: skip
-        correlation, _ = discrepancy.correlation(state.model, pointing, state.variances)
+        errors = np.array([estimate.std_error for estimate in surveyed.estimates])
+        correlation, _ = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
         found = Scores(np.zeros(errors.size), errors**-2, np.ones(errors.size, bool), correlation)
         sizes, unseen = limits.detection_limits(
             state.wide, state.fitted, candidates, found, threshold + chance.POWER

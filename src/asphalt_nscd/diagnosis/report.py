@@ -113,8 +113,9 @@ def _frame(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> pd.DataFr
 def _errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, dict[str, float]]:
     """Mean relative errors by temperature, as in Table 4."""
     errors = mean_relative_error(
-        _frame(diagnosis, diagnosis.observed.logarithm), _frame(diagnosis, logarithm)
-    )
+        _frame(diagnosis, diagnosis.observed.logarithm), _frame(diagnosis, logarithm),
+        float(np.degrees(diagnosis.noise.sigma[1])),
+    )  # fmt: skip
     by = [f"{t:g}" for t in errors["temperature_C"]]
     return {
         name: dict(zip(by, errors[name].tolist(), strict=True))
