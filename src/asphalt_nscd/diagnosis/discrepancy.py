@@ -14,7 +14,7 @@ estimate for one more cause costs milliseconds.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +38,8 @@ LEFT_OUT = {"isotherm": 1e-3, "all": 1e-3, "specimen": 0.05}  # share of the var
 # isotherms is rarer than what breaks one: it must come from the machine.
 USUAL = {"isotherm": 0.5, "all": 0.1, "specimen": 0.3, "spectrum": 1.0}
 OF_TIMES = 4.0  # of ln(relaxation time), over which the spectrum of a specimen departs from that of the mix
+STEP = 0.5  # of ln v, over which its curvature is taken
+UNKNOWN = 2.0  # standard deviation of the ln v that a table tells nothing of
 ITERATIONS = 25
 CONVERGED = 0.05  # change of -2 ln likelihood
 LEAST, MOST = 1e-4, 1e7  # variance that is as good as none, and that no table has, in units of the scatter
@@ -183,6 +185,14 @@ def directions(model: Reduced, fitted: Fitted, d: NDArray) -> Direction:
     )
 
 
+def moved(model: Reduced, cause: Direction, amount: float) -> tuple[Reduced, Direction]:
+    """The same with so much of an effect added to the data."""
+    return (
+        replace(model, along=model.along + amount * cause.cross[:, 0]),
+        replace(cause, along=cause.along + amount * cause.own[:, 0]),
+    )
+
+
 def _projected(fitted: Fitted, left: NDArray, right: NDArray) -> NDArray:
     """left^T A right: what the law may follow is taken out."""
     j = fitted.jacobian
@@ -219,6 +229,25 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
     return Estimate(np.exp(log_v), now.misfit, now.amplitude, now.std_error)
 
 
+def with_uncertain_sizes(model: Reduced, cause: Direction, found: Estimate) -> Estimate:
+    """The same with a standard error that holds what is not known of the variances (Kackar and Harville 1984).
+
+    Their covariance is that of the curvature of the objective; what the table does not tell is held to a factor.
+    """
+    log_v, m = np.log(found.variances), found.variances.size
+    curvature, along = np.zeros((m, m)), np.zeros(m)
+    for k in range(m):
+        moved = np.zeros(m)
+        moved[k] = STEP
+        low, high = (_point(model, cause, log_v + sign * moved) for sign in (-1.0, 1.0))
+        if np.isfinite(low.objective) and np.isfinite(high.objective):
+            curvature[k] = (high.gradient - low.gradient) / (2.0 * STEP)
+            along[k] = (high.amplitude - low.amplitude) / (2.0 * STEP)
+    value, vector = np.linalg.eigh(0.25 * (curvature + curvature.T))  # half of it, for -2 ln likelihood
+    spread = (vector.T @ along) ** 2 / (np.maximum(value, 0.0) + UNKNOWN**-2)
+    return replace(found, std_error=float(np.sqrt(found.std_error**2 + spread.sum())))
+
+
 @dataclass(frozen=True)
 class _Point:
     """objective: of the restricted likelihood; misfit: the same without the size of the cause's interval."""
@@ -226,6 +255,7 @@ class _Point:
     objective: float
     misfit: float
     step: Vector  # of ln v
+    gradient: Vector  # of the objective along ln v
     amplitude: float
     std_error: float
 
@@ -237,7 +267,7 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
     s = np.sqrt(v)[block]
     lower, failed = _factor(model, s)
     if failed:
-        return _Point(np.inf, np.inf, np.zeros(m), 0.0, np.inf)
+        return _Point(np.inf, np.inf, np.zeros(m), np.zeros(m), 0.0, np.inf)
     data = s * model.along
     right = data[:, None] if cause is None else np.column_stack([data, s * cause.cross[:, 0]])
     solved = dpotrs(lower, right, lower=1)[0]
@@ -255,8 +285,9 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
         pull = pull - sensed * amplitude
     misfit += 2.0 * float(np.log1p(v / found.usual**2).sum())  # half-Cauchy on the size sqrt(v)
     trace = np.bincount(block, np.maximum(diagonal, 0.0), m) + 2.0 / (found.usual**2 + v)
-    step = 0.5 * np.log(np.maximum(np.bincount(block, pull**2, m), 1e-12) / trace)
-    return _Point(misfit + interval, misfit, step, amplitude, std_error)
+    square = np.bincount(block, pull**2, m)
+    step = 0.5 * np.log(np.maximum(square, 1e-12) / trace)
+    return _Point(misfit + interval, misfit, step, v * (trace - square), amplitude, std_error)
 
 
 def _factor(model: Reduced, s: Vector) -> tuple[NDArray, bool]:

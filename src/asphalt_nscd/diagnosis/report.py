@@ -198,10 +198,12 @@ def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[st
         if active.key == candidate.key:
             break
         first += len(active.values)
-    errors = np.sqrt(np.diag(fitted.covariance))
+    errors = np.sqrt(np.diag(fitted.covariance))[first : first + len(candidate.values)] * candidate.typical
+    if candidate.key in diagnosis.ladder.estimates:
+        errors[0] = max(errors[0], diagnosis.ladder.estimates[candidate.key][1])
     return {
         parameter.name: {
-            "value": value, "std_error": float(errors[first + k] * parameter.typical), "unit": parameter.unit,
+            "value": value, "std_error": float(errors[k]), "unit": parameter.unit,
         }
         for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True))
     }  # fmt: skip
