@@ -26,6 +26,7 @@ RUNGS = 4
 REFITS = 4  # candidates that are refitted at each rung
 LEAST_GAIN = 6.0  # of -2 ln likelihood over a discrepancy without a name: 20 times as likely
 AS_GOOD = 6.0  # gains closer than this are not told apart
+NEAR = 0.6  # share of what a name needs, above which a candidate is refitted
 SURVIVES = 2.0  # standard errors that an estimate must keep where something is left out
 SETTLED = 2  # rounds of fitting law and discrepancy in turn
 LARGER = 6  # times that a limit is raised by a quarter where a discrepancy would take the effect up
@@ -153,7 +154,9 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     z = np.where(one_sided, np.maximum(z, 0.0), np.abs(z))
     gains = np.array([nothing.misfit - estimate.misfit for estimate in estimates])
     by_chance = _by_chance(state, surveyed, draws, random)
-    eligible = (z > np.quantile(by_chance, 1.0 - CHANCE)) & (gains > LEAST_GAIN)
+    # A law fitted without the cause has followed it: what comes near is refitted before it is judged.
+    least = float(np.quantile(by_chance, 1.0 - CHANCE))
+    eligible = (z > NEAR * least) & (gains > NEAR * LEAST_GAIN)
     shortlist: dict[tuple, int] = {}
     for k in np.argsort(-np.where(eligible, gains, -np.inf)):
         if eligible[k] and len(shortlist) < REFITS:
@@ -166,8 +169,10 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         active = (*state.fitted.active, candidates[k].with_values(values))
         after = _settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
         gain = state.misfit - after.misfit - 2.0 * (len(candidates[k].values) - 1)
-        refits.append((gain, k, after))
-    refits = [refit for refit in refits if refit[0] > LEAST_GAIN]
+        if gain > LEAST_GAIN:
+            z[k] = max(z[k], abs(of_taken(after, after.fitted.active[-1]).z))
+            if z[k] > least:
+                refits.append((gain, k, after))
     if not refits:
         return None
     # A cause with shapes of its own follows almost any structure: it must be carried by the whole table.
@@ -208,8 +213,13 @@ def _by_chance(state: State, surveyed: Survey, draws: int, random: np.random.Gen
     return chance.largest_by_chance(scores, surveyed.one_sided, state.plain.noise.freedom, draws, random)
 
 
-def of_taken(state: State, candidate: Candidate, rows: NDArray | None = None) -> Estimate:
-    """Amplitude of a cause that is in the fit, in typical units, from all rows or from some."""
+def of_taken(
+    state: State, candidate: Candidate, rows: NDArray | None = None, sizes_too: bool = False
+) -> Estimate:
+    """Amplitude of a cause that is in the fit, in typical units, from all rows or from some.
+
+    sizes_too: whether its standard error holds what is not known of the discrepancy's sizes.
+    """
     first = state.fitted.law.size + state.fitted.scales.size
     for active in state.fitted.active:
         if active.key == candidate.key:
@@ -231,7 +241,7 @@ def of_taken(state: State, candidate: Candidate, rows: NDArray | None = None) ->
     model = discrepancy.reduce(found, rest)
     pointing = discrepancy.directions(model, rest, d)
     found_value = discrepancy.estimate(model, pointing, start)
-    if rows is None:
+    if sizes_too:
         found_value = discrepancy.with_uncertain_sizes(model, pointing, found_value)
     stands = active.values[0] / active.typical[0]
     return replace(found_value, amplitude=found_value.amplitude + stands)
@@ -283,7 +293,7 @@ def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]
     """
     out: dict[tuple, tuple[float, float]] = {}
     for active in state.fitted.active:
-        own = of_taken(state, active)
+        own = of_taken(state, active, sizes_too=True)
         out[active.key] = (own.amplitude * active.typical[0], own.std_error * active.typical[0])
     for k, candidate in enumerate(surveyed.candidates):
         typical, direction = candidate.typical[0], surveyed.pointing.column(k)
