@@ -113,8 +113,9 @@ def _frame(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> pd.DataFr
 def _errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, dict[str, float]]:
     """Mean relative errors by temperature, as in Table 4."""
     errors = mean_relative_error(
-        _frame(diagnosis, diagnosis.observed.logarithm), _frame(diagnosis, logarithm)
-    )
+        _frame(diagnosis, diagnosis.observed.logarithm), _frame(diagnosis, logarithm),
+        float(np.degrees(diagnosis.noise.sigma[1])),
+    )  # fmt: skip
     by = [f"{t:g}" for t in errors["temperature_C"]]
     return {
         name: dict(zip(by, errors[name].tolist(), strict=True))
@@ -197,10 +198,12 @@ def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[st
         if active.key == candidate.key:
             break
         first += len(active.values)
-    errors = np.sqrt(np.diag(fitted.covariance))
+    errors = np.sqrt(np.diag(fitted.covariance))[first : first + len(candidate.values)] * candidate.typical
+    if candidate.key in diagnosis.ladder.estimates:
+        errors[0] = max(errors[0], diagnosis.ladder.estimates[candidate.key][1])
     return {
         parameter.name: {
-            "value": value, "std_error": float(errors[first + k] * parameter.typical), "unit": parameter.unit,
+            "value": value, "std_error": float(errors[k]), "unit": parameter.unit,
         }
         for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True))
     }  # fmt: skip
