@@ -25,6 +25,7 @@ FIGURES = {
         "2 Preparation",
         {"deposit": [f"<results>/deposits/{FIRST}.h5"], "specimen": [f"<results>/specimens/{FIRST}.h5"]},
     ),
+    "fig_compaction": ("2 Preparation", {"deposit": expand("<results>/deposits/{sample}.h5", sample=SAMPLES)}),
     "fig07": (
         "3 Bending tests",
         {"test": expand(TESTS, sample=FIRST, temperature=TYPICAL, frequency=max(FREQUENCIES, key=float))},
@@ -46,6 +47,7 @@ FIGURES = {
 }
 DEPOSITS = expand("<results>/deposits/{sample}.h5", sample=SAMPLES)
 TABLES = {
+    "preparation": {"deposits": DEPOSITS},
     "samples": {"simulations": SIMULATIONS, "deposits": DEPOSITS},
     "table3": {
         "fitted": FITTED_LAWS,
@@ -62,6 +64,7 @@ TABLES = {
 PAGES = {
     "measured": "1 Measurements and laws",
     "table3": "1 Measurements and laws",
+    "preparation": "2 Preparation",
     "samples": "2 Preparation",
     "simulations": "3 Bending tests",
     "table4": "3 Bending tests",

@@ -102,10 +102,16 @@ def _settle(
         law, scales, active = fitted.law, fitted.scales, fitted.active
         linear = plain.linearise(law, scales, active)
         model = discrepancy.reduce(found, linear)
-        # Which of three specimens is the odd one may have two answers: the likelier is taken.
-        tried = [discrepancy.estimate(model, start=start) for start in (variances, None)]
-        variances = min(tried, key=lambda estimate: estimate.misfit).variances
+        variances = _likeliest(model, variances).variances
     return State(plain, wide, fitted, linear, model, variances)
+
+
+def _likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
+    """The likeliest of several answers: which of three specimens is odd, or a phase that is off at every
+    frequency for a modulus that is, may be told in two ways."""
+    uncommon = np.where([name.startswith("all") for name in model.processes.names], discrepancy.LEAST, variances)
+    tried = [discrepancy.estimate(model, cause, start) for start in (variances, None, uncommon)]
+    return min(tried, key=lambda estimate: estimate.misfit)
 
 
 def _smoothed(state: State) -> State:
@@ -125,9 +131,9 @@ def _next(state: State, catalogue: Sequence[Cause], draws: int, random: np.rando
     candidates, pointing = _pointing(state, catalogue)
     if not candidates:
         return None
-    nothing = discrepancy.estimate(state.model, start=state.variances)
+    nothing = _likeliest(state.model, state.variances)
     estimates = [
-        discrepancy.estimate(state.model, pointing.column(k), state.variances) for k in range(len(candidates))
+        _likeliest(state.model, state.variances, pointing.column(k)) for k in range(len(candidates))
     ]
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     z = np.array([estimate.z for estimate in estimates])
@@ -267,7 +273,7 @@ def estimates(state: State, catalogue: Sequence[Cause]) -> dict[tuple, tuple[flo
         out[active.key] = (own.amplitude * active.typical[0], own.std_error * active.typical[0])
     candidates, pointing = _pointing(state, catalogue)
     for k, candidate in enumerate(candidates):
-        one = discrepancy.estimate(state.model, pointing.column(k), state.variances)
+        one = _likeliest(state.model, state.variances, pointing.column(k))
         typical = candidate.typical[0]
         if candidate.key not in out or one.std_error * typical < out[candidate.key][1]:
             out[candidate.key] = (one.amplitude * typical, one.std_error * typical)

@@ -89,7 +89,6 @@ def diagnose(
         )
     if observed.frequencies.size < 3:
         notes.append("Two frequencies: Burgers laws fit them exactly, so their misfit cannot be judged.")
-    notes += _of_suspects(whole, doubtful)
     ladder = climb(joint, fitted, catalogue, draws, seed)
     law_p = misfit_p_value(_by_scatter(ladder, noise), noise)
     diagnosis = Diagnosis(
@@ -124,16 +123,6 @@ def _too_few(diagnosis: Diagnosis) -> str:
     if observed.isotherms.size < LEAST_ISOTHERMS:
         return f"fewer than {LEAST_ISOTHERMS} temperatures were tested"
     return ""
-
-
-def _of_suspects(whole: Observations, doubtful: Sequence[Suspect]) -> list[str]:
-    """A sentence for each test that is set aside."""
-    return [
-        f"Not used: specimen {whole.names[whole.specimen[one.row]]}, {whole.isotherm[one.row]:g} degC, "
-        f"{whole.frequency[one.row]:g} Hz. {'; '.join(one.reasons)}. Repeat this test."
-        for one in doubtful
-        if not one.used
-    ]
 
 
 def _by_scatter(ladder: Ladder, noise: Noise) -> Fitted:

@@ -7,7 +7,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from asphalt_nscd.diagnosis import quality, report, suspects, within_isotherm
+from asphalt_nscd.diagnosis import quality, repeatability, report, suspects, within_isotherm
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.numerics import of_campaign
@@ -49,6 +49,12 @@ def run(
     if simulations is not None:
         content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
     content["origin"] = origin
+    held = within_isotherm.hold(observed)
+    content["repeatability"] = repeatability.coefficients(diagnosis.observed)
+    content["contradictory_isotherms"] = [
+        {"temperature_C": one.temperature, "sentence": one.sentence}
+        for one in suspects.broken_isotherms(observed, held)
+    ]
     content["provenance"] = {
         **provenance(),
         "measurements": given.name,
@@ -62,7 +68,6 @@ def run(
     }
     folder = Path(folder)
     write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical))
-    held = within_isotherm.hold(observed)
     write_table(folder / "causality.csv", suspects.table(observed, list(diagnosis.suspects), held))
     if fit is not None:
         write_spectrum(

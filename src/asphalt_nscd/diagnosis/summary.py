@@ -2,118 +2,62 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from tabulate import tabulate
 
-from asphalt_nscd.diagnosis.written import CONFIDENCE, UNJUDGED, shown, three_digits
+from asphalt_nscd.diagnosis import sentences
 
 Content = Mapping[str, Any]
-VERDICTS = {
-    "explained": "Verdict: explained. What is left is the scatter of replicates.",
-    "unexplained_structure": "Verdict: unexplained structure. More than scatter is left beside the causes named.",
-    "nothing_to_explain": "Verdict: nothing to explain. The Burgers laws miss the data by no more than scatter.",
-}
-HELD_OUT = {
-    "isotherms held out / scatter": "leave_one_isotherm_out",
-    "frequencies held out / scatter": "leave_one_frequency_out",
-}
-HEADERS = ["cause", "where", "parameter, 95 %", "p", "error |E*| %", "error phase %", *HELD_OUT]
-LARGEST = 4  # parts of the discrepancy that are listed
 
 
 def summary(content: Content) -> str:
-    """The ladder as a table, with the tests not used, the verdict and the notes."""
-    scatter, read = content["scatter"], content.get("reading", {"notes": []})
-    judged = content["verdict"] != "nothing_to_explain" or content["tested"]
-    rows = [_row(rung) for rung in content["ladder"]]
-    lines = [
-        *read["notes"],
-        *([""] if read["notes"] else []),
-        f"{content['tests']} tests used. One test scatters by {scatter['modulus_percent']:.3g} % in |E*| and "
-        f"{scatter['phase_deg']:.3g} deg in phase; specimens differ by {scatter['specimens_percent']:.2g} % in |E*|.",
-        *_suspects(content),
-        "",
-        tabulate(rows, HEADERS) if rows else "No cause beats chance.",
-        "",
-        *_how_sure(content),
-        VERDICTS[content["verdict"]] if judged else f"Verdict: {UNJUDGED}.",
-        *_left(content),
-    ]
-    return "\n".join([*lines, *content["notes"]])
-
-
-def _row(rung: Content) -> list[str]:
-    inside, held = rung["gain"]["in_sample"], rung["gain"]["held_out"]
-    return [
-        rung["cause"], "" if rung["where"] is None else rung["where"], _size(rung["parameters"]),
-        f"{rung['p_value']:.1g}" if rung["p_value"] > 1e-6 else "< 1e-6",
-        *(f"{inside[k]['before']:.2f} -> {inside[k]['after']:.2f}" for k in ("mre_E_percent", "mre_phase_percent")),
-        *(
-            "{before:.2f} -> {after:.2f}".format(**held[way]["rms_over_scatter"]) if way in held else ""
-            for way in HELD_OUT.values()
-        ),
+    """The first page as text, one part after another; parts with nothing to say are left out."""
+    read = content.get("reading", {"notes": []})
+    verdict = [f"Data: {sentences.on_data(content)}", f"Simulation: {sentences.on_simulation(content)}"]
+    test = sentences.test_type(content)
+    parts = [
+        ("What was read", read["notes"]),
+        ("Verdict", [*([f"Test: {test}."] if test else []), *verdict]),
+        ("Tests not to be used", _suspects(content)),
+        ("Causes", [f"{cause}. {sure}" for cause, sure in sentences.causes(content)] or ["No cause beats chance."]),
+        ("What stays unexplained", _left(content)),
+        ("Scatter", _scatter(content)),
+        ("Remarks", content["notes"]),
     ]  # fmt: skip
+    return "\n\n".join(_part(title, lines) for title, lines in parts if lines)
 
 
-def _size(parameters: Content) -> str:
-    """The first parameter, which is the amplitude, with its 95 % interval."""
-    name, amplitude = next(iter(parameters.items()))
-    if name == "reference_temperature":  # of a law whose shift these tests do not determine
-        return ""
-    (value, unit), error = shown(amplitude["value"], amplitude["unit"]), amplitude["std_error"]
-    interval = "" if error is None else f" +- {CONFIDENCE * shown(error, amplitude['unit'])[0]:.2g}"
-    return f"{name} {value:.3g}{interval} {unit}".rstrip()
+def _part(title: str, lines: Sequence[str]) -> str:
+    return "\n".join([title.upper(), *lines])
 
 
 def _suspects(content: Content) -> list[str]:
-    """How many tests are doubtful; the notes say which are not used, and why."""
-    found = content.get("suspect_tests", [])
-    kept = sum(one["used"] for one in found)
-    lines = [f"Tests not used: {len(found) - kept}; the reasons stand below."] if kept < len(found) else []
-    if kept:
-        lines.append(f"Doubtful but used: {kept}; suspect_tests in diagnosis.json says why.")
-    return lines
-
-
-def _how_sure(content: Content) -> list[str]:
-    """A sentence for each cause: established, or what it hangs on."""
     lines = []
-    for rung in content["ladder"]:
-        where = "" if rung["where"] is None else f" ({rung['where']})"
-        if rung["as_good"]:
-            lines.append(
-                f"{rung['cause']}{where}: likely. {', '.join(rung['as_good'])} fits as well; the data do not say which."
-            )
-        elif rung.get("hangs_on"):
-            lines.append(
-                f"{rung['cause']}{where}: likely, not established. Without {', '.join(rung['hangs_on'])} these data do "
-                "not show it."
-            )
-        elif (
-            rung["cause"] != "relaxation_spectrum" and content.get("discrepancy") and rung.get("established")
-        ):
-            lines.append(
-                f"{rung['cause']}{where}: established. It stays whichever isotherm, frequency or specimen is left out."
-            )
+    for one in sentences.not_used(content):
+        lines.append(f"{sentences.place_of_test(one)}:")
+        lines += [f"  {reason}" for reason in one["reasons"]]
+    kept = len(sentences.doubtful(content))
+    if kept:
+        tests = "test is" if kept == 1 else "tests are"
+        lines.append(f"{kept} more {tests} doubtful but used; suspect_tests in diagnosis.json says why.")
     return lines
 
 
 def _left(content: Content) -> list[str]:
-    """What is left without a name, and where."""
-    left, lines = content["largest_pattern_left"], []
-    sizes = sorted(content.get("discrepancy", {}).items(), key=lambda item: -item[1])[:LARGEST]
-    if sizes:
-        parts = ", ".join(f"{name} {three_digits(size)}" for name, size in sizes)
-        lines.append(f"Left without a name, in units of the scatter of one test: {parts}.")
-    elif content["verdict"] == "unexplained_structure" and left is not None:
-        lines.append(
-            f"Largest pattern left: {left['pattern']}, {left['z']:.1f} standard deviations of one pattern, "
-            f"p = {left['p_value']:.2g} among all."
-        )
-    if content["withdrawn"]:
-        lines.append(
-            f"Considered and dropped, because a discrepancy fits as well: {', '.join(content['withdrawn'])}."
-        )
-    return lines
+    dropped = content["withdrawn"]
+    return sentences.left(content) + (
+        [f"Considered and dropped, because a discrepancy fits as well: {', '.join(dropped)}."] if dropped else []
+    )
+
+
+def _scatter(content: Content) -> list[str]:
+    rows = sentences.scatter_rows(content)
+    if not rows:
+        return []
+    table = tabulate(rows, sentences.SCATTER_HEAD, disable_numparse=True)
+    return [
+        "Coefficient of variation between specimens at one condition, and within specimens (level of each taken off):",
+        *table.splitlines(),
+    ]

@@ -13,7 +13,8 @@ from asphalt_nscd.files.store import load, save
 from asphalt_nscd.measurements.geometry import read_geometry, require_within
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.deposit import REST_SPEED, Granulate, PouringNumerics, Progress, settle, vibrate
+from asphalt_nscd.specimen.deposit import REST_SPEED, Course, Progress, Shaking, balance, settle, vibrate
+from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.specimen.network import Network
 from asphalt_nscd.specimen.trimming import Specimen, layer_height, trim
@@ -38,26 +39,50 @@ def deposit(
     position, radius = random_lattice(diameters, counts, box, np.random.default_rng(seed))
     numerics = PouringNumerics.of(radius, time_step)
     granulate = Granulate.in_box(position, radius, box, DENSITY, friction)
+    granulate.let_fall()
     settle(granulate, numerics, REST_SPEED, LONGEST_POURING, progress, "pouring")
-    poured, poured_height = granulate.position.copy(), layer_height(granulate.position, radius)
+    stages = {"poured": _stage(granulate, numerics, Course(), progress, "settling")}
+    poured, course, pressure = granulate.position.copy(), Course(), 0.0
     if vibration_time > 0.0:
-        vibrate(granulate, numerics, stroke, vibration_frequency, vibration_time, progress)
+        course.note(granulate)
+        pressure = granulate.weight() / (box[0] * box[1])
+        shaking = Shaking(stroke, vibration_frequency, vibration_time, pressure)
+        vibrate(granulate, numerics, shaking, course, progress)
         settle(granulate, numerics, REST_SPEED, LONGEST_REST, progress, "coming to rest")
-    contacts, gap = granulate.contacts(TOUCHING)
+        stages["vibrated"] = _stage(granulate, numerics, course, progress, "coming to rest")
+        course.note(granulate)
+    last = stages["vibrated" if vibration_time > 0.0 else "poured"]
     attributes = {
         "seed": seed, "friction": friction, "stroke_m": stroke, "vibration_Hz": vibration_frequency,
-        "vibration_s": vibration_time, "spheres": radius.size, "poured_height_m": poured_height,
+        "vibration_s": vibration_time, "wall_pressure_Pa": pressure, "spheres": radius.size,
         "highest_point_m": granulate.top(), "steps": granulate.steps, "sweeps": granulate.sweeps,
-        **layer_statistics(granulate.position, radius, box, contacts),
-        "largest_penetration_m": float(max(0.0, -gap.min(initial=0.0))),
+        **last, **{f"poured_{name}": value for name, value in stages["poured"].items()},
         "kinetic_energy_J": granulate.kinetic_energy(),
         **asdict(numerics), "cpu_s": time.process_time() - began,
     }  # fmt: skip
     arrays = {
         "initial_position": position, "poured_position": poured, "position": granulate.position,
-        "radius": radius, "box": np.asarray(box, float),
+        "radius": radius, "box": np.asarray(box, float), **course.arrays(),
     }  # fmt: skip
     save(output, "deposit", arrays, attributes)
+
+
+def _stage(
+    granulate: Granulate, numerics: PouringNumerics, course: Course, progress: Progress, name: str
+) -> dict[str, float]:
+    """Bring the layer into equilibrium; what is said of it then."""
+    weight_balance, unbalanced = balance(granulate, numerics, LONGEST_REST, progress, name)
+    contacts, gap = granulate.contacts(TOUCHING)
+    box = (granulate.plane_point[3, 0], granulate.plane_point[4, 1], granulate.top())
+    touched = np.array(course.touched)
+    return {
+        **layer_statistics(granulate.position, granulate.radius, box, contacts),
+        "largest_overlap_m": float(max(0.0, -gap.min(initial=0.0))),
+        "weight_balance": weight_balance, "unbalanced_force": unbalanced,
+        "periods": touched.size, "periods_with_contact": int((touched > 0).sum()),
+        "grains_touched_per_period": float(touched.mean()) if touched.size else 0.0,
+        "largest_overlap_driven_m": course.overlap,
+    }  # fmt: skip
 
 
 def layer_statistics(

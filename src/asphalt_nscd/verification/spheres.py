@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics
+from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.verification.row import Checks, Row, order
 

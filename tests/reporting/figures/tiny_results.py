@@ -97,8 +97,9 @@ class Results:
         arrays = {
             "initial_position": position, "poured_position": position * [1.0, 1.0, 0.12],
             "position": position * [1.0, 1.0, 0.1], "radius": radius, "box": box,
+            "course/time": np.array([2.0, 2.5, 3.25]), "course/height": np.array([0.024, 0.021, 0.0203]),
         }  # fmt: skip
-        heights = {"poured_height_m": 0.024, "layer_height_m": 0.0203}
+        heights = {"poured_layer_height_m": 0.024, "layer_height_m": 0.0203}
         save(path := self.folder / "deposit.h5", "deposit", arrays, heights)
         return [path]
 

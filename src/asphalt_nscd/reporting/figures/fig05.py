@@ -47,7 +47,7 @@ def draw(deposit: list[Path], specimen: list[Path]) -> Figure:
     axes = _scene(figure, (lattice, radius, shades), small, EDGE, HEIGHT - TITLE - TALL)
     _box(axes, poured.arrays["box"])
     _title(figure, "a", "lattice", EDGE, top)
-    heights = poured.attributes["poured_height_m"], poured.attributes["layer_height_m"]
+    heights = poured.attributes["poured_layer_height_m"], poured.attributes["layer_height_m"]
     for name, text, position, height in zip(
         "bc", ("poured", "vibrated"), (loose, dense), heights, strict=True
     ):
