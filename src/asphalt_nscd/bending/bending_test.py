@@ -17,7 +17,7 @@ from asphalt_nscd.bending.layers import LayerHeights
 from asphalt_nscd.bending.rig import Rig, read_rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save
-from asphalt_nscd.measurements.signals import harmonic_response, peak_response, require_steps
+from asphalt_nscd.measurements.signals import Response, harmonic_response, peak_response, require_steps
 from asphalt_nscd.measurements.twopoint import Geometry, complex_modulus, norm_and_phase
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.rheology.burgers import Burgers
@@ -111,7 +111,7 @@ class TestFiles:
         """Where this run is kept; it names all that makes it this run."""
         if self.checkpoint is None:
             return None
-        run = {
+        run: dict[str, float | int | str] = {
             "model": digest(self.model), "law": digest(self.law), "frequency_Hz": case.frequency,
             "amplitude_m": case.amplitude, "cycles": case.cycles, "time_step_s": numerics.time_step,
             "rest_steps": numerics.rest_steps, "method": numerics.method, "scheme": numerics.scheme,
@@ -176,9 +176,11 @@ def simulate(
         options.checkpoint.drop()
 
 
-def _modulus(geometry: Geometry, frequency: float, response) -> complex:
-    return complex_modulus(
-        geometry, frequency, response.force_amplitude, response.displacement_amplitude, response.phase
+def _modulus(geometry: Geometry, frequency: float, response: Response) -> complex:
+    return complex(
+        complex_modulus(
+            geometry, frequency, response.force_amplitude, response.displacement_amplitude, response.phase
+        )
     )
 
 

@@ -61,7 +61,8 @@ class Numerics:
 
     def times(self, case: LoadCase) -> Vector:
         """Ends of the steps (s,) [s] while the head moves."""
-        return self.time_step * np.arange(1, round(case.cycles / case.frequency / self.time_step) + 1)
+        steps = round(case.cycles / case.frequency / self.time_step)
+        return self.time_step * np.arange(1.0, steps + 1.0)
 
     def driven(self, case: LoadCase) -> Vector:
         """Displacement of the actuator [m] in every step, those at rest included."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -165,17 +165,18 @@ def _one_by_one(
         if small is not None:
             small.put(_below("reduced/", kept))
             if kept["full_steps"] > 0:
-                full = CondensedState.at_rest(model.system, law)
-                full.broken = kept["march/broken"].tolist()
-                march.stepper = CondensedStepper(model.system, law, stepper.dt, full, case.rig)
+                state = CondensedState.at_rest(model.system, law)
+                state.broken = kept["march/broken"].tolist()
+                march.stepper = CondensedStepper(model.system, law, stepper.dt, state, case.rig)
         march.put(_below("march/", kept))
         run.done, run.full_steps = kept["force"].size, kept["full_steps"].item()
         run.force[: run.done], run.velocity[: run.done] = kept["force"], kept["velocity"]
-    along = None if small is None else layers.mean @ small.model.basis
+    along = np.empty((0, 0)) if small is None else layers.mean @ small.model.basis
     for n in range(run.done, driven.size):
         try:
             run.force[n] = march.move_to(driven[n])
         except FullSystemNeeded:
+            assert small is not None, "the full system makes every step"
             state = small.full_state()
             march.go_on_with(CondensedStepper(model.system, law, stepper.dt, state, case.rig))
             run.force[n] = march.move_to(driven[n])
@@ -186,8 +187,9 @@ def _one_by_one(
                 along = layers.mean @ small.model.basis
             run.velocity[n] = along @ small.state.velocity
         else:
-            small.certify(march.stepper)
-            run.velocity[n] = layers.mean @ march.stepper.state.velocity
+            full = cast("CondensedStepper", march.stepper)
+            small.certify(full)
+            run.velocity[n] = layers.mean @ full.state.velocity
             run.full_steps += 1
         run.done += 1
         if options.checkpoint and options.checkpoint.is_due(run.done, driven.size):

@@ -100,10 +100,10 @@ def _status(step: Callable[[], object]) -> int:
 
 
 def _forget_core() -> str:
-    import numba
+    from asphalt_nscd.nscd.core_cache import core_folder
 
-    shutil.rmtree(numba.config.CACHE_DIR, ignore_errors=True)
-    return f"{numba.config.CACHE_DIR}: the compiled core was damaged; it was removed, run the same command again."
+    shutil.rmtree(core_folder(), ignore_errors=True)
+    return f"{core_folder()}: the compiled core was damaged; it was removed, run the same command again."
 
 
 def _file_trouble(error: OSError | RuntimeError) -> str | None:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -54,7 +55,7 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 def command(
     measurements: tuple[Path, ...], output: Path, sheet: str | None, columns: tuple[tuple[str, str], ...],
-    measured_in: str | None, geometry: object, specimen: Path | None, static_modulus_mpa: float | None,
+    measured_in: str | None, geometry: Any, specimen: Path | None, static_modulus_mpa: float | None,
     modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
     simulations: Path | None,
 ) -> None:  # fmt: skip
@@ -71,7 +72,7 @@ def command(
     stated = None
     if (modulus_scatter_percent is None) != (phase_scatter_deg is None):
         raise click.UsageError("give --modulus-scatter-percent and --phase-scatter-deg together.")
-    if modulus_scatter_percent is not None:
+    if modulus_scatter_percent is not None and phase_scatter_deg is not None:
         stated = modulus_scatter_percent / 100.0, math.radians(phase_scatter_deg)
     static = None if static_modulus_mpa is None else 1e6 * static_modulus_mpa
     campaign, _ = read_campaign(measurements, sheet, dict(columns), measured_in)

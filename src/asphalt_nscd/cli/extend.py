@@ -36,7 +36,7 @@ class Test(click.ParamType):
 )
 @click.option("--rig-output", required=True, type=_options.File, help="Rig to write.")
 def command(
-    diagnosis: Path, law: Path, measured: Path, geometry: object, specimen: Path, number: int, amplitude_m: float,
+    diagnosis: Path, law: Path, measured: Path, geometry: Any, specimen: Path, number: int, amplitude_m: float,
     tests: tuple[tuple[float, float, Path], ...], rig_output: Path,
 ) -> None:  # fmt: skip
     """Extend the simulation of one sample by what a diagnosis named: bond laws of its tests, and a rig."""

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -16,7 +17,7 @@ from asphalt_nscd.cli import _options
     help="Whole cycles at the end of a record; else those of the last 10 s.",
 )
 @_options.output
-def command(measurements: Path, geometry: object, cycles: int | None, output: Path) -> None:
+def command(measurements: Path, geometry: Any, cycles: int | None, output: Path) -> None:
     """Reduce measured peaks, records or moduli to complex moduli, Eqs. (1)-(5)."""
     from asphalt_nscd.measurements.reduction import reduce_table
 

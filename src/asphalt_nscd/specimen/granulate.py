@@ -69,6 +69,9 @@ class Granulate:
         self._involved = self.radius.size  # spheres that are searched, the first ones
         self._searched_at = self.position
         self._planes_at = self.plane_point
+        self._reach = 0.0  # m, within which pairs were searched
+        self._extra = np.empty(0)  # (m,) m, what each sphere may move until the next search
+        self._plane_reach = np.empty(0)  # (p,) m
 
     @classmethod
     def in_box(

@@ -111,7 +111,7 @@ def trim_deposit(
     """Cut a specimen from a deposit, bond its spheres (`trim`; gap_max [m] is its reach), and save."""
     record = load(deposit_file, "deposit")
     shape = read_geometry(geometry, ["specimen"])["specimen"]
-    require_within(shape, record.arrays["box"])
+    require_within(shape, record.arrays["box"].tolist())
     specimen = trim(
         record.arrays["position"], record.arrays["radius"], shape, volume_reduction, gap_max, area
     )

@@ -97,6 +97,7 @@ def tested(method: str, scheme: str, checkpoint: Checkpoint | None = None, stop_
 
     case, numerics = LoadCase(400.0, 2.5e-5, 1.0), Numerics(5e-5, 5, method, scheme)
     record = run_test(model, QUICK_LAW, case, numerics, RunOptions(progress, True, checkpoint))
+    assert record.velocity is not None
     broken, account = np.array(record.broken), np.array(list(record.details.values()))
     return b"".join(array.tobytes() for array in (record.force, record.velocity, broken, account))
 
