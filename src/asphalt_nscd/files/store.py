@@ -183,8 +183,9 @@ def _version(name: str) -> str:
 
 def _git_commit() -> str:
     root = Path(__file__).resolve().parents[3]
+    # Without optional locks git does not refresh its index: a full disk would leave a broken lock behind.
     run = subprocess.run(
-        ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=40"],
+        ["git", "--no-optional-locks", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=40"],
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     return run.stdout.strip() or "unknown"
