@@ -10,6 +10,8 @@ import pytest
 import yaml
 from workspace import ROOT, Workspace
 
+pytestmark = pytest.mark.slow
+
 TABLE = "data/paper/table3_burgers.csv"
 
 

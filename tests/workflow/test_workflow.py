@@ -14,6 +14,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit", "published")
 FITS = ["results/smoke/laws/fitted/T0.json", "results/smoke/laws/fitted/T20.json"]
 

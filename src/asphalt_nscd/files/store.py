@@ -181,10 +181,16 @@ def _version(name: str) -> str:
         return "absent"
 
 
-def _git_commit() -> str:
-    root = Path(__file__).resolve().parents[3]
-    run = subprocess.run(
-        ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=40"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    return run.stdout.strip() or "unknown"
+def _git_commit(root: Path = Path(__file__).resolve().parents[3]) -> str:
+    """The commit, with -dirty behind it if a tracked file was changed; unknown outside a repository.
+
+    The repository is only read: `describe --dirty` would refresh its index, and leave a lock there on a full disk.
+    """
+    commit = _git(root, "describe", "--always", "--abbrev=40")
+    changed = _git(root, "status", "--porcelain", "--untracked-files=no") if commit else ""
+    return (f"{commit}-dirty" if changed else commit) or "unknown"
+
+
+def _git(root: Path, *arguments: str) -> str:
+    command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
