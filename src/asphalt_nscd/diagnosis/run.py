@@ -10,6 +10,7 @@ from typing import Any
 from asphalt_nscd.diagnosis import quality, repeatability, report, suspects, within_isotherm
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
+from asphalt_nscd.diagnosis.instructions import instructions
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
@@ -51,6 +52,7 @@ def run(
     content["origin"] = origin
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
+    content["instructions"] = instructions(diagnosis)
     content["contradictory_isotherms"] = [
         {"temperature_C": one.temperature, "sentence": one.sentence}
         for one in suspects.broken_isotherms(observed, held)

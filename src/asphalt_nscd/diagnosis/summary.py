@@ -23,6 +23,7 @@ def summary(content: Content) -> str:
         ("Tests not to be used", _suspects(content)),
         ("Causes", [f"{cause}. {sure}" for cause, sure in sentences.causes(content)] or ["No cause beats chance."]),
         ("What stays unexplained", _left(content)),
+        ("What to do next", _orders(content)),
         ("Scatter", _scatter(content)),
         ("Remarks", content["notes"]),
     ]  # fmt: skip
@@ -50,6 +51,14 @@ def _left(content: Content) -> list[str]:
     return sentences.left(content) + (
         [f"Considered and dropped, because a discrepancy fits as well: {', '.join(dropped)}."] if dropped else []
     )
+
+
+def _orders(content: Content) -> list[str]:
+    found = content.get("instructions", {"orders": []})
+    lines = []
+    for number, one in enumerate(found["orders"], 1):
+        lines += [f"{number}. {one['text']}", *(f"   {why}" for why in one["why"])]
+    return [*lines, found["costs"]] if lines else []
 
 
 def _scatter(content: Content) -> list[str]:
