@@ -64,16 +64,16 @@ def command(
     MEASUREMENTS: files or a folder of them. Read are exports of testing machines (AMPT, UTM) and tables (CSV,
     TSV, XLSX) with a row for each test or a column for each temperature or frequency.
     """
-    import math
-
-    from asphalt_nscd.diagnosis.run import run
-    from asphalt_nscd.table_import.campaign import read_campaign
-
-    stated = None
     if (modulus_scatter_percent is None) != (phase_scatter_deg is None):
         raise click.UsageError("give --modulus-scatter-percent and --phase-scatter-deg together.")
+    from asphalt_nscd.api.diagnosis import Draws, diagnose
+    from asphalt_nscd.api.tables import campaign_in
+
+    scatter = None
     if modulus_scatter_percent is not None and phase_scatter_deg is not None:
-        stated = modulus_scatter_percent / 100.0, math.radians(phase_scatter_deg)
-    static = None if static_modulus_mpa is None else 1e6 * static_modulus_mpa
-    campaign, _ = read_campaign(measurements, sheet, dict(columns), measured_in)
-    click.echo(run(campaign, output, geometry, specimen, static, stated, draws, seed, simulations))
+        scatter = modulus_scatter_percent, phase_scatter_deg
+    diagnosis = diagnose(
+        campaign_in(measurements, sheet, dict(columns), measured_in), geometry=geometry, specimen=specimen,
+        static_modulus_MPa=static_modulus_mpa, scatter=scatter, simulations=simulations, draws=Draws(draws, seed),
+    )  # fmt: skip
+    click.echo(diagnosis.write(output))

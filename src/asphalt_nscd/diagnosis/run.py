@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
+
+import pandas as pd
 
 from asphalt_nscd.diagnosis import quality, repeatability, report, suspects, within_isotherm
 from asphalt_nscd.diagnosis.diagnose import diagnose
@@ -19,7 +22,37 @@ from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes
-from asphalt_nscd.rheology.spectrum_io import write_spectrum
+from asphalt_nscd.rheology.spectrum_io import spectrum_content
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a diagnosis gives: the content of its files."""
+
+    content: dict[str, Any]  # of diagnosis.json
+    residuals: pd.DataFrame
+    causality: pd.DataFrame
+    law: dict[str, Any] | None  # content of law.json; None for one isotherm
+
+    def write(self, folder: str | Path) -> list[str]:
+        """Write the files into a folder; their names."""
+        folder = Path(folder)
+        write_table(folder / "residuals.csv", self.residuals)
+        write_table(folder / "causality.csv", self.causality)
+        if self.law is not None:
+            write_json(folder / "law.json", self.law)
+        write_json(folder / "diagnosis.json", self.content)
+        return [
+            "diagnosis.json",
+            "residuals.csv",
+            "causality.csv",
+            *([] if self.law is None else ["law.json"]),
+        ]
+
+    def written(self, folder: str | Path) -> str:
+        """Write the files; the summary, and what was written."""
+        names = self.write(folder)
+        return f"{summary(self.content)}\n\nWritten to {folder}: {', '.join(names)}."
 
 
 def run(
@@ -28,9 +61,20 @@ def run(
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
     simulations: str | Path | None = None,
 ) -> str:  # fmt: skip
-    """Diagnose measurements and write four files into the folder; the summary.
+    """Diagnose measurements and write four files into the folder; the summary. See `conclude`."""
+    outcome = conclude(measurements, geometry, specimen, static_modulus, scatter, draws, seed, simulations)
+    return outcome.written(folder)
 
-    The files: diagnosis.json, residuals.csv, causality.csv and law.json. simulations: table of simulated tests whose
+
+def conclude(
+    measurements: str | Path | Campaign, geometry: str | Path | Mapping[str, Any],
+    specimen: str | Path | None = None, static_modulus: float | None = None,
+    scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
+    simulations: str | Path | None = None,
+) -> Outcome:  # fmt: skip
+    """Diagnose measurements.
+
+    static_modulus [Pa]; scatter: of |E*| (relative) and phase [rad]. simulations: table of simulated tests whose
     numerics are told apart.
     """
     numerical = read_specimen(specimen)
@@ -60,7 +104,7 @@ def run(
     content["provenance"] = {
         **provenance(),
         "measurements": given.name,
-        **_checksums(files),
+        **(_checksums(files) if files else {}),
         "draws": draws,
         "seed": seed,
         "geometry": dict(geometry) if isinstance(geometry, Mapping) else Path(geometry).name,
@@ -68,17 +112,16 @@ def run(
         "static_modulus_Pa": static_modulus,
         "scatter_stated": None if scatter is None else list(scatter),
     }
-    folder = Path(folder)
-    write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical))
-    write_table(folder / "causality.csv", suspects.table(observed, list(diagnosis.suspects), held))
+    law = None
     if fit is not None:
-        write_spectrum(
-            folder / "law.json", fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,
+        law = spectrum_content(
+            fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,
             std_error=fit.std_error, unseen=fit.unseen, from_prior=fit.from_prior,
         )  # fmt: skip
-    write_json(folder / "diagnosis.json", content)
-    written = ["diagnosis.json", "residuals.csv", "causality.csv", *([] if fit is None else ["law.json"])]
-    return f"{summary(content)}\n\nWritten to {folder}: {', '.join(written)}."
+    return Outcome(
+        content, report.residual_table(diagnosis, numerical),
+        suspects.table(observed, list(diagnosis.suspects), held), law,
+    )  # fmt: skip
 
 
 def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
