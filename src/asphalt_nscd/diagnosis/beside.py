@@ -123,7 +123,9 @@ def _settle(
 def _likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
     """The likeliest of several answers: which of three specimens is odd, or a phase that is off at every
     frequency for a modulus that is, may be told in two ways."""
-    uncommon = np.where([name.startswith("all") for name in model.processes.names], discrepancy.LEAST, variances)
+    uncommon = np.where(
+        [name.startswith("all") for name in model.processes.names], discrepancy.LEAST, variances
+    )
     tried = [discrepancy.estimate(model, cause, start) for start in (variances, None, uncommon)]
     return min(tried, key=lambda estimate: estimate.misfit)
 
@@ -138,9 +140,7 @@ def _smoothed(state: State) -> State:
 def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     """Candidates that the table can show, each estimated beside the discrepancy."""
     candidates, pointing = _pointing(state, catalogue)
-    estimates = [
-        _likeliest(state.model, state.variances, pointing.column(k)) for k in range(len(candidates))
-    ]
+    estimates = [_likeliest(state.model, state.variances, pointing.column(k)) for k in range(len(candidates))]
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     return Survey(candidates, pointing, estimates, one_sided)
 

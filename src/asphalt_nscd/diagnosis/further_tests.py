@@ -97,7 +97,9 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     names, roots, sizes = _discrepancy(diagnosis, joint, at)
     of_law = nuisance.shape[1]
     nuisance = np.hstack([nuisance, *roots])
-    sizes = np.concatenate([np.full(root.shape[1], v) for root, v in zip(roots, sizes, strict=True)] or [np.zeros(0)])
+    sizes = np.concatenate(
+        [np.full(root.shape[1], v) for root, v in zip(roots, sizes, strict=True)] or [np.zeros(0)]
+    )
     precision = _block(precision, 1.0 / sizes)
     metal = _metal(observed)
     rows = _metal_rows(metal, table, names, roots, nuisance.shape[1])
@@ -131,7 +133,12 @@ def _repeats(
         if one.used:
             continue
         name, t, f = whole.names[whole.specimen[one.row]], whole.isotherm[one.row], whole.frequency[one.row]
-        again = (table.specimen == whole.specimen[one.row]) & (table.isotherm == t) & (table.frequency == f) & ~_half(table)
+        again = (
+            (table.specimen == whole.specimen[one.row])
+            & (table.isotherm == t)
+            & (table.frequency == f)
+            & ~_half(table)
+        )
         if again.any():
             row = int(np.flatnonzero(again)[-1])
             effect = np.zeros(linear.effects.shape[0], complex)
@@ -165,7 +172,9 @@ def _half(table: Observations) -> NDArray[np.bool_]:
     return table.amplitude < 0.5 * (1.0 + HALF) * np.median(table.amplitude)
 
 
-def _halved(table: Observations, t: float, departure: NDArray[np.complex128], linear: Linear) -> NDArray[np.complex128]:
+def _halved(
+    table: Observations, t: float, departure: NDArray[np.complex128], linear: Linear
+) -> NDArray[np.complex128]:
     here = np.zeros(linear.effects.shape[0], bool)
     here[: table.size] = (table.isotherm == t) & _half(table)
     return np.where(here, -HALF * departure, 0.0)
@@ -202,7 +211,12 @@ def _table(observed: Observations, at: Sequence[float]) -> Observations:
         (s, t, f, 1.0)
         for s in range(len(names)) for t in at for f in frequencies(observed)
     ]  # fmt: skip
-    half = [(s, t, f, HALF) for s in range(len(observed.names)) for t in observed.isotherms for f in observed.frequencies]
+    half = [
+        (s, t, f, HALF)
+        for s in range(len(observed.names))
+        for t in observed.isotherms
+        for f in observed.frequencies
+    ]
     specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half))
     like = np.array([np.flatnonzero(observed.specimen == min(s, len(names) - 2))[0] for s in specimen])
     more = replace(
@@ -300,7 +314,11 @@ def _variance(name: str, sizes, tested: NDArray[np.float64]) -> float:
     if place.endswith(" degC"):
         known = [sizes.get(f"{t:g} degC, {part}", 0.0) for t in tested]
         return float(np.interp(float(place.removesuffix(" degC")), tested, known)) ** 2
-    alike = [size**2 for other, size in sizes.items() if other.startswith("specimen ") and other.endswith(f", {part}")]
+    alike = [
+        size**2
+        for other, size in sizes.items()
+        if other.startswith("specimen ") and other.endswith(f", {part}")
+    ]
     return float(np.mean(alike)) if alike else 0.0
 
 
@@ -336,7 +354,13 @@ def _frequency_sets(every: list[float], tested: NDArray, half: bool) -> list[tup
 
 def _metal(observed: Observations) -> Observations:
     """A metal specimen at the frequencies tested."""
-    at = np.array([np.flatnonzero(observed.frequency == f)[0] for f in frequencies(observed) if f in observed.frequencies])
+    at = np.array(
+        [
+            np.flatnonzero(observed.frequency == f)[0]
+            for f in frequencies(observed)
+            if f in observed.frequencies
+        ]
+    )
     return replace(observed.subset(at), modulus=np.full(at.size, METAL_MODULUS + 0j))
 
 
@@ -347,7 +371,8 @@ def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> NDAr
         if candidate.place is None and candidate.cause.stage >= HEAD:
             step = np.array([1e-3 * candidate.typical[0], *([0.0] * (len(candidate.values) - 1))])
             high, low = (
-                candidate.cause.apparent(metal.modulus, np.array(candidate.values) + sign * step, metal) for sign in (1, -1)
+                candidate.cause.apparent(metal.modulus, np.array(candidate.values) + sign * step, metal)
+                for sign in (1, -1)
             )
             out[:, k] = np.log(high / low) / 2e-3
     return out

@@ -36,7 +36,6 @@ PRESENT = 0.1  # chance that a cause nobody has seen is there
 REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
 
 
-
 @dataclass(frozen=True)
 class Open:
     """An open question: what it is about, and how a reader is told what the tests would do for it."""
@@ -77,8 +76,7 @@ def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, 
 
 
 def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
-    """Sweeps by gain per hour, each given those before it; the same sweep on several specimens is one order.
-"""
+    """Sweeps by gain per hour, each given those before it; the same sweep on several specimens is one order."""
     inquiry = Inquiry(model.linear, model.old, [one.asked for one in questions])
     orders: list[Order] = []
     waiting = list(model.sweeps)
@@ -208,15 +206,11 @@ def _reasons(
 def _reason(one: Open, before: float, after: float) -> str:
     if one.kind == "kept":
         errors = [f"{np.sqrt(strength):.1f}" for strength in (before, after)]
-        return (
-            f"The {one.about} should then show without {one.other} too, by {errors[1]} standard errors (now {errors[0]})."
-        )
+        return f"The {one.about} should then show without {one.other} too, by {errors[1]} standard errors (now {errors[0]})."
     if one.kind == "metal":
         return f"The {one.about} must show on metal too, as {one.other}. The mix has no part in that."
     if one.kind == "apart":
-        return (
-            f"It tells the {one.about} from {an(one.other)}: expected odds {_odds(after)} to 1 (now {_odds(before)} to 1)."
-        )
+        return f"It tells the {one.about} from {an(one.other)}: expected odds {_odds(after)} to 1 (now {_odds(before)} to 1)."
     if one.kind == "linear":
         return (
             f"At half the strain the contradiction at {one.about} halves if the mix is not linear there. It stays if the "

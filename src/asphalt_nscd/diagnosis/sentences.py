@@ -91,7 +91,10 @@ def place_of_test(one: Content) -> str:
 
 def causes(content: Content) -> list[tuple[str, str]]:
     """Each named cause with its size, and how sure the name is."""
-    return [(f"{cause_words(rung)}: {size(rung)}".removesuffix(": "), _sure(rung, content)) for rung in content["ladder"]]
+    return [
+        (f"{cause_words(rung)}: {size(rung)}".removesuffix(": "), _sure(rung, content))
+        for rung in content["ladder"]
+    ]
 
 
 def _sure(rung: Content, content: Content) -> str:
@@ -102,7 +105,9 @@ def _sure(rung: Content, content: Content) -> str:
         others = joined([name.replace("_", " ").replace(" @ ", " at ") for name in rung["as_good"]], "or")
         return f"Likely. {others[:1].upper()}{others[1:]} fits as well; these tests do not say which."
     if rung.get("hangs_on"):
-        return f"Likely, not established. Without {joined(rung['hangs_on'], 'or')} these tests do not show it."
+        return (
+            f"Likely, not established. Without {joined(rung['hangs_on'], 'or')} these tests do not show it."
+        )
     if not rung.get("established", True):
         return "Likely, not established. These tests are too few to exclude what the catalogue lacks."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
@@ -160,7 +165,9 @@ def size(rung: Content) -> str:
     else:
         half = CONFIDENCE * shown(error, amplitude["unit"])[0]
         interval = f" +- {three_digits(float(f'{half:.2g}'))}"
-    label = f"{name.replace('_', ' ').replace('wlf ', 'WLF ')} " if rung["cause"] == "relaxation_spectrum" else ""
+    label = (
+        f"{name.replace('_', ' ').replace('wlf ', 'WLF ')} " if rung["cause"] == "relaxation_spectrum" else ""
+    )
     return f"{label}{three_digits(value)}{interval} {unit}".rstrip()
 
 

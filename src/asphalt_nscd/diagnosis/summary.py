@@ -49,7 +49,9 @@ def _suspects(content: Content) -> list[str]:
 def _left(content: Content) -> list[str]:
     dropped = content["withdrawn"]
     return sentences.left(content) + (
-        [f"Considered and dropped, because a discrepancy fits as well: {', '.join(dropped)}."] if dropped else []
+        [f"Considered and dropped, because a discrepancy fits as well: {', '.join(dropped)}."]
+        if dropped
+        else []
     )
 
 
