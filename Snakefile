@@ -26,6 +26,7 @@ include: "workflow/rules/data.smk"  # Section 2: tests and their reduction
 include: "workflow/rules/fit.smk"  # Section 4.1: Burgers laws
 include: "workflow/rules/specimen.smk"  # Section 3.2: numerical samples
 include: "workflow/rules/bending.smk"  # Section 4.2: bending tests
+include: "workflow/rules/facets.smk"  # the same tests with bonds that fill the specimen
 include: "workflow/rules/time_step.smk"  # Fig. 6: time step
 include: "workflow/rules/sensitivity.smk"  # Section 4.3: sensitivity of the law's parameters
 include: "workflow/rules/audit.smk"  # other readings, looser samples

@@ -2,6 +2,7 @@
 
 SIMULATIONS = ["<results>/simulations.csv"]
 MEASURED = ["<results>/measured.csv"]
+EXTENDED_SIMULATIONS = ["<results>/extended.csv"] if COMMON_LAW else []
 USED_LAWS = expand(f"<results>/laws/{LAWS}/T{{temperature}}.json", temperature=TEMPERATURES)
 FITTED_LAWS = expand("<results>/laws/fitted/T{temperature}.json", temperature=TEMPERATURES)
 TYPICAL = TEMPERATURES[len(TEMPERATURES) // 2]  # where the study names no other
@@ -57,9 +58,18 @@ TABLES = {
         "measured": MEASURED,
         "published": [STUDY["published"]["errors_table"]] if "published" in STUDY else [],
     },
+    "ladder": {
+        "simulations": SIMULATIONS,
+        "facets": FACET_SIMULATIONS,
+        "extended": EXTENDED_SIMULATIONS,
+        "measured": MEASURED,
+        "diagnosis": DIAGNOSED[:1],
+        "published": [STUDY["published"]["errors_table"]] if "published" in STUDY else [],
+    },
 }
 # name: category in the report
 PAGES = {
+    "ladder": "0 Diagnosis",
     "measured": "1 Measurements and laws",
     "table3": "1 Measurements and laws",
     "samples": "2 Preparation",
@@ -111,6 +121,7 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
         "sensitivity": ["<results>/sensitivity.csv"],
         "readings": ["<results>/readings.csv"],
         "packing": ["<results>/packing.csv"],
+        "facets": FACET_SIMULATIONS,
         "table4": ["<results>/table4.csv"],
         "deposits": DEPOSITS,
         "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
@@ -125,20 +136,16 @@ if STUDY["study"] == "paper":
 
 if COMMON_LAW:
     PAGES["extended"] = "0 Diagnosis"
-    PAGES["gain"] = "0 Diagnosis"
     PAGES["prony"] = "0 Diagnosis"
     PAGES["dynamic_modulus"] = "0 Diagnosis"
     FIGURES["fig10_extended"] = (
         "0 Diagnosis",
-        {"simulations": SIMULATIONS, "extended": ["<results>/extended.csv"], "measured": MEASURED},
+        {"simulations": SIMULATIONS, "extended": EXTENDED_SIMULATIONS, "measured": MEASURED},
     )
-    TABLES["gain"] = {
-        "simulations": SIMULATIONS,
-        "extended": ["<results>/extended.csv"],
-        "measured": MEASURED,
-        "diagnosis": DIAGNOSED[:1],
-        "published": [STUDY["published"]["errors_table"]] if "published" in STUDY else [],
-    }
+if REMAPPED:
+    PAGES["facets"] = "0 Diagnosis"
+    PAGES["fracture"] = "3 Bending tests"
+    TABLES["fracture"] = {"simulations": SIMULATIONS, "facets": FACET_SIMULATIONS}
 
 COMPUTED = [
     DIAGNOSED,
@@ -169,6 +176,12 @@ KEPT = [
     expand("<results>/diagnosis/specimens/{sample}.h5", sample=SAMPLES if COMMON_LAW else FIRST),
     rules.simulations.input.tests,
 ]
+if REMAPPED:
+    KEPT += [
+        expand("<results>/facets/specimens/{sample}.h5", sample=SAMPLES),
+        expand([FACET_MODEL, FACET_EXCERPT], sample=SAMPLES),
+        rules.facet_simulations.input.tests,
+    ]
 if COMMON_LAW:
     KEPT += [
         COMMON_LAW,
@@ -200,4 +213,10 @@ if "packing_study" in STUDY:
         expand("<results>/specimens/{sample}.h5", sample=PACKED),
         expand([MODEL, EXCERPT], sample=PACKED),
         rules.packing.input.tests,
+        rules.packing.input.facets,
     ]
+    if REMAPPED:
+        KEPT += [
+            expand("<results>/facets/specimens/{sample}.h5", sample=PACKED),
+            expand([FACET_MODEL, FACET_EXCERPT], sample=PACKED),
+        ]

@@ -1,8 +1,8 @@
 # What is committed of a study: figures, tables, and the tables of the README. Only on request:
 #   snakemake --cores 1 publish
 
-BLOCKS = ["<results>/samples.csv", "<results>/table4.csv", "<results>/timings.md"]
-BLOCKS += ["<results>/gain.csv"] if COMMON_LAW else []
+BLOCKS = ["<results>/samples.csv", "<results>/table4.csv", "<results>/ladder.csv", "<results>/timings.md"]
+BLOCK_OF = {"ladder": "gain"}
 BLOCKS += ["<results>/outputs.csv"] if "outputs" in TABLES else []
 
 
@@ -21,7 +21,7 @@ rule publish:
     params:
         root=f"results/{STUDY['study']}",
         output=f"results/published/{STUDY['study']}",
-        blocks=lambda wildcards, input: [f"--block {Path(path).stem}={path}" for path in input[: len(BLOCKS)]],
+        blocks=lambda wildcards, input: [f"--block {BLOCK_OF.get(Path(path).stem, Path(path).stem)}={path}" for path in input[: len(BLOCKS)]],
     message:
         "Copy what is committed, and fill the tables of the README"
     shell:

@@ -50,13 +50,18 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
     type=_options.File,
     help="Simulated tests of the campaign, to say what in them is numerics.",
 )
+@click.option(
+    "--facets",
+    type=_options.File,
+    help="The same tests on specimens bonded by facets, to say what the paper's bonds make of |E*|.",
+)
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 def command(
     measurements: tuple[Path, ...], output: Path, sheet: str | None, columns: tuple[tuple[str, str], ...],
     measured_in: str | None, geometry: object, specimen: Path | None, static_modulus_mpa: float | None,
     modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
-    simulations: Path | None,
+    simulations: Path | None, facets: Path | None,
 ) -> None:  # fmt: skip
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
 
@@ -74,5 +79,7 @@ def command(
     if modulus_scatter_percent is not None:
         stated = modulus_scatter_percent / 100.0, math.radians(phase_scatter_deg)
     static = None if static_modulus_mpa is None else 1e6 * static_modulus_mpa
+    if facets is not None and simulations is None:
+        raise click.UsageError("give --simulations with --facets: the tests that they stand beside.")
     campaign, _ = read_campaign(measurements, sheet, dict(columns), measured_in)
-    click.echo(run(campaign, output, geometry, specimen, static, stated, draws, seed, simulations))
+    click.echo(run(campaign, output, geometry, specimen, static, stated, draws, seed, simulations, facets))

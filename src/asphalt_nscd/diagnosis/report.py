@@ -48,7 +48,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
             "law": "burgers",
             "parameters": _burgers_parameters(diagnosis),
             "p_value": diagnosis.baseline_p,
-            **_errors(diagnosis, _simulated(diagnosis.baseline_joint, diagnosis.baseline, specimen)),
+            **_errors(diagnosis, with_burgers_laws(diagnosis, specimen)),
         },
         "ladder": ladder,
         "withdrawn": [_name(rung.candidate) for rung in diagnosis.ladder.withdrawn],
@@ -66,14 +66,23 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
     }  # fmt: skip
 
 
-def residual_table(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> pd.DataFrame:
-    """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated)."""
+def with_burgers_laws(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logarithm:
+    """ln E* (n,) as the numerical specimen shows a Burgers law fitted at each temperature."""
+    return _simulated(diagnosis.baseline_joint, diagnosis.baseline, specimen)
+
+
+def residual_table(
+    diagnosis: Diagnosis, specimen: NumericalSpecimen, before: Logarithm | None = None
+) -> pd.DataFrame:
+    """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated).
+
+    before: ln E* (n,) of a simulation as it was; else with a Burgers law fitted at each temperature.
+    """
     observed, ladder = diagnosis.observed, diagnosis.ladder
     frame = _frame(diagnosis, observed.logarithm)
-    for name, joint, fitted in (
-        ("before", diagnosis.baseline_joint, diagnosis.baseline), ("after", ladder.joint, ladder.fitted)
-    ):  # fmt: skip
-        simulated = _simulated(joint, fitted, specimen)
+    if before is None:
+        before = with_burgers_laws(diagnosis, specimen)
+    for name, simulated in (("before", before), ("after", _simulated(ladder.joint, ladder.fitted, specimen))):
         left = observed.logarithm - simulated
         frame[f"E_{name}_MPa"] = np.exp(simulated.real) * 1e-6
         frame[f"phase_{name}_deg"] = np.degrees(simulated.imag)
@@ -83,19 +92,19 @@ def residual_table(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> pd.Data
 
 
 def _simulated(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> NDArray[np.complex128]:
-    """ln E* (n,) as the numerical specimen shows the law, its packing's factor divided out."""
+    """ln E* (n,) as the numerical specimen shows the law."""
     observed = joint.observed
     law = joint.apparent(fitted.law, ())[0]
-    effect = np.log(specimen.apparent_modulus(observed.omega, law) / specimen.ratio() / law)
+    effect = np.log(specimen.apparent_modulus(observed.omega, law) / law)
     return fitted.modelled + effect
 
 
 def _numerics(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
-    """What the simulation adds to its law, beside the packing's factor."""
+    """What the simulation adds to its law."""
     joint, fitted = diagnosis.baseline_joint, diagnosis.baseline
     effect = _simulated(joint, fitted, specimen) - fitted.modelled
     return {
-        "specimen": specimen.name, "packing_ratio": specimen.ratio(),
+        "specimen": specimen.name, "modulus_over_law": specimen.ratio(),
         "largest_modulus_percent": 100.0 * float(np.abs(effect.real).max()),
         "largest_phase_deg": float(np.degrees(np.abs(effect.imag).max())),
     }  # fmt: skip
@@ -152,12 +161,19 @@ def _pair(diagnosis: Diagnosis, before: Logarithm, after: Logarithm, inner: bool
         rows = (temperature > temperature.min()) & (temperature < temperature.max())
     first, second = _misses(diagnosis, before, rows), _misses(diagnosis, after, rows)
     pair: dict[str, Any] = {name: {"before": first[name], "after": second[name]} for name in first}
+    pair["averages_by_temperature"] = averages(diagnosis, before, after)
+    return pair
+
+
+def averages(
+    diagnosis: Diagnosis, before: Logarithm, after: Logarithm
+) -> dict[str, dict[str, dict[str, float]]]:
+    """Mean relative errors before and after by temperature, as in Table 4."""
     errors = [_errors(diagnosis, logarithm) for logarithm in (before, after)]
-    pair["averages_by_temperature"] = {
+    return {
         t: {name: {"before": errors[0][name][t], "after": errors[1][name][t]} for name in errors[0]}
         for t in errors[0]["mre_E_percent"]
     }
-    return pair
 
 
 def _rung(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen) -> dict[str, Any]:

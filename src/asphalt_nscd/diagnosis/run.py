@@ -7,13 +7,16 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from asphalt_nscd.diagnosis import quality, report, suspects, within_isotherm
-from asphalt_nscd.diagnosis.diagnose import diagnose
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis import bond_mapping, quality, report, suspects, within_isotherm
+from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
-from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
@@ -25,12 +28,12 @@ def run(
     measurements: str | Path | Campaign, folder: str | Path, geometry: str | Path | Mapping[str, Any],
     specimen: str | Path | None = None, static_modulus: float | None = None,
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
-    simulations: str | Path | None = None,
+    simulations: str | Path | None = None, facets: str | Path | None = None,
 ) -> str:  # fmt: skip
     """Diagnose measurements and write four files into the folder; the summary.
 
-    The files: diagnosis.json, residuals.csv, causality.csv and law.json. simulations: table of simulated tests whose
-    numerics are told apart.
+    The files: diagnosis.json, residuals.csv, causality.csv and law.json. simulations: table of simulated tests, whose
+    numerics are judged; facets: of the same tests with bonds that are facets, beside which bond_mapping is judged.
     """
     numerical = read_specimen(specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None
@@ -42,12 +45,13 @@ def run(
     except InputError as error:
         raise InputError(f"{given}: {error}") from None
     fit = None if observed.isotherms.size < 2 else material_law(diagnosis)
-    content = report.as_json(diagnosis, numerical)
+    content, before = report.as_json(diagnosis, numerical), None
     if fit is not None:
         content["notes"] += law_notes(diagnosis, fit.law) + prior_notes(fit)
     content["reading"] = reading(observed, () if campaign is None else campaign.notes)
     if simulations is not None:
         content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
+        before = _begin_with_campaigns(content, diagnosis, numerical, simulations, facets)
     content["origin"] = origin
     content["provenance"] = {
         **provenance(),
@@ -61,7 +65,7 @@ def run(
         "scatter_stated": None if scatter is None else list(scatter),
     }
     folder = Path(folder)
-    write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical))
+    write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical, before))
     held = within_isotherm.hold(observed)
     write_table(folder / "causality.csv", suspects.table(observed, list(diagnosis.suspects), held))
     if fit is not None:
@@ -72,6 +76,32 @@ def run(
     write_json(folder / "diagnosis.json", content)
     written = ["diagnosis.json", "residuals.csv", "causality.csv", *([] if fit is None else ["law.json"])]
     return f"{summary(content)}\n\nWritten to {folder}: {', '.join(written)}."
+
+
+def _begin_with_campaigns(
+    content: dict[str, Any], diagnosis: Diagnosis, specimen: NumericalSpecimen, simulations: str | Path,
+    facets: str | Path | None,
+) -> NDArray[np.complex128]:  # fmt: skip
+    """Put what was simulated before the ladder: its first rung, and the errors before the law. ln E* (n,) of it."""
+    observed, fitted = diagnosis.observed, report.with_burgers_laws(diagnosis, specimen)
+    before = after = bond_mapping.simulated(simulations, observed, fitted)
+    rung = None
+    if facets is None:
+        content["notes"].append(bond_mapping.void(simulations))
+    else:
+        after = bond_mapping.simulated(facets, observed, fitted)
+        rung, sentence = bond_mapping.bond_mapping(
+            simulations, facets, report.averages(diagnosis, before, after)
+        )
+        content["notes"].append(sentence)
+    for law in content["ladder"]:
+        if law["cause"] == "relaxation_spectrum":
+            gain = law["gain"]["in_sample"]["averages_by_temperature"]
+            for at, errors in report.averages(diagnosis, after, after).items():
+                for name, error in errors.items():
+                    gain[at][name]["before"] = error["before"]
+    content["ladder"][:0] = [] if rung is None else [rung]
+    return before
 
 
 def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from tabulate import tabulate
 
-from asphalt_nscd.diagnosis.written import CONFIDENCE, UNJUDGED, shown, three_digits
+from asphalt_nscd.diagnosis.written import CONFIDENCE, UNJUDGED, mean_averages, shown, three_digits
 
 Content = Mapping[str, Any]
 VERDICTS = {
@@ -45,11 +45,12 @@ def summary(content: Content) -> str:
 
 
 def _row(rung: Content) -> list[str]:
-    inside, held = rung["gain"]["in_sample"], rung["gain"]["held_out"]
+    inside = mean_averages(rung["gain"]["in_sample"])
+    held = rung["gain"]["held_out"]
     return [
         rung["cause"], "" if rung["where"] is None else rung["where"], _size(rung["parameters"]),
-        f"{rung['p_value']:.1g}" if rung["p_value"] > 1e-6 else "< 1e-6",
-        *(f"{inside[k]['before']:.2f} -> {inside[k]['after']:.2f}" for k in ("mre_E_percent", "mre_phase_percent")),
+        "" if rung["p_value"] is None else f"{rung['p_value']:.1g}" if rung["p_value"] > 1e-6 else "< 1e-6",
+        *("{before:.2f} -> {after:.2f}".format(**pair) for pair in inside.values()),
         *(
             "{before:.2f} -> {after:.2f}".format(**held[way]["rms_over_scatter"]) if way in held else ""
             for way in HELD_OUT.values()
