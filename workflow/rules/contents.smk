@@ -122,6 +122,7 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
         "readings": ["<results>/readings.csv"],
         "packing": ["<results>/packing.csv"],
         "facets": FACET_SIMULATIONS,
+        "ladder": ["<results>/ladder.csv"],
         "table4": ["<results>/table4.csv"],
         "deposits": DEPOSITS,
         "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),

@@ -28,10 +28,10 @@ CONFIRMED_BY = "the same law in other packings and sizes: packing.csv, docs/mapp
 Logarithm = NDArray[np.complex128]
 
 
-def simulated(campaign: str | Path, observed: Observations, otherwise: Logarithm) -> Logarithm:
+def simulated(campaign: str | Path, observed: Observations) -> Logarithm:
     """ln E* (n,) of the mean over samples in a campaign at the condition of each measured test.
 
-    campaign: table of simulated tests; otherwise (n,): where no condition of it is near.
+    campaign: table of simulated tests. NaN where no condition of it is near.
     """
     tests = read_tests([campaign]).groupby(KEYS)[MODULUS].mean().reset_index()
     temperature, frequency = (tests[name].to_numpy(float) for name in KEYS)
@@ -41,7 +41,7 @@ def simulated(campaign: str | Path, observed: Observations, otherwise: Logarithm
     nearest = away.argmin(axis=1)
     norm, phase = (tests[name].to_numpy(float) for name in MODULUS)
     shown = np.log(1e6 * norm) + 1j * np.radians(phase)
-    return np.where(away.min(axis=1) <= 1.0, shown[nearest], otherwise)
+    return np.where(away.min(axis=1) <= 1.0, shown[nearest], np.nan)
 
 
 def over_law(campaign: str | Path) -> pd.Series:

@@ -20,6 +20,7 @@ from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import CONFIDENCE, NOTABLE, SCHEMA_VERSION
 from asphalt_nscd.measurements.agreement import mean_relative_error
 
+ERRORS = ("mre_E_percent", "mre_phase_percent")  # of Table 4
 NOTICED = 0.1  # size of a discrepancy over the scatter of one test, below which it is none
 Logarithm = NDArray[np.complex128]  # ln E* (n,)
 
@@ -71,17 +72,22 @@ def with_burgers_laws(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Loga
     return _simulated(diagnosis.baseline_joint, diagnosis.baseline, specimen)
 
 
+def with_common_law(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logarithm:
+    """ln E* (n,) as the numerical specimen shows one law for all temperatures, without causes."""
+    return _simulated(diagnosis.ladder.joint, diagnosis.ladder.start, specimen)
+
+
 def residual_table(
     diagnosis: Diagnosis, specimen: NumericalSpecimen, before: Logarithm | None = None
 ) -> pd.DataFrame:
     """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated).
 
-    before: ln E* (n,) of a simulation as it was; else with a Burgers law fitted at each temperature.
+    before: ln E* (n,) of a simulation as it was; where NaN, or none, with a Burgers law fitted at each temperature.
     """
     observed, ladder = diagnosis.observed, diagnosis.ladder
     frame = _frame(diagnosis, observed.logarithm)
-    if before is None:
-        before = with_burgers_laws(diagnosis, specimen)
+    fitted = with_burgers_laws(diagnosis, specimen)
+    before = fitted if before is None else np.where(np.isnan(before), fitted, before)
     for name, simulated in (("before", before), ("after", _simulated(ladder.joint, ladder.fitted, specimen))):
         left = observed.logarithm - simulated
         frame[f"E_{name}_MPa"] = np.exp(simulated.real) * 1e-6
@@ -120,15 +126,13 @@ def _frame(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> pd.DataFr
 
 
 def _errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, dict[str, float]]:
-    """Mean relative errors by temperature, as in Table 4."""
-    errors = mean_relative_error(
-        _frame(diagnosis, diagnosis.observed.logarithm), _frame(diagnosis, logarithm)
-    )
+    """Mean relative errors by temperature, as in Table 4, of what was simulated (NaN: not)."""
+    simulated = _frame(diagnosis, logarithm).dropna()
+    if simulated.empty:
+        return {name: {} for name in ERRORS}
+    errors = mean_relative_error(_frame(diagnosis, diagnosis.observed.logarithm), simulated)
     by = [f"{t:g}" for t in errors["temperature_C"]]
-    return {
-        name: dict(zip(by, errors[name].tolist(), strict=True))
-        for name in ("mre_E_percent", "mre_phase_percent")
-    }
+    return {name: dict(zip(by, errors[name].tolist(), strict=True)) for name in ERRORS}
 
 
 def _misses(diagnosis: Diagnosis, logarithm: Logarithm, rows: NDArray[np.bool_]) -> dict[str, float]:
@@ -168,7 +172,8 @@ def _pair(diagnosis: Diagnosis, before: Logarithm, after: Logarithm, inner: bool
 def averages(
     diagnosis: Diagnosis, before: Logarithm, after: Logarithm
 ) -> dict[str, dict[str, dict[str, float]]]:
-    """Mean relative errors before and after by temperature, as in Table 4."""
+    """Errors before and after by temperature, as in Table 4, of the conditions that hold both (NaN: one does not)."""
+    before, after = np.where(np.isnan(after), after, before), np.where(np.isnan(before), before, after)
     errors = [_errors(diagnosis, logarithm) for logarithm in (before, after)]
     return {
         t: {name: {"before": errors[0][name][t], "after": errors[1][name][t]} for name in errors[0]}
@@ -226,7 +231,7 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
     """The first rung: one continuous spectrum for all temperatures instead of a Burgers law for each."""
     ladder, observed = diagnosis.ladder, diagnosis.observed
     before = _simulated(diagnosis.baseline_joint, diagnosis.baseline, specimen)
-    after = _simulated(ladder.joint, ladder.start, specimen)
+    after = with_common_law(diagnosis, specimen)
     held_out = {}
     if observed.isotherms.size > 2:
         # A Burgers law says nothing of another temperature: before is its fit, which has seen the data.

@@ -83,23 +83,22 @@ def _begin_with_campaigns(
     facets: str | Path | None,
 ) -> NDArray[np.complex128]:  # fmt: skip
     """Put what was simulated before the ladder: its first rung, and the errors before the law. ln E* (n,) of it."""
-    observed, fitted = diagnosis.observed, report.with_burgers_laws(diagnosis, specimen)
-    before = after = bond_mapping.simulated(simulations, observed, fitted)
+    observed = diagnosis.observed
+    before = after = bond_mapping.simulated(simulations, observed)
     rung = None
     if facets is None:
         content["notes"].append(bond_mapping.void(simulations))
     else:
-        after = bond_mapping.simulated(facets, observed, fitted)
+        after = bond_mapping.simulated(facets, observed)
         rung, sentence = bond_mapping.bond_mapping(
             simulations, facets, report.averages(diagnosis, before, after)
         )
         content["notes"].append(sentence)
     for law in content["ladder"]:
         if law["cause"] == "relaxation_spectrum":
-            gain = law["gain"]["in_sample"]["averages_by_temperature"]
-            for at, errors in report.averages(diagnosis, after, after).items():
-                for name, error in errors.items():
-                    gain[at][name]["before"] = error["before"]
+            law["gain"]["in_sample"]["averages_by_temperature"] = report.averages(
+                diagnosis, after, report.with_common_law(diagnosis, specimen)
+            )
     content["ladder"][:0] = [] if rung is None else [rung]
     return before
 

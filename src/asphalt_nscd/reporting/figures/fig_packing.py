@@ -7,14 +7,14 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from asphalt_nscd.files.csvinput import read_csv
-from asphalt_nscd.measurements.tables import read_tests, the_only
+from asphalt_nscd.measurements.tables import read_tests
 from asphalt_nscd.reporting.figures import style
 
 
 @style.journal
 def draw(packing: list[Path]) -> Figure:
     """One point for each deposit, labelled with its coefficient of friction; open: with bonds that are facets."""
-    both = "mapping" in read_csv(the_only(packing, "packing")).columns
+    both = all("mapping" in read_csv(path).columns for path in packing)
     tests = read_tests(packing, numbers=["friction", "solid_fraction"], texts=["mapping"] if both else [])
     tests["facets"] = tests["mapping"] == "facets" if both else False
     tests["ratio"] = tests["E_MPa"] / tests["E_law_MPa"]
