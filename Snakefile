@@ -32,6 +32,7 @@ include: "workflow/rules/sensitivity.smk"  # Section 4.3: sensitivity of the law
 include: "workflow/rules/audit.smk"  # other readings, looser samples
 include: "workflow/rules/diagnosis.smk"  # what the simulation gets wrong, and why
 include: "workflow/rules/extension.smk"  # the simulation extended by it
+include: "workflow/rules/families.smk"  # what it gains on data of other families
 include: "workflow/rules/exports.smk"  # the law for other programs
 include: "workflow/rules/contents.smk"  # figures and tables, and their data
 include: "workflow/rules/report.smk"  # figures, tables, report

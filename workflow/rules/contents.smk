@@ -148,6 +148,16 @@ if REMAPPED:
     PAGES["fracture"] = "3 Bending tests"
     TABLES["fracture"] = {"simulations": SIMULATIONS, "facets": FACET_SIMULATIONS}
 
+if FAMILIES:
+    PAGES["families"] = "0 Diagnosis"
+    TABLES["families"] = {
+        "measured": [*MEASURED, *expand(FAMILY + "measured.csv", family=FAMILIES)],
+        "diagnosis": [DIAGNOSED[0], *expand(FAMILY + "diagnosis.json", family=FAMILIES)],
+        "law": [*COMMON_LAW, *expand(FAMILY + "law.json", family=FAMILIES)],
+        "specimen": [f"<results>/diagnosis/specimens/{FIRST}.h5"],
+        "ladder": ["<results>/ladder.csv"],
+    }
+
 COMPUTED = [
     DIAGNOSED,
     [f"<results>/{name}.csv" for name in PAGES if name != "timings"],
@@ -189,6 +199,12 @@ if COMMON_LAW:
         expand(EXTENDED_LAWS, sample=SAMPLES, temperature=TEMPERATURES, frequency=FREQUENCIES),
         expand("<results>/extended/rigs/{sample}.json", sample=SAMPLES),
         rules.extended_simulations.input.tests,
+    ]
+if FAMILIES:
+    KEPT += [
+        expand(rules.draw_family.output, family=FAMILIES),
+        expand(rules.reduce_family.output, family=FAMILIES),
+        expand(rules.diagnose_family.output, family=FAMILIES),
     ]
 if "time_step_study" in STUDY:
     KEPT += [SOLVED, STOPPED]

@@ -38,7 +38,8 @@ rule diagnose:
     params:
         geometry=text(STUDY["geometry"]),
         settings=options(SETTINGS),
-        facets=lambda wildcards, input: f"--facets {input.facets}" if input.facets else "",
+        campaigns=lambda wildcards, input: f"--simulations {input.simulations}"
+        + (f" --facets {input.facets}" if input.facets else ""),
         folder=lambda wildcards, output: os.path.dirname(output[0]),
     log:
         "<results>/logs/diagnose.log",
@@ -47,7 +48,7 @@ rule diagnose:
     message:
         "Diagnose where simulation and measurements differ, and why"
     shell:
-        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} --simulations {input.simulations} {params.facets} --geometry {params.geometry:q} {params.settings} --output {params.folder} > {log} 2>&1"
+        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} {params.campaigns} --geometry {params.geometry:q} {params.settings} --output {params.folder} > {log} 2>&1"
 
 
 rule diagnosis_page:
