@@ -62,7 +62,7 @@ def test_key_that_stands_twice_is_one_sentence(workspace):
     study.write_text(study.read_text() + "study: other\n")
     done = workspace.run("--dry-run")
     assert done.returncode != 0
-    assert "key 'study' stands twice; keep one of the two." in done.stderr.strip().splitlines()[-1]
+    assert "key 'study' appears twice; keep one of the two." in done.stderr.strip().splitlines()[-1]
 
 
 def test_study_that_cannot_work_is_one_sentence(workspace):
