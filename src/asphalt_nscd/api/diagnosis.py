@@ -15,9 +15,11 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.api.laws import Law
+from asphalt_nscd.api.pictures import shown_in_notebooks
 from asphalt_nscd.api.tables import Measurements, campaign_in
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.run import Outcome, conclude
+from asphalt_nscd.diagnosis.sentences import on_data, on_simulation
 from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.diagnosis.written import mean_averages, read_diagnosis
 from asphalt_nscd.files.errors import InputError
@@ -26,8 +28,6 @@ from asphalt_nscd.files.store import read_json, write_json
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-SCREEN_DPI = 160  # figures have the size of a journal column, 90 mm
 
 
 @dataclass(frozen=True)
@@ -173,9 +173,10 @@ class Diagnosis:
 
         ladder = self.ladder[["cause", "where", "value", "std_error", "unit", "p_value", "established"]]
         parts = [
-            f"<p><b>Verdict: {escape(self.verdict.replace('_', ' '))}.</b> {self.content['tests']} tests used.</p>"
+            f"<p><b>Data:</b> {escape(on_data(self.content))}</p>",
+            f"<p><b>Simulation:</b> {escape(on_simulation(self.content))}</p>",
+            ladder.to_html(index=False, float_format="{:.3g}".format, na_rep=""),
         ]
-        parts.append(ladder.to_html(index=False, float_format="{:.3g}".format, na_rep=""))
         if len(self.suspects):
             parts += [
                 "<p>Doubtful tests:</p>",
@@ -211,19 +212,6 @@ def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
         "hangs_on": ", ".join(map(str, rung.get("hangs_on", ()))),
         "sentence": rung["sentence"], "confirmed_by": rung["confirmed_by"],
     }  # fmt: skip
-
-
-def shown_in_notebooks(figure: Figure) -> Figure:
-    """The figure, which Jupyter then shows without pyplot."""
-    from io import BytesIO
-
-    def png() -> bytes:
-        content = BytesIO()
-        figure.savefig(content, format="png", dpi=SCREEN_DPI)
-        return content.getvalue()
-
-    figure._repr_png_ = png  # type: ignore[attr-defined]
-    return figure
 
 
 def diagnose(
