@@ -124,5 +124,5 @@ column = click.option(
     "columns",
     multiple=True,
     type=Choice(),
-    help="What a column holds, where its name does not tell.",
+    help="What a column holds, if its name does not say.",
 )

@@ -19,12 +19,16 @@ from asphalt_nscd.cli import _options
 @click.option("--error-deg", default=0.5, type=_options.POSITIVE, help="Largest error of its phase, degrees.")
 @click.option(
     "--temperatures-c", type=_options.Numbers(low=-273.15),
-    help="Tested temperatures, degrees Celsius; else as the law's folder says.",
+    help="Tested temperatures, degrees Celsius; else those of residuals.csv beside the law.",
 )  # fmt: skip
 @click.option(
-    "--frequencies-hz", type=_options.Numbers(), help="Tested frequencies; else as the law's folder says."
+    "--frequencies-hz",
+    type=_options.Numbers(),
+    help="Tested frequencies, Hz; else those of residuals.csv beside the law.",
 )
-@click.option("--poisson", type=_options.Number(), help="Poisson's ratio; else 0.35, said to be assumed.")
+@click.option(
+    "--poisson", type=_options.Number(), help="Poisson's ratio; else 0.35, which the file calls assumed."
+)
 @click.option("--units", default="SI", type=click.Choice(["SI", "mm-N-MPa"]), help="Units of the file.")
 @click.option("--name", default="ASPHALT", help="Name of the material (abaqus).")
 @_options.output

@@ -9,9 +9,7 @@ from asphalt_nscd.cli import _data, _options
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=_options.File)
-@click.option(
-    "--root", required=True, type=_options.File, help="Folder of the study that the files are below."
-)
+@click.option("--root", required=True, type=_options.File, help="Folder of the study, which holds the files.")
 @click.option("--output", required=True, type=_options.File, help="Folder to copy them to.")
 @click.option(
     "--document",
@@ -28,7 +26,7 @@ def command(
     documents: tuple[Path, ...],
     block: tuple[tuple[str, Path], ...],
 ) -> None:
-    """Copy results to be committed, with checksums, and fill their tables into the documents."""
+    """Copy results that will be committed, with checksums, and fill their tables into documents."""
     from asphalt_nscd.reporting.publish import fill_blocks, publish
 
     fill_blocks(documents, dict(block))

@@ -14,7 +14,7 @@ from asphalt_nscd.cli import _options
 @click.option(
     "--cycles",
     type=click.IntRange(1),
-    help="Whole cycles at the end of a record; else those of the last 10 s.",
+    help="Number of whole cycles used, at the end of a record; else those of the last 10 s.",
 )
 @_options.output
 def command(measurements: Path, geometry: Any, cycles: int | None, output: Path) -> None:

@@ -24,7 +24,7 @@ from asphalt_nscd.cli import _options, _progress
     type=_options.File,
     help="Law of the bonds, JSON; one for all tests or one for each.",
 )
-@click.option("--law-source", default="", help="Where the law comes from; kept with the result.")
+@click.option("--law-source", default="", help="Source of the law, stored with the result.")
 @click.option(
     "--temperature-c",
     required=True,
@@ -37,7 +37,7 @@ from asphalt_nscd.cli import _options, _progress
     required=True,
     multiple=True,
     type=_options.POSITIVE,
-    help="Frequency of the head, Hz; given again, with an --output of its own, for each further test.",
+    help="Frequency of the head, Hz; repeatable, each with an --output of its own.",
 )
 @click.option("--amplitude-m", default=63e-6, type=_options.POSITIVE, help="Amplitude of the head, m.")
 @click.option("--cycles", default=5.0, type=_options.Number(low=1.0), help="Number of cycles.")
@@ -58,13 +58,16 @@ from asphalt_nscd.cli import _options, _progress
     help="Relative change per sweep that stops Gauss-Seidel.",
 )
 @click.option(
-    "--most-sweeps", default=50, type=click.IntRange(1), help="Most sweeps of Gauss-Seidel in a step."
+    "--most-sweeps",
+    default=50,
+    type=click.IntRange(1),
+    help="Largest number of Gauss-Seidel sweeps in a step.",
 )
 @click.option(
     "--rig",
     default=None,
     type=_options.File,
-    help="What stands at the head and in the measuring channel, JSON.",
+    help="Devices at the head and errors of the measuring channel, JSON.",
 )
 @click.option(
     "--scheme",
@@ -73,7 +76,7 @@ from asphalt_nscd.cli import _options, _progress
     help="Implicit Euler, or BDF2 fitted to the frequency: exact in steady oscillation, 100 steps a cycle do.",
 )
 @click.option(
-    "--energy", is_flag=True, help="Keep the energy account of a reduced run too; condensed ones always do."
+    "--energy", is_flag=True, help="Keep the energy balance of a reduced run; condensed runs always keep it."
 )
 @click.option(
     "--checkpoint",
@@ -104,7 +107,7 @@ def command(
     tests: dict[str, Any], case: dict[str, Any], numerics: dict[str, Any], files: dict[str, Any],
     temperature_c: float, excerpt: Path | None, energy: bool,
 ) -> None:  # fmt: skip
-    """Complex modulus tests at one temperature: for each frequency a file."""
+    """Simulate complex modulus tests at one temperature and write a file for each frequency."""
     laws, frequencies, outputs = tests["laws"], tests["frequencies"], tests["outputs"]
     count = len(frequencies)
     if len(outputs) != count or len(laws) not in (1, count):

@@ -130,7 +130,7 @@ def refuse_copies(observed: Observations) -> None:
         if len(common) > 2 and all(np.isclose(tests[one][c], tests[other][c], 1e-9, 0.0) for c in common):
             raise InputError(
                 f"specimens {one} and {other} have the same modulus at all {len(common)} conditions they share: "
-                "copies are no replicates and tell no scatter; keep one of them."
+                "copies are not replicates and give no scatter; keep one of them."
             )
 
 

@@ -17,8 +17,12 @@ def commit() -> str:
     root = PACKAGE.parents[1]
     if PACKAGE.parent.name != "src" or not (root / "pyproject.toml").is_file():
         return "unknown"  # an environment may lie within another repository
-    run = subprocess.run(
-        ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=40"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    return run.stdout.strip() or "unknown"
+    described = _git(root, "describe", "--always", "--abbrev=40")
+    changed = _git(root, "status", "--porcelain", "--untracked-files=no") if described else ""
+    return (f"{described}-dirty" if changed else described) or "unknown"
+
+
+def _git(root: Path, *arguments: str) -> str:
+    """The repository is only read: `describe --dirty` would refresh its index, and leave a lock on a full disk."""
+    command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()

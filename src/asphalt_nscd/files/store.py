@@ -141,7 +141,11 @@ def load(path: str | Path, kind: str) -> Record:
     digest = attributes.pop("digest", None)
     attributes.pop("provenance", None)
     if found != kind:
-        raise unreadable(path, f"holds {found or 'nothing of ours'!r}, not {kind!r}", "give the right file")
+        raise unreadable(
+            path,
+            f"expected a {kind} file; found {f'a {found} file' if found else 'another kind of data'}",
+            "give the right file",
+        )
     if format_version != FORMAT_VERSION:
         raise DamagedFile(path, f"format {format_version}, this version reads {FORMAT_VERSION}")
     if digest != _digest(kind, arrays, attributes):
