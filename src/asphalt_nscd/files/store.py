@@ -25,6 +25,7 @@ from asphalt_nscd.files.paths import require_readable
 if TYPE_CHECKING:
     import pandas as pd  # a quarter of the time in which a step starts
 
+_ROOT = Path(__file__).resolve().parents[3]
 FORMAT_VERSION = 1
 _PACKAGES = ("asphalt-nscd", "numpy", "scipy", "numba", "pandas", "h5py", "matplotlib", "snakemake")
 
@@ -185,7 +186,7 @@ def _version(name: str) -> str:
         return "absent"
 
 
-def _git_commit(root: Path = Path(__file__).resolve().parents[3]) -> str:
+def _git_commit(root: Path = _ROOT) -> str:
     """The commit, with -dirty behind it if a tracked file was changed; unknown outside a repository.
 
     The repository is only read: `describe --dirty` would refresh its index, and leave a lock there on a full disk.
