@@ -25,9 +25,13 @@ ARROWS = {
     "study": ["files", "measurements", "rheology", "specimen", "reporting"],
     "table_import": ["files", "measurements", "study", "reporting"],
     "verification": ["files", "workflow_support", "measurements", "nscd", "rheology", "specimen", "bending"],
+    "api": [
+        "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
+        "table_import",
+    ],
     "cli": [
         "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "study", "table_import", "verification", "nscd",
+        "study", "table_import", "verification", "nscd", "api",
     ],
 }  # fmt: skip
 

@@ -37,11 +37,11 @@ def command(
     frequencies_hz: tuple[float, ...] | None, poisson: float | None, units: str, name: str, output: Path,
 ) -> None:  # fmt: skip
     """Write a law for another program: Prony series with shift, workbook, or table of |E*|."""
-    from asphalt_nscd.exports.card import UNITS, Settings
-    from asphalt_nscd.exports.export import export_law, require_ending
-    from asphalt_nscd.exports.law import read_law_file
-    from asphalt_nscd.rheology.maxwell_fitting import Miss
+    from asphalt_nscd.api.exporting import ExportSettings, export
 
-    require_ending(form, output)
-    settings = Settings(Miss(error_percent, error_deg), poisson, UNITS[units], name)
-    click.echo(export_law(read_law_file(law, temperatures_c, frequencies_hz), settings, form, output))
+    settings = ExportSettings(error_percent, error_deg, poisson, units, name)
+    click.echo(
+        export(
+            law, output, form, settings=settings, temperatures_C=temperatures_c, frequencies_Hz=frequencies_hz
+        )
+    )

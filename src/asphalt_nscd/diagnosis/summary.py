@@ -23,6 +23,7 @@ def summary(content: Content) -> str:
         ("Tests not to be used", _suspects(content)),
         ("Causes", [f"{cause}. {sure}" for cause, sure in sentences.causes(content)] or ["No cause beats chance."]),
         ("What stays unexplained", _left(content)),
+        ("What to do next", _orders(content)),
         ("Scatter", _scatter(content)),
         ("Remarks", content["notes"]),
     ]  # fmt: skip
@@ -48,8 +49,18 @@ def _suspects(content: Content) -> list[str]:
 def _left(content: Content) -> list[str]:
     dropped = content["withdrawn"]
     return sentences.left(content) + (
-        [f"Considered and dropped, because a discrepancy fits as well: {', '.join(dropped)}."] if dropped else []
+        [f"Considered and dropped, because a discrepancy fits as well: {', '.join(dropped)}."]
+        if dropped
+        else []
     )
+
+
+def _orders(content: Content) -> list[str]:
+    found = content.get("instructions", {"orders": []})
+    lines = []
+    for number, one in enumerate(found["orders"], 1):
+        lines += [f"{number}. {one['text']}", *(f"   {why}" for why in one["why"])]
+    return [*lines, found["costs"]] if lines else []
 
 
 def _scatter(content: Content) -> list[str]:

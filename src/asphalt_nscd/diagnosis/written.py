@@ -92,6 +92,18 @@ def conditions(residuals: pd.DataFrame, scatter: dict[str, float]) -> pd.DataFra
     return means
 
 
+def mean_averages(gain: dict[str, Any]) -> dict[str, dict[str, float]]:
+    """Errors of |E*| and phase before and after in percent, as in Table 4, mean over temperatures."""
+    by_temperature = gain["averages_by_temperature"].values()
+    return {
+        name: {
+            when: sum(errors[name][when] for errors in by_temperature) / len(by_temperature)
+            for when in BEFORE_AFTER
+        }
+        for name in ("mre_E_percent", "mre_phase_percent")
+    }
+
+
 def shown(value: float, unit: str) -> tuple[float, str]:
     """A value of the diagnosis in the unit that people use for its size: 2.9e-5, "s" -> 0.029, "ms"."""
     factor, name = _SHOWN.get(unit, (1.0, unit))

@@ -7,7 +7,6 @@ import io
 import json
 import os
 import platform
-import subprocess
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -19,13 +18,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asphalt_nscd.files import digests
+from asphalt_nscd.files.commit import commit
 from asphalt_nscd.files.errors import DamagedFile, InputError, unreadable
 from asphalt_nscd.files.paths import require_readable
 
 if TYPE_CHECKING:
     import pandas as pd  # a quarter of the time in which a step starts
 
-_ROOT = Path(__file__).resolve().parents[3]
 FORMAT_VERSION = 1
 _PACKAGES = ("asphalt-nscd", "numpy", "scipy", "numba", "pandas", "h5py", "matplotlib", "snakemake")
 
@@ -151,10 +150,23 @@ def load(path: str | Path, kind: str) -> Record:
     return Record(arrays, attributes, digest)
 
 
+def kind_of(path: str | Path) -> str:
+    """Kind of a result file, without reading its arrays."""
+    import h5py
+
+    if not Path(path).is_file():
+        raise InputError(f"{path}: no such file; make it with its rule or check the path.")
+    try:
+        with h5py.File(path, "r") as file:
+            return str(file.attrs.get("kind", "nothing of ours"))
+    except Exception as error:  # h5py raises nearly any exception on a damaged file
+        raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None
+
+
 def provenance() -> dict[str, Any]:
     """Git commit, package versions and Python of this run."""
     return {
-        "git_commit": _git_commit(),
+        "git_commit": commit(),
         "python": platform.python_version(),
         "packages": {name: _version(name) for name in _PACKAGES},
     }
@@ -184,18 +196,3 @@ def _version(name: str) -> str:
         return version(name)
     except PackageNotFoundError:
         return "absent"
-
-
-def _git_commit(root: Path = _ROOT) -> str:
-    """The commit, with -dirty behind it if a tracked file was changed; unknown outside a repository.
-
-    The repository is only read: `describe --dirty` would refresh its index, and leave a lock there on a full disk.
-    """
-    commit = _git(root, "describe", "--always", "--abbrev=40")
-    changed = _git(root, "status", "--porcelain", "--untracked-files=no") if commit else ""
-    return (f"{commit}-dirty" if changed else commit) or "unknown"
-
-
-def _git(root: Path, *arguments: str) -> str:
-    command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()

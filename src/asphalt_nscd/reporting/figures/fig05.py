@@ -89,7 +89,13 @@ def _axes(figure: Figure, left: float, bottom: float, width: float, height: floa
     return axes
 
 
-def _scene(figure: Figure, spheres: tuple, scale: float, left: float, bottom: float) -> Axes:
+def _scene(
+    figure: Figure,
+    spheres: tuple[np.ndarray, np.ndarray, np.ndarray],
+    scale: float,
+    left: float,
+    bottom: float,
+) -> Axes:
     """Spheres (position, radius, colour) at `scale` [mm on paper per m]; axes in the view's plane [m]."""
     image, extent = picture(*spheres, VIEW, scale * PIXELS)
     width, height = (scale * (extent[n + 1] - extent[n]) for n in (0, 2))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
@@ -25,7 +26,7 @@ def make(deposits: list[Path]) -> pd.DataFrame:
         found, radius = record.attributes, float(record.arrays["radius"].min())
         stages = {"poured": "poured_"} | ({"vibrated": ""} if found["vibration_s"] > 0.0 else {})
         for stage, prefix in stages.items():
-            row = {"sample": path.stem, "stage": stage}
+            row: dict[str, Any] = {"sample": path.stem, "stage": stage}
             row["height_mm"] = 1e3 * found[f"{prefix}layer_height_m"]
             row |= {name: found[f"{prefix}{name}"] for name in OF_A_STAGE}
             row["largest_overlap"] = row.pop("largest_overlap_m") / radius

@@ -1,0 +1,245 @@
+"""What to test next: the few sweeps that answer most of what a diagnosis leaves open, per hour of the machine.
+
+Open questions are: does a named cause show without the tests that carry it, and on a metal specimen; which of two causes
+that look alike; does a test that cannot be used repeat itself; is an isotherm that contradicts itself out of the linear
+range; is a cause there that these tests could not show. The expected gain of each is evidence for the right answer in nats
+(ln of the Bayes factor), no more than is needed. The sweep of largest gain per hour is taken, then the next, given the
+first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import norm
+
+from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
+from asphalt_nscd.diagnosis.diagnose import Diagnosis
+from asphalt_nscd.diagnosis.further_tests import METAL, NEW, Costs, Possible, Sweep, possible
+from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Question
+from asphalt_nscd.diagnosis.joint import Candidate
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.sentences import an, joined
+from asphalt_nscd.diagnosis.written import shown, three_digits
+
+MOST, REASONS = 5, 3
+LEAST = 0.3  # nats, below which a sweep tells nothing
+SURVIVES = 2.0  # standard errors that a cause keeps without what it hangs on
+FOUND = (USUAL_THRESHOLD + POWER) ** 2  # strength of a cause that is found in 19 of 20 cases
+KEPT = (SURVIVES + POWER) ** 2
+TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached in 19 of 20 cases
+PRESENT = 0.1  # chance that a cause nobody has seen is there
+REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
+
+
+@dataclass(frozen=True)
+class Open:
+    """An open question: what it is about, and how a reader is told what the tests would do for it."""
+
+    kind: str  # kept, metal, apart, repeat, linear or reach
+    asked: Asked
+    about: str
+    other: str = ""
+
+
+@dataclass
+class Order:
+    """One order to the laboratory; hours, nats: what it costs and is expected to tell."""
+
+    sweep: Sweep
+    specimens: list[str]
+    hours: float
+    nats: float
+    why: list[str]
+
+
+def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, Any]:
+    """Content of `instructions` in diagnosis.json: at most five, the one of largest gain per hour first."""
+    costs = costs or Costs()
+    model = possible(diagnosis, costs)
+    chosen = choose(model, open_questions(diagnosis, model))
+    return {
+        "costs": costs.sentence,
+        "orders": [
+            {
+                "text": _text(one), "why": one.why, "hours": round(one.hours, 2), "nats": round(one.nats, 2),
+                "specimens": one.specimens, "temperature_C": None if one.sweep.specimen == METAL else one.sweep.temperature,
+                "frequencies_Hz": list(one.sweep.frequencies), "half_strain": one.sweep.half_strain,
+            }
+            for one in chosen
+        ],
+    }  # fmt: skip
+
+
+def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
+    """Sweeps by gain per hour, each given those before it; the same sweep on several specimens is one order."""
+    inquiry = Inquiry(model.linear, model.old, [one.asked for one in questions])
+    orders: list[Order] = []
+    waiting = list(model.sweeps)
+    while questions and waiting:
+        gains = inquiry.gains([sweep.tested for sweep in waiting])
+        totals = gains.sum(axis=1)
+        per_hour = np.where(totals > LEAST, totals / [sweep.hours for sweep in waiting], 0.0)
+        best = int(np.argmax(per_hour))
+        sweep, gain, nats = waiting.pop(best), gains[best], float(totals[best])
+        alike = next((one for one in orders if _same(one.sweep, sweep)), None)
+        if per_hour[best] == 0.0 or (alike is None and len(orders) == MOST):
+            break
+        before = inquiry.strengths()
+        inquiry.take(sweep.tested)
+        why = _reasons(sweep, questions, gain, before, inquiry.strengths())
+        if alike is None:
+            orders.append(Order(sweep, [sweep.specimen], sweep.hours, nats, why))
+        else:
+            alike.specimens.append(sweep.specimen)
+            alike.hours, alike.nats = alike.hours + sweep.hours, alike.nats + nats
+            alike.why = list(dict.fromkeys([*alike.why, *why]))
+    return orders
+
+
+def _same(one: Sweep, other: Sweep) -> bool:
+    return (one.temperature, one.frequencies, one.half_strain) == (
+        other.temperature, other.frequencies, other.half_strain,
+    ) and METAL not in (one.specimen, other.specimen)  # fmt: skip
+
+
+def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
+    """What the diagnosis leaves open."""
+    active = tuple(range(len(diagnosis.ladder.fitted.active)))
+    everything = np.ones(model.linear.nuisance.shape[0], bool)
+    known = Knowledge(model.linear, [model.old]).information
+    found: list[Open] = []
+    for k in active:
+        found += _of_named(diagnosis, model, k, active)
+        for j in range(len(active), len(model.candidates)):
+            question = Question(k, _amplitude(model.candidates[k]), (*active, j), TOLD_APART)
+            if question.strength(known) < TOLD_APART:
+                words = words_of(model.candidates[k]), words_of(model.candidates[j])
+                found.append(Open("apart", Asked(question, everything), *words))
+    for n, (kind, about) in enumerate(model.departures):
+        question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART)
+        found.append(Open(kind, Asked(question, everything), about))
+    names = [candidate.cause.name for candidate in model.candidates]
+    for j in range(len(active), len(model.candidates)):
+        question = Question(j, REACH, active, FOUND, PRESENT / names.count(names[j]))
+        found.append(Open("reach", Asked(question, everything), _sized(model.candidates[j], REACH)))
+    return found
+
+
+def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, ...]) -> list[Open]:
+    """Does a named cause show without what it hangs on, and on metal?"""
+    candidate = model.candidates[k]
+    words, amplitude = words_of(candidate), _amplitude(candidate)
+    rows = model.linear.nuisance.shape[0]
+    found = []
+    hangs_on = diagnosis.ladder.hangs_on.get(candidate.key, [])
+    for label, kept in _parts(model.table, rows):
+        if label in hangs_on:
+            question = Question(k, amplitude, active, KEPT)
+            found.append(Open("kept", Asked(question, kept), words, label))
+    metal = np.arange(rows) >= model.table.size
+    if np.abs(model.linear.effects[metal, k]).max(initial=0.0) > 0.0:
+        question = Question(k, amplitude, active, FOUND)
+        found.append(Open("metal", Asked(question, metal), words, _on_metal(model, k, amplitude)))
+    return found
+
+
+def _parts(table: Observations, rows: int):
+    """What may be left out, as `hangs_on` names it, and the rows (N,) of the model that stay."""
+    for values, words in (
+        (table.isotherm, lambda t: f"{t:g} degC"),
+        (table.frequency, lambda f: f"{f:g} Hz"),
+        (np.array(table.names)[table.specimen], lambda name: f"specimen {name}"),
+    ):
+        for value in np.unique(values):
+            yield words(value), np.concatenate([values != value, np.ones(rows - table.size, bool)])
+
+
+def _on_metal(model: Possible, k: int, amplitude: float) -> str:
+    """What a cause does on metal where it does most."""
+    metal = np.arange(model.table.size, model.linear.nuisance.shape[0])
+    effect = amplitude * model.linear.effects[metal, k]
+    at = int(np.argmax(np.abs(effect)))
+    if abs(effect[at].imag) > abs(effect[at].real):
+        size = f"{three_digits(float(f'{np.degrees(effect[at].imag):.2g}'))} deg of phase"
+    else:
+        size = f"{three_digits(float(f'{100.0 * effect[at].real:.2g}'))} % of the modulus"
+    return f"{size} at {model.metal_frequencies[at]:g} Hz"
+
+
+def _amplitude(candidate: Candidate) -> float:
+    return candidate.values[0] / float(candidate.typical[0])
+
+
+def words_of(candidate: Candidate) -> str:
+    words, place = candidate.cause.name.replace("_", " "), candidate.place
+    if place is None:
+        return words
+    return f"{words} of {place}" if isinstance(place, str) else f"{words} at {place:g} degC"
+
+
+def _sized(candidate: Candidate, typical: float) -> str:
+    first = candidate.cause.parameters[0]
+    value, unit = shown(typical * first.typical, first.unit)
+    if first.unit == "1":
+        value, unit = 100.0 * value, "%"
+    unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
+    return f"{an(words_of(candidate))} of {three_digits(value)} {unit}"
+
+
+def _reasons(
+    sweep: Sweep, questions: Sequence[Open], gain: NDArray[np.float64], before: Sequence[float], after: Sequence[float]
+) -> list[str]:  # fmt: skip
+    """What the tests would do for the questions that they help most."""
+    least = max(0.1 * float(gain.sum()), 0.05)
+    largest = [int(k) for k in np.argsort(-gain)[:REASONS] if gain[k] >= least]
+    return [
+        _reason(questions[k], before[k], after[k])
+        for k in largest if sweep.half_strain or questions[k].kind != "linear"
+    ]  # fmt: skip
+
+
+def _reason(one: Open, before: float, after: float) -> str:
+    if one.kind == "kept":
+        errors = [f"{np.sqrt(strength):.1f}" for strength in (before, after)]
+        return f"The {one.about} should then show without {one.other} too, by {errors[1]} standard errors (now {errors[0]})."
+    if one.kind == "metal":
+        return f"The {one.about} must show on metal too, as {one.other}. The mix has no part in that."
+    if one.kind == "apart":
+        return f"It tells the {one.about} from {an(one.other)}: expected odds {_odds(after)} to 1 (now {_odds(before)} to 1)."
+    if one.kind == "linear":
+        return (
+            f"At half the strain the contradiction at {one.about} halves if the mix is not linear there. It stays if the "
+            "machine is at fault."
+        )
+    if one.kind == "repeat":
+        return f"It shows whether {one.about} comes back. If not, it was the machine or the mounting, and the new test counts."
+    power = [f"{100.0 * norm.cdf(np.sqrt(strength) - USUAL_THRESHOLD):.0f} %" for strength in (before, after)]
+    return f"{one.about[0].upper()}{one.about[1:]} would be found in {power[1]} of cases (now {power[0]})."
+
+
+def _odds(strength: float) -> str:
+    return "more than 1000" if strength > 2.0 * np.log(1000.0) else f"{np.exp(0.5 * strength):.2g}"
+
+
+def _text(one: Order) -> str:
+    """An order in one sentence, its time first."""
+    where = "" if one.sweep.specimen == METAL else f" at {one.sweep.temperature:g} degC"
+    half = ", at half the strain" if one.sweep.half_strain else ""
+    return f"{one.hours:.1f} h: test {_names(one.specimens)}{where}, {_band(one.sweep.frequencies)}{half}."
+
+
+def _names(specimens: Sequence[str]) -> str:
+    own = [name for name in specimens if name not in (METAL, NEW)]
+    others = [name for name in specimens if name in (METAL, NEW)]
+    return joined([*([f"specimen{'s' if len(own) > 1 else ''} {joined(own)}"] if own else []), *others])
+
+
+def _band(f: Sequence[float]) -> str:
+    if len(f) < 4:
+        return f"{joined([f'{x:g}' for x in f])} Hz"
+    return f"{f[0]:g} to {f[-1]:g} Hz ({len(f)} frequencies)"
