@@ -123,7 +123,9 @@ def _settle(
 def _likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
     """The likeliest of several answers: which of three specimens is odd, or a phase that is off at every
     frequency for a modulus that is, may be told in two ways."""
-    uncommon = np.where([name.startswith("all") for name in model.processes.names], discrepancy.LEAST, variances)
+    uncommon = np.where(
+        [name.startswith("all") for name in model.processes.names], discrepancy.LEAST, variances
+    )
     tried = [discrepancy.estimate(model, cause, start) for start in (variances, None, uncommon)]
     return min(tried, key=lambda estimate: estimate.misfit)
 
@@ -138,9 +140,7 @@ def _smoothed(state: State) -> State:
 def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     """Candidates that the table can show, each estimated beside the discrepancy."""
     candidates, pointing = _pointing(state, catalogue)
-    estimates = [
-        _likeliest(state.model, state.variances, pointing.column(k)) for k in range(len(candidates))
-    ]
+    estimates = [_likeliest(state.model, state.variances, pointing.column(k)) for k in range(len(candidates))]
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     return Survey(candidates, pointing, estimates, one_sided)
 
@@ -326,24 +326,24 @@ def detection_limits(
     state: State, surveyed: Survey, draws: int, random: np.random.Generator
 ) -> tuple[dict[tuple, float], list[Candidate], list[tuple[Candidate, Candidate]]]:
     """Limits beside the discrepancy of this table, causes never seen in it, and pairs that look alike."""
-    candidates = surveyed.candidates
     sizes: dict[tuple, float] = {}
     unseen: list[Candidate] = []
     alike: list[tuple[Candidate, Candidate]] = []
     threshold = chance.USUAL_THRESHOLD
-    if candidates:
-        by_chance = _by_chance(state, surveyed, draws, random)
-        threshold = float(np.quantile(by_chance, 1.0 - CHANCE))
-        errors = np.array([
-            max(one.std_error, _named_from(state, surveyed, k, threshold) / (threshold + chance.POWER))
-            for k, one in enumerate(surveyed.estimates)
-        ])  # fmt: skip
-        correlation, _ = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
-        found = Scores(np.zeros(errors.size), errors**-2, np.ones(errors.size, bool), correlation)
+    if surveyed.candidates:
+        threshold = float(np.quantile(_by_chance(state, surveyed, draws, random), 1.0 - CHANCE))
+        correlation, errors = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
+        # A cause with shapes of its own must be carried by the whole table, which no single size says.
+        simple = np.array([len(candidate.values) == 1 for candidate in surveyed.candidates])
+        for k in np.flatnonzero(simple):
+            needed = _named_from(state, surveyed, k, threshold) / (threshold + chance.POWER)
+            errors[k] = max(surveyed.estimates[k].std_error, needed)
+        found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)
         sizes, unseen = limits.detection_limits(
-            state.wide, state.fitted, candidates, found, threshold + chance.POWER
+            state.wide, state.fitted, surveyed.candidates, found, threshold + chance.POWER
         )
-        alike = limits.alike(candidates, found, AS_GOOD)
+        every = replace(found, seen=np.ones(errors.size, bool))
+        alike = limits.alike(surveyed.candidates, every, AS_GOOD)
     for active in state.fitted.active:
         own = of_taken(state, active)
         sizes[active.key] = (threshold + chance.POWER) * own.std_error * float(active.typical[0])

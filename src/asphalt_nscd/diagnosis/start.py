@@ -38,7 +38,9 @@ def fit_spectrum(
     return of_likeliest_roughness(*best[1:])
 
 
-def of_likeliest_roughness(joint: Joint, fitted: Fitted, converged: float = CONVERGED) -> tuple[Joint, Fitted]:
+def of_likeliest_roughness(
+    joint: Joint, fitted: Fitted, converged: float = CONVERGED
+) -> tuple[Joint, Fitted]:
     """The roughness of largest marginal likelihood, each fitted from where the one before ended."""
     scored = []
     for roughness in ROUGHNESS:
