@@ -140,7 +140,12 @@ def _smoothed(state: State) -> State:
 def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     """Candidates that the table can show, each estimated beside the discrepancy."""
     candidates, pointing = _pointing(state, catalogue)
-    estimates = [_likeliest(state.model, state.variances, pointing.column(k)) for k in range(len(candidates))]
+    # A cause with shapes of its own has many directions: one start is enough for a candidate that is refitted.
+    estimates = [
+        _likeliest(state.model, state.variances, pointing.column(k)) if len(candidate.values) == 1
+        else discrepancy.estimate(state.model, pointing.column(k), state.variances)
+        for k, candidate in enumerate(candidates)
+    ]  # fmt: skip
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     return Survey(candidates, pointing, estimates, one_sided)
 
@@ -295,11 +300,15 @@ def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]
     for active in state.fitted.active:
         own = of_taken(state, active, sizes_too=True)
         out[active.key] = (own.amplitude * active.typical[0], own.std_error * active.typical[0])
+    best: dict[tuple, int] = {}
     for k, candidate in enumerate(surveyed.candidates):
-        typical, direction = candidate.typical[0], surveyed.pointing.column(k)
+        other = best.setdefault(candidate.key, k)
+        if surveyed.estimates[k].std_error < surveyed.estimates[other].std_error:
+            best[candidate.key] = k
+    for key, k in best.items():
+        typical, direction = surveyed.candidates[k].typical[0], surveyed.pointing.column(k)
         one = discrepancy.with_uncertain_sizes(state.model, direction, surveyed.estimates[k])
-        if candidate.key not in out or one.std_error * typical < out[candidate.key][1]:
-            out[candidate.key] = (one.amplitude * typical, one.std_error * typical)
+        out[key] = (one.amplitude * typical, one.std_error * typical)
     return out
 
 
