@@ -24,6 +24,7 @@ DEPOSIT, SPECIMEN = "deposit", "specimen"  # kinds of files
 Content = tuple[dict[str, np.ndarray], dict[str, Any]]
 """Arrays and attributes, as a file has them."""
 
+KEPT = ("seed", "source", "layer_height_m", "solid_fraction")  # of a deposit, in the specimen; source: of an import
 DENSITY = 2600.0  # kg/m3 while pouring, section 3.2.1
 LONGEST_POURING = 3.0  # s
 LONGEST_REST = 0.3  # s
@@ -155,7 +156,7 @@ def bonded(
     specimen = trim(arrays["position"], arrays["radius"], shape, volume_reduction, gap_max, area)
     network = specimen.network
     said: dict[str, float | int | str] = {
-        **{name: attributes[name] for name in ("seed", "layer_height_m", "solid_fraction")},
+        **{name: attributes[name] for name in KEPT if name in attributes},
         **asdict(specimen.geometry),
         "spheres": specimen.radius.size, "bonds": network.first.size, "density": specimen.density,
         "volume_reduction": volume_reduction, "gap_max_m": gap_max, "area": area,
