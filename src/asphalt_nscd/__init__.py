@@ -33,6 +33,7 @@ _NAMES = {
     "fit": "api.laws",
     "pour": "api.specimens",
     "read": "api.reading",
+    "read_packing": "api.specimens",
     "solve_contacts": "api.contacts",
     "specimen": "api.specimens",
 }

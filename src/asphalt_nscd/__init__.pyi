@@ -13,6 +13,7 @@ from asphalt_nscd.api.reading import read as read
 from asphalt_nscd.api.specimens import Packing as Packing
 from asphalt_nscd.api.specimens import Specimen as Specimen
 from asphalt_nscd.api.specimens import pour as pour
+from asphalt_nscd.api.specimens import read_packing as read_packing
 from asphalt_nscd.api.specimens import specimen as specimen
 from asphalt_nscd.bending.case import Numerics as Numerics
 from asphalt_nscd.bending.rig import Rig as Rig

@@ -107,8 +107,9 @@ def bend(
     """Bend a specimen at one frequency [Hz] and temperature [degC]: two-point bending, Eqs. (1)-(5).
 
     law: of one temperature, or of all; bonds then follow its Kelvin chain within 0.1 %. amplitude_m: of the head;
-    without it the strain is that of the paper's 63 um on its own specimen. numerics: Numerics(time_step [s], rest_steps,
-    method, scheme). rig: what stands at the head and in the measuring channel. A warning says so where bonds broke.
+    without it the strain is that of the paper's 63 um on its own specimen. numerics: Numerics(time_step [s],
+    rest_steps, method, scheme). rig: what stands at the head and in the measuring channel. A warning says so where
+    bonds broke.
 
     >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
     >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))

@@ -16,6 +16,8 @@ from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.packings.incoming import as_deposit
+from asphalt_nscd.packings.incoming import read_packing as read_spheres
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
 from asphalt_nscd.specimen.network import AREAS
 from asphalt_nscd.specimen.preparation import DEPOSIT, SPECIMEN, Vibration, bonded, specimen_of
@@ -29,6 +31,11 @@ class Packing(Result):
     """Spheres at rest in a box [0, length] x [0, width] x [0, height], z upwards."""
 
     kind = DEPOSIT
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """How a file of another program was read; none for what was poured here."""
+        return tuple(filter(None, str(self.attributes.get("notes", "")).split("\n")))
 
     @property
     def position_m(self) -> np.ndarray:
@@ -123,6 +130,25 @@ def pour(
         raise InputError(f"box_m = {box_m}: give length, width and height in m, greater than zero.")
     spheres = _counts(counts)
     return Packing(*pour_spheres(spheres, box_m, seed, friction, vibration, time_step_s))
+
+
+def read_packing(path: str | Path, *, unit: str | None = None, up: str = "z") -> Packing:
+    """Spheres that another program poured or a scanner saw, as a packing.
+
+    path: CSV with columns x, y, z, radius (or diameter), with or without their unit; text of YADE; dump of LIGGGHTS or
+    LAMMPS, of which the last snapshot is taken; VTK points with an array radius. unit: m, cm, mm or um, where the file
+    does not say it; else m or mm, whichever makes aggregate of the radii. up: the axis against gravity. `notes` says
+    what was understood. Raises InputError, with one sentence, for what is no packing.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     table = Path(folder, "pile.csv")
+    ...     _ = table.write_text("x_mm,y_mm,z_mm,diameter_mm\\n5,5,5,10\\n5,5,15,10\\n")
+    ...     read_packing(table).radius_m.tolist()
+    [0.005, 0.005]
+    """
+    (arrays, attributes), notes = as_deposit(read_spheres(path), unit, up)
+    return Packing(arrays, {**attributes, "notes": "\n".join(notes)}, Path(path).stem)
 
 
 def _counts(counts: Any) -> tuple[np.ndarray, np.ndarray]:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     import pandas as pd  # a quarter of the time in which a step starts
 
 FORMAT_VERSION = 1
+_OF_OTHERS = (".csv", ".tsv", ".txt", ".dump", ".liggghts", ".vtk", ".vtp", ".vtu")
 _PACKAGES = ("asphalt-nscd", "numpy", "scipy", "numba", "pandas", "h5py", "matplotlib", "snakemake")
 
 
@@ -133,6 +134,8 @@ def load(path: str | Path, kind: str) -> Record:
                 )
             )
     except Exception as error:  # h5py raises nearly any exception on a damaged file
+        if Path(path).suffix.lower() in _OF_OTHERS:
+            raise InputError(f"{path}: no HDF5; `asphalt-nscd import-packing` reads packings of that kind.") from None
         raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None
     found, format_version = attributes.pop("kind", None), attributes.pop("format_version", None)
     digest = attributes.pop("digest", None)

@@ -24,6 +24,7 @@ DEPOSIT, SPECIMEN = "deposit", "specimen"  # kinds of files
 Content = tuple[dict[str, np.ndarray], dict[str, Any]]
 """Arrays and attributes, as a file has them."""
 
+KEPT = ("seed", "source", "layer_height_m", "solid_fraction")  # of a deposit, in the specimen; source: of an import
 DENSITY = 2600.0  # kg/m3 while pouring, section 3.2.1
 LONGEST_POURING = 3.0  # s
 LONGEST_REST = 0.3  # s
@@ -99,7 +100,8 @@ def pour(
 def _stage(
     granulate: Granulate, numerics: PouringNumerics, course: Course, progress: Progress, name: str
 ) -> dict[str, float]:
-    """Bring the layer into equilibrium; what is said of it then."""
+    """Bring the layer into equilibrium; what is said of it then, and of its way there."""
+    moving, granulate.overlap = granulate.overlap, 0.0
     weight_balance, unbalanced = balance(granulate, numerics, LONGEST_REST, progress, name)
     contacts, gap = granulate.contacts(TOUCHING)
     box = (granulate.plane_point[3, 0], granulate.plane_point[4, 1], granulate.top())
@@ -110,7 +112,7 @@ def _stage(
         "weight_balance": weight_balance, "unbalanced_force": unbalanced,
         "periods": touched.size, "periods_with_contact": int((touched > 0).sum()),
         "grains_touched_per_period": float(touched.mean()) if touched.size else 0.0,
-        "largest_overlap_driven_m": course.overlap,
+        "largest_overlap_moving_m": moving,
     }  # fmt: skip
 
 
@@ -154,7 +156,7 @@ def bonded(
     specimen = trim(arrays["position"], arrays["radius"], shape, volume_reduction, gap_max, area)
     network = specimen.network
     said: dict[str, float | int | str] = {
-        **{name: attributes[name] for name in ("seed", "layer_height_m", "solid_fraction")},
+        **{name: attributes[name] for name in KEPT if name in attributes},
         **asdict(specimen.geometry),
         "spheres": specimen.radius.size, "bonds": network.first.size, "density": specimen.density,
         "volume_reduction": volume_reduction, "gap_max_m": gap_max, "area": area,
