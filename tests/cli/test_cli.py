@@ -84,7 +84,7 @@ def test_trouble_is_one_sentence(capsys, error, status, sentence):
 def test_damaged_compiled_core_is_removed(capsys, monkeypatch, tmp_path, error):
     (core := tmp_path / "core").mkdir()
     (core / "kernel.nbi").write_bytes(b"half")
-    monkeypatch.setattr("numba.config.CACHE_DIR", str(core))
+    monkeypatch.setattr("asphalt_nscd.nscd.core_cache.core_folder", lambda: str(core))
 
     def step():
         raise error

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.special import fdtrc
 
-from asphalt_nscd.diagnosis import beside, chance, limits, tails
+from asphalt_nscd.diagnosis import beside, chance, limits
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import CHANCE
@@ -245,7 +246,7 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
         kept = value > 1e-3
         square = float((((vector.T @ found.z)[kept]) ** 2 / value[kept]).sum())
         rank = int(kept.sum())
-        p_value = 2.0 * float(tails.fisher(square / rank, rank, joint.noise.freedom))
+        p_value = 2.0 * float(fdtrc(rank, joint.noise.freedom, square / rank))
         out.append(
             Remaining(min(p_value, 1.0), f"each specimen at each frequency, {name}", max(square - rank, 0.0))
         )

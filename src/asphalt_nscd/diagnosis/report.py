@@ -82,12 +82,13 @@ def residual_table(
 ) -> pd.DataFrame:
     """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated).
 
-    before: ln E* (n,) of a simulation as it was; where NaN, or none, with a Burgers law fitted at each temperature.
+    before: ln E* (n,) of a simulation as it was (NaN: not simulated); else with a Burgers law fitted at each
+    temperature.
     """
     observed, ladder = diagnosis.observed, diagnosis.ladder
     frame = _frame(diagnosis, observed.logarithm)
-    fitted = with_burgers_laws(diagnosis, specimen)
-    before = fitted if before is None else np.where(np.isnan(before), fitted, before)
+    if before is None:
+        before = with_burgers_laws(diagnosis, specimen)
     for name, simulated in (("before", before), ("after", _simulated(ladder.joint, ladder.fitted, specimen))):
         left = observed.logarithm - simulated
         frame[f"E_{name}_MPa"] = np.exp(simulated.real) * 1e-6

@@ -6,8 +6,8 @@ from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import chdtrc, fdtrc
 
-from asphalt_nscd.diagnosis import tails
 from asphalt_nscd.diagnosis.joint import Noise
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.files.errors import InputError
@@ -84,7 +84,7 @@ def _by_isotherm(residual: Vector, temperature: Vector, share: float) -> Vector:
     # Bartlett's test
     statistic = freedom.sum() * np.log(mean) - freedom @ np.log(variance)
     statistic /= 1.0 + ((1.0 / freedom).sum() - 1.0 / freedom.sum()) / (3.0 * (isotherms.size - 1))
-    if tails.chi_squared(statistic, isotherms.size - 1) > UNEVEN:
+    if chdtrc(isotherms.size - 1, max(statistic, 0.0)) > UNEVEN:
         return np.ones(residual.size)
     return np.sqrt(variance / mean)[label]
 
@@ -103,7 +103,7 @@ def _components(residual: Vector, block: NDArray, share: float) -> tuple[float, 
     between = float((count * mean) @ mean) / blocks * share
     shared = max((between - within) / size, 0.0)
     # An excess that chance makes is no component: F of blocks against tests.
-    if shared == 0.0 or tails.fisher(between / within, blocks / share, (rows - blocks) / share) > 0.01:
+    if shared == 0.0 or fdtrc(blocks / share, (rows - blocks) / share, between / within) > 0.01:
         return total, 0.0
     return within, shared
 

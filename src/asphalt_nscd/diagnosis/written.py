@@ -59,10 +59,15 @@ def _schema() -> Draft202012Validator:
 
 
 def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
-    """The one residuals.csv: each test measured and simulated, before and after, and what lies between."""
+    """The one residuals.csv: each test measured and simulated, before and after, and what lies between.
+
+    NaN before: a condition that the study did not simulate.
+    """
     table = read_csv(the_only(paths, "residuals"))
     table.require(["specimen", *_NUMBERS])
-    numbers = {name: table.numbers(name) for name in _NUMBERS}
+    numbers = {
+        name: table.numbers_or_nan(name) if "_before_" in name else table.numbers(name) for name in _NUMBERS
+    }
     return pd.DataFrame({"specimen": table.text("specimen")} | numbers)
 
 

@@ -51,7 +51,8 @@ def _melted(
     plain = any((known := recognise(cells.header[place])) and known.quantity == quantity for place in shared)
     if plain or any(set(columns) != set(names) for columns in spread.values()):
         raise InputError(
-            f"{cells.path}: {plural} stand in names of columns such as {cells.header[next(iter(found))]!r}, but not the same for all quantities; give one row for each test, with a column {column}."
+            f"{cells.path}: {plural} stand in names of columns such as {cells.header[next(iter(found))]!r}, but "
+            f"not the same for all quantities; give one row for each test, with a column {column}."
         )
     header = [*(cells.header[place] for place in shared), column, *names]
     rows = [

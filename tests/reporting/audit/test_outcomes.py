@@ -107,7 +107,7 @@ def test_counts_that_contradict_each_other():
 def test_reduced_study_checks_no_height():
     deposit = {
         "spheres": 890, "layer_height_m": 0.06, "poured_layer_height_m": 0.0601, "solid_fraction": 0.6,
-        "segregation": 0.0, "largest_overlap_m": 1e-7, "largest_overlap_driven_m": 1e-4, "periods_with_contact": 30,
+        "segregation": 0.0, "largest_overlap_m": 1e-7, "largest_overlap_moving_m": 1e-4, "periods_with_contact": 30,
     }  # fmt: skip
     specimen = {"spheres": 500, "density": 3415.0, "loose_grains": 0}
     assert {row.verdict for row in list(preparation.samples([deposit], [specimen]))[:6]} == {UNCHECKED}
@@ -117,7 +117,7 @@ def test_a_layer_is_judged_by_its_height_its_density_and_the_wall_that_touched_i
     """60.0 mm, 0.695 and 30 periods are what was published; 1 % off, or 3 periods without, and it differs."""
     deposit = {
         "spheres": 14160, "layer_height_m": 0.0604, "poured_layer_height_m": 0.063, "solid_fraction": 0.69,
-        "segregation": 0.0, "largest_overlap_m": 1e-7, "largest_overlap_driven_m": 1e-4, "periods_with_contact": 28,
+        "segregation": 0.0, "largest_overlap_m": 1e-7, "largest_overlap_moving_m": 1e-4, "periods_with_contact": 28,
     }  # fmt: skip
     specimen = {"spheres": 500, "density": 3415.0, "loose_grains": 0}
 
