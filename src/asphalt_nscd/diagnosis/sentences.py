@@ -108,6 +108,8 @@ def _sure(rung: Content, content: Content) -> str:
         return (
             f"Likely, not established. Without {joined(rung['hangs_on'], 'or')} these tests do not show it."
         )
+    if rung.get("doubts"):
+        return f"Likely, not established. {'. '.join(rung['doubts'])}."
     if not rung.get("established", True):
         return "Likely, not established. These tests are too few to exclude what the catalogue lacks."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
