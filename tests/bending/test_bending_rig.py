@@ -149,7 +149,7 @@ def test_before_the_channel_catches_up_it_shows_rest(model):
     ("method", "rig", "words"),
     [
         ("harmonic", Rig(guide_friction=1.0), "no steady harmonic oscillation"),
-        ("sweeps", Rig(head_mass=1.0), "knows no devices at the head"),
+        ("sweeps", Rig(head_mass=1.0), "has no devices at the head"),
     ],
 )
 def test_methods_that_cannot_take_a_rig(folder, method, rig, words):

@@ -77,7 +77,7 @@ def test_of_another_run_is_refused(tmp_path, model, quick_law):
     with pytest.raises(Stopped):
         run(model, quick_law, "condensed", "euler", checkpoint, 6)
     other = Checkpoint(tmp_path / "run.h5", 5, {"frequency_Hz": 25.0})
-    with pytest.raises(InputError, match=r"of another run \(frequency_Hz 40.0 there, 25.0 here\); delete it"):
+    with pytest.raises(InputError, match=r"another run \(frequency_Hz is 40.0 there, 25.0 here\); delete it"):
         run(model, quick_law, "condensed", "euler", other)
     (tmp_path / "run.h5").write_bytes(b"cut")
     with pytest.raises(DamagedFile):

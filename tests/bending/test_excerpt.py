@@ -76,7 +76,7 @@ def _spied(excerpt, was_read):
 def test_an_excerpt_of_another_model_is_refused(folder):
     """Noticed where the model is read."""
     mixed = read_subject(folder / "weak.h5", folder / "strong.excerpt.h5")
-    with pytest.raises(InputError, match="excerpt of another model"):
+    with pytest.raises(InputError, match="belongs to another model"):
         assert mixed.whole
 
 

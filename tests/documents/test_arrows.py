@@ -18,6 +18,7 @@ ARROWS = {
     "measurements": ["files"],
     "rheology": ["files", "measurements"],
     "specimen": ["files", "measurements", "nscd"],
+    "packings": ["files", "nscd", "specimen"],
     "bending": ["files", "measurements", "nscd", "rheology", "specimen"],
     "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
     "exports": ["files", "measurements", "rheology", "diagnosis"],
@@ -27,7 +28,7 @@ ARROWS = {
     "verification": ["files", "workflow_support", "measurements", "nscd", "rheology", "specimen", "bending"],
     "api": [
         "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "table_import",
+        "table_import", "packings",
     ],
     "cli": [
         "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",

@@ -12,7 +12,7 @@ import asphalt_nscd
 
 ROOT = Path(__file__).parents[2]
 MODULES = [
-    "api.contacts", "api.diagnosis", "api.exporting", "api.laws", "api.reading",
+    "api.bending", "api.contacts", "api.diagnosis", "api.exporting", "api.laws", "api.reading", "api.specimens",
     "measurements.signals", "measurements.twopoint", "nscd.contacts.friction", "rheology.burgers",
     "rheology.chain", "rheology.fitting", "rheology.shift", "rheology.spectrum",
 ]  # fmt: skip

@@ -27,7 +27,8 @@ def all_pairs(position, radius, plane_point, plane_normal, reach):
 
 def naive_step(
     position, radius, velocity, mass, plane_point, plane_normal, gravity, impulses, *, dt, friction,
-    restitution, recovery_speed, allowed_overlap, margin, tolerance, most_sweeps, drive=(0.0, 0.0),
+    restitution, recovery_speed, allowed_overlap, margin, tolerance, most_sweeps,
+    penetration=np.inf, enough_sweeps=10**9, drive=(0.0, 0.0),
 ):  # fmt: skip
     """Returns (position, velocity, impulses) after dt. impulses: {(i, j): (3,)} acts on body j.
 
@@ -93,22 +94,25 @@ def naive_step(
         quiet = tolerance**2 * size / max(len(contacts), 1)
         if turn == 0:  # all, up the list and down by turns
             order = range(len(contacts))[:: -1 if round_ % 2 else 1]
-            lively, changed, size = [], 0.0, 0.0
+            lively, changed, size, fastest = [], 0.0, 0.0, 0.0
         else:  # those whose impulse changed then
             order = lively[:: -1 if turn % 2 else 1]
         for c in order:
             i, j, _, on_first, on_second, delassus, target = contacts[c]
             opening = on_first @ new[i] + on_second @ new[j] - [target, 0, 0]
+            excess = -opening[0]
             r = coulomb(delassus, opening - delassus @ local[c], friction)
             delta, local[c] = r - local[c], r
             new[i] += inverse[i] * (on_first.T @ delta)
             new[j] += inverse[j] * (on_second.T @ delta)
             if turn == 0:
                 changed, size = changed + delta @ delta, size + r @ r
-                if delta @ delta > quiet:
+                fastest = max(fastest, excess)
+                if delta @ delta > quiet or (r.any() or delta.any()) and excess > penetration / dt:
                     lively.append(c)
         lead()
-        if turn == 0 and (size == 0 or np.sqrt(changed / size) < tolerance):
+        converged = size == 0 or np.sqrt(changed / size) < tolerance or sweep >= enough_sweeps
+        if turn == 0 and converged and fastest < penetration / dt:
             break
     carried = {(i, j): frame.T @ r for (i, j, frame, *_), r in zip(contacts, local)}
     return position + dt * new[:n, :3], new, carried

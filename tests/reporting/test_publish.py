@@ -86,6 +86,25 @@ def test_a_layout_chooses_columns_and_lists_what_is_long():
     assert shown("a block without a layout", table[["case"]]).splitlines()[0].replace(" ", "") == "|case|"
 
 
+def test_rungs_stand_beside_each_other():
+    """As ladder.csv has them: a row for each rung and temperature; the law was held out on the last rung only."""
+    table = pd.DataFrame(
+        {
+            "rung": ["as in the paper"] * 2 + ["spectrum"] * 2, "temperature_C": [15, 30] * 2,
+            "mre_E_percent": [4.0, 3.0, 2.0, 1.0], "mre_E_published_percent": [7.0, 6.0] * 2,
+            "mre_E_law_percent": [0.4, 0.3, 0.2, 0.1], "mre_E_held_out_percent": [None, None, 0.9, 0.8],
+            "scatter_E_percent": [0.5] * 4, "mre_phase_percent": [8.0] * 4, "mre_phase_law_percent": [9.0] * 4,
+            "mre_phase_held_out_percent": [1.0] * 4, "scatter_phase_percent": [0.5] * 4,
+        }
+    )  # fmt: skip
+    rows = [line.replace(" ", "") for line in shown("ladder", table).splitlines()]
+    assert rows[2] == "|T,°C|printed|asinthepaper|spectrum|"
+    assert rows[4:6] == ["|15|7|4|2|", "|30|6|3|1|"]
+    rows = [line.replace(" ", "") for line in shown("gain", table).splitlines()]
+    assert rows[2] == "|T,°C|printed|asinthepaper|spectrum|Burgerslaw|heldout|scatter|"
+    assert rows[4] == "|15|7|4|2|0.4|0.9|0.5|"
+
+
 def test_what_differs_from_the_checksums_is_named(tmp_path):
     for name in "abc":
         (tmp_path / f"{name}.csv").write_text(f"x\n{name}\n")

@@ -115,7 +115,7 @@ def test_a_specimen_larger_than_the_box(folder, poured, change):
 
 
 def test_another_file_is_not_a_deposit(folder, poured):
-    with pytest.raises(InputError, match="holds 'deposit', not 'specimen'"):
+    with pytest.raises(InputError, match="expected a specimen file; found a deposit file"):
         read_specimen(folder / "deposit.h5")
 
 

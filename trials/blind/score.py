@@ -46,7 +46,8 @@ def outcomes(cases: Iterable[tuple[Seal, Diagnosis]]) -> pd.DataFrame:
     suite: empty, single, pair or outside; ratio: amplitude over detection limit (`ratio` of the effect in
     the seal, else from the diagnosis's own limits); outcome: the true cause if named, else the first
     wrong name, else UNEXPLAINED, REFUSED or NOTHING; named: rightly, in the right place or in a group that cannot be
-    told apart; wrong: names that are true of no hidden effect, confident: those that are given as established; covered, gained: NaN unless named by itself.
+    told apart; wrong: names that are true of no hidden effect, confident: those of them given as established;
+    covered, gained: NaN unless named by itself.
     """
     rows = []
     for number, (seal, diagnosis) in enumerate(cases):

@@ -2,7 +2,7 @@
 #   snakemake --cores 1 publish
 
 BLOCKS = {"samples": "<results>/samples.csv", "table4": "<results>/table4.csv", "timings": "<results>/timings.md"}
-BLOCKS |= {name: "<results>/gain.csv" for name in ("ladder", "gain")} if COMMON_LAW else {}
+BLOCKS |= {name: "<results>/ladder.csv" for name in ("ladder", "gain")} if COMMON_LAW else {}
 BLOCKS |= {"outputs": "<results>/outputs.csv"} if "outputs" in TABLES else {}
 
 

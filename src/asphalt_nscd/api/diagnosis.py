@@ -15,19 +15,19 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.api.laws import Law
+from asphalt_nscd.api.pictures import shown_in_notebooks
 from asphalt_nscd.api.tables import Measurements, campaign_in
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.run import Outcome, conclude
+from asphalt_nscd.diagnosis.sentences import on_data, on_simulation
 from asphalt_nscd.diagnosis.summary import summary
-from asphalt_nscd.diagnosis.written import read_diagnosis
+from asphalt_nscd.diagnosis.written import mean_averages, read_diagnosis
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.store import read_json, write_json
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-SCREEN_DPI = 160  # figures have the size of a journal column, 90 mm
 
 
 @dataclass(frozen=True)
@@ -174,9 +174,10 @@ class Diagnosis:
 
         ladder = self.ladder[["cause", "where", "value", "std_error", "unit", "p_value", "established"]]
         parts = [
-            f"<p><b>Verdict: {escape(self.verdict.replace('_', ' '))}.</b> {self.content['tests']} tests used.</p>"
+            f"<p><b>Data:</b> {escape(on_data(self.content))}</p>",
+            f"<p><b>Simulation:</b> {escape(on_simulation(self.content))}</p>",
+            ladder.to_html(index=False, float_format="{:.3g}".format, na_rep=""),
         ]
-        parts.append(ladder.to_html(index=False, float_format="{:.3g}".format, na_rep=""))
         if len(self.suspects):
             parts += [
                 "<p>Doubtful tests:</p>",
@@ -198,7 +199,7 @@ _LADDER = [
 
 def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
     name, amplitude = next(iter(rung["parameters"].items()))
-    inside = rung["gain"]["in_sample"]
+    inside = mean_averages(rung["gain"]["in_sample"])
     return {
         "cause": rung["cause"], "where": "" if rung["where"] is None else rung["where"], "parameter": name,
         "value": amplitude["value"], "unit": amplitude["unit"],
@@ -215,24 +216,11 @@ def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def shown_in_notebooks(figure: Figure) -> Figure:
-    """The figure, which Jupyter then shows without pyplot."""
-    from io import BytesIO
-
-    def png() -> bytes:
-        content = BytesIO()
-        figure.savefig(content, format="png", dpi=SCREEN_DPI)
-        return content.getvalue()
-
-    figure._repr_png_ = png  # type: ignore[attr-defined]
-    return figure
-
-
 def diagnose(
     measurements: Measurements, *, geometry: str | Path | Mapping[str, Any] = PAPER_GEOMETRY,
     specimen: str | Path | None = None, static_modulus_MPa: float | None = None,
     scatter: tuple[float, float] | None = None, simulations: str | Path | None = None,
-    draws: Draws = Draws(),  # noqa: B008  frozen
+    facets: str | Path | None = None, draws: Draws = Draws(),  # noqa: B008  frozen
 ) -> Diagnosis:  # fmt: skip
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
 
@@ -240,7 +228,8 @@ def diagnose(
     h_mm, mass_kg, mobile_mass_kg of the specimens, or a table of them; of ready moduli only the form factor counts.
     specimen: numerical specimen, a file of `asphalt-nscd reduced-specimen`; else the one shipped. static_modulus_MPa:
     of the mix at long times, if known. scatter: standard deviations of one test, |E*| in % and phase in degrees; else
-    from replicates. simulations: table of simulated tests, to say what in them is numerics.
+    from replicates. simulations: table of simulated tests, to say what in them is numerics; facets: of the same tests
+    with bonds that are facets, to judge bond_mapping.
 
     Raises InputError, with one sentence, for tables that cannot be diagnosed.
 
@@ -264,5 +253,6 @@ def diagnose(
             draws.number,
             draws.seed,
             simulations,
+            facets,
         )
     )

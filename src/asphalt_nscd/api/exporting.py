@@ -1,4 +1,4 @@
-"""What comes out for other programs: laws as Prony series, workbooks and tables."""
+"""What comes out for other programs: laws as Prony series, workbooks and tables; spheres and bonds."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from asphalt_nscd.api.laws import Law
+from asphalt_nscd.api.results import Result
 from asphalt_nscd.exports.card import UNITS, Settings
 from asphalt_nscd.exports.export import export_law, require_form
 from asphalt_nscd.exports.law import law_of, read_law_file
@@ -43,13 +44,14 @@ class ExportSettings:
 
 
 def export(
-    law: Law | Diagnosis | str | Path, output: str | Path, form: str, *,
+    law: Law | Diagnosis | Result | str | Path, output: str | Path, form: str, *,
     settings: ExportSettings = ExportSettings(),  # noqa: B008  frozen
     temperatures_C: tuple[float, ...] | None = None, frequencies_Hz: tuple[float, ...] | None = None,
 ) -> str:  # fmt: skip
-    """Write a law for another program; one line that says what and how well.
+    """Write a law, or spheres and bonds, for another program; one line that says what and how well.
 
-    law: a Law, a Diagnosis (whose law is taken), or a law file. form: abaqus, ansys, comsol, csv, xlsx or mepdg.
+    law: a Law, a Diagnosis (whose law is taken), or a law file. form: abaqus, ansys, comsol, csv, xlsx or mepdg. Or a
+    Packing, a Specimen or a Test, or a file of one; form: vtk (.vtp, for ParaView; bonds in a file beside) or csv.
     temperatures_C, frequencies_Hz: the tested ones, over which the series holds; else those of the diagnosis, or
     usual ones, which the file says.
 
@@ -58,6 +60,8 @@ def export(
     ...     print(export(law, f"{folder}/T15.csv", "csv", frequencies_Hz=(3.0, 40.0)))
     /.../T15.csv: 2 Prony terms at 15 degC, largest errors less than 1e-06 % of |E*| ...
     """
+    if isinstance(law, Result) or Path(str(law)).suffix.lower() in (".h5", ".hdf5"):
+        return _export_result(law, output, form)
     card, tested = settings.of_card(), (temperatures_C, frequencies_Hz)
     require_form(form, Path(output))
     if isinstance(law, str | Path):
@@ -69,3 +73,14 @@ def export(
     with TemporaryDirectory() as folder:  # the export finds the tests beside the law
         law.write(folder)
         return export_law(read_law_file(Path(folder, "law.json"), *tested), card, form, output)
+
+
+def _export_result(result: Result | str | Path | Law | Diagnosis, output: str | Path, form: str) -> str:
+    from asphalt_nscd.packings.outgoing import export_result
+
+    if not isinstance(result, Result):
+        return export_result(str(result), form, output)
+    with TemporaryDirectory() as folder:
+        path = Path(folder, "result.h5")
+        result.write(path)
+        return export_result(path, form, output)

@@ -8,17 +8,20 @@ from typing import Any
 
 import pandas as pd
 
+from asphalt_nscd.api.bending import Test
 from asphalt_nscd.api.diagnosis import Diagnosis
 from asphalt_nscd.api.laws import Law
+from asphalt_nscd.api.specimens import Packing, Specimen
 from asphalt_nscd.api.tables import Measurements, campaign_in
-from asphalt_nscd.files.store import read_json
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import kind_of, read_json
 from asphalt_nscd.table_import.frames import frame_of
 
 
 def read(
     source: Measurements, *, sheet: str | None = None, columns: Mapping[str, str] | None = None,
     measured_in: str | None = None,
-) -> pd.DataFrame | Law | Diagnosis:  # fmt: skip
+) -> pd.DataFrame | Law | Diagnosis | Packing | Specimen | Test:  # fmt: skip
     """Read what a file, a folder or a DataFrame holds.
 
     * Measurements (CSV, TSV, XLSX, exports of testing machines, or a folder of them, or a DataFrame with columns that
@@ -26,6 +29,7 @@ def read(
       (or F0_N, z0_m and psi_deg), and what else the machine gave. `attrs["notes"]` says how it was read.
     * A folder with a diagnosis.json, or that file: a Diagnosis.
     * A law (JSON): a Law.
+    * A result file of the simulation (HDF5): a Packing, a Specimen or a Test.
 
     sheet: of an XLSX file. columns: what a column holds, where its name does not say, {"E_GPa": "Steifigkeit"}.
     measured_in: "bending" or "tension-compression"; else tension-compression for exports, bending for tables.
@@ -43,6 +47,12 @@ def read(
         path = Path(source)
         if path.is_dir() and (path / "diagnosis.json").is_file():
             return Diagnosis.read(path)
+        if path.suffix.lower() in (".h5", ".hdf5"):
+            kinds = {one.kind: one for one in (Packing, Specimen, Test)}
+            kind = kind_of(path)
+            if kind not in kinds:
+                raise InputError(f"{path}: holds {kind!r}; give a file with one of {', '.join(kinds)}.")
+            return kinds[kind].read(path)
         if path.suffix.lower() == ".json":
             content: Any = read_json(path)
             if isinstance(content, dict) and "schema_version" in content:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -129,26 +129,40 @@ def simulate(
     temperature [degC] of the law, kept with the result. The rig and the checkpoint are those of `files`.
     model: what `files.model` holds, or its excerpt, where that has been read already.
     """
-    cycles, time_step, frequency = case.cycles, numerics.time_step, case.frequency
-    if cycles < 1.0:
-        raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
-    require_steps(time_step, frequency)
     law = read_bond_law(files.law)
     case = replace(case, rig=Rig() if files.rig is None else read_rig(files.rig))
     model = read_subject(files.model) if model is None else model
     options = replace(options, checkpoint=files.checkpoint_of(case, numerics))
-    began = time.process_time()
     try:
-        record = run_test(model, bond_law(law), case, numerics, options)
+        arrays, columns = outcome(model, law, temperature, case, numerics, options)
     except ArithmeticError as error:
         raise InputError(
-            f"{files.model} at {frequency:g} Hz: {error}; lower the amplitude or choose another method."
+            f"{files.model} at {case.frequency:g} Hz: {error}; lower the amplitude or choose another method."
         ) from None
+    columns["law_source"] = files.law_source
+    if files.rig is not None:
+        columns |= case.rig.columns()
+    save(files.output, "test", arrays, columns)
+    if options.checkpoint is not None:
+        options.checkpoint.drop()
+
+
+def outcome(
+    model: Model | ModelExcerpt, law: Burgers | KelvinChain, temperature: float, case: LoadCase,
+    numerics: Numerics = Numerics(), options: RunOptions = RunOptions(),
+) -> tuple[dict[str, np.ndarray], dict[str, Any]]:  # fmt: skip
+    """Arrays and attributes of the file of one test; see `simulate`."""
+    cycles, time_step, frequency = case.cycles, numerics.time_step, case.frequency
+    if cycles < 1.0:
+        raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
+    require_steps(time_step, frequency)
+    began = time.process_time()
+    record = run_test(model, bond_law(law), case, numerics, options)
     cpu = time.process_time() - began
     history = record.time, record.force, record.displacement, frequency
     steady = harmonic_response(*history, cycles=min(REDUCED_CYCLES, int(cycles)))
     peak = peak_response(*history, cycles=1)
-    columns: dict[str, float | int | str] = {
+    columns: dict[str, Any] = {
         "specimen": model.name, "temperature_C": temperature, "frequency_Hz": frequency,
         "spheres": model.spheres, "bonds": model.bonds,
         "broken_bonds": len(record.broken), "steps": record.time.size,
@@ -163,17 +177,14 @@ def simulate(
         columns |= {f"E{suffix}_MPa": float(norm) / 1e6, f"phase{suffix}_deg": float(np.degrees(phase))}
     columns |= {
         "residual": record.residual, "cpu_s": cpu, "method": numerics.method, "head": model.head,
-        "law_source": files.law_source, "time_step_s": time_step, "amplitude_m": case.amplitude, **record.details,
-        **({} if files.rig is None else case.rig.columns()),
+        "law_source": "", "time_step_s": time_step, "amplitude_m": case.amplitude, **record.details,
         **({} if numerics.scheme == "euler" else {"scheme": numerics.scheme}),
     }  # fmt: skip
     arrays = {
         "time_s": record.time, "displacement_m": record.displacement, "force_N": record.force,
         "broken": np.asarray(record.broken, np.int64), **_velocity_profile(model.layers, record, frequency),
     }  # fmt: skip
-    save(files.output, "test", arrays, columns)
-    if options.checkpoint is not None:
-        options.checkpoint.drop()
+    return arrays, columns
 
 
 def _modulus(geometry: Geometry, frequency: float, response: Response) -> complex:

@@ -89,12 +89,8 @@ def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) ->
     if method == "harmonic" and case.rig.guide_friction:
         raise InputError("rig: a slider has no steady harmonic oscillation; choose the method reduced.")
     if scheme != "euler" and not steps:
-        raise InputError(
-            f"method {method} knows no scheme {scheme!r}; choose the method reduced or condensed."
-        )
+        raise InputError(f"method {method} has no scheme {scheme!r}; choose the method reduced or condensed.")
     if options.checkpoint is not None and not steps:
         raise InputError(f"method {method} keeps no checkpoint; choose the method reduced or condensed.")
     if method == "sweeps" and not case.rig.is_rigid:
-        raise InputError(
-            "rig: Gauss-Seidel on bonds knows no devices at the head; choose the method reduced."
-        )
+        raise InputError("rig: the method sweeps has no devices at the head; choose the method reduced.")

@@ -51,13 +51,18 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
     type=_options.File,
     help="Simulated tests of the campaign, to say what in them is numerics.",
 )
+@click.option(
+    "--facets",
+    type=_options.File,
+    help="The same tests on specimens bonded by facets, to say what the paper's bonds make of |E*|.",
+)
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 def command(
     measurements: tuple[Path, ...], output: Path, sheet: str | None, columns: tuple[tuple[str, str], ...],
     measured_in: str | None, geometry: Any, specimen: Path | None, static_modulus_mpa: float | None,
     modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
-    simulations: Path | None,
+    simulations: Path | None, facets: Path | None,
 ) -> None:  # fmt: skip
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
 
@@ -66,6 +71,8 @@ def command(
     """
     if (modulus_scatter_percent is None) != (phase_scatter_deg is None):
         raise click.UsageError("give --modulus-scatter-percent and --phase-scatter-deg together.")
+    if facets is not None and simulations is None:
+        raise click.UsageError("give --simulations with --facets: the tests that they stand beside.")
     from asphalt_nscd.api.diagnosis import Draws, diagnose
     from asphalt_nscd.api.tables import campaign_in
 
@@ -74,6 +81,7 @@ def command(
         scatter = modulus_scatter_percent, phase_scatter_deg
     diagnosis = diagnose(
         campaign_in(measurements, sheet, dict(columns), measured_in), geometry=geometry, specimen=specimen,
-        static_modulus_MPa=static_modulus_mpa, scatter=scatter, simulations=simulations, draws=Draws(draws, seed),
+        static_modulus_MPa=static_modulus_mpa, scatter=scatter, simulations=simulations, facets=facets,
+        draws=Draws(draws, seed),
     )  # fmt: skip
     click.echo(diagnosis.write(output))

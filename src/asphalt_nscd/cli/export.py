@@ -8,10 +8,10 @@ from asphalt_nscd.cli import _options
 
 
 @click.command()
-@click.argument("law", type=_options.File)
+@click.argument("source", type=_options.File)
 @click.option(
     "--format", "form", required=True, help="Program that will read it.",
-    type=click.Choice(["abaqus", "ansys", "comsol", "csv", "xlsx", "mepdg"]),
+    type=click.Choice(["abaqus", "ansys", "comsol", "csv", "xlsx", "mepdg", "vtk"]),
 )  # fmt: skip
 @click.option(
     "--error-percent", default=1.0, type=_options.POSITIVE, help="Largest error of |E*| of the Prony series."
@@ -33,15 +33,23 @@ from asphalt_nscd.cli import _options
 @click.option("--name", default="ASPHALT", help="Name of the material (abaqus).")
 @_options.output
 def command(
-    law: Path, form: str, error_percent: float, error_deg: float, temperatures_c: tuple[float, ...] | None,
+    source: Path, form: str, error_percent: float, error_deg: float, temperatures_c: tuple[float, ...] | None,
     frequencies_hz: tuple[float, ...] | None, poisson: float | None, units: str, name: str, output: Path,
 ) -> None:  # fmt: skip
-    """Write a law for another program: Prony series with shift, workbook, or table of |E*|."""
+    """Write a law for another program: Prony series with shift, workbook, or table of |E*|.
+
+    SOURCE: a law (JSON); or a deposit, specimen or test (HDF5), as vtk for ParaView or as csv.
+    """
     from asphalt_nscd.api.exporting import ExportSettings, export
 
     settings = ExportSettings(error_percent, error_deg, poisson, units, name)
     click.echo(
         export(
-            law, output, form, settings=settings, temperatures_C=temperatures_c, frequencies_Hz=frequencies_hz
+            source,
+            output,
+            form,
+            settings=settings,
+            temperatures_C=temperatures_c,
+            frequencies_Hz=frequencies_hz,
         )
     )

@@ -140,7 +140,12 @@ def _smoothed(state: State) -> State:
 def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     """Candidates that the table can show, each estimated beside the discrepancy."""
     candidates, pointing = _pointing(state, catalogue)
-    estimates = [_likeliest(state.model, state.variances, pointing.column(k)) for k in range(len(candidates))]
+    # A cause with shapes of its own has many directions: one start is enough for a candidate that is refitted.
+    estimates = [
+        _likeliest(state.model, state.variances, pointing.column(k)) if len(candidate.values) == 1
+        else discrepancy.estimate(state.model, pointing.column(k), state.variances)
+        for k, candidate in enumerate(candidates)
+    ]  # fmt: skip
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     return Survey(candidates, pointing, estimates, one_sided)
 
@@ -295,11 +300,15 @@ def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]
     for active in state.fitted.active:
         own = of_taken(state, active, sizes_too=True)
         out[active.key] = (own.amplitude * active.typical[0], own.std_error * active.typical[0])
+    best: dict[tuple, int] = {}
     for k, candidate in enumerate(surveyed.candidates):
-        typical, direction = candidate.typical[0], surveyed.pointing.column(k)
+        other = best.setdefault(candidate.key, k)
+        if surveyed.estimates[k].std_error < surveyed.estimates[other].std_error:
+            best[candidate.key] = k
+    for key, k in best.items():
+        typical, direction = surveyed.candidates[k].typical[0], surveyed.pointing.column(k)
         one = discrepancy.with_uncertain_sizes(state.model, direction, surveyed.estimates[k])
-        if candidate.key not in out or one.std_error * typical < out[candidate.key][1]:
-            out[candidate.key] = (one.amplitude * typical, one.std_error * typical)
+        out[key] = (one.amplitude * typical, one.std_error * typical)
     return out
 
 
@@ -326,24 +335,24 @@ def detection_limits(
     state: State, surveyed: Survey, draws: int, random: np.random.Generator
 ) -> tuple[dict[tuple, float], list[Candidate], list[tuple[Candidate, Candidate]]]:
     """Limits beside the discrepancy of this table, causes never seen in it, and pairs that look alike."""
-    candidates = surveyed.candidates
     sizes: dict[tuple, float] = {}
     unseen: list[Candidate] = []
     alike: list[tuple[Candidate, Candidate]] = []
     threshold = chance.USUAL_THRESHOLD
-    if candidates:
-        by_chance = _by_chance(state, surveyed, draws, random)
-        threshold = float(np.quantile(by_chance, 1.0 - CHANCE))
-        errors = np.array([
-            max(one.std_error, _named_from(state, surveyed, k, threshold) / (threshold + chance.POWER))
-            for k, one in enumerate(surveyed.estimates)
-        ])  # fmt: skip
-        correlation, _ = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
-        found = Scores(np.zeros(errors.size), errors**-2, np.ones(errors.size, bool), correlation)
+    if surveyed.candidates:
+        threshold = float(np.quantile(_by_chance(state, surveyed, draws, random), 1.0 - CHANCE))
+        correlation, errors = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
+        # A cause with shapes of its own must be carried by the whole table, which no single size says.
+        simple = np.array([len(candidate.values) == 1 for candidate in surveyed.candidates])
+        for k in np.flatnonzero(simple):
+            needed = _named_from(state, surveyed, k, threshold) / (threshold + chance.POWER)
+            errors[k] = max(surveyed.estimates[k].std_error, needed)
+        found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)
         sizes, unseen = limits.detection_limits(
-            state.wide, state.fitted, candidates, found, threshold + chance.POWER
+            state.wide, state.fitted, surveyed.candidates, found, threshold + chance.POWER
         )
-        alike = limits.alike(candidates, found, AS_GOOD)
+        every = replace(found, seen=np.ones(errors.size, bool))
+        alike = limits.alike(surveyed.candidates, every, AS_GOOD)
     for active in state.fitted.active:
         own = of_taken(state, active)
         sizes[active.key] = (threshold + chance.POWER) * own.std_error * float(active.typical[0])

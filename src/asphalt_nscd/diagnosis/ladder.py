@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.stats import f as fisher
+from scipy.special import fdtrc
 
 from asphalt_nscd.diagnosis import beside, chance, limits
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
@@ -246,7 +246,7 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
         kept = value > 1e-3
         square = float((((vector.T @ found.z)[kept]) ** 2 / value[kept]).sum())
         rank = int(kept.sum())
-        p_value = 2.0 * float(fisher.sf(square / rank, rank, joint.noise.freedom))
+        p_value = 2.0 * float(fdtrc(rank, joint.noise.freedom, square / rank))
         out.append(
             Remaining(min(p_value, 1.0), f"each specimen at each frequency, {name}", max(square - rank, 0.0))
         )

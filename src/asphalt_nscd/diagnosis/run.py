@@ -8,16 +8,18 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import quality, repeatability, report, suspects, within_isotherm
-from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis import bond_mapping, quality, repeatability, report, suspects, within_isotherm
+from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.instructions import instructions
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
-from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
@@ -59,10 +61,12 @@ def run(
     measurements: str | Path | Campaign, folder: str | Path, geometry: str | Path | Mapping[str, Any],
     specimen: str | Path | None = None, static_modulus: float | None = None,
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
-    simulations: str | Path | None = None,
+    simulations: str | Path | None = None, facets: str | Path | None = None,
 ) -> str:  # fmt: skip
     """Diagnose measurements and write four files into the folder; the summary. See `conclude`."""
-    outcome = conclude(measurements, geometry, specimen, static_modulus, scatter, draws, seed, simulations)
+    outcome = conclude(
+        measurements, geometry, specimen, static_modulus, scatter, draws, seed, simulations, facets
+    )
     return outcome.written(folder)
 
 
@@ -70,12 +74,12 @@ def conclude(
     measurements: str | Path | Campaign, geometry: str | Path | Mapping[str, Any],
     specimen: str | Path | None = None, static_modulus: float | None = None,
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
-    simulations: str | Path | None = None,
+    simulations: str | Path | None = None, facets: str | Path | None = None,
 ) -> Outcome:  # fmt: skip
     """Diagnose measurements.
 
-    static_modulus [Pa]; scatter: of |E*| (relative) and phase [rad]. simulations: table of simulated tests whose
-    numerics are told apart.
+    static_modulus [Pa]; scatter: of |E*| (relative) and phase [rad]. simulations: table of simulated tests, whose
+    numerics are judged; facets: of the same tests with bonds that are facets, beside which bond_mapping is judged.
     """
     numerical = read_specimen(specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None
@@ -87,12 +91,13 @@ def conclude(
     except InputError as error:
         raise InputError(f"{given}: {error}") from None
     fit = None if observed.isotherms.size < 2 else material_law(diagnosis)
-    content = report.as_json(diagnosis, numerical)
+    content, before = report.as_json(diagnosis, numerical), None
     if fit is not None:
         content["notes"] += law_notes(diagnosis, fit.law) + prior_notes(fit)
     content["reading"] = reading(observed, () if campaign is None else campaign.notes)
     if simulations is not None:
         content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
+        before = _begin_with_campaigns(content, diagnosis, numerical, simulations, facets)
     content["origin"] = origin
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
@@ -119,9 +124,34 @@ def conclude(
             std_error=fit.std_error, unseen=fit.unseen, from_prior=fit.from_prior,
         )  # fmt: skip
     return Outcome(
-        content, report.residual_table(diagnosis, numerical),
+        content, report.residual_table(diagnosis, numerical, before),
         suspects.table(observed, list(diagnosis.suspects), held), law,
     )  # fmt: skip
+
+
+def _begin_with_campaigns(
+    content: dict[str, Any], diagnosis: Diagnosis, specimen: NumericalSpecimen, simulations: str | Path,
+    facets: str | Path | None,
+) -> NDArray[np.complex128]:  # fmt: skip
+    """Put what was simulated before the ladder: its first rung, and the errors before the law. ln E* (n,) of it."""
+    observed = diagnosis.observed
+    before = after = bond_mapping.simulated(simulations, observed)
+    rung = None
+    if facets is None:
+        content["notes"].append(bond_mapping.void(simulations))
+    else:
+        after = bond_mapping.simulated(facets, observed)
+        rung, sentence = bond_mapping.bond_mapping(
+            simulations, facets, report.averages(diagnosis, before, after)
+        )
+        content["notes"].append(sentence)
+    for law in content["ladder"]:
+        if law["cause"] == "relaxation_spectrum":
+            law["gain"]["in_sample"]["averages_by_temperature"] = report.averages(
+                diagnosis, after, report.with_common_law(diagnosis, specimen)
+            )
+    content["ladder"][:0] = [] if rung is None else [rung]
+    return before
 
 
 def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:

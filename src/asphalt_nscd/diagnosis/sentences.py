@@ -8,16 +8,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
-from asphalt_nscd.diagnosis.written import CONFIDENCE, shown, three_digits
+from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
 
 Content = Mapping[str, Any]
 TEST_TYPES = {
     "bending": "two-point bending of a trapezoidal specimen",
     "tension-compression": "axial test of a cylinder (tension-compression, AMPT or UTM)",
 }
-OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {"relaxation_spectrum"}
+OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {
+    "relaxation_spectrum",
+    BOND_MAPPING,
+}
 SIMPLER = "one Burgers law for each temperature"
 LARGEST = 4  # parts of what stays unexplained that are listed
 CANNOT_JUDGE = "Nothing was found, but these data cannot judge the simulation"
@@ -52,18 +56,22 @@ def on_simulation(content: Content) -> str:
         if not content["tested"]:
             return f"{CANNOT_JUDGE}."
         return f"{SIMPLER} fits these data to within their scatter; nothing is to be explained."
-    first, last = (rung["gain"]["in_sample"] for rung in (ladder[0], ladder[-1]))
+    first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
     before, after = (
         f"{three_digits(gain['mre_E_percent'][when])} % in |E*| and {three_digits(gain['mre_phase_percent'][when])} % in "
         "phase"
         for gain, when in ((first, "before"), (last, "after"))
     )
-    causes = joined([an(cause_words(rung)) for rung in ladder])
+    facets = [rung for rung in ladder if rung["cause"] == BOND_MAPPING]
+    with_them = ["facets for bonds"] * len(facets) + [
+        an(cause_words(rung)) for rung in ladder if rung not in facets
+    ]
+    as_it_was = "as in the paper" if facets else f"with {SIMPLER}"
     end = {
         "explained": "no more than the scatter of the tests",
         "unexplained_structure": "more than the scatter of the tests",
     }.get(content["verdict"], "")
-    return f"with {causes} it misses the data by {after}, {end}; with {SIMPLER} by {before}."
+    return f"with {joined(with_them)} it misses the data by {after}, {end}; {as_it_was} by {before}."
 
 
 def test_type(content: Content) -> str:
@@ -98,6 +106,8 @@ def causes(content: Content) -> list[tuple[str, str]]:
 
 
 def _sure(rung: Content, content: Content) -> str:
+    if rung["cause"] == BOND_MAPPING:
+        return f"Established: {rung['evidence']}."
     chance = "chance alone does as well in less than 1 of a million tables" if rung["p_value"] < 1e-6 else (
         f"chance alone does as well in {_per_cent(rung['p_value'])} of all tables"
     )  # fmt: skip
@@ -167,6 +177,8 @@ def size(rung: Content) -> str:
     else:
         half = CONFIDENCE * shown(error, amplitude["unit"])[0]
         interval = f" +- {three_digits(float(f'{half:.2g}'))}"
+    if rung["cause"] == BOND_MAPPING:
+        return f"|E*| is {three_digits(value)} of the law"
     label = (
         f"{name.replace('_', ' ').replace('wlf ', 'WLF ')} " if rung["cause"] == "relaxation_spectrum" else ""
     )

@@ -46,6 +46,35 @@ class Notes:
         return [tuple(map(str, row)) for row in table[[*self.names, self.text]].itertuples(index=False)]
 
 
+@dataclass(frozen=True)
+class Rungs:
+    """Errors of one quantity in ladder.csv: a row for each temperature, a column for each rung.
+
+    besides: columns that are not of a rung alone, with their headings: "law" is that of the first rung, "held_out" that
+    of the last. scatter: whether that of one test stands at the end.
+    """
+
+    quantity: str
+    besides: Mapping[str, str] = field(default_factory=dict)
+    sentence: str = ""
+    scatter: bool = False
+
+    def markdown(self, table: pd.DataFrame) -> str:
+        error, rungs = f"mre_{self.quantity}", list(dict.fromkeys(table["rung"]))
+        by = {rung: rows.set_index("temperature_C") for rung, rows in table.groupby("rung", sort=False)}
+        first, last = by[rungs[0]], by[rungs[-1]]
+        columns = {}
+        if f"{error}_published_percent" in first:
+            columns["printed"] = first[f"{error}_published_percent"]
+        columns |= {rung: by[rung][f"{error}_percent"] for rung in rungs}
+        for kind, heading in self.besides.items():
+            columns[heading] = (last if kind == "held_out" else first)[f"{error}_{kind}_percent"]
+        if self.scatter:
+            columns["scatter"] = first[f"scatter_{self.quantity}_percent"]
+        shown = pd.DataFrame(columns).rename_axis("T, °C").reset_index()
+        return (f"{self.sentence}\n\n" if self.sentence else "") + _grid(shown, figures=3)
+
+
 def shown(block: str, table: pd.DataFrame) -> str:
     """The table of a block in Markdown."""
     parts = BLOCKS.get(block, [Layout({str(name): str(name) for name in table.columns})])
@@ -66,18 +95,10 @@ def _errors(quantity: str, kinds: Mapping[str, str], sentence: str, scatter: str
 
 
 _TABLE4 = {"published": "published", "simulated": "simulated", "law": "law of the bonds"}
-_LADDER = {"published": "printed", "before": "simulated", "refitted": "refitted", "after": "diagnosed"}
-_GAIN = {
-    "published": "published",
-    "before": "before",
-    "refitted": "refitted",
-    "left_out": "left out",
-    "after": "after",
-}
-BLOCKS: dict[str, list[Layout | Notes]] = {
+BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
     "ladder": [
-        _errors("E", _LADDER, sentence="Modulus |E\\*|, mean relative error in percent:"),
-        _errors("phase", _LADDER, sentence="Phase angle, mean relative error in percent:"),
+        Rungs("E", sentence="Modulus |E\\*|, mean relative error in percent:"),
+        Rungs("phase", sentence="Phase angle, mean relative error in percent:"),
     ],
     "samples": [
         Layout(
@@ -98,8 +119,8 @@ BLOCKS: dict[str, list[Layout | Notes]] = {
         _errors("phase", _TABLE4, sentence="Phase angle, mean relative error in percent:"),
     ],
     "gain": [
-        _errors("E", _GAIN, scatter="scatter_E_percent", sentence="Modulus |E\\*|, percent:"),
-        _errors("phase", _GAIN, scatter="scatter_phase_percent", sentence="Phase angle, percent:"),
+        Rungs("E", {"law": "Burgers law", "held_out": "held out"}, "Modulus |E\\*|, percent:", scatter=True),
+        Rungs("phase", {"law": "Burgers law", "held_out": "held out"}, "Phase angle, percent:", scatter=True),
     ],
     "outputs": [
         Layout({"in the paper": "in the paper", "files": "files", "minutes": "minutes"}, figures=3),

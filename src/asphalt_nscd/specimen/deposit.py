@@ -15,7 +15,6 @@ REST_SWEEPS = 300
 UNBALANCED = 5e-4  # half of what the table of the preparation asks for
 RECORD = 5e-3  # s, between two points of the curve of the height
 WALL_MASS = 0.01  # of the layer
-MOST_OVERLAP = 0.1  # of the smallest radius, at which the wall no longer pushes
 
 Progress = Callable[[str, float, float], None]
 """Called with (stage, done, total), both in the unit of the stage."""
@@ -39,7 +38,6 @@ class Course:
     height: list[float] = field(default_factory=list)  # m
     wall: list[float] = field(default_factory=list)  # m, NaN where it is out of the way
     touched: list[int] = field(default_factory=list)  # grains touched by the wall in each period
-    overlap: float = 0.0  # m, the largest of all steps
 
     def note(self, granulate: Granulate, wall: float = np.nan) -> None:
         self.time.append(granulate.time)
@@ -92,15 +90,13 @@ def vibrate(
     """Drive the top wall by stroke/2 cos(2 pi f t) about the top of the layer, found anew in each period.
 
     The lower half of the stroke would pass through rigid grains once they lie dense. So the wall is a light
-    plate between rails: its drive pushes with a pressure of at most `shaking.pressure`, and with less
-    where grains overlap, down to nothing at MOST_OVERLAP of the smallest radius.
+    plate between rails: its drive pushes with a pressure of at most `shaking.pressure`.
     """
     numerics = replace(numerics, falling_sweeps=numerics.most_sweeps)
     n, dt = granulate.radius.size, numerics.time_step
     omega = 2.0 * np.pi * shaking.frequency
     length, width = granulate.plane_point[3, 0], granulate.plane_point[4, 1]
     push = shaking.pressure * length * width * dt
-    most_overlap = MOST_OVERLAP * float(granulate.radius.min())
     steps, every, touched = round(shaking.duration / dt), max(1, round(RECORD / dt)), np.zeros(n, bool)
     mass = WALL_MASS * granulate.weight() / float(np.linalg.norm(granulate.gravity))
     granulate.hang_wall(granulate.top() + shaking.stroke / 2.0, mass)
@@ -110,12 +106,10 @@ def vibrate(
             course.touched.append(0)
             touched[:] = False
         height = level + shaking.stroke / 2.0 * np.cos(omega * (k + 1) * dt)
-        speed = (height - granulate.plane_point[WALL, 2]) / dt
-        granulate.drive[:] = speed, push * max(0.0, 1.0 - granulate.overlap / most_overlap)
+        granulate.drive[:] = (height - granulate.plane_point[WALL, 2]) / dt, push
         granulate.advance(numerics)
         touched[granulate.touching_wall()] = True
         course.touched[-1] = int(touched.sum())
-        course.overlap = max(course.overlap, granulate.overlap)
         if k % every == every - 1:
             course.note(granulate, granulate.plane_point[WALL, 2])
             progress("vibrating", k + 1, steps)

@@ -15,6 +15,9 @@ WALL_REACH = 3e-3  # m, further than for spheres: a moving plane alone calls for
 SEARCH_EVERY = 25  # steps, for which the motion of each sphere is allowed for
 FALLING = 0.01  # m/s, mean speed
 FALLING_SWEEPS = 20
+MOST_SWEEPS = 300
+TOLERANCE = 3e-3
+PENETRATION = 0.02  # of the smallest radius
 ALLOWED_OVERLAP = 0.005  # of the smallest radius
 
 
@@ -25,9 +28,14 @@ class PouringNumerics:
     time_step: float = 4e-4  # s
     tolerance: float = 1e-3  # relative change of the impulses in the last sweep
     most_sweeps: int = 60
-    falling_sweeps: int = 1_000_000  # if fewer, at most so many while the mean speed is above FALLING
+    falling_sweeps: int = (
+        1_000_000  # after so many the tolerance is waived while the mean speed is above FALLING
+    )
+    penetration: float = np.inf  # m, sweeps go on while the step would deepen an overlap by more
     skin: float = 4e-4  # m, pairs are searched again when a sphere has moved half of it
-    margin: float = 2e-5  # m, gap below which a resting pair takes part in a step
+    margin: float = (
+        2e-5  # m, gap below which a resting pair takes part in a step; of moving pairs see _search
+    )
     recovery_speed: float = 0.02  # m/s, at most, by which overlaps are undone
     allowed_overlap: float = 0.0  # m, left as it is
 
@@ -36,10 +44,15 @@ class PouringNumerics:
         """Those for spheres of radius (n,) [m], with steps of time_step [s].
 
         The sweeps of a step leave small overlaps everywhere in a layer. Undone at once, they would keep it
-        in motion for ever; so those below ALLOWED_OVERLAP stay.
+        in motion for ever; so those below ALLOWED_OVERLAP stay. An impact may need many sweeps, most steps
+        need few: they end when the impulses hardly change and no step deepens an overlap by PENETRATION.
         """
-        allowed = ALLOWED_OVERLAP * float(radius.min())
-        return cls(time_step=time_step, falling_sweeps=FALLING_SWEEPS, allowed_overlap=allowed)
+        smallest = float(radius.min())
+        return cls(
+            time_step=time_step, tolerance=TOLERANCE, most_sweeps=MOST_SWEEPS,
+            falling_sweeps=FALLING_SWEEPS, penetration=PENETRATION * smallest,
+            allowed_overlap=ALLOWED_OVERLAP * smallest,
+        )  # fmt: skip
 
 
 @dataclass
@@ -64,7 +77,7 @@ class Granulate:
         self._other = np.empty(0, np.int64)
         self.impulse = np.zeros((0, 3))
         self.drive = np.zeros(2)  # of the top wall: speed [m/s], largest impulse of a step [N s]
-        self.overlap = 0.0  # m, the largest at the start of the last step
+        self.overlap = 0.0  # m, the largest of all steps since it was last set to zero
         self._lowest: np.ndarray | None = None  # m, of each sphere and all after it, when they began to fall
         self._involved = self.radius.size  # spheres that are searched, the first ones
         self._searched_at = self.position
@@ -108,20 +121,17 @@ class Granulate:
         if plane_velocity is not None:
             self.velocity[n:, :3] = plane_velocity
         self._involve(dt)
-        # impacts redirect grains within a step, so grains in flight need a wider margin
         speed = np.sqrt((self.velocity[:n, :3] ** 2).sum(axis=1))
-        margin = numerics.margin + 0.5 * dt * float(speed.mean())
-        most_sweeps = numerics.most_sweeps
-        if speed.mean() > FALLING:
-            most_sweeps = min(most_sweeps, numerics.falling_sweeps)
-        self._search(numerics, margin, speed)
-        sweeps, change, self.overlap = granular.step(
+        enough = numerics.falling_sweeps if speed.mean() > FALLING else numerics.most_sweeps
+        meeting = self._search(numerics, speed)
+        sweeps, change, overlap = granular.step(
             self.position, self.radius, self.velocity, self.inverse_mass, self.plane_point,
             self.plane_normal, self.gravity, self._start, self._other, self.impulse, self.drive, dt,
-            self.friction, self.restitution, numerics.recovery_speed, numerics.allowed_overlap, margin,
-            numerics.tolerance, most_sweeps,
+            self.friction, self.restitution, numerics.recovery_speed, numerics.allowed_overlap, meeting,
+            numerics.tolerance, numerics.penetration, enough, numerics.most_sweeps,
         )  # fmt: skip
         self.plane_point = self.plane_point + dt * self.velocity[n:, :3]
+        self.overlap = max(self.overlap, overlap)
         self.time += dt
         self.steps += 1
         self.sweeps += sweeps
@@ -141,30 +151,33 @@ class Granulate:
         if self._involved == self.radius.size:
             self._lowest = None
 
-    def _search(self, numerics: PouringNumerics, margin: float, speeds: np.ndarray) -> None:
-        m, n, dt = self._involved, self.radius.size, numerics.time_step
-        speed = float(speeds[:m].max(initial=0.0))
+    def _search(self, numerics: PouringNumerics, speeds: np.ndarray) -> float:
+        """List the pairs that may meet within the step; returns the gap [m] below which they take part in it.
+
+        An impact hands its speed on within the step, so a grain at rest may move as far as the fastest one.
+        """
+        m, n, dt, margin = self._involved, self.radius.size, numerics.time_step, numerics.margin
+        speed = float(speeds[:m].max(initial=0.0)) + dt * float(np.linalg.norm(self.gravity))
         plane_speed = np.abs(self.velocity[n:, :3]).max(axis=1)
         if self.inverse_mass[-1] > 0.0:  # what its drive makes of the wall's speed within the step
             faster = plane_speed[WALL] + self.drive[1] * self.inverse_mass[-1]
             plane_speed[WALL] = max(plane_speed[WALL], min(abs(self.drive[0]), faster), self.drive[0])
-        falling = dt * float(np.linalg.norm(self.gravity))
-        furthest = margin + 2.0 * dt * (
-            speed + falling
-        )  # that two spheres may be apart and meet in this step
-        nearing = margin + dt * (speed + falling + plane_speed)  # (p,), for a sphere and a plane
+        furthest = margin + 2.0 * dt * speed  # apart, two spheres that meet in this step
+        nearing = margin + dt * (speed + plane_speed)  # (p,), a sphere and a plane
+        meeting = max(furthest, float(nearing.max()))
         if self._start is not None and self._start.size == m + 1:
             square = ((self.position[:m] - self._searched_at) ** 2).sum(axis=1)
             moved = (np.sqrt(square) - self._extra).max(initial=0.0)  # beyond what was allowed for
             planes_moved = np.abs(self.plane_point - self._planes_at).max(axis=1)
             planes_valid = moved + planes_moved + nearing < self._plane_reach
             if 2.0 * moved + furthest < self._reach and planes_valid.all():
-                return
+                return meeting
         position, radius = self.position[:m], self.radius[:m]
         if furthest > 2.0 * numerics.skin:  # a rain of grains: a list for this step alone, but a short one
             self._reach = 0.0
             closing = neighbours.closing_speeds(position, radius, self.velocity[:m, :3], furthest)
-            reach, self._plane_reach = margin + dt * closing, nearing
+            # deeper down, impacts come through others and are weaker
+            reach, self._plane_reach = np.maximum(margin + dt * closing, 0.5 * numerics.skin), nearing
             self._extra = np.zeros(m)
         else:
             # a few fast grains shall not call for searches among all: what each moves is allowed for
@@ -181,6 +194,7 @@ class Granulate:
             self.impulse = neighbours.carry_reactions(self._start, self._other, self.impulse, start, other)
         self._start, self._other = start, other
         self._searched_at, self._planes_at = position.copy(), self.plane_point.copy()
+        return meeting
 
     def kinetic_energy(self) -> float:
         """Of the spheres [J]; spin counts with 2/5 of its surface velocity squared."""

@@ -13,9 +13,9 @@ from asphalt_nscd.reporting.pages.diagnosis_page import render, sections
 def page(results, tmp_path):
     (picture := tmp_path / "map.png").write_bytes(b"picture")
 
-    def make(table4=(), **changes):
+    def make(table4=(), ladder_table=(), **changes):
         diagnosis = results.diagnosis(**changes)["diagnosis"]
-        html = render(sections(diagnosis, [picture], table4), "A diagnosis")
+        html = render(sections(diagnosis, [picture], table4, ladder_table), "A diagnosis")
         return re.sub(r"\s+", " ", re.sub(r"<style>.*</style>", "", html, flags=re.DOTALL))
 
     return make
@@ -133,10 +133,43 @@ GAIN = {
     **dict.fromkeys(
         ("mre_E_percent", "mre_phase_percent", "rms_over_scatter"), {"before": 2.0, "after": 1.0}
     ),
-    "averages_by_temperature": {},
+    "averages_by_temperature": {
+        "0": dict.fromkeys(("mre_E_percent", "mre_phase_percent"), {"before": 2.0, "after": 1.0})
+    },
 }
 
 
 def test_without_a_cause_nothing_is_explained(page):
     html = page(verdict="nothing_to_explain", ladder=[])
     assert "Nothing to explain" in html and "no cause of the catalogue beats chance" in html
+
+
+def test_bond_mapping_stands_first_with_its_evidence_and_without_a_chance(page, results):
+    made = json.loads(results.diagnosis()["diagnosis"][0].read_text())["ladder"]
+    averages = {
+        "0": {name: {"before": 10.2, "after": 2.0} for name in ("mre_E_percent", "mre_phase_percent")}
+    }
+    rung = {
+        "cause": "bond_mapping", "where": None, "p_value": None, "as_good": [], "sentence": "areas do not fill",
+        "evidence": "1.056 to 1.109 of the law", "confirmed_by": "packings",
+        "parameters": {"modulus_over_law": {"value": 1.09, "std_error": None, "unit": "1"}},
+        "gain": {"in_sample": {"averages_by_temperature": averages}, "held_out": {}},
+    }  # fmt: skip
+    html = page(ladder=[rung, *made])
+    assert html.index("<b>bond mapping</b>") < html.index("<b>relaxation spectrum</b>")
+    assert "Evidence: 1.056 to 1.109 of the law." in html
+    assert "<td></td> <td>fitted</td><td>10.2 → 2</td><td>10.2 → 2</td><td></td>" in html
+    verdict = "The bonds of Eqs. (30)-(33) miss the modulus of their own law. Beyond that: "
+    assert f"{verdict}explained: with relaxation spectrum" in html
+    assert f"{verdict}nothing to explain" in page(ladder=[rung], verdict="nothing_to_explain")
+    assert verdict not in page()
+
+
+def test_the_whole_way_stands_by_temperature(page, results):
+    html = page()
+    assert "run again with each rung" not in html
+    html = page(ladder_table=results.ladder())
+    assert "<td>|E*|: as in the paper</td><td>10.2</td><td>12</td><td>11.1</td>" in html
+    assert "<td>|E*|: facets</td><td>2</td><td>3</td><td>2.5</td>" in html
+    assert "<td>|E*|: the law&#39;s own, as in the paper</td><td>2.1</td>" in html
+    assert "<td>phase: scatter of one test</td><td>4</td>" in html

@@ -120,7 +120,7 @@ def test_chains_leave_out_plates_and_what_lies_off_the_middle(results):
 
 
 def test_model_of_another_specimen_is_refused(results):
-    with pytest.raises(InputError, match="is of another specimen"):
+    with pytest.raises(InputError, match="belongs to another specimen"):
         fig_forces.draw(model=results.model("s2"), specimen=results.specimen())
 
 

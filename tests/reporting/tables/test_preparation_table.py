@@ -10,7 +10,7 @@ from asphalt_nscd.reporting.tables import preparation
 def test_two_rows_for_a_vibrated_sample_and_one_for_another(tmp_path):
     """Heights in mm, overlaps in parts of the smallest radius, each stage with its own numbers."""
     vibrated = {name: 10.0 + k for k, name in enumerate(preparation.OF_A_STAGE)}
-    vibrated |= {"layer_height_m": 0.060, "largest_overlap_m": 1e-5, "largest_overlap_driven_m": 2e-4}
+    vibrated |= {"layer_height_m": 0.060, "largest_overlap_m": 1e-5, "largest_overlap_moving_m": 2e-4}
     poured = {f"poured_{name}": value / 2.0 for name, value in vibrated.items()}
     arrays = {"radius": np.array([2e-3, 1e-3])}
     save(tmp_path / "s1.h5", "deposit", arrays, vibrated | poured | {"vibration_s": 1.0})
@@ -23,6 +23,6 @@ def test_two_rows_for_a_vibrated_sample_and_one_for_another(tmp_path):
     ]
     assert table["height_mm"].tolist() == pytest.approx([30.0, 60.0, 30.0])
     assert table["largest_overlap"].tolist() == pytest.approx([5e-3, 1e-2, 5e-3])
-    assert table["largest_overlap_driven"].tolist() == pytest.approx([0.1, 0.2, 0.1])
+    assert table["largest_overlap_moving"].tolist() == pytest.approx([0.1, 0.2, 0.1])
     assert table["solid_fraction"].tolist() == [5.0, 10.0, 5.0]
     assert table.columns[0] == "sample" and not table.columns.str.endswith("_m").any()

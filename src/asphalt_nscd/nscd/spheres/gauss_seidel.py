@@ -81,17 +81,19 @@ def apply_impulse(i, j, nx, ny, nz, px, py, pz, motion):
 
 
 @compiled
-def sweep_contacts(bodies, packed, motion, friction, visits, backward, quiet, lively):
+def sweep_contacts(bodies, packed, motion, friction, visits, backward, quiet, calm, lively):
     """One Gauss-Seidel sweep over contacts visits (v,), or back; updates impulses and motion.
 
     Signorini on velocities: opening >= target, impulse >= 0, complementary; Coulomb with `friction`.
     The local Delassus operator is diagonal: normal 1/m_i + 1/m_j, tangential 7/2 of it.
-    Contacts whose impulse changes by more than the root of `quiet` [N2 s2] are noted in `lively`.
-    Returns the sums of squares of the change of impulse and of the impulse, and how many were noted.
+    Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than
+    they may by more than `calm` [m/s], are noted in `lively`. Returns the sums of squares of the change of
+    impulse and of the impulse, how many were noted, and the largest excess of speed [m/s].
     """
     changed = 0.0
     size = 0.0
     noted = 0
+    fastest = 0.0
     for k in range(visits.shape[0]):
         c = visits[visits.shape[0] - 1 - k] if backward else visits[k]
         i, j = bodies[c, 0], bodies[c, 1]
@@ -102,8 +104,9 @@ def sweep_contacts(bodies, packed, motion, friction, visits, backward, quiet, li
         vy = motion[j, 1] - motion[i, 1]
         vz = motion[j, 2] - motion[i, 2]
         opening = vx * nx + vy * ny + vz * nz
+        excess = packed[c, 6] - opening
         old_normal = px * nx + py * ny + pz * nz
-        new_normal = old_normal - (opening - packed[c, 6]) * mass
+        new_normal = old_normal + excess * mass
         if new_normal <= 0.0:
             if px == 0.0 and py == 0.0 and pz == 0.0:
                 continue  # open and stays open
@@ -131,12 +134,13 @@ def sweep_contacts(bodies, packed, motion, friction, visits, backward, quiet, li
         apply_impulse(i, j, nx, ny, nz, dx, dy, dz, motion)
         packed[c, 3], packed[c, 4], packed[c, 5] = qx, qy, qz
         moved = dx * dx + dy * dy + dz * dz
-        if moved > quiet:
+        if moved > quiet or excess > calm:
             lively[noted] = c
             noted += 1
+        fastest = max(fastest, excess)
         changed += moved
         size += qx * qx + qy * qy + qz * qz
-    return changed, size, noted
+    return changed, size, noted, fastest
 
 
 @compiled
@@ -157,12 +161,13 @@ def guide_wall(motion, drive, push):
 
 
 @compiled
-def sweep_until(bodies, packed, motion, friction, drive, tolerance, most_sweeps):
+def sweep_until(bodies, packed, motion, friction, drive, tolerance, calm, enough_sweeps, most_sweeps):
     """Gauss-Seidel from the given impulses until their relative change is below tolerance.
 
     Sweeps run alternately up and down the list, which carries weight through a pile in one pass. The
     first of each round visits all contacts and decides whether to end; the others visit those whose
-    impulse then changed by more than `tolerance` of the root mean square impulse.
+    impulse then changed by more than `tolerance` of the root mean square impulse, or that closed faster
+    than they may by more than `calm` [m/s]. After enough_sweeps the tolerance is waived, `calm` never.
     Returns (sweeps of either kind, relative change of the last sweep over all contacts).
     """
     contacts = packed.shape[0]
@@ -181,14 +186,15 @@ def sweep_until(bodies, packed, motion, friction, drive, tolerance, most_sweeps)
         if turn == 0:
             quiet = tolerance * tolerance * size / max(contacts, 1)
             backward = sweep // ROUND % 2 == 1
-            changed, size, noted = sweep_contacts(
-                bodies, packed, motion, friction, everyone, backward, quiet, lively
+            changed, size, noted, fastest = sweep_contacts(
+                bodies, packed, motion, friction, everyone, backward, quiet, calm, lively
             )
             push = guide_wall(motion, drive, push)
             change = np.sqrt(changed / size) if size > 0.0 else 0.0
-            if change < tolerance:
+            if fastest < calm and (change < tolerance or sweep >= enough_sweeps):
                 return sweep + 1, change
         else:
-            sweep_contacts(bodies, packed, motion, friction, lively[:noted], turn % 2 == 1, np.inf, lively)
+            backward = turn % 2 == 1
+            sweep_contacts(bodies, packed, motion, friction, lively[:noted], backward, np.inf, np.inf, lively)
             push = guide_wall(motion, drive, push)
     return most_sweeps, change

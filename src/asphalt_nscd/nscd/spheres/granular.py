@@ -62,13 +62,14 @@ def active_contacts(position, radius, velocity, plane_point, plane_normal, start
 def step(
     position, radius, velocity, inverse_mass, plane_point, plane_normal, gravity,
     start, other, impulse, drive, dt, friction, restitution, recovery_speed, allowed_overlap, margin,
-    tolerance, most_sweeps,
+    tolerance, penetration, enough_sweeps, most_sweeps,
 ):  # fmt: skip
     """Advance spheres by dt [s]; position, velocity and impulse (per pair) change in place.
 
     position (n, 3) [m]; velocity (n + p, 6) [m/s] (linear, spin; planes last, prescribed);
     inverse_mass (n + p,) [1/kg], zero for planes; gravity (3,) [m/s2]; impulse (pairs, 3) [N s];
     Overlaps beyond allowed_overlap [m] are undone, no faster than by recovery_speed [m/s] (zero: never).
+    Sweeps end as in sweep_until; penetration [m] is what a step may add to an overlap.
     drive (2,): speed [m/s] and largest impulse [N s] of the last plane where its mass is finite (guide_wall).
     Returns (sweeps, relative change of the last sweep, largest overlap at the start [m]).
     """
@@ -93,7 +94,9 @@ def step(
                 target[c] = -restitution * opening
     motion = pack_motion(velocity, inverse_mass)
     bodies, contacts = pack_contacts(pair, first, second, normal, target, impulse, inverse_mass)
-    sweeps, change = sweep_until(bodies, contacts, motion, friction, drive, tolerance, most_sweeps)
+    sweeps, change = sweep_until(
+        bodies, contacts, motion, friction, drive, tolerance, penetration / dt, enough_sweeps, most_sweeps
+    )
     impulse[:] = 0.0
     for c in range(gap.shape[0]):
         impulse[pair[c]] = contacts[place(c, gap.shape[0]), 3:6]

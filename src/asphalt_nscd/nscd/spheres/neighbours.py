@@ -79,10 +79,11 @@ def find_pairs_within(position, radius, plane_point, plane_normal, reach, extra,
 
 @compiled
 def closing_speeds(position, radius, velocity, reach):
-    """Bounds (n,) [m/s] of the speed of any sphere with a gap below `reach` [m] relative to a sphere.
+    """Bounds (n,) [m/s] of the speeds relative to each other of all spheres with a gap below `reach` [m] to one.
 
     Only spheres that are not larger count, as in find_pairs. velocity (n, 3) [m/s] is bounded within
-    thin horizontal slabs: grains that rain at the same speed, or rest together, do not close in.
+    thin horizontal slabs: grains that rain at the same speed, or rest together, do not close in. The sphere's
+    own speed is no better than theirs: an impact may stop it, or hand on all of its own, within the step.
     """
     n = position.shape[0]
     thickness = 2.0 * radius.min()
@@ -102,10 +103,11 @@ def closing_speeds(position, radius, velocity, reach):
         last = min(slabs - 1, int(np.floor((position[i, 2] + away - bottom) / thickness)))
         square = 0.0
         for k in range(3):
-            difference = 0.0
+            slowest, fastest = velocity[i, k], velocity[i, k]
             for s in range(first, last + 1):
-                difference = max(difference, velocity[i, k] - least[s, k], most[s, k] - velocity[i, k])
-            square += difference * difference
+                slowest = min(slowest, least[s, k])
+                fastest = max(fastest, most[s, k])
+            square += (fastest - slowest) ** 2
         bound[i] = np.sqrt(square)
     return bound
 

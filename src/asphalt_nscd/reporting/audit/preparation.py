@@ -103,7 +103,7 @@ def samples(
     poured = float(np.mean([deposit["poured_layer_height_m"] for deposit in deposits]))
     fraction = float(np.mean([deposit["solid_fraction"] for deposit in deposits]))
     segregation = float(np.mean([deposit["segregation"] for deposit in deposits]))
-    driven = max(deposit["largest_overlap_driven_m"] for deposit in deposits)
+    driven = max(deposit["largest_overlap_moving_m"] for deposit in deposits)
     touched = min(deposit["periods_with_contact"] for deposit in deposits)
     overlap = max(deposit["largest_overlap_m"] for deposit in deposits)
     spheres = np.array([specimen["spheres"] for specimen in specimens])

@@ -34,7 +34,7 @@ def draw(model: list[Path], specimen: list[Path]) -> Figure:
     condensed, cut = load(the_only(model, "model"), "model"), load(the_only(specimen, "specimen"), "specimen")
     if condensed.attributes["name"] != Path(specimen[0]).stem:
         raise InputError(
-            f"{model[0]}: is of another specimen than {specimen[0]}; give a model and its specimen."
+            f"{model[0]}: belongs to another specimen than {specimen[0]}; give a model and its specimen."
         )
     motion, force = slow_deflection(condensed)
     position, radius = cut.arrays["position"], cut.arrays["radius"]

@@ -39,7 +39,7 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
         columns = [RESIDUALS[quantity].format(when) for when in BEFORE_AFTER]
         # Scatter alone must look pale.
         norm = cells.banded(
-            max(float(means[columns].abs().to_numpy().max()), NOTABLE * content["scatter"][scatter])
+            max(float(means[columns].abs().max().max()), NOTABLE * content["scatter"][scatter])
         )
         for axes, when, column in zip(row, BEFORE_AFTER, columns, strict=True):
             image = _map(axes, means, column, norm)

@@ -11,7 +11,7 @@ from asphalt_nscd.files.store import load
 
 OF_A_STAGE = [
     "solid_fraction", "periods", "periods_with_contact", "grains_touched_per_period", "coordination", "segregation",
-    "largest_overlap_m", "largest_overlap_driven_m", "weight_balance", "unbalanced_force",
+    "largest_overlap_m", "largest_overlap_moving_m", "weight_balance", "unbalanced_force",
 ]  # fmt: skip
 
 
@@ -30,6 +30,6 @@ def make(deposits: list[Path]) -> pd.DataFrame:
             row["height_mm"] = 1e3 * found[f"{prefix}layer_height_m"]
             row |= {name: found[f"{prefix}{name}"] for name in OF_A_STAGE}
             row["largest_overlap"] = row.pop("largest_overlap_m") / radius
-            row["largest_overlap_driven"] = row.pop("largest_overlap_driven_m") / radius
+            row["largest_overlap_moving"] = row.pop("largest_overlap_moving_m") / radius
             rows.append(row)
     return pd.DataFrame(rows)
