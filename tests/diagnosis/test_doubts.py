@@ -63,7 +63,10 @@ def turned(omega, temperature):
     return 1j * np.radians(3.0)
 
 
-@pytest.mark.parametrize("effect,right,wrong", [(late, "channel_delay", "phase_offset"), (turned, "phase_offset", "channel_delay")])  # fmt: skip
+@pytest.mark.parametrize(
+    "effect,right,wrong",
+    [(late, "channel_delay", "phase_offset"), (turned, "phase_offset", "channel_delay")],
+)
 def test_a_look_alike_is_in_doubt_and_the_cause_itself_is_not(effect, right, wrong):
     observed = table(effect)
     assert doubts_of(observed, right) == {}

@@ -93,9 +93,7 @@ class _Table:
         effect = size * self.plain.direction(linear.law, linear.scales, linear.active, number, 0)
         return out, direction, effect
 
-    def beside(
-        self, rest: Fitted, direction: NDArray, roots: Sequence[NDArray[np.complex128]], usual: float
-    ) -> Estimate:
+    def beside(self, rest: Fitted, direction: NDArray, roots: Sequence[NDArray], usual: float) -> Estimate:
         """The cause estimated beside its discrepancy and further processes with these factors (n, rank)."""
         found = self.processes
         count = [*np.bincount(found.block), *(root.shape[1] for root in roots)]

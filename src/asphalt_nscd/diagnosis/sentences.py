@@ -11,6 +11,7 @@ from typing import Any
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
+from asphalt_nscd.diagnosis.chance import CHANCE
 from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
 
 Content = Mapping[str, Any]
@@ -71,6 +72,8 @@ def on_simulation(content: Content) -> str:
         "explained": "no more than the scatter of the tests",
         "unexplained_structure": "more than the scatter of the tests",
     }.get(content["verdict"], "")
+    if any(rung.get("doubts") for rung in ladder) and not _more_than_scatter(content):
+        end = "no more than the scatter of the tests, by a cause that is not established"
     return f"with {joined(with_them)} it misses the data by {after}, {end}; {as_it_was} by {before}."
 
 
@@ -127,6 +130,13 @@ def _sure(rung: Content, content: Content) -> str:
     return f"Established: {chance}."
 
 
+def _more_than_scatter(content: Content) -> bool:
+    """Whether the named causes leave structure, whatever the verdict says of their names."""
+    pattern = content["largest_pattern_left"]
+    chances = [content.get("lack_of_fit_p_value", 0.0), 1.0 if pattern is None else pattern["p_value"]]
+    return min(chances) <= 0.5 * CHANCE
+
+
 def left(content: Content) -> list[str]:
     """What no cause explains, largest first, in percent of |E*| or degrees of phase."""
     scatter, found = content["scatter"], content.get("discrepancy", {})
@@ -134,7 +144,7 @@ def left(content: Content) -> list[str]:
     if parts:
         return [f"{name}: {_in_units(name, value, scatter)}" for name, value in parts]
     pattern = content["largest_pattern_left"]
-    if content["verdict"] == "unexplained_structure" and pattern is not None:
+    if content["verdict"] == "unexplained_structure" and pattern is not None and _more_than_scatter(content):
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} standard deviations"]
     return []
 
