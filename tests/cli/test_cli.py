@@ -379,4 +379,6 @@ def test_a_step_of_the_workflow_without_its_extra_is_one_sentence(capsys):
         raise ModuleNotFoundError("No module named 'docutils'", name="docutils")
 
     assert cli._status(step) == 2
-    assert capsys.readouterr().err == "error: this step needs docutils; pip install 'asphalt-nscd[workflow]'.\n"
+    assert (
+        capsys.readouterr().err == "error: this step needs docutils; pip install 'asphalt-nscd[workflow]'.\n"
+    )
