@@ -113,8 +113,8 @@ def samples(
         compared(
             "3.2.1", "Height of the layer after vibration.", LAYER, height, "m", 0.01,
             f"Twice the height of the centre of mass, mean of {len(deposits)} samples; largest overlap "
-            f"{overlap:.1e} m at rest. The layer stays {1e3 * (height - LAYER):.2f} mm above 60 mm. More push does not close "
-            "that: 4 and 16 times the weight of a smaller layer brought 0.4 mm more than once its weight "
+            f"{overlap:.1e} m at rest. The layer stays {1e3 * (height - LAYER):.2f} mm above 60 mm. More push does not "
+            "close that: 4 and 16 times the weight of a smaller layer brought 0.4 mm more than once its weight "
             "(docs/pouring.md). Rigid grains jam.",
         ),
         compared(
