@@ -5,7 +5,8 @@
 The reconstructed measurements are drawn from 2S2P1D with a WLF shift, and the extended simulation fits just that. These
 are the same design and scatter about another mix: Huet-Sayegh with an Arrhenius shift, a ladder of Maxwell branches
 whose weights are skewed with a WLF shift, or Havriliak-Negami with a quadratic shift. Huet-Sayegh is 2S2P1D without its
-dashpot, and Arrhenius is WLF with C2 = 288 K at 15 degC, so that only the others are outside the fitted family. The laws are those of the blind tests; nothing of the package
+dashpot, and Arrhenius is WLF with C2 = 288 K at 15 degC, so that only the others are outside the fitted family. The
+laws are those of the blind tests; nothing of the package
 under test is imported.
 """
 
