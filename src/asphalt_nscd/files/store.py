@@ -135,7 +135,9 @@ def load(path: str | Path, kind: str) -> Record:
             )
     except Exception as error:  # h5py raises nearly any exception on a damaged file
         if Path(path).suffix.lower() in _OF_OTHERS:
-            raise InputError(f"{path}: no HDF5; `asphalt-nscd import-packing` reads packings of that kind.") from None
+            raise InputError(
+                f"{path}: no HDF5; `asphalt-nscd import-packing` reads packings of that kind."
+            ) from None
         raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None
     found, format_version = attributes.pop("kind", None), attributes.pop("format_version", None)
     digest = attributes.pop("digest", None)
