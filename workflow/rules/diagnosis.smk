@@ -45,7 +45,7 @@ rule diagnose:
     message:
         "Diagnose where simulation and measurements differ, and why"
     shell:
-        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} --simulations {input.simulations} --geometry {params.geometry:q} {params.settings} --output {params.folder} > {log} 2>&1"
+        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} --simulations {input.simulations} --geometry {params.geometry:q} {params.settings} --no-page --output {params.folder} > {log} 2>&1"
 
 
 rule diagnosis_page:
@@ -53,6 +53,8 @@ rule diagnosis_page:
     input:
         diagnosis=DIAGNOSED[0],
         map="<results>/figures/fig_residual_map.png",
+        specimens="<results>/figures/fig_specimens.png",
+        causality="<results>/figures/fig_causality_map.png",
         table4="<results>/table4.csv",
         code=code("diagnosis-page"),
         template=os.path.relpath(PACKAGE / "reporting/pages/diagnosis_page.html"),
@@ -65,7 +67,7 @@ rule diagnosis_page:
         ),
     params:
         title=title("diagnosis"),
-        data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "map", "table4")],
+        data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "map", "specimens", "causality", "table4")],
     log:
         "<results>/logs/page/diagnosis.log",
     benchmark:

@@ -4,16 +4,14 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli import _data, _options
 
 PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 
 
 @click.command()
 @click.argument("measurements", type=_options.File, nargs=-1, required=True)
-@click.option(
-    "--output", required=True, type=_options.File, help="Folder for diagnosis.json and residuals.csv."
-)
+@click.option("--output", required=True, type=_options.File, help="Folder for what is written.")
 @click.option("--sheet", help="Sheet of an XLSX file, where several hold something.")
 @_options.column
 @click.option(
@@ -50,13 +48,14 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
     type=_options.File,
     help="Simulated tests of the campaign, to say what in them is numerics.",
 )
+@click.option("--page/--no-page", default=True, help="Whether to write diagnosis.html too.")
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 def command(
     measurements: tuple[Path, ...], output: Path, sheet: str | None, columns: tuple[tuple[str, str], ...],
     measured_in: str | None, geometry: object, specimen: Path | None, static_modulus_mpa: float | None,
     modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
-    simulations: Path | None,
+    simulations: Path | None, page: bool,
 ) -> None:  # fmt: skip
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
 
@@ -75,4 +74,11 @@ def command(
         stated = modulus_scatter_percent / 100.0, math.radians(phase_scatter_deg)
     static = None if static_modulus_mpa is None else 1e6 * static_modulus_mpa
     campaign, _ = read_campaign(measurements, sheet, dict(columns), measured_in)
-    click.echo(run(campaign, output, geometry, specimen, static, stated, draws, seed, simulations))
+    text, written = run(campaign, output, geometry, specimen, static, stated, draws, seed, simulations)
+    if page:
+        # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
+        title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
+        written.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
+    click.echo(f"{text}\n\nWritten to {output}: {', '.join(written)}.")
+    if page:
+        click.echo(f"Open {output / written[-1]} in a browser; it needs no network.")

@@ -12,7 +12,8 @@ from asphalt_nscd.cli import _data, _options
 @click.option("--title", required=True, help="What stands at its head.")
 @_options.output
 def command(data: tuple[tuple[str, Path], ...], title: str, output: Path) -> None:
-    """Show a diagnosis as an HTML page, from diagnosis=FILE map=PNG and, where there is one, table4=CSV."""
+    """Show a diagnosis as an HTML page, from diagnosis=FILE map=PNG and, where there are any, specimens=PNG
+    causality=PNG table4=CSV."""
     from asphalt_nscd.files.store import atomic_path
     from asphalt_nscd.reporting.pages.diagnosis_page import render, sections
 

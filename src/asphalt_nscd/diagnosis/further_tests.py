@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,9 +45,9 @@ class Costs:
     @property
     def sentence(self) -> str:
         return (
-            f"Counted: {self.mounting:g} h to mount a specimen, {self.conditioning:g} h to bring it to a temperature outside "
-            f"{self.room[0]:g} to {self.room[1]:g} degC, {self.new_specimen:g} h to prepare a new one, {self.cycles:g} cycles "
-            "and one minute at each frequency."
+            f"Counted: {self.mounting:g} h to mount a specimen, {self.conditioning:g} h to bring it to a temperature "
+            f"outside {self.room[0]:g} to {self.room[1]:g} degC, {self.new_specimen:g} h to prepare a new one, "
+            f"{self.cycles:g} cycles and one minute at each frequency."
         )
 
 
@@ -67,8 +68,8 @@ class Possible:
     """The model at the tests done and at all that could follow.
 
     candidates: causes, in the order of the effects. departures: what effects come next, each "linear" and its isotherm
-    (what changes at half the strain if the departure is proportional to the strain) or "repeat" and a test that cannot be
-    used (by how much it departs). metal_frequencies: of the rows that follow those of the table [Hz].
+    (what changes at half the strain if the departure is proportional to the strain) or "repeat" and a test that
+    cannot be used (by how much it departs). metal_frequencies: of the rows that follow those of the table [Hz].
     """
 
     table: Observations
@@ -97,7 +98,9 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     names, roots, sizes = _discrepancy(diagnosis, joint, at)
     of_law = nuisance.shape[1]
     nuisance = np.hstack([nuisance, *roots])
-    sizes = np.concatenate([np.full(root.shape[1], v) for root, v in zip(roots, sizes, strict=True)] or [np.zeros(0)])
+    sizes = np.concatenate(
+        [np.full(root.shape[1], v) for root, v in zip(roots, sizes, strict=True)] or [np.zeros(0)]
+    )
     precision = _block(precision, 1.0 / sizes)
     metal = _metal(observed)
     rows = _metal_rows(metal, table, names, roots, nuisance.shape[1])
@@ -131,17 +134,23 @@ def _repeats(
         if one.used:
             continue
         name, t, f = whole.names[whole.specimen[one.row]], whole.isotherm[one.row], whole.frequency[one.row]
-        again = (table.specimen == whole.specimen[one.row]) & (table.isotherm == t) & (table.frequency == f) & ~_half(table)
+        again = (
+            (table.specimen == whole.specimen[one.row])
+            & (table.isotherm == t)
+            & (table.frequency == f)
+            & ~_half(table)
+        )
         if again.any():
             row = int(np.flatnonzero(again)[-1])
             effect = np.zeros(linear.effects.shape[0], complex)
             effect[row] = whole.logarithm[one.row] - expected[row]
-            found["repeat", f"the reading of {name} at {t:g} degC, {f:g} Hz"] = effect
+            found["repeat", f"{name} at {t:g} degC, {f:g} Hz"] = effect
     return found
 
 
 def _departures(
-    linear: Linear, moved: NDArray, names: Sequence[str], roots: Sequence[NDArray], first: int, doubtful: Sequence[float]
+    linear: Linear, moved: NDArray, names: Sequence[str], roots: Sequence[NDArray], first: int,
+    doubtful: Sequence[float],
 ) -> dict[float, NDArray[np.complex128]]:  # fmt: skip
     """By isotherm [degC], ln E* (N,) that its own discrepancy takes up."""
     found: dict[float, NDArray[np.complex128]] = {}
@@ -165,7 +174,9 @@ def _half(table: Observations) -> NDArray[np.bool_]:
     return table.amplitude < 0.5 * (1.0 + HALF) * np.median(table.amplitude)
 
 
-def _halved(table: Observations, t: float, departure: NDArray[np.complex128], linear: Linear) -> NDArray[np.complex128]:
+def _halved(
+    table: Observations, t: float, departure: NDArray[np.complex128], linear: Linear
+) -> NDArray[np.complex128]:
     here = np.zeros(linear.effects.shape[0], bool)
     here[: table.size] = (table.isotherm == t) & _half(table)
     return np.where(here, -HALF * departure, 0.0)
@@ -181,7 +192,7 @@ def _with_strain(observed: Observations) -> Observations:
 def temperatures(observed: Observations) -> list[float]:
     """Isotherms tested, one between any two that are far apart, and one beyond either end [degC]."""
     tested = observed.isotherms
-    middle = [round(float(a + b) / 2.0) for a, b in zip(tested, tested[1:]) if b - a >= APART]
+    middle = [round(float(a + b) / 2.0) for a, b in pairwise(tested) if b - a >= APART]
     ends = [round(float(tested[0] - BEYOND)), round(float(tested[-1] + BEYOND))]
     inside = [t for t in (*middle, *ends) if COLDEST <= t <= WARMEST]
     return sorted({*map(float, tested), *map(float, inside)})
@@ -202,8 +213,13 @@ def _table(observed: Observations, at: Sequence[float]) -> Observations:
         (s, t, f, 1.0)
         for s in range(len(names)) for t in at for f in frequencies(observed)
     ]  # fmt: skip
-    half = [(s, t, f, HALF) for s in range(len(observed.names)) for t in observed.isotherms for f in observed.frequencies]
-    specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half))
+    half = [
+        (s, t, f, HALF)
+        for s in range(len(observed.names))
+        for t in observed.isotherms
+        for f in observed.frequencies
+    ]
+    specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half, strict=True))
     like = np.array([np.flatnonzero(observed.specimen == min(s, len(names) - 2))[0] for s in specimen])
     more = replace(
         observed.subset(like), specimen=specimen, temperature=temperature, frequency=frequency,
@@ -300,7 +316,11 @@ def _variance(name: str, sizes, tested: NDArray[np.float64]) -> float:
     if place.endswith(" degC"):
         known = [sizes.get(f"{t:g} degC, {part}", 0.0) for t in tested]
         return float(np.interp(float(place.removesuffix(" degC")), tested, known)) ** 2
-    alike = [size**2 for other, size in sizes.items() if other.startswith("specimen ") and other.endswith(f", {part}")]
+    alike = [
+        size**2
+        for other, size in sizes.items()
+        if other.startswith("specimen ") and other.endswith(f", {part}")
+    ]
     return float(np.mean(alike)) if alike else 0.0
 
 
@@ -336,7 +356,13 @@ def _frequency_sets(every: list[float], tested: NDArray, half: bool) -> list[tup
 
 def _metal(observed: Observations) -> Observations:
     """A metal specimen at the frequencies tested."""
-    at = np.array([np.flatnonzero(observed.frequency == f)[0] for f in frequencies(observed) if f in observed.frequencies])
+    at = np.array(
+        [
+            np.flatnonzero(observed.frequency == f)[0]
+            for f in frequencies(observed)
+            if f in observed.frequencies
+        ]
+    )
     return replace(observed.subset(at), modulus=np.full(at.size, METAL_MODULUS + 0j))
 
 
@@ -347,7 +373,8 @@ def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> NDAr
         if candidate.place is None and candidate.cause.stage >= HEAD:
             step = np.array([1e-3 * candidate.typical[0], *([0.0] * (len(candidate.values) - 1))])
             high, low = (
-                candidate.cause.apparent(metal.modulus, np.array(candidate.values) + sign * step, metal) for sign in (1, -1)
+                candidate.cause.apparent(metal.modulus, np.array(candidate.values) + sign * step, metal)
+                for sign in (1, -1)
             )
             out[:, k] = np.log(high / low) / 2e-3
     return out

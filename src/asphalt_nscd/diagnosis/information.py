@@ -65,7 +65,9 @@ class Knowledge:
         self.information = own - cross.T @ followed
         h = parts(linear.nuisance)
         self._left = parts(linear.effects) - h @ followed  # of each effect, what these tests do not predict
-        self.spread = h @ self.covariance @ h.T  # covariance (2N, 2N) of ln|E*| and phase that these tests leave
+        self.spread = (
+            h @ self.covariance @ h.T
+        )  # covariance (2N, 2N) of ln|E*| and phase that these tests leave
 
     def gained(self, tests: Tested) -> Matrix:
         """Information (K, K) that further tests would add."""

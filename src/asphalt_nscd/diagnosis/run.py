@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from asphalt_nscd.diagnosis import quality, repeatability, report, suspects, within_isotherm
-from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.instructions import instructions
 from asphalt_nscd.diagnosis.numerics import of_campaign
@@ -21,17 +21,19 @@ from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
+FEW_DRAWS = 1000  # where a second opinion is asked for
+
 
 def run(
     measurements: str | Path | Campaign, folder: str | Path, geometry: str | Path | Mapping[str, Any],
     specimen: str | Path | None = None, static_modulus: float | None = None,
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
     simulations: str | Path | None = None,
-) -> str:  # fmt: skip
-    """Diagnose measurements and write four files into the folder; the summary.
+) -> tuple[str, list[str]]:  # fmt: skip
+    """Diagnose measurements and write files into the folder; the summary, and the names of the files.
 
-    The files: diagnosis.json, residuals.csv, causality.csv and law.json. simulations: table of simulated tests whose
-    numerics are told apart.
+    The files: diagnosis.json, residuals.csv, causality.csv and, of several isotherms, law.json.
+    simulations: table of simulated tests whose numerics are told apart.
     """
     numerical = read_specimen(specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None
@@ -52,6 +54,7 @@ def run(
     content["origin"] = origin
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
+    content["with_suspects"] = with_suspects(diagnosis, scatter, seed)
     content["instructions"] = instructions(diagnosis)
     content["contradictory_isotherms"] = [
         {"temperature_C": one.temperature, "sentence": one.sentence}
@@ -78,7 +81,21 @@ def run(
         )  # fmt: skip
     write_json(folder / "diagnosis.json", content)
     written = ["diagnosis.json", "residuals.csv", "causality.csv", *([] if fit is None else ["law.json"])]
-    return f"{summary(content)}\n\nWritten to {folder}: {', '.join(written)}."
+    return summary(content), written
+
+
+def with_suspects(
+    diagnosis: Diagnosis, scatter: tuple[float, float] | None, seed: int
+) -> dict[str, Any] | None:
+    """What is named if the tests that were set aside are used; None where none was."""
+    if diagnosis.whole is None or not diagnosis.set_aside.size:
+        return None
+    other = diagnose(diagnosis.whole, scatter, draws=FEW_DRAWS, seed=seed, use_suspects=True)
+    named = [
+        {"cause": rung.candidate.cause.name, "where": rung.candidate.place} for rung in other.ladder.rungs
+    ]
+    law = [{"cause": "relaxation_spectrum", "where": None}] if other.relaxation_spectrum else []
+    return {"verdict": other.verdict, "causes": [*law, *named]}
 
 
 def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:

@@ -30,6 +30,12 @@ def on_data(content: Content) -> str:
     usable = f"{tests} of {tests + out} tests can be used" if out else f"all {tests} tests can be used"
     faults = [rung for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
     parts = [usable, *(_fault(rung) for rung in faults)]
+    repeated = content.get("repeatability")
+    if repeated is not None and repeated["between"] is not None:
+        spread = repeated["between"]
+        parts.append(
+            f"specimens differ by {spread['E_percent']:.1f} % in |E*| and {spread['phase_deg']:.1f} deg in phase"
+        )
     broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
     if broken:
         parts.append(f"at {joined([f'{t:g}' for t in broken])} degC modulus and phase contradict each other")
@@ -37,10 +43,11 @@ def on_data(content: Content) -> str:
 
 
 def _fault(rung: Content) -> str:
-    where = f"specimen {rung['where']}" if isinstance(rung["where"], str) else "they"
-    carry = "carries" if isinstance(rung["where"], str) else "carry"
-    carry = carry if rung.get("established") else f"probably {carry}"
-    return f"{where} {carry} {an(cause_words(rung))} of {size(rung)}"
+    words = an(rung["cause"].replace("_", " "))
+    one = isinstance(rung["where"], str)
+    who = f"specimen {rung['where']}" if one else "they"
+    sure = "" if rung.get("established", True) else "probably "
+    return f"{who} {sure}{'carries' if one else 'carry'} {words} of {size(rung)}"
 
 
 def on_simulation(content: Content) -> str:
@@ -54,16 +61,15 @@ def on_simulation(content: Content) -> str:
         return f"{SIMPLER} fits these data to within their scatter; nothing is to be explained."
     first, last = (rung["gain"]["in_sample"] for rung in (ladder[0], ladder[-1]))
     before, after = (
-        f"{three_digits(gain['mre_E_percent'][when])} % in |E*| and {three_digits(gain['mre_phase_percent'][when])} % in "
-        "phase"
+        [f"{three_digits(gain[name][when])} %" for name in ("mre_E_percent", "mre_phase_percent")]
         for gain, when in ((first, "before"), (last, "after"))
     )
-    causes = joined([an(cause_words(rung)) for rung in ladder])
-    end = {
-        "explained": "no more than the scatter of the tests",
-        "unexplained_structure": "more than the scatter of the tests",
-    }.get(content["verdict"], "")
-    return f"with {causes} it misses the data by {after}, {end}; with {SIMPLER} by {before}."
+    found = joined([an(cause_words(rung)) for rung in ladder])
+    end = "no more" if content["verdict"] == "explained" else "more"
+    return (
+        f"{SIMPLER} misses |E*| by {before[0]} and the phase by {before[1]}; with {found} the simulation misses them "
+        f"by {after[0]} and {after[1]}, {end} than the scatter of the tests."
+    )
 
 
 def test_type(content: Content) -> str:
@@ -85,13 +91,30 @@ def doubtful(content: Content) -> list[Content]:
     return [one for one in content.get("suspect_tests", []) if one["used"]]
 
 
+def with_suspects(content: Content) -> str:
+    """What the suspect tests would have changed, had they been used; empty where no test is left out."""
+    with_all = content.get("with_suspects")
+    if with_all is None:
+        return ""
+    without = [cause_words(rung) for rung in content["ladder"]]
+    other = [cause_words(rung) for rung in with_all["causes"]]
+    if other == without:
+        return "With these tests used the same causes are named."
+    named = joined([an(words) for words in other]) or "nothing"
+    own = joined([an(words) for words in without]) or "nothing"
+    return f"With these tests used the diagnosis would name {named} instead of {own}."
+
+
 def place_of_test(one: Content) -> str:
     return f"{one['specimen']}, {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
 
 
 def causes(content: Content) -> list[tuple[str, str]]:
     """Each named cause with its size, and how sure the name is."""
-    return [(f"{cause_words(rung)}: {size(rung)}".removesuffix(": "), _sure(rung, content)) for rung in content["ladder"]]
+    return [
+        (f"{cause_words(rung)}: {size(rung)}".removesuffix(": "), _sure(rung, content))
+        for rung in content["ladder"]
+    ]
 
 
 def _sure(rung: Content, content: Content) -> str:
@@ -102,7 +125,9 @@ def _sure(rung: Content, content: Content) -> str:
         others = joined([name.replace("_", " ").replace(" @ ", " at ") for name in rung["as_good"]], "or")
         return f"Likely. {others[:1].upper()}{others[1:]} fits as well; these tests do not say which."
     if rung.get("hangs_on"):
-        return f"Likely, not established. Without {joined(rung['hangs_on'], 'or')} these tests do not show it."
+        return (
+            f"Likely, not established. Without {joined(rung['hangs_on'], 'or')} these tests do not show it."
+        )
     if not rung.get("established", True):
         return "Likely, not established. These tests are too few to exclude what the catalogue lacks."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
@@ -115,11 +140,17 @@ def left(content: Content) -> list[str]:
     scatter, found = content["scatter"], content.get("discrepancy", {})
     parts = sorted(found.items(), key=lambda item: -item[1])[:LARGEST]
     if parts:
-        return [f"{name}: {_in_units(name, value, scatter)}" for name, value in parts]
+        return [f"{_place(name)}: {_in_units(name, value, scatter)}" for name, value in parts]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None:
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} standard deviations"]
     return []
+
+
+def _place(name: str) -> str:
+    """`specimen A, spectrum` in words; `37 degC, phase` says it already."""
+    place, part = name.rsplit(", ", 1)
+    return f"{place} relaxes in a way of its own" if part == "spectrum" else name
 
 
 def _in_units(name: str, value: float, scatter: Content) -> str:
@@ -160,7 +191,9 @@ def size(rung: Content) -> str:
     else:
         half = CONFIDENCE * shown(error, amplitude["unit"])[0]
         interval = f" +- {three_digits(float(f'{half:.2g}'))}"
-    label = f"{name.replace('_', ' ').replace('wlf ', 'WLF ')} " if rung["cause"] == "relaxation_spectrum" else ""
+    label = (
+        f"{name.replace('_', ' ').replace('wlf ', 'WLF ')} " if rung["cause"] == "relaxation_spectrum" else ""
+    )
     return f"{label}{three_digits(value)}{interval} {unit}".rstrip()
 
 

@@ -39,6 +39,7 @@ def _suspects(content: Content) -> list[str]:
     for one in sentences.not_used(content):
         lines.append(f"{sentences.place_of_test(one)}:")
         lines += [f"  {reason}" for reason in one["reasons"]]
+    lines += filter(None, [sentences.with_suspects(content)])
     kept = len(sentences.doubtful(content))
     if kept:
         tests = "test is" if kept == 1 else "tests are"
@@ -49,7 +50,9 @@ def _suspects(content: Content) -> list[str]:
 def _left(content: Content) -> list[str]:
     dropped = content["withdrawn"]
     return sentences.left(content) + (
-        [f"Considered and dropped, because a discrepancy fits as well: {', '.join(dropped)}."] if dropped else []
+        [f"Considered and dropped, because a discrepancy fits as well: {', '.join(dropped)}."]
+        if dropped
+        else []
     )
 
 

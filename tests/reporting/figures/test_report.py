@@ -42,7 +42,8 @@ def test_first_page_says_what_was_done_and_found(page):
     assert "do not stand for the mix" in said["simulated"][2]
     assert "most at 20 °C" in said["wrong"][0]
     assert "(Table 4): |E*| by 10 %, the phase by 0.165 %." in said["wrong"][1]
-    assert said["verdict"].startswith("Explained: with relaxation spectrum and loose clamp (specimen 2)")
+    assert "with a relaxation spectrum and a loose clamp of specimen 2" in said["found"]["simulation"]
+    assert said["found"]["data"].startswith("all 12 tests can be used; specimen 2 carries a loose clamp")
     assert said["gained"][0] == ("error of |E*|, %", "8", "2")
 
 
@@ -51,9 +52,22 @@ def test_what_to_beware_of_stands_on_the_first_page(page, tmp_path):
     assert html.index("<h3>Why") < html.index("Only one specimen.") < html.index("<h3>What was gained")
 
 
+def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
+    order = {
+        "text": "0.5 h: test a metal reference specimen, 25 Hz.", "why": ["As 7.1 deg."], "hours": 0.5, "nats": 3.0,
+        "specimens": ["m"], "temperature_C": None, "frequencies_Hz": [25.0], "half_strain": False,
+    }  # fmt: skip
+    html = assemble("mine", page(instructions={"costs": "c", "orders": [order]}), [], tmp_path)
+    assert (
+        "What to test next" in html
+        and "<li>0.5 h: test a metal reference specimen, 25 Hz. As 7.1°.</li>" in html
+    )
+    assert "What to test next" not in assemble("mine", page(), [], tmp_path)
+
+
 def test_nothing_gained_where_no_cause_is_named(page):
     said = page(ladder=[], verdict="nothing_to_explain")
-    assert said["gained"] == [] and said["held_out"] is None and said["causes"] == []
+    assert said["gained"] == [] and said["held_out"] is None and said["found"]["causes"] == []
 
 
 def test_entries_stand_in_their_parts_by_number_with_captions(page, tmp_path):

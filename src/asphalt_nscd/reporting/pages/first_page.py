@@ -12,7 +12,7 @@ from asphalt_nscd.diagnosis.written import three_digits
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.reporting.pages.diagnosis_page import sections
+from asphalt_nscd.reporting.pages.diagnosis_page import in_type, sections
 
 ENOUGH = 5000  # spheres
 TOO_FEW = (
@@ -37,13 +37,22 @@ def first_page(
         "measured": _measured(moduli, found),
         "simulated": _simulated(tests, _frame(samples, "samples")),
         "wrong": [*_wrong(found["diagnosis"]), _as_simulated(moduli, tests)],
-        "verdict": found["verdict"],
-        "causes": found["ladder"],
-        "notes": found["diagnosis"]["notes"],
+        "found": {
+            name: _typed(found["first"][name])
+            for name in ("data", "simulation", "causes", "left", "with_suspects")
+        },
+        "not_used": [in_type(where) for where, _ in found["first"]["not_used"]],
+        "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in found["first"]["orders"]],
+        "notes": _typed(found["diagnosis"]["notes"]),
         "gained": _gained(ladder),
         "held_out": _held_out(ladder),
         "map": found["map"],
     }
+
+
+def _typed(value: Any) -> Any:
+    """Sentences of the terminal as they are printed."""
+    return in_type(value) if isinstance(value, str) else [_typed(part) for part in value]
 
 
 def _frame(paths: Sequence[Path], name: str) -> pd.DataFrame:
