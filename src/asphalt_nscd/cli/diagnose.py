@@ -5,6 +5,7 @@ from pathlib import Path
 import click
 
 from asphalt_nscd.cli import _data, _options
+from asphalt_nscd.cli._progress import bars
 
 PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 
@@ -48,6 +49,12 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
     type=_options.File,
     help="Simulated tests of the campaign, to say what in them is numerics.",
 )
+@click.option(
+    "--verify-limits",
+    is_flag=True,
+    help="Put each cause into these tests at 1, 2 and 3 times its limit; minutes.",
+)
+@click.option("--jobs", type=click.IntRange(1), help="Processes of --verify-limits; else one for each core.")
 @click.option("--page/--no-page", default=True, help="Whether to write diagnosis.html too.")
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
@@ -55,7 +62,7 @@ def command(
     measurements: tuple[Path, ...], output: Path, sheet: str | None, columns: tuple[tuple[str, str], ...],
     measured_in: str | None, geometry: object, specimen: Path | None, static_modulus_mpa: float | None,
     modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
-    simulations: Path | None, page: bool,
+    simulations: Path | None, page: bool, verify_limits: bool, jobs: int | None,
 ) -> None:  # fmt: skip
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
 
@@ -64,6 +71,7 @@ def command(
     """
     import math
 
+    from asphalt_nscd.diagnosis.measured_limits import Trials, verify
     from asphalt_nscd.diagnosis.run import run
     from asphalt_nscd.table_import.campaign import read_campaign
 
@@ -74,11 +82,14 @@ def command(
         stated = modulus_scatter_percent / 100.0, math.radians(phase_scatter_deg)
     static = None if static_modulus_mpa is None else 1e6 * static_modulus_mpa
     campaign, _ = read_campaign(measurements, sheet, dict(columns), measured_in)
-    text, written = run(campaign, output, geometry, specimen, static, stated, draws, seed, simulations)
+    with bars("step", on_terminal=True) as report:
+        written = run(campaign, output, geometry, specimen, static, stated, draws, seed, simulations, report)
+        if verify_limits:
+            written.add_limits(verify(written.diagnosis, Trials(stated, seed, jobs), report))
     if page:
         # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
         title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
-        written.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
-    click.echo(f"{text}\n\nWritten to {output}: {', '.join(written)}.")
+        written.names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
+    click.echo(f"{written.summary}\n\nWritten to {output}: {', '.join(written.names)}.")
     if page:
-        click.echo(f"Open {output / written[-1]} in a browser; it needs no network.")
+        click.echo(f"Open {output / written.names[-1]} in a browser; it needs no network.")

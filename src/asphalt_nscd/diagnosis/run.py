@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from asphalt_nscd.diagnosis import quality, repeatability, report, suspects, within_isotherm
+import pandas as pd
+
+from asphalt_nscd.diagnosis import measured_limits, quality, repeatability, report, suspects, within_isotherm
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.instructions import instructions
+from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
@@ -21,33 +25,72 @@ from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
+STEPS = 6  # read, causes, law, second opinion, next tests, files
 FEW_DRAWS = 1000  # where a second opinion is asked for
+
+
+@dataclass
+class Steps:
+    """Tells how far a diagnosis has come."""
+
+    progress: Progress
+    done: int = 0
+
+    def step(self) -> None:
+        self.done += 1
+        self.progress("Diagnose", self.done, STEPS)
+
+
+@dataclass
+class Written:
+    """What a diagnosis wrote: the content of diagnosis.json and the names of all files in the folder."""
+
+    folder: Path
+    content: dict[str, Any]
+    diagnosis: Diagnosis
+    names: list[str]
+
+    @property
+    def summary(self) -> str:
+        """The diagnosis on a terminal."""
+        return summary(self.content)
+
+    def add_limits(self, table: pd.DataFrame) -> None:
+        """Write the limits that were verified: limits.csv, and their summary in diagnosis.json."""
+        write_table(self.folder / "limits.csv", table)
+        self.content["measured_limits"] = measured_limits.summarised(table)
+        write_json(self.folder / "diagnosis.json", self.content)
+        self.names.append("limits.csv")
 
 
 def run(
     measurements: str | Path | Campaign, folder: str | Path, geometry: str | Path | Mapping[str, Any],
     specimen: str | Path | None = None, static_modulus: float | None = None,
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
-    simulations: str | Path | None = None,
-) -> tuple[str, list[str]]:  # fmt: skip
-    """Diagnose measurements and write files into the folder; the summary, and the names of the files.
+    simulations: str | Path | None = None, progress: Progress = lambda *_: None,
+) -> Written:  # fmt: skip
+    """Diagnose measurements and write files into the folder.
 
     The files: diagnosis.json, residuals.csv, causality.csv and, of several isotherms, law.json.
     simulations: table of simulated tests whose numerics are told apart.
     """
+    done = Steps(progress)
     numerical = read_specimen(specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None
     given = Path(measurements) if campaign is None else campaign.table.path
     files = (given,) if campaign is None else campaign.files
     observed, origin = read_observations(measurements, geometry, static_modulus)
+    done.step()
     try:
         diagnosis = diagnose(observed, scatter, draws=draws, seed=seed)
     except InputError as error:
         raise InputError(f"{given}: {error}") from None
+    done.step()
     fit = None if observed.isotherms.size < 2 else material_law(diagnosis)
     content = report.as_json(diagnosis, numerical)
     if fit is not None:
         content["notes"] += law_notes(diagnosis, fit.law) + prior_notes(fit)
+    done.step()
     content["reading"] = reading(observed, () if campaign is None else campaign.notes)
     if simulations is not None:
         content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
@@ -55,7 +98,9 @@ def run(
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["with_suspects"] = with_suspects(diagnosis, scatter, seed)
+    done.step()
     content["instructions"] = instructions(diagnosis)
+    done.step()
     content["contradictory_isotherms"] = [
         {"temperature_C": one.temperature, "sentence": one.sentence}
         for one in suspects.broken_isotherms(observed, held)
@@ -81,7 +126,8 @@ def run(
         )  # fmt: skip
     write_json(folder / "diagnosis.json", content)
     written = ["diagnosis.json", "residuals.csv", "causality.csv", *([] if fit is None else ["law.json"])]
-    return summary(content), written
+    done.step()
+    return Written(folder, content, diagnosis, written)
 
 
 def with_suspects(

@@ -116,6 +116,9 @@ def first(content: dict[str, Any]) -> dict[str, Any]:
         "left": sentences.left(content),
         "orders": found["orders"],
         "costs": found["costs"],
+        "limits_head": sentences.LIMITS_HEAD,
+        "limits_stated": sentences.LIMITS_STATED,
+        "measured_limits": [[in_type(cell) for cell in row] for row in sentences.measured_limits(content)],
         "scatter_head": [in_type(name).replace("deg", "°") for name in sentences.SCATTER_HEAD],
         "scatter": [[in_type(cell) for cell in row] for row in sentences.scatter_rows(content)],
     }
