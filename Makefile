@@ -3,6 +3,7 @@
 #   make            the paper study
 #   make smoke      the same chain at reduced size, in minutes
 #   make test       the tests
+#   make test-fast  the tests without the slow ones
 #   make lint       ruff and mypy
 #   make blind      blind tests of the diagnosis: hidden effects, found or not; in the real tables of a folder
 #                   too, if ASPHALT_NSCD_TABLES names it
@@ -11,7 +12,8 @@
 #   make faults     what must not lose or falsify a result: results/faults/faults.csv, half an hour
 #   make fuzz       a hundred thousand inputs to everything that reads a file, a thousand wild tables to the diagnosis
 #   make cluster    the smoke study through a Slurm started here, where Debian's is installed
-#   make api        reference of all modules, from their docstrings: docs/api
+#   make docs       these documents and the reference of all modules as a site: site/index.html
+#   make api        the reference alone, from docstrings: docs/api
 #   make benchmark  how fast it is beside its peers: results/benchmark/benchmark.csv
 #   make study CONFIG=my.yaml     any other study
 #
@@ -36,7 +38,7 @@ ifeq ($(filter study,$(MAKECMDGOALS))$(shell test -f "$(CONFIG)" && echo found),
 $(error $(or $(CONFIG),CONFIG): no such file; give a study with CONFIG=my.yaml)
 endif
 
-.PHONY: paper smoke blind study test lint verify check faults fuzz cluster benchmark api
+.PHONY: paper smoke blind study test lint verify check faults fuzz cluster benchmark api docs test-fast
 
 paper: $(READY)
 	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
@@ -62,6 +64,9 @@ benchmark: $(READY)
 test: $(READY)
 	.venv/bin/python -m pytest
 
+test-fast: $(READY)
+	.venv/bin/python -m pytest -m "not slow"
+
 check: $(READY)
 	@.venv/bin/python tools/check.py
 
@@ -79,6 +84,10 @@ cluster: $(READY)
 api: $(READY)
 	@.venv/bin/pdoc --output-directory docs/api asphalt_nscd '!asphalt_nscd.cli'
 	@echo "Reference: $(CURDIR)/docs/api/index.html"
+
+docs: $(READY) api
+	@NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet
+	@echo "Site: $(CURDIR)/site/index.html"
 
 lint: $(READY)
 	.venv/bin/ruff check .

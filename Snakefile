@@ -26,11 +26,13 @@ include: "workflow/rules/data.smk"  # Section 2: tests and their reduction
 include: "workflow/rules/fit.smk"  # Section 4.1: Burgers laws
 include: "workflow/rules/specimen.smk"  # Section 3.2: numerical samples
 include: "workflow/rules/bending.smk"  # Section 4.2: bending tests
+include: "workflow/rules/facets.smk"  # the same tests with bonds that fill the specimen
 include: "workflow/rules/time_step.smk"  # Fig. 6: time step
 include: "workflow/rules/sensitivity.smk"  # Section 4.3: sensitivity of the law's parameters
 include: "workflow/rules/audit.smk"  # other readings, looser samples
 include: "workflow/rules/diagnosis.smk"  # what the simulation gets wrong, and why
 include: "workflow/rules/extension.smk"  # the simulation extended by it
+include: "workflow/rules/families.smk"  # what it gains on data of other families
 include: "workflow/rules/exports.smk"  # the law for other programs
 include: "workflow/rules/contents.smk"  # figures and tables, and their data
 include: "workflow/rules/report.smk"  # figures, tables, report

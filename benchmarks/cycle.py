@@ -13,6 +13,7 @@ import numpy as np
 from rows import Clock, absent, run, write_rows
 
 from asphalt_nscd.bending.bending_test import Record, bond_law, run_test
+from asphalt_nscd.bending.case import LoadCase, Numerics
 from asphalt_nscd.bending.model import read_model
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
@@ -33,7 +34,7 @@ def reduced(model, law: BondLaw) -> dict[str, object]:
     """The whole cycle, the mean of several; the kernels are loaded by a first one."""
 
     def cycle() -> Record:
-        return run_test(model, law, FREQUENCY, AMPLITUDE, 1.0, TIME_STEP, 0)
+        return run_test(model, law, LoadCase(FREQUENCY, AMPLITUDE, 1.0), Numerics(TIME_STEP, 0))
 
     record, clock = cycle(), Clock()
     for _ in range(REPEATED):

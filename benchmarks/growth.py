@@ -25,6 +25,7 @@ import pandas as pd
 from rows import Clock, write_rows
 
 from asphalt_nscd.bending.bending_test import bond_law, run_test
+from asphalt_nscd.bending.case import LoadCase, Numerics
 from asphalt_nscd.bending.model import condense, read_model
 from asphalt_nscd.measurements.signals import harmonic_response
 from asphalt_nscd.measurements.twopoint import complex_modulus
@@ -72,7 +73,7 @@ def prepare(spheres: int, counts_table: str, specimen: str) -> list[Row]:
         )
         deposited, clock = clock.row(), Clock()
         trim_deposit(folder / "deposit.h5", geometry, 0.1, 2e-3, specimen)
-    vibrating = left["vibrating"] - left["pouring"]
+    vibrating = left["vibrating"] - left["settling"]
     scaled_up = vibrating * WHOLE_VIBRATION / VIBRATION
     memory = {"memory_MB": deposited["memory_MB"]}
     return [
@@ -95,9 +96,9 @@ def reduced_cycle(model_file: str, law_file: str) -> list[Row]:
     model, law = read_model(model_file), read_bond_law(law_file)
     bonds = bond_law(law)
     amplitude = SLOPE * model.geometry.h
-    run_test(model, bonds, FREQUENCY, 0.01 * amplitude, 1.0, 1e-3, 0)
+    run_test(model, bonds, LoadCase(FREQUENCY, 0.01 * amplitude, 1.0), Numerics(1e-3, 0))
     clock = Clock()
-    record = run_test(model, bonds, FREQUENCY, amplitude, 1.0, TIME_STEP, 0)
+    record = run_test(model, bonds, LoadCase(FREQUENCY, amplitude, 1.0), Numerics(TIME_STEP, 0))
     row = clock.row()
     response = harmonic_response(record.time, record.force, record.displacement, FREQUENCY, cycles=1)
     modulus = complex_modulus(

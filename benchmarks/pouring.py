@@ -13,7 +13,7 @@ import numpy as np
 from rows import Clock, absent, run, write_rows
 
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics
+from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.specimen.preparation import DENSITY
 
@@ -28,8 +28,9 @@ HERE = Path(__file__).parent
 
 def pour(position: np.ndarray, radius: np.ndarray) -> tuple[dict[str, object], np.ndarray]:
     """(row, positions at rest) by NSCD."""
-    clock, numerics = Clock(), PouringNumerics()
+    clock, numerics = Clock(), PouringNumerics.of(radius, 4e-4)
     granulate = Granulate.in_box(position, radius, BOX, DENSITY, FRICTION)
+    granulate.let_fall()
     while granulate.time < DURATION:
         granulate.advance(numerics)
     speed = np.sqrt((granulate.velocity[: radius.size, :3] ** 2).sum(axis=1).mean())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -9,27 +10,36 @@ from typing import Any
 import yaml
 
 ROOT = Path(__file__).resolve().parents[1]
+WIDTH = 120
 HEAD = """\
-# Studies
+# Configuration
 
-A study is one YAML file. `paper.yaml` is the paper, `smoke.yaml` the same chain at reduced size.
-`asphalt-nscd new-study` writes one from your table of measurements (`docs/tutorial.md`).
-Run your own with `make study CONFIG=my.yaml` or `snakemake --cores all --configfile my.yaml`.
-Keys left out take their default, which is the paper's value; unknown keys are refused. Paths are
-relative to the folder in which you call.
+A study is one YAML file. `paper.yaml` is the paper; `smoke.yaml` is the same chain at reduced size.
+`asphalt-nscd new-study` writes a study from your table of measurements ([tutorial](../docs/tutorial.md)).
+Run it with `make study CONFIG=my.yaml` or `snakemake --cores all --configfile my.yaml`.
 
-This file is made from `workflow/schemas/study.schema.yaml` by `python tools/config_readme.py`.
+A key that is left out takes its default, which is the paper's value. An unknown key is refused. Paths are relative to
+the folder in which you call.
 
-| key | meaning | default |
-|---|---|---|
+This page is made from `workflow/schemas/study.schema.yaml` by `python tools/config_readme.py`.
 """
 
 
 def page() -> str:
-    """The whole file."""
+    """The whole file: a section for each key of the first level, a line for each key."""
     schema = yaml.safe_load((ROOT / "workflow/schemas/study.schema.yaml").read_text(encoding="utf-8"))
-    rows = (f"| `{key}` | {meaning} | {default} |" for key, meaning, default in _keys(schema, schema, ""))
-    return HEAD + "\n".join(rows) + "\n"
+    text, section = HEAD, ""
+    for key, meaning, default in _keys(schema, schema, ""):
+        if key.split(".")[0] != section:
+            section = key.split(".")[0]
+            text += f"\n## {section}\n\n"
+        text += _line(key, meaning, default) + "\n"
+    return text
+
+
+def _line(key: str, meaning: str, default: str) -> str:
+    line = f"* `{key}`{f' ({default})' if default else ''}: {meaning}"
+    return textwrap.fill(line, WIDTH, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
 
 
 def _keys(rule: dict[str, Any], schema: dict[str, Any], path: str) -> Iterator[tuple[str, str, str]]:
@@ -46,10 +56,10 @@ def _keys(rule: dict[str, Any], schema: dict[str, Any], path: str) -> Iterator[t
 
 def _default(rule: dict[str, Any], needed: bool) -> str:
     if "default" in rule and not isinstance(rule["default"], dict):
-        return f"`{rule['default']}`"
+        return f"default `{rule['default']}`"
     if "enum" in rule:
         return " or ".join(f"`{value}`" for value in rule["enum"])
-    return "required" if needed else ""
+    return "required" if needed else "optional"
 
 
 if __name__ == "__main__":

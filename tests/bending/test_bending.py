@@ -8,7 +8,8 @@ import click
 import numpy as np
 import pytest
 
-from asphalt_nscd.bending.bending_test import bond_law, run_test, simulate
+from asphalt_nscd.bending.bending_test import TestFiles, bond_law, run_test, simulate
+from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
 from asphalt_nscd.bending.layers import LAYERS
 from asphalt_nscd.bending.model import Model, condense, read_model
 from asphalt_nscd.cli import group
@@ -47,8 +48,17 @@ def model(folder) -> Model:
     return read_model(folder / "free.h5")
 
 
-def run(model, method="reduced", amplitude=1e-6, cycles=2.0, rest=20, **changes):
-    return run_test(model, bond_law(LAW), FREQUENCY, amplitude, cycles, DT, rest, method, **changes)
+def run(model, method="reduced", amplitude=1e-6, cycles=2.0, rest=20, scheme="euler", **options):
+    case, numerics = LoadCase(FREQUENCY, amplitude, cycles), Numerics(DT, rest, method, scheme)
+    return run_test(model, bond_law(LAW), case, numerics, RunOptions(**options))
+
+
+def small(cycles=1.0, amplitude=1e-6):
+    return LoadCase(FREQUENCY, amplitude, cycles)
+
+
+def files(folder, output, **others):
+    return TestFiles(folder / "free.h5", folder / "law.json", folder / output, **others)
 
 
 def test_a_specimen_too_large_for_factors(folder, model, monkeypatch, tmp_path):
@@ -78,7 +88,7 @@ def test_a_model_file_holds_the_system_of_its_specimen(folder, beam, model):
     np.testing.assert_array_equal(model.sphere_height, beam.position[:, 2])
     blocked = read_model(folder / "blocked.h5")
     assert blocked.head == "blocked" and blocked.system.mass.size == system.mass.size - 3
-    with pytest.raises(InputError, match="holds 'specimen', not 'model'"):
+    with pytest.raises(InputError, match="expected a model file; found a specimen file"):
         read_model(folder / "beam.h5")
 
 
@@ -126,10 +136,11 @@ def test_methods_agree(model):
 @pytest.mark.parametrize("method", ["reduced", "condensed"])
 def test_a_fitted_scheme_needs_a_hundred_steps_a_cycle(model, method):
     """|E*| within 1e-4 and phase within 0.01 deg of the exact law on the same specimen; bonds break alike."""
-    arguments = (model, bond_law(LAW), FREQUENCY, 1e-6, 4.0, 1 / (100 * FREQUENCY), 20)
+    law, case, dt = bond_law(LAW), LoadCase(FREQUENCY, 1e-6, 4.0), 1 / (100 * FREQUENCY)
     moduli = []
     for way in (method, "harmonic"):
-        record = run_test(*arguments, way, scheme="fitted" if way == method else "euler")
+        numerics = Numerics(dt, 20, way, "fitted" if way == method else "euler")
+        record = run_test(model, law, case, numerics)
         found = harmonic_response(record.time, record.force, record.displacement, FREQUENCY, cycles=2)
         moduli.append(found.force_amplitude * np.exp(1j * found.phase))
     ratio = moduli[0] / moduli[1]
@@ -166,7 +177,7 @@ def test_energy_account_where_the_full_system_takes_over(model):
 
 @pytest.mark.parametrize("method", ["sweeps", "harmonic"])
 def test_methods_without_a_scheme(model, method):
-    with pytest.raises(InputError, match=f"method {method} knows no scheme 'fitted'"):
+    with pytest.raises(InputError, match=f"method {method} has no scheme 'fitted'"):
         run(model, method, scheme="fitted")
 
 
@@ -224,10 +235,7 @@ def test_step_of_the_full_system_that_misses_its_equations_is_refused(model, mon
 
 def test_result_file(folder, model):
     """The columns of simulations.csv, computed anew from the histories beside them."""
-    simulate(
-        folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 1e-6, 3.0, DT, 50, folder / "test.h5",
-        law_source="fitted",
-    )  # fmt: skip
+    simulate(files(folder, "test.h5", law_source="fitted"), 15.0, small(3.0), Numerics(DT, 50))
     record = load(folder / "test.h5", "test")
     columns, arrays = record.attributes, record.arrays
     expected = {
@@ -258,21 +266,22 @@ def test_result_file(folder, model):
 
 def test_a_stopped_test_goes_on(folder):
     """Killed while it runs, and the same call again: the same file; the checkpoint is gone then."""
-    common = folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 8e-5, 1.0, DT, 10
+    common = 15.0, small(amplitude=8e-5), Numerics(DT, 10)
 
     def stop(done, total):
         if done == 150:
             raise KeyboardInterrupt
 
     kept = folder / "kept.h5"
+    resumed = files(folder, "a.h5", checkpoint=kept, checkpoint_every=40)
     with pytest.raises(KeyboardInterrupt):
-        simulate(*common, folder / "a.h5", progress=stop, checkpoint_file=kept, checkpoint_every=40)
+        simulate(resumed, *common, RunOptions(stop))
     assert not (folder / "a.h5").exists() and load(kept, "checkpoint").arrays["force"].size == 120
-    with pytest.raises(InputError, match="of another run"):
-        simulate(*common, folder / "a.h5", method="condensed", checkpoint_file=kept)
-    simulate(*common, folder / "a.h5", checkpoint_file=kept, checkpoint_every=40)
+    with pytest.raises(InputError, match="belongs to another run"):
+        simulate(resumed, *common[:2], Numerics(DT, 10, "condensed"))
+    simulate(resumed, *common)
     assert not kept.exists()
-    simulate(*common, folder / "b.h5", energy=True)
+    simulate(files(folder, "b.h5"), *common, RunOptions(energy=True))
     one, whole = (load(folder / name, "test") for name in ("a.h5", "b.h5"))
     for name, array in whole.arrays.items():
         assert one.arrays[name].tobytes() == array.tobytes()
@@ -282,9 +291,7 @@ def test_a_stopped_test_goes_on(folder):
 
 def test_velocity_profile(folder, model, beam):
     """Mean velocities of layers against those of the spheres in the full system."""
-    simulate(
-        folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 1e-6, 1.0, DT, 0, folder / "profile.h5"
-    )
+    simulate(files(folder, "profile.h5"), 15.0, small(), Numerics(DT, 0))
     arrays = load(folder / "profile.h5", "test").arrays
     height, speed = arrays["profile/height_m"], arrays["profile/velocity_m_s"]
     assert height.size == LAYERS and speed.shape == (arrays["profile/time_s"].size, height.size)
@@ -312,7 +319,7 @@ def test_velocity_profile(folder, model, beam):
 def test_the_same_test_twice(folder):
     """Histories to the last bit."""
     for name in ("one.h5", "two.h5"):
-        simulate(folder / "free.h5", folder / "law.json", 15.0, FREQUENCY, 1e-6, 1.0, DT, 10, folder / name)
+        simulate(files(folder, name), 15.0, small(), Numerics(DT, 10))
     one, two = (load(folder / name, "test") for name in ("one.h5", "two.h5"))
     assert all(one.arrays[name].tobytes() == two.arrays[name].tobytes() for name in one.arrays)
     assert one.attributes | {"cpu_s": 0} == two.attributes | {"cpu_s": 0}
@@ -327,17 +334,7 @@ def test_the_same_test_twice(folder):
 )
 def test_tests_that_cannot_be_reduced(folder, cycles, time_step, message):
     with pytest.raises(InputError, match=message):
-        simulate(
-            folder / "free.h5",
-            folder / "law.json",
-            15.0,
-            FREQUENCY,
-            1e-6,
-            cycles,
-            time_step,
-            0,
-            folder / "no.h5",
-        )
+        simulate(files(folder, "no.h5"), 15.0, small(cycles), Numerics(time_step, 0))
     assert not (folder / "no.h5").exists()
 
 

@@ -7,7 +7,8 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.bending.bending_test import run_test, simulate
+from asphalt_nscd.bending.bending_test import TestFiles, run_test, simulate
+from asphalt_nscd.bending.case import LoadCase, Numerics
 from asphalt_nscd.bending.model import condense, read_model
 from asphalt_nscd.bending.rig import Rig, write_rig
 from asphalt_nscd.files.errors import InputError
@@ -46,10 +47,11 @@ def simulated(folder, rig, method, amplitude=1e-6, cycles=4.0):
     """(E* [Pa], attributes) of a simulated test."""
     if rig is not None:
         write_rig(folder / "rig.json", rig)
-    simulate(
-        folder / "model.h5", folder / "law.json", 15.0, FREQUENCY, amplitude, cycles, DT, 20, folder / "test.h5",
-        method=method, rig_file=None if rig is None else folder / "rig.json",
+    files = TestFiles(
+        folder / "model.h5", folder / "law.json", folder / "test.h5",
+        rig=None if rig is None else folder / "rig.json",
     )  # fmt: skip
+    simulate(files, 15.0, LoadCase(FREQUENCY, amplitude, cycles), Numerics(DT, 20, method))
     columns = load(folder / "test.h5", "test").attributes
     return columns["E_MPa"] * 1e6 * np.exp(1j * np.radians(columns["phase_deg"])), columns
 
@@ -96,7 +98,7 @@ def test_slider_on_a_rigid_clamp(folder, model):
 def test_reduced_and_condensed_agree(model, rig):
     law = BondLaw(24.3e9, 0.06e9, np.array([48.4e9, 90e9]), np.array([0.077e9, 0.02e9]))
     one, two = (
-        run_test(model, law, FREQUENCY, 1e-4, 1.0, 1e-4, 20, method, rig=rig)
+        run_test(model, law, LoadCase(FREQUENCY, 1e-4, 1.0, rig), Numerics(1e-4, 20, method))
         for method in ("reduced", "condensed")
     )
     assert one.broken == two.broken != []
@@ -111,7 +113,7 @@ def test_a_closing_gap_hands_over_to_the_full_system(model):
     narrow = replace(model, system=replace(model.system, gap=1e-3 * model.system.gap, strength=strength))
     law = BondLaw(24.3e9, 0.06e9, np.array([48.4e9]), np.array([0.077e9]))
     one, two = (
-        run_test(narrow, law, FREQUENCY, 8e-5, 0.2, 1e-4, 20, method, rig=LINEAR)
+        run_test(narrow, law, LoadCase(FREQUENCY, 8e-5, 0.2, LINEAR), Numerics(1e-4, 20, method))
         for method in ("reduced", "condensed")
     )
     assert 5 < one.details["full_steps"] < 45
@@ -135,7 +137,8 @@ def test_chain_law_gives_the_ratio_of_burgers(folder, model):
 
 def test_before_the_channel_catches_up_it_shows_rest(model):
     law = BondLaw(24.3e9, 0.06e9, np.array([48.4e9]), np.array([0.077e9]))
-    record = run_test(model, law, FREQUENCY, 1e-6, 1.0, 1e-4, 5, rig=Rig(channel_delay=1.05e-3))
+    case = LoadCase(FREQUENCY, 1e-6, 1.0, Rig(channel_delay=1.05e-3))
+    record = run_test(model, law, case, Numerics(1e-4, 5))
     assert not record.displacement[:10].any() and record.displacement[10:12].all()
     assert record.force[:10].all()
     delayed = 1e-6 * np.sin(OMEGA * (record.time[10:] - 1.05e-3))
@@ -146,7 +149,7 @@ def test_before_the_channel_catches_up_it_shows_rest(model):
     ("method", "rig", "words"),
     [
         ("harmonic", Rig(guide_friction=1.0), "no steady harmonic oscillation"),
-        ("sweeps", Rig(head_mass=1.0), "knows no devices at the head"),
+        ("sweeps", Rig(head_mass=1.0), "has no devices at the head"),
     ],
 )
 def test_methods_that_cannot_take_a_rig(folder, method, rig, words):

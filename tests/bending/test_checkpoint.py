@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from asphalt_nscd.bending import runs
 from asphalt_nscd.bending.bending_test import run_test
+from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
 from asphalt_nscd.bending.checkpoint import Checkpoint
 from asphalt_nscd.bending.model import Model
 from asphalt_nscd.files.errors import DamagedFile, InputError
@@ -34,10 +36,8 @@ def run(model, law, method, scheme, checkpoint=None, stop_at=None):
         if done == stop_at:
             raise Stopped
 
-    return run_test(
-        model, law, 40.0, 8e-5, 1.0, 5e-4, 10, method, progress=progress, scheme=scheme, energy=True,
-        checkpoint=checkpoint,
-    )  # fmt: skip
+    options = RunOptions(progress, energy=True, checkpoint=checkpoint)
+    return run_test(model, law, LoadCase(40.0, 8e-5, 1.0), Numerics(5e-4, 10, method, scheme), options)
 
 
 def same_bits(one, other):
@@ -52,11 +52,14 @@ def same_bits(one, other):
 @pytest.mark.parametrize("method", ["condensed", "reduced"])
 def test_goes_on_bit_for_bit(tmp_path, model, quick_law, method, scheme, most_enrichments, monkeypatch):
     """Stopped twice, before and after bonds broke; with few enrichments also after the full system took over."""
-    from asphalt_nscd.bending import bending_test as bending
+    make = runs._reduced_stepper
 
-    limited = lambda *a, **k: bending_stepper(*a, most_enrichments=most_enrichments, **k)  # noqa: E731
-    bending_stepper = bending.ReducedStepper
-    monkeypatch.setattr(bending, "ReducedStepper", limited)
+    def limited(*arguments):
+        stepper = make(*arguments)
+        stepper.most_enrichments = most_enrichments
+        return stepper
+
+    monkeypatch.setattr(runs, "_reduced_stepper", limited)
     whole = run(model, quick_law, method, scheme)
     assert len(whole.broken) > 5
     if method == "reduced":
@@ -74,7 +77,7 @@ def test_of_another_run_is_refused(tmp_path, model, quick_law):
     with pytest.raises(Stopped):
         run(model, quick_law, "condensed", "euler", checkpoint, 6)
     other = Checkpoint(tmp_path / "run.h5", 5, {"frequency_Hz": 25.0})
-    with pytest.raises(InputError, match=r"of another run \(frequency_Hz 40.0 there, 25.0 here\); delete it"):
+    with pytest.raises(InputError, match=r"another run \(frequency_Hz is 40.0 there, 25.0 here\); delete it"):
         run(model, quick_law, "condensed", "euler", other)
     (tmp_path / "run.h5").write_bytes(b"cut")
     with pytest.raises(DamagedFile):

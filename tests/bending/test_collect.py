@@ -36,7 +36,7 @@ def test_file_that_lacks_a_column_or_is_of_another_kind(test_file, tmp_path):
     with pytest.raises(InputError, match=r"old.h5: has no temperature_C, .* delete it"):
         collect([tmp_path / "old.h5"])
     save(tmp_path / "model.h5", "model", {}, {})
-    with pytest.raises(InputError, match="holds 'model', not 'test'"):
+    with pytest.raises(InputError, match="expected a test file; found a model file"):
         collect([test_file("s1"), tmp_path / "model.h5"])
 
 

@@ -9,7 +9,8 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.bending.bending_test import read_subject, simulate
+from asphalt_nscd.bending.bending_test import TestFiles, read_subject, simulate
+from asphalt_nscd.bending.case import LoadCase, Numerics
 from asphalt_nscd.bending.model import condense
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save
@@ -41,10 +42,8 @@ def folder(tmp_path_factory, beam):
 
 
 def outcome(folder, name, amplitude, subject):
-    simulate(
-        folder / f"{name}.h5", folder / "law.json", 15.0, 40.0, amplitude, 2.0, 1e-4, 20, folder / "test.h5",
-        model=subject,
-    )  # fmt: skip
+    files = TestFiles(folder / f"{name}.h5", folder / "law.json", folder / "test.h5")
+    simulate(files, 15.0, LoadCase(40.0, amplitude, 2.0), Numerics(1e-4, 20), model=subject)
     record = load(folder / "test.h5", "test")
     return record.arrays, {key: value for key, value in record.attributes.items() if key != "cpu_s"}
 
@@ -77,7 +76,7 @@ def _spied(excerpt, was_read):
 def test_an_excerpt_of_another_model_is_refused(folder):
     """Noticed where the model is read."""
     mixed = read_subject(folder / "weak.h5", folder / "strong.excerpt.h5")
-    with pytest.raises(InputError, match="excerpt of another model"):
+    with pytest.raises(InputError, match="belongs to another model"):
         assert mixed.whole
 
 

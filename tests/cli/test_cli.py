@@ -354,4 +354,8 @@ def test_a_result_of_another_kind_is_made_anew(tmp_path):
     save(path := tmp_path / "results/mine/f3.h5", "model", {}, {})
     inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
     done = run("collect", "results/mine/f3.h5", "--output", "x.csv", env=inside, cwd=tmp_path)
-    assert done.returncode == 2 and not path.exists() and "holds 'model', not 'test'" in done.stderr
+    assert (
+        done.returncode == 2
+        and not path.exists()
+        and "expected a test file; found a model file" in done.stderr
+    )

@@ -39,7 +39,7 @@ def table(offset: float = 0.0, delay: float = 0.0, broken: float = 1.0, seed: in
     )  # fmt: skip
 
 
-def climbed(observed: Observations) -> tuple[list, beside.State]:
+def climbed(observed: Observations) -> tuple[list, beside.State, beside.Survey]:
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
     begun = beside.begin(*start.fit_spectrum(observed, noise))
     return beside.climb(begun, CATALOGUE, 1000, np.random.default_rng(0))
@@ -47,20 +47,20 @@ def climbed(observed: Observations) -> tuple[list, beside.State]:
 
 @pytest.mark.parametrize("hidden", [{"offset": 3.0}, {"offset": -3.0}, {"delay": 6e-4}, {"delay": -6e-4}])
 def test_an_effect_of_all_tests_is_found_beside_broken_isotherms(hidden):
-    taken, state = climbed(table(**hidden))
+    taken, state, survey = climbed(table(**hidden))
     name, size = (
         ("phase_offset", hidden["offset"]) if "offset" in hidden else ("channel_delay", hidden["delay"])
     )
     found = [one.candidate.cause.name for one in taken]
     assert name in found
     candidate = next(c for c in state.fitted.active if c.cause.name == name)
-    value, error = beside.estimates(state, CATALOGUE)[candidate.key]
+    value, error = beside.estimates(state, survey)[candidate.key]
     assert abs(value - size) < 3.0 * error and error < 0.1 * abs(size)
     assert beside.hangs_on(state, candidate) == []
 
 
 def test_broken_isotherms_alone_get_no_established_name():
-    taken, state = climbed(table())
+    taken, state, _ = climbed(table())
     for one in taken:
         candidate = next(c for c in state.fitted.active if c.key == one.candidate.key)
         assert beside.hangs_on(state, candidate), one.candidate.key
@@ -80,7 +80,8 @@ def test_limits_grow_with_the_discrepancy():
     for observed in (table(broken=0.0), table()):
         noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
         state = beside.begin(*start.fit_spectrum(observed, noise))
-        found, _, _ = beside.detection_limits(state, CATALOGUE, 500, np.random.default_rng(0))
+        survey = beside.survey(state, CATALOGUE)
+        found, _, _ = beside.detection_limits(state, survey, 500, np.random.default_rng(0))
         limits.append(found["phase_offset", None])
     assert limits[0] < limits[1]
 
@@ -108,3 +109,12 @@ def test_the_reduced_likelihood_is_that_of_the_whole_covariance():
         differences.append((reduced, dense))
     (one, one_dense), (two, two_dense) = differences
     assert one - two == pytest.approx(one_dense - two_dense, rel=1e-6)
+
+
+def test_a_size_that_rounding_cannot_bear_ends_the_estimate_and_no_more():
+    observed = table()
+    joint, fitted = start.fit_spectrum(observed, scatter.stated(observed, 0.01, np.radians(0.3), 0.03))
+    model = discrepancy.reduce(discrepancy.processes(joint, fitted), fitted)
+    absurd = np.full(len(model.processes.names), 1e40)
+    assert not np.isfinite(discrepancy._point(model, None, np.log(absurd)).objective)
+    assert np.isfinite(discrepancy.estimate(model, start=absurd).misfit)

@@ -48,7 +48,11 @@ def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(dela
 
 def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
     free, dear = (
-        [one["temperature_C"] for one in instructions.instructions(delayed, costs)["orders"] if one["temperature_C"]]
+        [
+            one["temperature_C"]
+            for one in instructions.instructions(delayed, costs)["orders"]
+            if one["temperature_C"]
+        ]
         for costs in (Costs(room=(-50.0, 99.0)), Costs(conditioning=200.0))
     )
     assert not 15.0 <= free[0] <= 25.0 and 15.0 <= dear[0] <= 25.0

@@ -4,13 +4,17 @@ import json
 from hashlib import sha256
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pytest
 
 from asphalt_nscd.diagnosis import run
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.written import read_diagnosis
+from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.table_import.campaign import read_campaign
 
+PUBLISHED = Path(__file__).parents[2] / "results/published/paper"
 EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
 
 
@@ -49,3 +53,49 @@ def test_files_of_a_campaign_stand_in_the_diagnosis_with_their_checksums(tmp_pat
     else:
         assert content["provenance"]["sha256"] == sums[0] and "files" not in content["provenance"]
     assert json.loads((tmp_path / "diagnosis.json").read_text())["origin"] == "synthetic"
+
+
+@pytest.fixture(scope="module")
+def campaigns(tmp_path_factory):
+    """The published tests at 10 to 30 degC, and the same with their law times 1.002."""
+    folder = tmp_path_factory.mktemp("campaigns")
+    tests = pd.read_csv(PUBLISHED / "simulations.csv").query("temperature_C >= 10")
+    tests.to_csv(paper := folder / "simulations.csv", index=False)
+    facets = tests.assign(E_MPa=1.002 * tests["E_law_MPa"], phase_deg=tests["phase_law_deg"])
+    facets.to_csv(by_facets := folder / "facets.csv", index=False)
+    return folder, paper, by_facets
+
+
+def test_the_ladder_begins_with_what_was_simulated(campaigns):
+    folder, paper, facets = campaigns
+    measured = PUBLISHED / "measured.csv"
+    run.run(measured, folder, PAPER_GEOMETRY, draws=500, simulations=paper, facets=facets)
+    content = read_diagnosis([folder / "diagnosis.json"])
+    bonds, law = content["ladder"][:2]
+    assert (bonds["cause"], law["cause"]) == ("bond_mapping", "relaxation_spectrum")
+    data = pd.read_csv(measured, dtype={"specimen": str})
+    errors = [
+        mean_relative_error(data, pd.read_csv(path)).set_index("temperature_C") for path in (paper, facets)
+    ]
+    # where no test was simulated, there is no error of a simulation
+    averages = bonds["gain"]["in_sample"]["averages_by_temperature"]
+    assert list(averages) == ["10", "15", "20", "30"]
+    of_law = law["gain"]["in_sample"]["averages_by_temperature"]
+    assert list(of_law) == list(averages)
+    for name in ("mre_E_percent", "mre_phase_percent"):
+        for when, error in zip(("before", "after"), errors, strict=True):
+            assert [one[name][when] for one in averages.values()] == pytest.approx(error[name].to_list())
+        assert [one[name]["before"] for one in of_law.values()] == pytest.approx(errors[1][name].to_list())
+    assert max(one["mre_E_percent"]["after"] for one in of_law.values()) < 1.0
+    assert pd.read_csv(folder / "residuals.csv").query("temperature_C < 10")["E_before_MPa"].isna().all()
+    residuals = pd.read_csv(folder / "residuals.csv").query("temperature_C == 15 and frequency_Hz == 10")
+    simulated = pd.read_csv(paper).query("temperature_C == 15 and frequency_Hz == 10")["E_MPa"].mean()
+    assert np.allclose(residuals["E_before_MPa"], simulated)
+
+
+def test_one_mapping_alone_makes_no_rung(campaigns):
+    folder, _, facets = campaigns
+    run.run(PUBLISHED / "measured.csv", folder, PAPER_GEOMETRY, draws=500, simulations=facets)
+    content = read_diagnosis([folder / "diagnosis.json"])
+    assert content["ladder"][0]["cause"] == "relaxation_spectrum"
+    assert any("No rung bond_mapping" in note and "1.002 of the law" in note for note in content["notes"])

@@ -18,6 +18,7 @@ ARROWS = {
     "measurements": ["files"],
     "rheology": ["files", "measurements"],
     "specimen": ["files", "measurements", "nscd"],
+    "packings": ["files", "nscd", "specimen"],
     "bending": ["files", "measurements", "nscd", "rheology", "specimen"],
     "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
     "exports": ["files", "measurements", "rheology", "diagnosis"],
@@ -25,9 +26,13 @@ ARROWS = {
     "study": ["files", "measurements", "rheology", "specimen", "reporting"],
     "table_import": ["files", "measurements", "study", "reporting"],
     "verification": ["files", "workflow_support", "measurements", "nscd", "rheology", "specimen", "bending"],
+    "api": [
+        "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
+        "table_import", "packings",
+    ],
     "cli": [
         "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "study", "table_import", "verification", "nscd",
+        "study", "table_import", "verification", "nscd", "api",
     ],
 }  # fmt: skip
 

@@ -16,6 +16,8 @@ from asphalt_nscd.files.store import save, write_table
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import write_law
 
+pytestmark = pytest.mark.slow
+
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
@@ -104,6 +106,14 @@ def test_fits_of_a_law(tmp_path):
     hot = rows.case.str.contains("45 to 55")
     assert rows.remark[hot].str.contains("glassy_modulus").all()
     assert (rows.remark[~hot] == "from the prior: nothing").all()
+
+
+def test_a_diagnosis_of_the_whole_command(tmp_path):
+    """The row says that a diagnosis was written, of the size of its table."""
+    run(tmp_path, "diagnosis.py", "54", "--output", "rows.csv")
+    row = pd.read_csv(tmp_path / "rows.csv").iloc[0]
+    assert row.topic == "diagnosis" and row.case == "54 tests" and row.cpu_s > 0.0
+    assert int(re.search(r"of (\d+) kB", row.remark)[1]) > 5
 
 
 def test_a_stage_beyond_memory_says_so(monkeypatch):

@@ -4,16 +4,28 @@ from __future__ import annotations
 
 import doctest
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
+import asphalt_nscd
+
+ROOT = Path(__file__).parents[2]
 MODULES = [
+    "api.bending", "api.contacts", "api.diagnosis", "api.exporting", "api.laws", "api.reading", "api.specimens",
     "measurements.signals", "measurements.twopoint", "nscd.contacts.friction", "rheology.burgers",
     "rheology.chain", "rheology.fitting", "rheology.shift", "rheology.spectrum",
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_examples(name):
+def test_examples(name, monkeypatch):
+    monkeypatch.chdir(ROOT)  # examples read data/tutorial
     failed, tried = doctest.testmod(import_module(f"asphalt_nscd.{name}"))
+    assert tried and not failed
+
+
+def test_the_example_of_the_package(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    failed, tried = doctest.testmod(asphalt_nscd)
     assert tried and not failed

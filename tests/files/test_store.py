@@ -31,7 +31,7 @@ def test_what_is_saved_is_loaded(file):
 
 
 def test_another_kind_and_a_missing_file_are_refused(file, tmp_path):
-    with pytest.raises(InputError, match="holds 'kind', not 'model'"):
+    with pytest.raises(InputError, match="expected a model file; found a kind file"):
         load(file, "model")
     with pytest.raises(InputError, match="no such file"):
         load(tmp_path / "none.h5", "kind")

@@ -27,3 +27,10 @@ def test_simulation_without_measurement_is_refused():
         mean_relative_error(MEASURED, pd.DataFrame([(30, 3, 1, 1)], columns=COLUMNS))
     with pytest.raises(InputError, match="table of simulations is empty"):
         mean_relative_error(MEASURED, MEASURED.iloc[:0])
+
+
+def test_a_phase_of_zero_is_nothing_to_divide_by():
+    measured = pd.DataFrame([(15, 3, 70e3, 0.0)], columns=COLUMNS)
+    simulated = pd.DataFrame([(15, 3, 70e3, -0.1)], columns=COLUMNS)
+    errors = mean_relative_error(measured, simulated, least_phase_deg=0.5)
+    assert list(errors["mre_phase_percent"]) == pytest.approx([20.0])

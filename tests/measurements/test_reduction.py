@@ -176,9 +176,9 @@ BAD_TABLES = {
     "Pa under MPa": ([M, "A,15,10,2e10,14"], "line 2: E_MPa = 2e+10 is outside"),
     "radians": (
         [M, "A,15,10,12000,.3", "A,30,10,3000,.7"],
-        "no phase_deg exceeds 0.7, so the column looks like rad",
+        "no phase_deg exceeds 0.7, so the values look like rad",
     ),
-    "radians, cold": ([M, "A,-10,10,39000,.026"], "looks like radians"),
+    "radians, cold": ([M, "A,-10,10,39000,.026"], "look like radians"),
     "psi in radians": ([P, "A,15,10,30,63e-6,.25"], "no psi_deg exceeds"),
     "phase reversed": ([M, "A,15,10,20000,-14"], "phases are mostly negative"),
     "z0 in micrometres": ([P, "A,15,10,50,63,14"], "line 2: z0_m = 63 is outside"),
@@ -207,7 +207,7 @@ BAD_TABLES = {
     "empty file": ([""], "the file is empty"),
     "semicolons": ([M.replace(",", ";"), MODULUS.replace(",", ";")], "not separated by commas"),
     "ragged": ([M, "A,15,10,20000,14,2"], "line 2: 6 fields under 5 column names"),
-    "column twice": ([M + ",E_MPa", MODULUS + ",1"], "stands twice in the header"),
+    "column twice": ([M + ",E_MPa", MODULUS + ",1"], "appears twice in the header"),
 }
 
 
@@ -249,7 +249,7 @@ BAD_GEOMETRIES = {
     "head and foot exchanged": ([G, "A,56,25,25,250,0.6,0.235"], "line 2: geometry: the head"),
     "twice": (
         [G, "A,25,56,25,250,0.6,0.235", "A,25,56,25,250,0.6,0.235"],
-        "line 3: specimen 'A' stands twice",
+        "line 3: specimen 'A' appears twice",
     ),
 }
 

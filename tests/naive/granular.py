@@ -28,10 +28,12 @@ def all_pairs(position, radius, plane_point, plane_normal, reach):
 def naive_step(
     position, radius, velocity, mass, plane_point, plane_normal, gravity, impulses, *, dt, friction,
     restitution, recovery_speed, allowed_overlap, margin, tolerance, most_sweeps,
+    penetration=np.inf, enough_sweeps=10**9, drive=(0.0, 0.0),
 ):  # fmt: skip
     """Returns (position, velocity, impulses) after dt. impulses: {(i, j): (3,)} acts on body j.
 
-    velocity (n + p, 6): linear and angular velocity times radius; planes last, prescribed.
+    velocity (n + p, 6): linear and angular velocity times radius; planes last, prescribed. A mass (n + 1,)
+    is that of the last plane too, which its drive (speed, largest push) moves along z.
     """
     n = len(radius)
     free = velocity.copy()
@@ -40,6 +42,18 @@ def naive_step(
     inverse = np.array(
         [[0.0] * 6 if k >= n else [1 / mass[k]] * 3 + [2.5 / mass[k]] * 3 for k in range(len(free))]
     )
+
+    pushed = 0.0
+    if len(mass) > n:
+        inverse[-1] = [1 / mass[n]] * 3 + [2.5 / mass[n]] * 3  # as if it were a sphere, until it is led
+
+    def lead():
+        """The drive brings the wall to its speed as far as its push reaches; rails hold the rest."""
+        nonlocal pushed
+        if len(mass) > n:
+            needed = pushed + mass[n] * (new[-1, 2] - drive[0])
+            new[-1] = [0, 0, new[-1, 2] + (pushed - min(needed, drive[1])) / mass[n], 0, 0, 0]
+            pushed = min(needed, drive[1])
 
     contacts = []
     for i, j in all_pairs(position, radius, plane_point, plane_normal, np.inf):
@@ -60,6 +74,8 @@ def naive_step(
         on_first = -np.hstack([frame, frame @ cross])
         on_second = np.hstack([frame, -(frame @ cross)])
         delassus = on_first * inverse[i] @ on_first.T + on_second * inverse[j] @ on_second.T
+        if j == len(free) - 1 and len(mass) > n:
+            delassus = np.diag([1.0, 3.5, 3.5]) * (1 / mass[i] + 1 / mass[n])  # only sets the pace of sweeps
         before = normal @ (velocity[j, :3] - velocity[i, :3])
         target = -gap / dt if gap > 0 else min(max(-gap - allowed_overlap, 0) / dt, recovery_speed)
         if restitution > 0 and before < 0 and gap + dt * before <= 0:
@@ -71,27 +87,32 @@ def naive_step(
     for (i, j, _, on_first, on_second, *_), r in zip(contacts, local):
         new[i] += inverse[i] * (on_first.T @ r)
         new[j] += inverse[j] * (on_second.T @ r)
+    lead()
     lively, size = [], 0.0
     for sweep in range(most_sweeps):
         round_, turn = divmod(sweep, ROUND)
         quiet = tolerance**2 * size / max(len(contacts), 1)
         if turn == 0:  # all, up the list and down by turns
             order = range(len(contacts))[:: -1 if round_ % 2 else 1]
-            lively, changed, size = [], 0.0, 0.0
+            lively, changed, size, fastest = [], 0.0, 0.0, 0.0
         else:  # those whose impulse changed then
             order = lively[:: -1 if turn % 2 else 1]
         for c in order:
             i, j, _, on_first, on_second, delassus, target = contacts[c]
             opening = on_first @ new[i] + on_second @ new[j] - [target, 0, 0]
+            excess = -opening[0]
             r = coulomb(delassus, opening - delassus @ local[c], friction)
             delta, local[c] = r - local[c], r
             new[i] += inverse[i] * (on_first.T @ delta)
             new[j] += inverse[j] * (on_second.T @ delta)
             if turn == 0:
                 changed, size = changed + delta @ delta, size + r @ r
-                if delta @ delta > quiet:
+                fastest = max(fastest, excess)
+                if delta @ delta > quiet or (r.any() or delta.any()) and excess > penetration / dt:
                     lively.append(c)
-        if turn == 0 and (size == 0 or np.sqrt(changed / size) < tolerance):
+        lead()
+        converged = size == 0 or np.sqrt(changed / size) < tolerance or sweep >= enough_sweeps
+        if turn == 0 and converged and fastest < penetration / dt:
             break
     carried = {(i, j): frame.T @ r for (i, j, frame, *_), r in zip(contacts, local)}
     return position + dt * new[:n, :3], new, carried

@@ -1,8 +1,10 @@
 import hashlib
 
+import pandas as pd
 import pytest
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.reporting.layouts import shown
 from asphalt_nscd.reporting.publish import CHECKSUMS, altered, fill_blocks, publish
 
 
@@ -32,14 +34,14 @@ def test_blocks_are_replaced_and_the_rest_is_left(tmp_path):
     )
     table.write_text("name,value,spheres\na,1.23456,14160\nb,,\n")
     text.write_text("| as it is |\n")
-    fill_blocks(document, {"one": table, "two": text})
+    fill_blocks([document], {"one": table, "two": text})
     lines = document.read_text().splitlines()
     assert lines[0] == "before" and lines[-1] == "after" and "between" in lines
     assert "| a      |   1.235 |     14160 |" in lines and "old" not in lines
     assert "| b      |         |           |" in lines
     assert lines[lines.index("<!-- two -->") + 1] == "| as it is |"
     again = document.read_text()
-    fill_blocks(document, {"one": table, "two": text})
+    fill_blocks([document], {"one": table, "two": text})
     assert document.read_text() == again
 
 
@@ -47,9 +49,60 @@ def test_missing_block_is_named(tmp_path):
     document, table = tmp_path / "README.md", tmp_path / "t.csv"
     document.write_text("<!-- one -->\n")
     table.write_text("x\n1\n")
-    with pytest.raises(InputError, match="no block <!-- one -->"):
-        fill_blocks(document, {"one": table})
+    with pytest.raises(InputError, match="the block <!-- one --> .* must stand once"):
+        fill_blocks([document], {"one": table})
     assert document.read_text() == "<!-- one -->\n"
+
+
+def test_a_block_is_found_in_the_page_that_holds_it(tmp_path):
+    (tmp_path / "docs").mkdir()
+    readme, page, table = tmp_path / "README.md", tmp_path / "docs/page.md", tmp_path / "t.csv"
+    readme.write_text("<!-- one -->\n<!-- end one -->\n")
+    page.write_text("<!-- two -->\n<!-- end two -->\n")
+    table.write_text("x\n1\n")
+    fill_blocks([readme, tmp_path / "docs"], {"two": table})
+    assert "|   1 |" in page.read_text() and "|" not in readme.read_text()
+    (tmp_path / "docs/again.md").write_text("<!-- two -->\n<!-- end two -->\n")
+    before = readme.read_text(), page.read_text()
+    table.write_text("x\n2\n")
+    with pytest.raises(InputError, match="again.md, .*page.md: the block <!-- two -->"):
+        fill_blocks([readme, tmp_path / "docs"], {"one": table, "two": table})
+    assert (readme.read_text(), page.read_text()) == before
+
+
+def test_a_layout_chooses_columns_and_lists_what_is_long():
+    table = pd.DataFrame(
+        {
+            "topic": ["a", "b"],
+            "case": ["x", "y"],
+            "cpu_s": [1.23456, 2.0],
+            "spheres": [3, 4],
+            "remark": ["long", None],
+        }
+    )
+    lines = shown("benchmark", table).splitlines()
+    assert lines[0].replace(" ", "") == "|topic|case|spheres|CPUtime,s|"
+    assert lines[2].replace(" ", "") == "|a|x|3|1.235|" and lines[-1] == "* a, x: long"
+    assert shown("a block without a layout", table[["case"]]).splitlines()[0].replace(" ", "") == "|case|"
+
+
+def test_rungs_stand_beside_each_other():
+    """As ladder.csv has them: a row for each rung and temperature; the law was held out on the last rung only."""
+    table = pd.DataFrame(
+        {
+            "rung": ["as in the paper"] * 2 + ["spectrum"] * 2, "temperature_C": [15, 30] * 2,
+            "mre_E_percent": [4.0, 3.0, 2.0, 1.0], "mre_E_published_percent": [7.0, 6.0] * 2,
+            "mre_E_law_percent": [0.4, 0.3, 0.2, 0.1], "mre_E_held_out_percent": [None, None, 0.9, 0.8],
+            "scatter_E_percent": [0.5] * 4, "mre_phase_percent": [8.0] * 4, "mre_phase_law_percent": [9.0] * 4,
+            "mre_phase_held_out_percent": [1.0] * 4, "scatter_phase_percent": [0.5] * 4,
+        }
+    )  # fmt: skip
+    rows = [line.replace(" ", "") for line in shown("ladder", table).splitlines()]
+    assert rows[2] == "|T,°C|printed|asinthepaper|spectrum|"
+    assert rows[4:6] == ["|15|7|4|2|", "|30|6|3|1|"]
+    rows = [line.replace(" ", "") for line in shown("gain", table).splitlines()]
+    assert rows[2] == "|T,°C|printed|asinthepaper|spectrum|Burgerslaw|heldout|scatter|"
+    assert rows[4] == "|15|7|4|2|0.4|0.9|0.5|"
 
 
 def test_what_differs_from_the_checksums_is_named(tmp_path):

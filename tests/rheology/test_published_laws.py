@@ -35,7 +35,7 @@ def test_published_table_is_checked(table3, tmp_path):
     for old, new, words in [
         ("Em_kPa", "Em_Pa", "column 'Em_Pa' must be 'Em_kPa'"),
         ("3.71e6", "-3.71e6", "line 3: eta_m_kPa_s"),
-        ("15,", "-10,", "line 3: -10 degC stands twice"),
+        ("15,", "-10,", "line 3: -10 degC appears twice"),
     ]:
         table3.write_text(TABLE.replace(old, new))
         with pytest.raises(InputError, match=words):

@@ -52,14 +52,23 @@ def test_what_was_poured(poured, told):
     assert attributes["highest_point_m"] == pytest.approx((position[:, 2] + radius).max(), rel=1e-14)
     assert 0.45 < attributes["solid_fraction"] < 0.70
     assert 2.5 < attributes["coordination"] < 6.0
-    assert 0.0 <= attributes["largest_penetration_m"] < 2e-5
+    assert 0.0 <= attributes["largest_overlap_m"] < 2e-5
+    assert attributes["weight_balance"] < 1e-3 and attributes["unbalanced_force"] < 1e-3
+    assert attributes["poured_weight_balance"] < 1e-3 and attributes["poured_unbalanced_force"] < 1e-3
+    assert attributes["periods"] == attributes["periods_with_contact"] == 2  # one and a half
+    assert attributes["grains_touched_per_period"] == arrays["course/touched"].mean() > 0.0
+    assert attributes["poured_periods"] == 0
+    time, height = arrays["course/time"], arrays["course/height"]
+    assert (np.diff(time) > 0.0).all()
+    assert (height[0], height[-1]) == (attributes["poured_layer_height_m"], attributes["layer_height_m"])
+    assert np.isnan(arrays["course/wall"][[0, -1]]).all()
     assert attributes["kinetic_energy_J"] < 1e-8  # 50 g at 1 mm/s
     assert arrays["initial_position"][:, 2].max() > 3 * position[:, 2].max()  # it has come down
     assert np.abs(arrays["poured_position"] - position).max() > 1e-5  # and was shaken
-    assert attributes["poured_height_m"] == pytest.approx(
+    assert attributes["poured_layer_height_m"] == pytest.approx(
         layer_height(arrays["poured_position"], radius), rel=1e-14
     )
-    assert {stage for stage, *_ in told} == {"pouring", "vibrating", "coming to rest"}
+    assert {stage for stage, *_ in told} == {"pouring", "settling", "vibrating", "coming to rest"}
 
 
 def test_a_seed_stands_for_one_deposit(folder, poured):
@@ -106,7 +115,7 @@ def test_a_specimen_larger_than_the_box(folder, poured, change):
 
 
 def test_another_file_is_not_a_deposit(folder, poured):
-    with pytest.raises(InputError, match="holds 'deposit', not 'specimen'"):
+    with pytest.raises(InputError, match="expected a specimen file; found a deposit file"):
         read_specimen(folder / "deposit.h5")
 
 

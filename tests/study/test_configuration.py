@@ -149,7 +149,7 @@ def test_missing_key(config):
 def test_key_that_stands_twice(tmp_path):
     (path := tmp_path / "my.yaml").write_text("study: a\ntest:\n  cycles: 5\n  amplitude_m: 1\n  cycles: 3\n")
     with pytest.raises(
-        InputError, match=r"my\.yaml, line 5: key 'cycles' stands twice; keep one of the two\."
+        InputError, match=r"my\.yaml, line 5: key 'cycles' appears twice; keep one of the two\."
     ):
         refuse_repeated_keys(path)
     for study in ("paper", "smoke"):

@@ -88,9 +88,9 @@ def test_sieve_table_with_decimal_commas(tmp_path):
         ("Sieve (mm),passing (%)\n2,130\n4,140\n", "line 2: passing .* is '130'; give a percentage"),
         (
             "Sieve (mm),passing (%)\n2,0.3\n4,1\n",
-            "s.csv: passes at most 1 %, as fractions would; give per cent",
+            "s.csv: passes at most 1 %, which looks like fractions; give percent",
         ),
-        ("Sieve (mm),passing (%)\n2,30\n2,40\n", "line 3: sieve 2 mm stands twice"),
+        ("Sieve (mm),passing (%)\n2,30\n2,40\n", "line 3: sieve 2 mm appears twice"),
         ("Sieve (mm),passing (%)\n2,30\n4,20\n", "s.csv: the sieve curve falls"),
         ("Sieve (mm),passing (%)\n0.5,30\n1,100\n", "s.csv: the sieve curve retains nothing from 2 mm"),
         ("Sieve,passing (%)\n2,30\n", "'Sieve' does not say its unit"),

@@ -14,6 +14,8 @@ from asphalt_nscd.verification.row import FAILED, PASSED, Checks, Row, order
 from asphalt_nscd.verification.study import COLUMNS, THEMES, joined, require_passed, summarised, table, verify
 from asphalt_nscd.workflow_support.sources import PACKAGE
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("theme", ["law", "facets", "accounts", "methods"])
 def test_cheap_themes_pass(theme):

@@ -10,6 +10,8 @@ from workspace import ROOT
 sys.path.insert(0, str(ROOT / "tools"))
 from rule_graph import edges_of, places  # noqa: E402
 
+pytestmark = pytest.mark.slow
+
 DOT = """
 digraph snakemake_dag {
 	0[label = "all", style="rounded"];

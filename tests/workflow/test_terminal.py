@@ -13,6 +13,8 @@ from snakemake_interface_logger_plugins.common import LogEvent
 
 from snakemake_logger_plugin_steps import LogHandler
 
+pytestmark = pytest.mark.slow
+
 SETTINGS = {
     "stdout": False,
     "nocolor": True,

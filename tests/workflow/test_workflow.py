@@ -14,6 +14,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit", "published")
 FITS = ["results/smoke/laws/fitted/T0.json", "results/smoke/laws/fitted/T20.json"]
 
@@ -60,7 +62,7 @@ def test_key_that_stands_twice_is_one_sentence(workspace):
     study.write_text(study.read_text() + "study: other\n")
     done = workspace.run("--dry-run")
     assert done.returncode != 0
-    assert "key 'study' stands twice; keep one of the two." in done.stderr.strip().splitlines()[-1]
+    assert "key 'study' appears twice; keep one of the two." in done.stderr.strip().splitlines()[-1]
 
 
 def test_study_that_cannot_work_is_one_sentence(workspace):
@@ -110,7 +112,34 @@ def test_the_paper_is_120_tests_on_four_samples(workspace):
     assert all(output.endswith(f"/{temperature}/f{frequency}") for frequency, temperature, output in written)
     jobs = workspace.planned()
     assert jobs["simulate_scaled"] == 160 and jobs["simulate_extended"] == 120 and jobs["audit"] == 1
+    assert jobs["simulate_facets"] == 120 and jobs["ladder"] == jobs["fracture"] == 1
     assert {f"fig{number:02d}" for number in (1, *range(5, 15))} | {"table2", "table3", "table4"} <= set(jobs)
+
+
+def test_rungs_above_the_paper_s_are_simulated_with_facets_and_nothing_is_divided_out(workspace):
+    workspace.configure()
+    said = workspace.run("results/smoke/ladder.csv", "--dry-run", "--printshellcmds").stdout
+    by_output = {
+        found[2]: found[1] for found in re.finditer(r"asphalt-nscd simulate (\S+) .*--output (\S+)", said)
+    }
+    facets, paper = "results/smoke/facets/models/free/s1.h5", "results/smoke/models/free/s1.h5"
+    for folder, model in (("tests", paper), ("facets/tests", facets), ("extended/tests", facets)):
+        assert by_output[f"results/smoke/{folder}/s1/T20/f10.h5"] == model
+    (line,) = (line for line in said.splitlines() if "asphalt-nscd trim" in line and "/facets/" in line)
+    assert "--area facets" in line and "results/smoke/deposits/s1.h5" in line
+    (line,) = (line for line in said.splitlines() if "asphalt-nscd extend" in line)
+    assert "--specimen" not in line
+    (line,) = (line for line in said.splitlines() if "asphalt-nscd diagnose" in line)
+    assert "--facets results/smoke/facets.csv" in line
+
+
+def test_a_study_with_facets_has_no_first_rung(workspace):
+    settings = {"seeds": [1], "counts_table": "config/smoke_counts.csv", "box_m": [0.06, 0.01, 0.2]}
+    workspace.configure(specimens=settings | {"bonds": {"area": "facets"}})
+    jobs = workspace.planned()
+    assert not {"trim_facets", "simulate_facets", "fracture"} & set(jobs) and jobs["ladder"] == 1
+    said = workspace.run("--dry-run", "--printshellcmds").stdout
+    assert "--facets" not in said and "results/smoke/facets" not in said
 
 
 def test_timings_are_those_of_the_study_s_own_jobs(workspace):

@@ -32,6 +32,7 @@ from .rig import Rig, warmed
 
 COLUMNS = ("specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg")
 SYNONYMS = {"T_C": "temperature_C", "f_Hz": "frequency_Hz", "phi_deg": "phase_deg", "replicate": "specimen"}
+CYLINDERS = "tension-compression"
 AMPLITUDE = 63e-6  # m at the head, where the table gives none
 ISOTHERM = 1.5  # K: temperatures closer than this to their neighbour belong to one isotherm
 
@@ -41,12 +42,14 @@ class Background:
     """A table of moduli into which effects are put.
 
     table: COLUMNS, and amplitude_m [m], order, cycles where known; known_law: of a drawn table; geometry: of
-    the specimens, in the keys of a geometry file, for effects at the head of a two-point bending bench.
+    the specimens, in the keys of a geometry file, for effects at the head of a two-point bending bench;
+    test_type: "bending", or "tension-compression" of tables in a folder of that name.
     """
 
     table: pd.DataFrame
     known_law: Law | None = None
     geometry: Mapping[str, float] = field(default_factory=lambda: dict(GEOMETRY))
+    test_type: str = "bending"
 
     @classmethod
     def read(cls, path: str | Path) -> Background:
@@ -59,7 +62,11 @@ class Background:
         missing = [name for name in COLUMNS if name not in table.columns]
         if missing:
             raise ValueError(f"{Path(path).name} is no table of moduli: no column {', '.join(missing)}")
-        return cls(table.assign(specimen=table["specimen"].astype(str)))
+        cylinders = Path(path).resolve().parent.name == CYLINDERS
+        return cls(
+            table.assign(specimen=table["specimen"].astype(str)),
+            test_type=CYLINDERS if cylinders else "bending",
+        )
 
     @cached_property
     def law(self) -> Law:

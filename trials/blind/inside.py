@@ -15,6 +15,7 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.bending.bending_test import bond_law, run_test
+from asphalt_nscd.bending.case import LoadCase, Numerics
 from asphalt_nscd.bending.model import Model, read_model
 from asphalt_nscd.bending.rig import Rig
 from asphalt_nscd.rheology.conversion import kelvin_chain
@@ -100,9 +101,8 @@ def _history(model: Model, row: Any, law, effects: Sequence[Mapping[str, Any]]):
             rig[name] = unit * effect["amplitude"]
     low, high = 2.0 * np.pi * np.array(BAND)
     chain, _ = kelvin_chain(lambda omega: law.modulus(omega, temperature), low, high)
-    record = run_test(
-        model, bond_law(chain), row.frequency_Hz, AMPLITUDE, CYCLES, TIME_STEP, REST, rig=Rig(**rig)
-    )
+    case = LoadCase(row.frequency_Hz, AMPLITUDE, CYCLES, Rig(**rig))
+    record = run_test(model, bond_law(chain), case, Numerics(TIME_STEP, REST))
     return record.time, record.force, record.displacement
 
 

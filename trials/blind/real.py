@@ -27,7 +27,7 @@ def run(group: list[Task]) -> Iterator[dict[str, Any]]:
     """Rows of all tasks of a group; see `real_score.row`."""
     for task in group:
         background, odd = _background(task)
-        own = _diagnosed(background.table)
+        own = _diagnosed(background, background.table)
         if task.counted:
             # What a real table holds is not known, so that none of its names is known to be false.
             unknown = {"wrong": None} if task.path else {}
@@ -80,14 +80,14 @@ def _hidden(
             except ArithmeticError:  # the warmth of self-heating does not settle
                 yield row | {"not_drawn": "not physical"}
                 continue
-            yield row | real_score.row(seal, limit["unit"], value, own, _diagnosed(table), odd)
+            yield row | real_score.row(seal, limit["unit"], value, own, _diagnosed(background, table), odd)
 
 
-def _diagnosed(table: pd.DataFrame) -> dict[str, Any]:
+def _diagnosed(background: Background, table: pd.DataFrame) -> dict[str, Any]:
     """The diagnosis of a table, with its CPU seconds; a refusal or a failure is one without names."""
     began = time.process_time()
     try:
-        found = sealed.open_case(table, sealed.generator.GEOMETRY)
+        found = sealed.open_case(table, sealed.generator.GEOMETRY, test_type=background.test_type)
     except InputError:
         found = dict(sealed.REFUSED)
     except Exception as error:  # counted, and to be mended in the diagnosis

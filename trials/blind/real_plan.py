@@ -1,7 +1,8 @@
 """Which tables the part `real` of the campaign takes, and which causes it puts into each.
 
-Real tables come from the folder that the environment variable ASPHALT_NSCD_TABLES names; without it there are
-none. Light, since every job of the workflow reads it.
+Real tables come from the folder that the environment variable ASPHALT_NSCD_TABLES names, and from those in it;
+without it there are none. Tables of cylinders lie in a folder called tension-compression. Light, since every job
+of the workflow reads it.
 """
 
 from __future__ import annotations

@@ -18,15 +18,10 @@ Diagnosis = Mapping[str, Any]
 Entry = Mapping[str, Any]
 
 
-def established(entry: Entry, diagnosis: Diagnosis) -> bool:
-    """Whether a rung is named with confidence."""
-    return bool(entry.get("established", diagnosis["verdict"] == "explained"))
-
-
 def names(diagnosis: Diagnosis, confident: bool = False) -> list[Entry]:
     """Rungs with a name; of the confident ones if asked."""
     rungs = [entry for entry in diagnosis["ladder"] if entry["cause"] != score.TRUE_OF_ALL]
-    return [entry for entry in rungs if not confident or established(entry, diagnosis)]
+    return [entry for entry in rungs if not confident or score.established(entry, diagnosis)]
 
 
 def untouched(diagnosis: Diagnosis, odd: str | None = None) -> dict[str, Any]:

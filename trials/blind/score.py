@@ -46,7 +46,8 @@ def outcomes(cases: Iterable[tuple[Seal, Diagnosis]]) -> pd.DataFrame:
     suite: empty, single, pair or outside; ratio: amplitude over detection limit (`ratio` of the effect in
     the seal, else from the diagnosis's own limits); outcome: the true cause if named, else the first
     wrong name, else UNEXPLAINED, REFUSED or NOTHING; named: rightly, in the right place or in a group that cannot be
-    told apart; wrong: names that are true of no hidden effect; covered, gained: NaN unless named by itself.
+    told apart; wrong: names that are true of no hidden effect, confident: those of them given as established;
+    covered, gained: NaN unless named by itself.
     """
     rows = []
     for number, (seal, diagnosis) in enumerate(cases):
@@ -62,9 +63,15 @@ def outcomes(cases: Iterable[tuple[Seal, Diagnosis]]) -> pd.DataFrame:
             for entry in _named(diagnosis)
             if not any(tells(entry, e, diagnosis) for e in effects) and not _of_packing(entry, seal)
         ]
+        common |= {"wrong": len(wrong), "confident": sum(established(entry, diagnosis) for entry in wrong)}
         for effect in effects or [None]:
-            rows.append(common | {"wrong": len(wrong)} | _row(effect, wrong, diagnosis))
+            rows.append(common | _row(effect, wrong, diagnosis))
     return pd.DataFrame(rows)
+
+
+def established(entry: Mapping[str, Any], diagnosis: Diagnosis) -> bool:
+    """Whether a rung is named with confidence."""
+    return bool(entry.get("established", diagnosis["verdict"] == "explained"))
 
 
 def _suite(seal: Seal) -> str:
@@ -236,7 +243,8 @@ def summary(table: pd.DataFrame, ratio: float = 3.0) -> dict[str, dict[str, floa
     single, empty = table[table["suite"] == "single"], table[table["suite"] == "empty"]
     at_ratio = single[np.abs(np.log(single["ratio"].astype(float) / ratio)) < np.log(1.2)]
     outside = table[table["suite"] == "outside"].drop_duplicates("case")
-    unexplained = outside["verdict"] == UNEXPLAINED
+    confident = outside["confident"] > 0
+    unexplained = (outside["verdict"] == UNEXPLAINED) & ~confident
     return {
         "found": rate(at_ratio["found"]),
         "named": rate(at_ratio.loc[at_ratio["found"], "named"]),
@@ -245,7 +253,7 @@ def summary(table: pd.DataFrame, ratio: float = 3.0) -> dict[str, dict[str, floa
         "false_structure": rate(empty["outcome"] == UNEXPLAINED),
         "outside_unexplained": rate(unexplained),
         "outside_named": rate(outside["wrong"] > 0),
-        "outside_confidently_named": rate((outside["wrong"] > 0) & ~unexplained),
+        "outside_confidently_named": rate(confident),
         "outside_unseen": rate(outside["outcome"] == NOTHING),
         "pair_named": rate(table.loc[table["suite"] == "pair", "named"]),
         "covered": rate(table["covered"]),

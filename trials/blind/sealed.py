@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -112,7 +112,7 @@ def at_limit(
 
 def open_case(
     table: pd.DataFrame, geometry: Mapping[str, float], records: Mapping[str, pd.DataFrame] | None = None,
-    removed: str = "", static_modulus: float | None = None,
+    removed: str = "", static_modulus: float | None = None, test_type: str = "bending",
 ) -> dict[str, Any]:  # fmt: skip
     """The diagnosis of a table, by the functions behind `asphalt-nscd diagnose`, shortened to what is judged."""
     with tempfile.TemporaryDirectory() as folder:
@@ -121,6 +121,7 @@ def open_case(
         for name, record in (records or {}).items():
             record.to_csv(path.with_name(name), index=False)
         observed, _ = reading.read_observations(path, dict(geometry), static_modulus)
+    observed = replace(observed, test_type=test_type)
     catalogue = tuple(cause for cause in NAMEABLE if cause.name != removed)
     content = report.as_json(diagnose(observed, catalogue=catalogue), read_specimen())
     return {name: content[name] for name in KEPT if name in content}

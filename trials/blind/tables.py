@@ -14,7 +14,7 @@ from .plan import JUDGED
 PLANNED = ("suite", "design", "form", "shape", "removed")
 COLUMNS = (
     "case", "seed", "suite", "cause", "where", "ratio", "amplitude", "strength", "design", "form", "shape",
-    "removed", "verdict", "outcome", "found", "named", "grouped", "wrong", "error_sigma", "covered",
+    "removed", "verdict", "outcome", "found", "named", "grouped", "wrong", "confident", "error_sigma", "covered",
     "gain", "gain_over_scatter", "gain_of_averages",
 )  # fmt: skip
 # Ways to put the held-out error: of single tests, judged; over their scatter; of averages over specimens, as in
@@ -125,10 +125,10 @@ def _unnamed(part: pd.DataFrame, by: list[str]) -> pd.DataFrame:
 
 
 def _verdicts(group: pd.DataFrame) -> dict[str, pd.Series]:
-    unexplained = group["verdict"] == score.UNEXPLAINED
+    confident = group["confident"] > 0
     return {
-        "unexplained": unexplained,
-        "confidently_named": (group["wrong"] > 0) & ~unexplained,
+        "unexplained": (group["verdict"] == score.UNEXPLAINED) & ~confident,
+        "confidently_named": confident,
         "unseen": group["outcome"] == score.NOTHING,
     }
 

@@ -52,7 +52,7 @@ def standing() -> dict[str, list[Fault]]:
                 for name in READ if name.endswith(".h5")
                 for how in (cut, emptied, flipped)
             ),
-            damaged(TEST, other_kind, r"error: \S+f10\.h5: holds 'model', not 'test'"),
+            damaged(TEST, other_kind, r"error: \S+f10\.h5: expected a test file; found a model file"),
             *(
                 damaged(name, how, SET_ASIDE)
                 for name in READ if not name.endswith(".h5")

@@ -58,7 +58,7 @@ def tried(seed: int) -> Outcome:
         folder = Path(name)
         table.to_csv(folder / "measured.csv", index=False)
         try:
-            summary = run(folder / "measured.csv", folder, PAPER_GEOMETRY).summary
+            summary = run(folder / "measured.csv", folder, PAPER_GEOMETRY)
             assert summary.strip(), "no summary"
             _require_finite(json.loads((folder / "diagnosis.json").read_text(encoding="utf-8")))
             read_diagnosis([folder / "diagnosis.json"])

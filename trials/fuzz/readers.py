@@ -73,7 +73,7 @@ def _understood(path: Path) -> None:
 
 
 def _study(path: Path) -> None:
-    """As Snakemake gives it: what YAML makes of the file, once no key stands twice."""
+    """As Snakemake gives it: what YAML makes of the file, once no key appears twice."""
     refuse_repeated_keys(path)
     try:
         config = yaml.safe_load(path.read_text(encoding="utf-8"))

@@ -100,6 +100,20 @@ use rule simulate as simulate_packed with:
         "Test sample {wildcards.sample} for its packing"
 
 
+if REMAPPED:
+
+    use rule simulate_facets as simulate_packed_facets with:
+        # The same with facets.
+        output:
+            "<results>/facets/packing/{sample}/T{temperature}/f{frequency}.h5",
+        log:
+            "<results>/logs/simulate_packed_facets/{sample}/T{temperature}/f{frequency}.log",
+        benchmark:
+            "<results>/benchmarks/simulate_packed_facets/{sample}/T{temperature}/f{frequency}.tsv"
+        message:
+            "Test sample {wildcards.sample} with facets for its packing"
+
+
 rule packing:
     # The same test on samples poured with more friction.
     input:
@@ -109,6 +123,14 @@ rule packing:
             temperature=label(PACKING["temperature_C"]),
             frequency=label(PACKING["frequency_Hz"]),
         ),
+        facets=expand(
+            "<results>/facets/packing/{sample}/T{temperature}/f{frequency}.h5",
+            sample=PACKED,
+            temperature=label(PACKING["temperature_C"]),
+            frequency=label(PACKING["frequency_Hz"]),
+        )
+        if REMAPPED
+        else [],
         deposits=expand("<results>/deposits/{sample}.h5", sample=PACKED),
         code=code("table", "reporting.tables.packing"),
     output:

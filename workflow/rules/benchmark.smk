@@ -6,6 +6,7 @@ import glob
 
 SIZES = os.environ.get("SIZES", "1000 3000 10000").split()
 PROBLEMS = sorted(glob.glob(os.environ.get("FCLIB", "")))
+DIAGNOSED_TESTS = [54, 90, 1000]
 METHODS = ["sweeps", "condensed", "reduced", "chain", "yade"]
 MEASURE = f"env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 {sys.executable} benchmarks"
 PEERS = ["liggghts", "yade"]
@@ -127,6 +128,20 @@ rule benchmark_law:
         MEASURE + "/law.py --output {output} > {log} 2>&1"
 
 
+rule benchmark_diagnosis:
+    # The whole of `asphalt-nscd diagnose` on a table of so many tests.
+    input:
+        code=["benchmarks/diagnosis.py", code("diagnose")],
+    output:
+        "results/benchmark/rows/diagnosis-{tests}.csv",
+    log:
+        "results/benchmark/logs/diagnosis-{tests}.log",
+    message:
+        "Diagnose {wildcards.tests} tests"
+    shell:
+        MEASURE + "/diagnosis.py {wildcards.tests} --output {output} > {log} 2>&1"
+
+
 rule benchmark:
     # One table, the part of it that stands beside peers, and how each stage grows.
     input:
@@ -137,6 +152,7 @@ rule benchmark:
             *expand("results/benchmark/rows/{part}-{size}.csv", part=["preparation", "growth"], size=SIZES),
             "results/benchmark/rows/fclib.csv",
             "results/benchmark/rows/law.csv",
+            *expand("results/benchmark/rows/diagnosis-{tests}.csv", tests=DIAGNOSED_TESTS),
         ],
         code="benchmarks/collect.py",
     output:
@@ -166,7 +182,7 @@ rule benchmark_provenance:
 
 
 rule publish_benchmark:
-    # What is committed of them, and their tables in the README. Only on request:
+    # What is committed of them, and their tables in docs. Only on request:
     #   snakemake --cores 1 publish_benchmark
     input:
         table="results/benchmark/benchmark.csv",
@@ -175,6 +191,6 @@ rule publish_benchmark:
         provenance="results/benchmark/provenance.json",
         code=code("publish"),
     message:
-        "Copy the benchmarks, and fill their tables in the README"
+        "Copy the benchmarks, and fill their tables in docs"
     shell:
-        "asphalt-nscd publish {input.table} {input.beside} {input.growth} {input.provenance} --root results/benchmark --output results/published/benchmark --document README.md --block benchmark={input.beside} --block growth={input.growth}"
+        "asphalt-nscd publish {input.table} {input.beside} {input.growth} {input.provenance} --root results/benchmark --output results/published/benchmark --document docs --block benchmark={input.beside} --block growth={input.growth}"

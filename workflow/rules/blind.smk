@@ -139,7 +139,7 @@ rule blind_figure:
 
 
 rule blind:
-    # What is committed of the campaign, and its summary in the README.
+    # What is committed of the campaign, and its summary in docs.
     input:
         summary="<results>/summary.csv",
         real="<results>/real_summary.csv",
@@ -154,6 +154,6 @@ rule blind:
         root=f"results/{STUDY['study']}",
         output=f"results/published/{STUDY['study']}",
     message:
-        "Copy what is committed of the blind tests, and fill their table in the README"
+        "Copy what is committed of the blind tests, and fill their table in docs"
     shell:
-        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document README.md --block blind={input.summary} --block blind_real={input.real}"
+        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document docs --block blind={input.summary} --block blind_real={input.real}"

@@ -2,6 +2,7 @@
 
 SIMULATIONS = ["<results>/simulations.csv"]
 MEASURED = ["<results>/measured.csv"]
+EXTENDED_SIMULATIONS = ["<results>/extended.csv"] if COMMON_LAW else []
 USED_LAWS = expand(f"<results>/laws/{LAWS}/T{{temperature}}.json", temperature=TEMPERATURES)
 FITTED_LAWS = expand("<results>/laws/fitted/T{temperature}.json", temperature=TEMPERATURES)
 TYPICAL = TEMPERATURES[len(TEMPERATURES) // 2]  # where the study names no other
@@ -29,6 +30,7 @@ FIGURES = {
         "2 Preparation",
         {"deposit": [f"<results>/deposits/{FIRST}.h5"], "specimen": [f"<results>/specimens/{FIRST}.h5"]},
     ),
+    "fig_compaction": ("2 Preparation", {"deposit": expand("<results>/deposits/{sample}.h5", sample=SAMPLES)}),
     "fig07": (
         "3 Bending tests",
         {"test": expand(TESTS, sample=FIRST, temperature=TYPICAL, frequency=max(FREQUENCIES, key=float))},
@@ -50,6 +52,7 @@ FIGURES = {
 }
 DEPOSITS = expand("<results>/deposits/{sample}.h5", sample=SAMPLES)
 TABLES = {
+    "preparation": {"deposits": DEPOSITS},
     "samples": {"simulations": SIMULATIONS, "deposits": DEPOSITS},
     "table3": {
         "fitted": FITTED_LAWS,
@@ -61,11 +64,21 @@ TABLES = {
         "measured": MEASURED,
         "published": [STUDY["published"]["errors_table"]] if "published" in STUDY else [],
     },
+    "ladder": {
+        "simulations": SIMULATIONS,
+        "facets": FACET_SIMULATIONS,
+        "extended": EXTENDED_SIMULATIONS,
+        "measured": MEASURED,
+        "diagnosis": DIAGNOSED[:1],
+        "published": [STUDY["published"]["errors_table"]] if "published" in STUDY else [],
+    },
 }
 # name: category in the report
 PAGES = {
+    "ladder": "0 Diagnosis",
     "measured": "1 Measurements and laws",
     "table3": "1 Measurements and laws",
+    "preparation": "2 Preparation",
     "samples": "2 Preparation",
     "simulations": "3 Bending tests",
     "table4": "3 Bending tests",
@@ -115,6 +128,8 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
         "sensitivity": ["<results>/sensitivity.csv"],
         "readings": ["<results>/readings.csv"],
         "packing": ["<results>/packing.csv"],
+        "facets": FACET_SIMULATIONS,
+        "ladder": ["<results>/ladder.csv"],
         "table4": ["<results>/table4.csv"],
         "deposits": DEPOSITS,
         "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
@@ -129,19 +144,25 @@ if STUDY["study"] == "paper":
 
 if COMMON_LAW:
     PAGES["extended"] = "0 Diagnosis"
-    PAGES["gain"] = "0 Diagnosis"
     PAGES["prony"] = "0 Diagnosis"
     PAGES["dynamic_modulus"] = "0 Diagnosis"
     FIGURES["fig10_extended"] = (
         "0 Diagnosis",
-        {"simulations": SIMULATIONS, "extended": ["<results>/extended.csv"], "measured": MEASURED},
+        {"simulations": SIMULATIONS, "extended": EXTENDED_SIMULATIONS, "measured": MEASURED},
     )
-    TABLES["gain"] = {
-        "simulations": SIMULATIONS,
-        "extended": ["<results>/extended.csv"],
-        "measured": MEASURED,
-        "diagnosis": DIAGNOSED[:1],
-        "published": [STUDY["published"]["errors_table"]] if "published" in STUDY else [],
+if REMAPPED:
+    PAGES["facets"] = "0 Diagnosis"
+    PAGES["fracture"] = "3 Bending tests"
+    TABLES["fracture"] = {"simulations": SIMULATIONS, "facets": FACET_SIMULATIONS}
+
+if FAMILIES:
+    PAGES["families"] = "0 Diagnosis"
+    TABLES["families"] = {
+        "measured": [*MEASURED, *expand(FAMILY + "measured.csv", family=FAMILIES)],
+        "diagnosis": [DIAGNOSED[0], *expand(FAMILY + "diagnosis.json", family=FAMILIES)],
+        "law": [*COMMON_LAW, *expand(FAMILY + "law.json", family=FAMILIES)],
+        "specimen": [f"<results>/diagnosis/specimens/{FIRST}.h5"],
+        "ladder": ["<results>/ladder.csv"],
     }
 
 COMPUTED = [
@@ -173,12 +194,24 @@ KEPT = [
     expand("<results>/diagnosis/specimens/{sample}.h5", sample=SAMPLES if COMMON_LAW else FIRST),
     rules.simulations.input.tests,
 ]
+if REMAPPED:
+    KEPT += [
+        expand("<results>/facets/specimens/{sample}.h5", sample=SAMPLES),
+        expand([FACET_MODEL, FACET_EXCERPT], sample=SAMPLES),
+        rules.facet_simulations.input.tests,
+    ]
 if COMMON_LAW:
     KEPT += [
         COMMON_LAW,
         expand(EXTENDED_LAWS, sample=SAMPLES, temperature=TEMPERATURES, frequency=FREQUENCIES),
         expand("<results>/extended/rigs/{sample}.json", sample=SAMPLES),
         rules.extended_simulations.input.tests,
+    ]
+if FAMILIES:
+    KEPT += [
+        expand(rules.draw_family.output, family=FAMILIES),
+        expand(rules.reduce_family.output, family=FAMILIES),
+        expand(rules.diagnose_family.output, family=FAMILIES),
     ]
 if "time_step_study" in STUDY:
     KEPT += [SOLVED, STOPPED]
@@ -204,4 +237,10 @@ if "packing_study" in STUDY:
         expand("<results>/specimens/{sample}.h5", sample=PACKED),
         expand([MODEL, EXCERPT], sample=PACKED),
         rules.packing.input.tests,
+        rules.packing.input.facets,
     ]
+    if REMAPPED:
+        KEPT += [
+            expand("<results>/facets/specimens/{sample}.h5", sample=PACKED),
+            expand([FACET_MODEL, FACET_EXCERPT], sample=PACKED),
+        ]

@@ -10,7 +10,7 @@ COMMON_LAW = ["<results>/diagnosis/law.json"] if len(TEMPERATURES) > 1 else []
 rule reduced_specimen:
     # The numerical specimen as two small matrices, from which its test follows for any law.
     input:
-        model=f"<results>/models/{HEAD}/{{sample}}.h5",
+        model=FACET_MODEL,
         code=code("reduced-specimen"),
     output:
         "<results>/diagnosis/specimens/{sample}.h5",
@@ -29,6 +29,7 @@ rule diagnose:
     input:
         measured="<results>/measured.csv",
         simulations="<results>/simulations.csv",
+        facets=FACET_SIMULATIONS,
         specimen=f"<results>/diagnosis/specimens/{SAMPLES[0]}.h5",
         code=code("diagnose", *modules_of("diagnosis.causes")),
     output:
@@ -37,6 +38,8 @@ rule diagnose:
     params:
         geometry=text(STUDY["geometry"]),
         settings=options(SETTINGS),
+        campaigns=lambda wildcards, input: f"--simulations {input.simulations}"
+        + (f" --facets {input.facets}" if input.facets else ""),
         folder=lambda wildcards, output: os.path.dirname(output[0]),
     log:
         "<results>/logs/diagnose.log",
@@ -45,7 +48,7 @@ rule diagnose:
     message:
         "Diagnose where simulation and measurements differ, and why"
     shell:
-        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} --simulations {input.simulations} --geometry {params.geometry:q} {params.settings} --no-page --output {params.folder} > {log} 2>&1"
+        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} {params.campaigns} --geometry {params.geometry:q} {params.settings} --no-page --output {params.folder} > {log} 2>&1"
 
 
 rule diagnosis_page:
@@ -53,9 +56,8 @@ rule diagnosis_page:
     input:
         diagnosis=DIAGNOSED[0],
         map="<results>/figures/fig_residual_map.png",
-        specimens="<results>/figures/fig_specimens.png",
-        causality="<results>/figures/fig_causality_map.png",
         table4="<results>/table4.csv",
+        ladder="<results>/ladder.csv",
         code=code("diagnosis-page"),
         template=os.path.relpath(PACKAGE / "reporting/pages/diagnosis_page.html"),
     output:
@@ -67,7 +69,7 @@ rule diagnosis_page:
         ),
     params:
         title=title("diagnosis"),
-        data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "map", "specimens", "causality", "table4")],
+        data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "map", "specimens", "causality", "table4", "ladder")],
     log:
         "<results>/logs/page/diagnosis.log",
     benchmark:

@@ -11,7 +11,6 @@ rule extend:
         diagnosis=DIAGNOSED[0],
         law=COMMON_LAW,
         measured="<results>/measured.csv",
-        specimen="<results>/diagnosis/specimens/{sample}.h5",
         code=code("extend", *modules_of("diagnosis.causes")),
     output:
         laws=expand(EXTENDED_LAWS, temperature=TEMPERATURES, frequency=FREQUENCIES, allow_missing=True),
@@ -31,15 +30,15 @@ rule extend:
     message:
         "Extend the simulation of sample {wildcards.sample} by what the diagnosis named"
     shell:
-        "asphalt-nscd extend {input.diagnosis} --law {input.law} --measured {input.measured} --geometry {params.geometry:q} --specimen {input.specimen} --number {params.number} --amplitude-m {params.amplitude} {params.tests} --rig-output {output.rig} > {log} 2>&1"
+        "asphalt-nscd extend {input.diagnosis} --law {input.law} --measured {input.measured} --geometry {params.geometry:q} --number {params.number} --amplitude-m {params.amplitude} {params.tests} --rig-output {output.rig} > {log} 2>&1"
 
 
 use rule simulate as simulate_extended with:
-    # The same tests, extended.
+    # The same tests, extended, in specimens with facets.
     input:
         compiled="<results>/compiled/simulate",
-        model=MODEL,
-        excerpt=EXCERPT,
+        model=FACET_MODEL,
+        excerpt=FACET_EXCERPT,
         law=EXTENDED_LAWS,
         rig="<results>/extended/rigs/{sample}.json",
         code=code("simulate"),

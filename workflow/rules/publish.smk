@@ -1,15 +1,15 @@
-# What is committed of a study: figures, tables, and the tables of the README. Only on request:
+# What is committed of a study: figures, tables, and the tables of README and docs. Only on request:
 #   snakemake --cores 1 publish
 
-BLOCKS = ["<results>/samples.csv", "<results>/table4.csv", "<results>/timings.md"]
-BLOCKS += ["<results>/gain.csv"] if COMMON_LAW else []
-BLOCKS += ["<results>/outputs.csv"] if "outputs" in TABLES else []
+BLOCKS = {"samples": "<results>/samples.csv", "table4": "<results>/table4.csv", "timings": "<results>/timings.md"}
+BLOCKS |= {name: "<results>/ladder.csv" for name in ("ladder", "gain")} if COMMON_LAW else {}
+BLOCKS |= {"outputs": "<results>/outputs.csv"} if "outputs" in TABLES else {}
 
 
 rule publish:
     # After a run; README.md shows what was published last.
     input:
-        *BLOCKS,
+        **BLOCKS,
         files=[
             *(f"<results>/figures/{name}.png" for name in FIGURES),
             *(table for name in PAGES if (table := f"<results>/{name}.csv") not in EXPORTED),
@@ -21,11 +21,11 @@ rule publish:
     params:
         root=f"results/{STUDY['study']}",
         output=f"results/published/{STUDY['study']}",
-        blocks=lambda wildcards, input: [f"--block {Path(path).stem}={path}" for path in input[: len(BLOCKS)]],
+        blocks=lambda wildcards, input: [f"--block {name}={input[name]}" for name in BLOCKS],
     message:
-        "Copy what is committed, and fill the tables of the README"
+        "Copy what is committed, and fill the tables of README and docs"
     shell:
-        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document README.md {params.blocks}"
+        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document README.md --document docs {params.blocks}"
 
 
 if STUDY["study"] == "paper":
@@ -56,7 +56,7 @@ rule first_page:
         "Take a picture of the report's first page"
     shell:
         "bash -c 'env PYTHONPATH={params.tests} {params.python} -m browser {input} --picture {output} && "
-        "asphalt-nscd publish {output} --root {params.folder} --output {params.folder} --document README.md'"
+        "asphalt-nscd publish {output} --root {params.folder} --output {params.folder}'"
 
 
 rule publish_faults:
@@ -67,9 +67,9 @@ rule publish_faults:
         files=["results/faults/faults.csv", "results/faults/provenance.json"],
         code=code("publish"),
     message:
-        "Copy the table of faults, and fill its summary into the README"
+        "Copy the table of faults, and fill its summary into docs"
     shell:
-        "asphalt-nscd publish {input.files} --root results/faults --output results/published/faults --document README.md --block faults={input.summary}"
+        "asphalt-nscd publish {input.files} --root results/faults --output results/published/faults --document docs --block faults={input.summary}"
 
 
 rule publish_cluster:
@@ -80,6 +80,6 @@ rule publish_cluster:
         provenance="results/cluster/provenance.json",
         code=code("publish"),
     message:
-        "Copy what a run through Slurm cost, and fill its table into the README"
+        "Copy what a run through Slurm cost, and fill its table into docs"
     shell:
-        "asphalt-nscd publish {input.table} {input.provenance} --root results/cluster --output results/published/cluster --document README.md --block cluster={input.table}"
+        "asphalt-nscd publish {input.table} {input.provenance} --root results/cluster --output results/published/cluster --document docs --block cluster={input.table}"

@@ -175,6 +175,7 @@ rule report:
         ],
         data=["<results>/measured.csv", "<results>/simulations.csv", "<results>/samples.csv"],
         diagnosis=DIAGNOSED[0],
+        ladder="<results>/ladder.csv",
         map="<results>/figures/fig_residual_map.png",
         code=code("report"),
         template=os.path.relpath(PACKAGE / "reporting/pages/report.html"),
@@ -185,6 +186,7 @@ rule report:
         data=lambda wildcards, input: [
             *(f"{Path(path).stem}={path}" for path in input.data),
             f"diagnosis={input.diagnosis}",
+            f"ladder={input.ladder}",
             f"map={input.map}",
         ],
         entries=lambda wildcards, input: [

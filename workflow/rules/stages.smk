@@ -51,7 +51,7 @@ rule diagnosis:
 rule extended:
     # The tests run again with what the diagnosis named.
     input:
-        ["<results>/extended.csv", "<results>/gain.csv"] if COMMON_LAW else [],
+        EXTENDED_SIMULATIONS, "<results>/ladder.csv",
 
 
 if "audit" not in TABLES:

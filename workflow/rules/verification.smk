@@ -109,6 +109,6 @@ rule publish_verification:
         ],
         code=code("publish"),
     message:
-        "Copy what is committed of the verification, and fill its table in the README"
+        "Copy what is committed of the verification, and fill its table in docs"
     shell:
-        "asphalt-nscd publish {input.files} --root results/verification --output results/published/verification --document README.md --block verification={input.summary}"
+        "asphalt-nscd publish {input.files} --root results/verification --output results/published/verification --document docs --block verification={input.summary}"

@@ -3,40 +3,32 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asphalt_nscd.bending import runs
+from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions, require_possible
 from asphalt_nscd.bending.checkpoint import Checkpoint, digest
 from asphalt_nscd.bending.excerpt import ModelExcerpt, read_excerpt
-from asphalt_nscd.bending.layers import LayerHeights, Layers
+from asphalt_nscd.bending.layers import LayerHeights
 from asphalt_nscd.bending.rig import Rig, read_rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save
-from asphalt_nscd.measurements.signals import harmonic_response, peak_response, require_steps
+from asphalt_nscd.measurements.signals import Response, harmonic_response, peak_response, require_steps
 from asphalt_nscd.measurements.twopoint import Geometry, complex_modulus, norm_and_phase
 from asphalt_nscd.nscd.bonds.law import BondLaw
-from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, ReducedStepper
-from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.laws_io import read_bond_law
 
-if TYPE_CHECKING:  # sparse matrices, imported below where a test needs them: that takes as long as most tests
+if TYPE_CHECKING:  # sparse matrices, which take as long to import as most tests to run
     from asphalt_nscd.bending.model import Model
-    from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
-    from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 
-METHODS = ("reduced", "condensed", "sweeps", "harmonic")
-RESIDUAL_TOLERANCE = 1e-6  # of the full equations, relative to the load of the head
 REDUCED_CYCLES = 2  # the last ones, for the harmonic fit; the paper's peaks are those of the last cycle
 PROFILE_SAMPLES = 200  # of the mean velocity against height over the last cycle, Fig. 8
-
-Progress = Callable[[int, int], None]
-"""Called with (steps done, steps in all)."""
 
 
 def bond_law(law: Burgers | KelvinChain) -> BondLaw:
@@ -61,142 +53,35 @@ class Record:
 
 
 def run_test(
-    model: Model | ModelExcerpt, law: BondLaw, frequency: float, amplitude: float, cycles: float, time_step: float,
-    rest_steps: int, method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
-    progress: Progress = lambda done, total: None, rig: Rig = Rig(), scheme: str = "euler",
-    energy: bool = False, checkpoint: Checkpoint | None = None,
+    model: Model | ModelExcerpt, law: BondLaw, case: LoadCase,
+    numerics: Numerics = Numerics(), options: RunOptions = RunOptions(),
 ) -> Record:  # fmt: skip
-    """Gravity for rest_steps, then z = A sin(2 pi f t) at the actuator for the given number of cycles.
+    """Gravity for the steps at rest, then the load case at the actuator.
 
-    frequency [Hz], amplitude [m], time_step [s]; tolerance and most_sweeps concern "sweeps" only.
-    "harmonic" gives the steady oscillation of the unbroken system, without gravity or transient.
-    scheme: one of nscd.scheme.SCHEMES, for "reduced" and "condensed"; energy: keep the energy account
-    of a reduced run too, whose steps are then made one by one, as those of other schemes than "euler".
-    checkpoint: from where the run, step by step then, goes on, and where it is kept; "reduced" and
-    "condensed". The actuator is the head itself but for the rig; the record is that of the rig's channel.
+    The actuator is the head itself but for the rig; the record is that of the rig's channel.
     """
-    if method == "harmonic" and rig.guide_friction:
-        raise InputError("rig: a slider has no steady harmonic oscillation; choose the method reduced.")
-    if scheme != "euler" and method not in ("reduced", "condensed"):
-        raise InputError(
-            f"method {method} knows no scheme {scheme!r}; choose the method reduced or condensed."
-        )
-    if checkpoint is not None and method not in ("reduced", "condensed"):
-        raise InputError(f"method {method} keeps no checkpoint; choose the method reduced or condensed.")
-    if method == "sweeps" and not rig.is_rigid:
-        raise InputError(
-            "rig: Gauss-Seidel on bonds knows no devices at the head; choose the method reduced."
-        )
-    steps = round(cycles / frequency / time_step)
-    times = time_step * np.arange(1, steps + 1)
-    omega = 2.0 * np.pi * frequency
-    driven = np.concatenate([np.zeros(rest_steps), amplitude * np.sin(omega * times)])
-    recorded = omega * (times - rig.channel_delay) - rig.phase_offset
-    displacement = np.where(recorded > 0.0, amplitude * np.sin(recorded), 0.0)
-    if method == "harmonic":
-        from asphalt_nscd.nscd.stepping import harmonic
-
-        stiffness = harmonic.driving_force(model.whole.system, law.discrete_modulus(omega, 0.0), omega)
-        amplitude_of_force = amplitude * harmonic.actuator_stiffness(stiffness, rig, omega)
-        force = (amplitude_of_force * np.exp(1j * omega * times)).imag
-        return Record(times, displacement, force, [], np.nan, {})
-    if method == "sweeps":
-        from asphalt_nscd.nscd.stepping.condensed import CondensedState
-        from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
-
-        whole = model.whole
-        state = CondensedState.at_rest(whole.system, law)
-        stepper = SweepingStepper(whole.system, law, time_step, state, tolerance, most_sweeps)
-        force, velocity = _march(stepper, driven, 0.0, time_step, whole.layers, progress)
-        broken, residual = state.broken, stepper.largest_change
-        details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most_sweeps}
-    elif method == "reduced" and scheme == "euler" and not energy and checkpoint is None:
-        force, velocity, broken, residual, details = _run_reduced(
-            model, law, time_step, driven, rig, progress
-        )
+    require_possible(case, numerics, options)
+    times, rest = numerics.times(case), numerics.rest_steps
+    displacement = case.recorded(times)
+    if numerics.method == "harmonic":
+        return Record(times, displacement, _steady_force(model.whole, law, case, times), [], np.nan, {})
+    if numerics.method == "reduced":
+        run = runs.reduced(model, law, case, numerics, options)
     else:
-        from asphalt_nscd.bending.stepwise import condensed_steps, reduced_steps
-
-        coefficients, whole = Scheme.named(scheme, omega * time_step), model.whole
-        if method == "condensed":
-            steps = condensed_steps(
-                whole.system, law, coefficients, time_step, driven, rig, whole.layers, progress,
-                checkpoint,
-            )  # fmt: skip
-            residual, details = np.nan, {}
-        else:
-            stepper = _reduced_stepper(whole, law, time_step / coefficients.a, rig)
-            steps = reduced_steps(
-                stepper, law, coefficients, time_step, driven, whole.layers, progress, checkpoint
-            )
-            residual, details = _certified(stepper, steps.full_steps)
-        force, velocity, broken = steps.force, steps.velocity, steps.broken
-        details |= steps.energies.columns()
-    return Record(
-        times, displacement, force[rest_steps:], broken, residual, details, velocity[rest_steps:]
-    )  # fmt: skip
+        full = runs.sweeps if numerics.method == "sweeps" else runs.condensed
+        run = full(model.whole, law, case, numerics, options)
+    force, velocity = run.force[rest:], run.velocity[rest:]
+    return Record(times, displacement, force, run.broken, run.residual, run.details, velocity)
 
 
-def _run_reduced(
-    model: Model | ModelExcerpt,
-    law: BondLaw,
-    time_step: float,
-    driven: np.ndarray,
-    rig: Rig,
-    progress: Progress,
-) -> tuple[np.ndarray, np.ndarray, list[int], float, dict[str, float | int]]:
-    stepper = _reduced_stepper(model, law, time_step, rig)
-    along = model.along
-    full_steps = 0
-    broken = stepper.state.broken
-    try:
-        force, coordinates = stepper.run(driven)
-        velocity = coordinates @ along
-    except FullSystemNeeded as accepted:
-        from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
+def _steady_force(model: Model, law: BondLaw, case: LoadCase, times: np.ndarray) -> np.ndarray:
+    """Force (s,) [N] of the actuator in the steady oscillation of the unbroken system."""
+    from asphalt_nscd.nscd.stepping import harmonic
 
-        whole, done = model.whole, accepted.force.size
-        state = stepper.full_state()
-        rest, start = driven[done:], driven[done - 1] if done else 0.0
-        full = CondensedStepper(whole.system, law, time_step, state, rig, start)
-        further = _march(full, rest, start, time_step, whole.layers, progress, lambda: stepper.certify(full))
-        force = np.concatenate([accepted.force, further[0]])
-        velocity = np.concatenate([accepted.velocity @ along, further[1]])
-        full_steps, broken = rest.size, state.broken
-    progress(driven.size, driven.size)
-    return force, velocity, broken, *_certified(stepper, full_steps)
-
-
-def _reduced_stepper(model: Model | ModelExcerpt, law: BondLaw, time_step: float, rig: Rig) -> ReducedStepper:
-    reduced, stand_by = model.reduced_form
-    return ReducedStepper(reduced, law, time_step, RESIDUAL_TOLERANCE, devices=rig, stand_by=stand_by)
-
-
-def _certified(stepper: ReducedStepper, full_steps: int) -> tuple[float, dict[str, float | int]]:
-    """(residual, columns) of the certificate of a run, `full_steps` of which the full system made."""
-    certificate = stepper.certificate()
-    return certificate.largest_residual, {
-        "largest_utilisation": certificate.largest_utilisation,
-        "smallest_gap_m": certificate.smallest_gap,
-        "enrichments": certificate.enrichments,
-        "full_steps": full_steps,
-    }
-
-
-def _march(
-    stepper: CondensedStepper | SweepingStepper, driven: np.ndarray, start: float, time_step: float,
-    layers: Layers, progress: Progress, check: Callable[[], None] = lambda: None,
-) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-    """Driving force (s,) and mean velocities of the layers (s, l); `check` is called after each step."""
-    force, mean = np.empty(driven.size), np.empty((driven.size, layers.height.size))
-    velocity = np.diff(driven, prepend=start) / time_step
-    for n in range(driven.size):
-        force[n] = stepper.advance(velocity[n])
-        mean[n] = layers.mean @ stepper.state.velocity
-        check()
-        if n % 20 == 19:
-            progress(n + 1, driven.size)
-    return force, mean
+    omega = case.omega
+    stiffness = harmonic.driving_force(model.system, law.discrete_modulus(omega, 0.0), omega)
+    amplitude = case.amplitude * harmonic.actuator_stiffness(stiffness, case.rig, omega)
+    return (amplitude * np.exp(1j * omega * times)).imag
 
 
 def read_subject(model_file: str | Path, excerpt_file: str | Path | None = None) -> Model | ModelExcerpt:
@@ -208,47 +93,76 @@ def read_subject(model_file: str | Path, excerpt_file: str | Path | None = None)
     return read_model(model_file)
 
 
+@dataclass(frozen=True)
+class TestFiles:
+    """What a test reads and writes."""
+
+    __test__ = False  # not one of pytest's
+
+    model: str | Path  # made by `condense`
+    law: str | Path  # of the bonds, JSON
+    output: str | Path
+    rig: str | Path | None = None
+    checkpoint: str | Path | None = None
+    checkpoint_every: int = 100  # steps
+    law_source: str = ""  # kept with the result
+
+    def checkpoint_of(self, case: LoadCase, numerics: Numerics) -> Checkpoint | None:
+        """Where this run is kept; it names all that makes it this run."""
+        if self.checkpoint is None:
+            return None
+        run: dict[str, float | int | str] = {
+            "model": digest(self.model), "law": digest(self.law), "frequency_Hz": case.frequency,
+            "amplitude_m": case.amplitude, "cycles": case.cycles, "time_step_s": numerics.time_step,
+            "rest_steps": numerics.rest_steps, "method": numerics.method, "scheme": numerics.scheme,
+            "rig": "" if self.rig is None else digest(self.rig),
+        }  # fmt: skip
+        return Checkpoint(Path(self.checkpoint), self.checkpoint_every, run)
+
+
 def simulate(
-    model_file: str | Path, law_file: str | Path, temperature: float, frequency: float, amplitude: float,
-    cycles: float, time_step: float, rest_steps: int, output: str | Path, law_source: str = "",
-    method: str = "reduced", tolerance: float = 1e-4, most_sweeps: int = 50,
-    progress: Progress = lambda done, total: None, rig_file: str | Path | None = None, scheme: str = "euler",
-    energy: bool = False, checkpoint_file: str | Path | None = None, checkpoint_every: int = 100,
-    model: Model | ModelExcerpt | None = None,
+    files: TestFiles, temperature: float, case: LoadCase, numerics: Numerics = Numerics(),
+    options: RunOptions = RunOptions(), model: Model | ModelExcerpt | None = None,
 ) -> None:  # fmt: skip
     """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking.
 
-    model: what `model_file` holds, or its excerpt, where that has been read already.
+    temperature [degC] of the law, kept with the result. The rig and the checkpoint are those of `files`.
+    model: what `files.model` holds, or its excerpt, where that has been read already.
     """
+    law = read_bond_law(files.law)
+    case = replace(case, rig=Rig() if files.rig is None else read_rig(files.rig))
+    model = read_subject(files.model) if model is None else model
+    options = replace(options, checkpoint=files.checkpoint_of(case, numerics))
+    try:
+        arrays, columns = outcome(model, law, temperature, case, numerics, options)
+    except ArithmeticError as error:
+        raise InputError(
+            f"{files.model} at {case.frequency:g} Hz: {error}; lower the amplitude or choose another method."
+        ) from None
+    columns["law_source"] = files.law_source
+    if files.rig is not None:
+        columns |= case.rig.columns()
+    save(files.output, "test", arrays, columns)
+    if options.checkpoint is not None:
+        options.checkpoint.drop()
+
+
+def outcome(
+    model: Model | ModelExcerpt, law: Burgers | KelvinChain, temperature: float, case: LoadCase,
+    numerics: Numerics = Numerics(), options: RunOptions = RunOptions(),
+) -> tuple[dict[str, np.ndarray], dict[str, Any]]:  # fmt: skip
+    """Arrays and attributes of the file of one test; see `simulate`."""
+    cycles, time_step, frequency = case.cycles, numerics.time_step, case.frequency
     if cycles < 1.0:
         raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
     require_steps(time_step, frequency)
-    law = read_bond_law(law_file)
-    rig = Rig() if rig_file is None else read_rig(rig_file)
-    model = read_subject(model_file) if model is None else model
-    checkpoint = None
-    if checkpoint_file is not None:
-        run = {
-            "model": digest(model_file), "law": digest(law_file), "frequency_Hz": frequency,
-            "amplitude_m": amplitude, "cycles": cycles, "time_step_s": time_step, "rest_steps": rest_steps,
-            "method": method, "scheme": scheme, "rig": "" if rig_file is None else digest(rig_file),
-        }  # fmt: skip
-        checkpoint = Checkpoint(Path(checkpoint_file), checkpoint_every, run)
     began = time.process_time()
-    try:
-        record = run_test(
-            model, bond_law(law), frequency, amplitude, cycles, time_step, rest_steps, method, tolerance,
-            most_sweeps, progress, rig, scheme, energy, checkpoint,
-        )  # fmt: skip
-    except ArithmeticError as error:
-        raise InputError(
-            f"{model_file} at {frequency:g} Hz: {error}; lower the amplitude or choose another method."
-        ) from None
+    record = run_test(model, bond_law(law), case, numerics, options)
     cpu = time.process_time() - began
     history = record.time, record.force, record.displacement, frequency
     steady = harmonic_response(*history, cycles=min(REDUCED_CYCLES, int(cycles)))
     peak = peak_response(*history, cycles=1)
-    columns: dict[str, float | int | str] = {
+    columns: dict[str, Any] = {
         "specimen": model.name, "temperature_C": temperature, "frequency_Hz": frequency,
         "spheres": model.spheres, "bonds": model.bonds,
         "broken_bonds": len(record.broken), "steps": record.time.size,
@@ -262,22 +176,22 @@ def simulate(
         norm, phase = norm_and_phase(modulus)
         columns |= {f"E{suffix}_MPa": float(norm) / 1e6, f"phase{suffix}_deg": float(np.degrees(phase))}
     columns |= {
-        "residual": record.residual, "cpu_s": cpu, "method": method, "head": model.head,
-        "law_source": law_source, "time_step_s": time_step, "amplitude_m": amplitude, **record.details,
-        **({} if rig_file is None else rig.columns()), **({} if scheme == "euler" else {"scheme": scheme}),
+        "residual": record.residual, "cpu_s": cpu, "method": numerics.method, "head": model.head,
+        "law_source": "", "time_step_s": time_step, "amplitude_m": case.amplitude, **record.details,
+        **({} if numerics.scheme == "euler" else {"scheme": numerics.scheme}),
     }  # fmt: skip
     arrays = {
         "time_s": record.time, "displacement_m": record.displacement, "force_N": record.force,
         "broken": np.asarray(record.broken, np.int64), **_velocity_profile(model.layers, record, frequency),
     }  # fmt: skip
-    save(output, "test", arrays, columns)
-    if checkpoint is not None:
-        checkpoint.drop()
+    return arrays, columns
 
 
-def _modulus(geometry: Geometry, frequency: float, response) -> complex:
-    return complex_modulus(
-        geometry, frequency, response.force_amplitude, response.displacement_amplitude, response.phase
+def _modulus(geometry: Geometry, frequency: float, response: Response) -> complex:
+    return complex(
+        complex_modulus(
+            geometry, frequency, response.force_amplitude, response.displacement_amplitude, response.phase
+        )
     )
 
 

@@ -31,7 +31,7 @@ class Checkpoint:
         for name, value in self.run.items():
             if (kept := record.attributes.get(name)) != value:
                 raise InputError(
-                    f"{self.path}: of another run ({name} {kept} there, {value} here); "
+                    f"{self.path}: belongs to another run ({name} is {kept} there, {value} here); "
                     "delete it or give another file."
                 )
         return {

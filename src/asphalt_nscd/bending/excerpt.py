@@ -70,7 +70,7 @@ def read_excerpt(path: str | Path, model_file: str | Path) -> ModelExcerpt:
         model = read_model(model_file)
         if model.digest != attributes["model_digest"]:
             raise InputError(
-                f"{path}: excerpt of another model than {model_file}; make both by one `condense`."
+                f"{path}: belongs to another model than {model_file}; make both with one `condense`."
             )
         return model
 

@@ -17,8 +17,9 @@ from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.break_modes import StandBy
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis, shifted_factor
-from asphalt_nscd.specimen.preparation import read_specimen
+from asphalt_nscd.specimen.preparation import Content, read_specimen
 from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.specimen.trimming import Specimen
 
 KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
 
@@ -79,7 +80,25 @@ def condense(
 
     excerpt_output: for what most tests need of it.
     """
-    specimen = read_specimen(specimen_file)
+    arrays, attributes = condensed(
+        read_specimen(specimen_file),
+        Path(specimen_file).stem,
+        head,
+        poisson,
+        yield_stress,
+        friction,
+        kt_over_kn,
+    )
+    digest = save(output, "model", arrays, attributes)
+    if excerpt_output is not None:
+        write_excerpt(excerpt_output, model_of(Record(arrays, attributes, digest)), digest)
+
+
+def condensed(
+    specimen: Specimen, name: str, head: str, poisson: float, yield_stress: float, friction: float,
+    kt_over_kn: float,
+) -> Content:  # fmt: skip
+    """Arrays and attributes of a model file; see `condense`."""
     system = bending_system(specimen, poisson, yield_stress, friction, head, kt_over_kn=kt_over_kn)
     g, shifted = system.operator, shifted_factor(system)
     basis = ritz_basis(system, KRYLOV_STEPS, shifted)
@@ -93,20 +112,19 @@ def condense(
         stand_by = StandBy.of(system, basis, shifted).arrays()
         arrays |= {f"stand_by/{name}": value for name, value in stand_by.items()}
     attributes = {
-        "name": Path(specimen_file).stem, "head": head, "driven": system.driven, "friction": friction,
+        "name": name, "head": head, "driven": system.driven, "friction": friction,
         **{name: getattr(specimen.geometry, name) for name in Geometry.__dataclass_fields__},
     }  # fmt: skip
-    digest = save(output, "model", arrays, attributes)
-    if excerpt_output is not None:
-        write_excerpt(excerpt_output, _model(Record(arrays, attributes, digest)), digest)
+    return arrays, attributes
 
 
 def read_model(path: str | Path) -> Model:
     """The model in a file made by `condense`."""
-    return _model(load(path, "model"))
+    return model_of(load(path, "model"))
 
 
-def _model(record: Record) -> Model:
+def model_of(record: Record) -> Model:
+    """The model in the content of its file."""
     arrays, attributes = record.arrays, record.attributes
     system = BondedSystem(
         operator=sparse.csr_matrix(

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.bending.bending_test import METHODS, run_test
+from asphalt_nscd.bending.bending_test import run_test
+from asphalt_nscd.bending.case import METHODS, LoadCase, Numerics
 from asphalt_nscd.bending.model import Model
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.contacts.friction import solve_contacts
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis
-from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics
+from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.network import bond_network
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen
@@ -31,4 +32,4 @@ def warm_up() -> None:
     model = Model(system, ritz_basis(system, 1), geometry, position[:, 2], "beam", "free")
     law = BondLaw(1e10, 1e9, np.array([1e10]), np.array([1e8]))
     for method in METHODS:
-        run_test(model, law, 40.0, 1e-9, 1.0, 1e-3, 1, method)
+        run_test(model, law, LoadCase(40.0, 1e-9, 1.0), Numerics(1e-3, 1, method))

@@ -35,6 +35,7 @@ _MENDS = {
     errno.ENOTDIR: "check the path",
     errno.EISDIR: "give a file, not a folder",
 }
+_OF_THE_WORKFLOW = ("docutils", "rich", "snakemake")  # modules of that extra in pyproject.toml
 _NO_MEMORY = "the memory is used up; end other programs, or run fewer jobs at a time (--cores 1)."
 
 
@@ -52,9 +53,19 @@ class _Steps(click.Group):
 
 
 @click.group(cls=_Steps, context_settings={"show_default": True, "help_option_names": ["-h", "--help"]})
-@click.version_option(__version__)
+@click.option(
+    "--version", is_flag=True, is_eager=True, expose_value=False, help="Show version and commit.",
+    callback=lambda context, option, asked: _say_version(context) if asked else None,
+)  # fmt: skip
 def group() -> None:
     """Complex modulus of asphalt concrete by nonsmooth contact dynamics, step by step."""
+
+
+def _say_version(context: click.Context) -> None:
+    from asphalt_nscd.files.commit import commit
+
+    click.echo(f"asphalt-nscd {__version__}, commit {commit()}")
+    context.exit()
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -86,6 +97,8 @@ def _status(step: Callable[[], object]) -> int:
     except MemoryError:
         return _say(_NO_MEMORY, 2)
     except ImportError as error:
+        if error.name in _OF_THE_WORKFLOW:
+            return _say(f"this step needs {error.name}; pip install 'asphalt-nscd[workflow]'.", 2)
         if "failed to map segment" not in str(error):
             raise
         return _say(_NO_MEMORY, 2)
@@ -100,10 +113,10 @@ def _status(step: Callable[[], object]) -> int:
 
 
 def _forget_core() -> str:
-    import numba
+    from asphalt_nscd.nscd.core_cache import core_folder
 
-    shutil.rmtree(numba.config.CACHE_DIR, ignore_errors=True)
-    return f"{numba.config.CACHE_DIR}: the compiled core was damaged; it was removed, run the same command again."
+    shutil.rmtree(core_folder(), ignore_errors=True)
+    return f"{core_folder()}: the compiled core was damaged; it was removed, run the same command again."
 
 
 def _file_trouble(error: OSError | RuntimeError) -> str | None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import wraps
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +17,20 @@ output = click.option("--output", required=True, type=File, help="File to write.
 outputs = click.option(
     "--output", "outputs", required=True, multiple=True, type=File, help="File to write, one for each test."
 )
+
+
+def gather(name: str, **keys: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Hand options over as one mapping `name`: its keys, each with the option whose value it gets."""
+
+    def decorate(command: Callable[..., None]) -> Callable[..., None]:
+        @wraps(command)
+        def gathered(**options: Any) -> None:
+            together = {key: options.pop(option) for key, option in keys.items()}
+            command(**options, **{name: together})
+
+        return gathered
+
+    return decorate
 
 
 class Geometry(click.ParamType):
@@ -108,5 +124,5 @@ column = click.option(
     "columns",
     multiple=True,
     type=Choice(),
-    help="What a column holds, where its name does not tell.",
+    help="What a column holds, if its name does not say.",
 )

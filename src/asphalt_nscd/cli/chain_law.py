@@ -15,8 +15,13 @@ from asphalt_nscd.cli import _options
     type=_options.Number(above=-273.15),
     help="Temperature of the test, degrees Celsius.",
 )
-@click.option("--lowest-hz", required=True, type=_options.POSITIVE, help="Lowest frequency to follow, Hz.")
-@click.option("--highest-hz", required=True, type=_options.POSITIVE, help="Highest frequency to follow, Hz.")
+@click.option(
+    "--lowest-hz",
+    required=True,
+    type=_options.POSITIVE,
+    help="Lowest frequency at which the chain must follow the law, Hz.",
+)
+@click.option("--highest-hz", required=True, type=_options.POSITIVE, help="Highest such frequency, Hz.")
 @click.option(
     "--tolerance", default=1e-3, type=_options.POSITIVE, help="Largest |ln(E_chain/E)| allowed between them."
 )
@@ -24,14 +29,14 @@ from asphalt_nscd.cli import _options
     "--factor",
     default=1.0,
     type=_options.POSITIVE,
-    help="Factor on all moduli, to make up for the packing's.",
+    help="Factor on all moduli, which compensates that of the packing.",
 )
 @_options.output
 def command(
     spectrum: Path, temperature_c: float, lowest_hz: float, highest_hz: float, tolerance: float,
     factor: float, output: Path,
 ) -> None:  # fmt: skip
-    """Turn a law of all temperatures into the Kelvin chain that bonds follow at one."""
+    """Convert a law of all temperatures to the Kelvin chain that bonds follow at one temperature."""
     from asphalt_nscd.rheology.chain_law import chain_law
 
     chain_law(spectrum, temperature_c, lowest_hz, highest_hz, tolerance, factor, output)

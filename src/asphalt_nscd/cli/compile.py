@@ -5,7 +5,7 @@ import click
 
 @click.command()
 def command() -> None:
-    """Compile the core once, so that jobs which start together find it compiled."""
+    """Compile the core once, before jobs start side by side."""
     from asphalt_nscd.bending.warmup import warm_up
 
     warm_up()

@@ -32,14 +32,14 @@ from asphalt_nscd.cli import _options
     "--excerpt-output",
     default=None,
     type=_options.File,
-    help="Small file to write with what `simulate --excerpt` needs of it for most tests.",
+    help="Small file to write for `simulate --excerpt`; most tests need no more.",
 )
 @_options.output
 def command(
     specimen: Path, head: str, poisson: float, kt_over_kn: float, yield_pa: float, friction: float,
     output: Path, excerpt_output: Path | None,
 ) -> None:  # fmt: skip
-    """Assemble the bonded system of a specimen and its reduced form, which serves every test on it."""
+    """Assemble the bonded system of a specimen and its reduced form. Every test on the specimen uses them."""
     from asphalt_nscd.bending.model import condense
 
     condense(specimen, head, poisson, yield_pa, friction, output, excerpt_output, kt_over_kn)

@@ -12,7 +12,10 @@ from asphalt_nscd.cli import _options, _progress
 @click.option("--box-m", required=True, type=_options.Numbers(3), help="Length,width,height of the box, m.")
 @click.option("--seed", required=True, type=click.IntRange(0), help="Seed of the random lattice.")
 @click.option(
-    "--friction", default=0.2, type=_options.NOT_NEGATIVE, help="Coefficient of friction, spheres and walls."
+    "--friction",
+    default=0.2,
+    type=_options.NOT_NEGATIVE,
+    help="Coefficient of friction between spheres and with walls.",
 )
 @click.option(
     "--stroke-mm",

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -12,7 +13,9 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 
 @click.command()
 @click.argument("measurements", type=_options.File, nargs=-1, required=True)
-@click.option("--output", required=True, type=_options.File, help="Folder for what is written.")
+@click.option(
+    "--output", required=True, type=_options.File, help="Folder for diagnosis.json and residuals.csv."
+)
 @click.option("--sheet", help="Sheet of an XLSX file, where several hold something.")
 @_options.column
 @click.option(
@@ -50,6 +53,11 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
     help="Simulated tests of the campaign, to say what in them is numerics.",
 )
 @click.option(
+    "--facets",
+    type=_options.File,
+    help="The same tests on specimens bonded by facets, to say what the paper's bonds make of |E*|.",
+)
+@click.option(
     "--verify-limits",
     is_flag=True,
     help="Put each cause into these tests at 1, 2 and 3 times its limit; minutes.",
@@ -60,36 +68,38 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 def command(
     measurements: tuple[Path, ...], output: Path, sheet: str | None, columns: tuple[tuple[str, str], ...],
-    measured_in: str | None, geometry: object, specimen: Path | None, static_modulus_mpa: float | None,
+    measured_in: str | None, geometry: Any, specimen: Path | None, static_modulus_mpa: float | None,
     modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
-    simulations: Path | None, page: bool, verify_limits: bool, jobs: int | None,
+    simulations: Path | None, facets: Path | None, page: bool, verify_limits: bool, jobs: int | None,
 ) -> None:  # fmt: skip
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
 
     MEASUREMENTS: files or a folder of them. Read are exports of testing machines (AMPT, UTM) and tables (CSV,
     TSV, XLSX) with a row for each test or a column for each temperature or frequency.
     """
-    import math
-
-    from asphalt_nscd.diagnosis.measured_limits import Trials, verify
-    from asphalt_nscd.diagnosis.run import run
-    from asphalt_nscd.table_import.campaign import read_campaign
-
-    stated = None
     if (modulus_scatter_percent is None) != (phase_scatter_deg is None):
         raise click.UsageError("give --modulus-scatter-percent and --phase-scatter-deg together.")
-    if modulus_scatter_percent is not None:
-        stated = modulus_scatter_percent / 100.0, math.radians(phase_scatter_deg)
-    static = None if static_modulus_mpa is None else 1e6 * static_modulus_mpa
-    campaign, _ = read_campaign(measurements, sheet, dict(columns), measured_in)
-    with bars("step", on_terminal=True) as report:
-        written = run(campaign, output, geometry, specimen, static, stated, draws, seed, simulations, report)
+    if facets is not None and simulations is None:
+        raise click.UsageError("give --simulations with --facets: the tests that they stand beside.")
+    from asphalt_nscd.api.diagnosis import Draws, diagnose
+    from asphalt_nscd.api.tables import campaign_in
+
+    scatter = None
+    if modulus_scatter_percent is not None and phase_scatter_deg is not None:
+        scatter = modulus_scatter_percent, phase_scatter_deg
+    with bars("step", on_terminal=True) as progress:
+        diagnosis = diagnose(
+            campaign_in(measurements, sheet, dict(columns), measured_in), geometry=geometry, specimen=specimen,
+            static_modulus_MPa=static_modulus_mpa, scatter=scatter, simulations=simulations, facets=facets,
+            draws=Draws(draws, seed), progress=progress,
+        )  # fmt: skip
         if verify_limits:
-            written.add_limits(verify(written.diagnosis, Trials(stated, seed, jobs), report))
+            diagnosis = diagnosis.verify_limits(jobs, progress)
+    names = diagnosis.outcome.write(output)
     if page:
         # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
         title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
-        written.names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
-    click.echo(f"{written.summary}\n\nWritten to {output}: {', '.join(written.names)}.")
+        names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
+    click.echo(f"{diagnosis}\n\nWritten to {output}: {', '.join(names)}.")
     if page:
-        click.echo(f"Open {output / written.names[-1]} in a browser; it needs no network.")
+        click.echo(f"Open {output / names[-1]} in a browser; it needs no network.")

@@ -9,11 +9,13 @@ from asphalt_nscd.cli import _data, _options
 
 @click.command()
 @click.argument("data", nargs=-1, type=_data.Data())
-@click.option("--title", required=True, help="What stands at its head.")
+@click.option("--title", required=True, help="Title of the page.")
 @_options.output
 def command(data: tuple[tuple[str, Path], ...], title: str, output: Path) -> None:
-    """Show a diagnosis as an HTML page, from diagnosis=FILE map=PNG and, where there are any, specimens=PNG
-    causality=PNG table4=CSV."""
+    """Show a diagnosis as an HTML page, from diagnosis=FILE, map=PNG and optional pictures and tables.
+
+    Optional are specimens=PNG, causality=PNG, table4=CSV and ladder=CSV.
+    """
     from asphalt_nscd.files.store import atomic_path
     from asphalt_nscd.reporting.pages.diagnosis_page import render, sections
 

@@ -8,10 +8,10 @@ from asphalt_nscd.cli import _options
 
 
 @click.command()
-@click.argument("law", type=_options.File)
+@click.argument("source", type=_options.File)
 @click.option(
     "--format", "form", required=True, help="Program that will read it.",
-    type=click.Choice(["abaqus", "ansys", "comsol", "csv", "xlsx", "mepdg"]),
+    type=click.Choice(["abaqus", "ansys", "comsol", "csv", "xlsx", "mepdg", "vtk"]),
 )  # fmt: skip
 @click.option(
     "--error-percent", default=1.0, type=_options.POSITIVE, help="Largest error of |E*| of the Prony series."
@@ -19,25 +19,37 @@ from asphalt_nscd.cli import _options
 @click.option("--error-deg", default=0.5, type=_options.POSITIVE, help="Largest error of its phase, degrees.")
 @click.option(
     "--temperatures-c", type=_options.Numbers(low=-273.15),
-    help="Tested temperatures, degrees Celsius; else as the law's folder says.",
+    help="Tested temperatures, degrees Celsius; else those of residuals.csv beside the law.",
 )  # fmt: skip
 @click.option(
-    "--frequencies-hz", type=_options.Numbers(), help="Tested frequencies; else as the law's folder says."
+    "--frequencies-hz",
+    type=_options.Numbers(),
+    help="Tested frequencies, Hz; else those of residuals.csv beside the law.",
 )
-@click.option("--poisson", type=_options.Number(), help="Poisson's ratio; else 0.35, said to be assumed.")
+@click.option(
+    "--poisson", type=_options.Number(), help="Poisson's ratio; else 0.35, which the file calls assumed."
+)
 @click.option("--units", default="SI", type=click.Choice(["SI", "mm-N-MPa"]), help="Units of the file.")
 @click.option("--name", default="ASPHALT", help="Name of the material (abaqus).")
 @_options.output
 def command(
-    law: Path, form: str, error_percent: float, error_deg: float, temperatures_c: tuple[float, ...] | None,
+    source: Path, form: str, error_percent: float, error_deg: float, temperatures_c: tuple[float, ...] | None,
     frequencies_hz: tuple[float, ...] | None, poisson: float | None, units: str, name: str, output: Path,
 ) -> None:  # fmt: skip
-    """Write a law for another program: Prony series with shift, workbook, or table of |E*|."""
-    from asphalt_nscd.exports.card import UNITS, Settings
-    from asphalt_nscd.exports.export import export_law, require_ending
-    from asphalt_nscd.exports.law import read_law_file
-    from asphalt_nscd.rheology.maxwell_fitting import Miss
+    """Write a law for another program: Prony series with shift, workbook, or table of |E*|.
 
-    require_ending(form, output)
-    settings = Settings(Miss(error_percent, error_deg), poisson, UNITS[units], name)
-    click.echo(export_law(read_law_file(law, temperatures_c, frequencies_hz), settings, form, output))
+    SOURCE: a law (JSON); or a deposit, specimen or test (HDF5), as vtk for ParaView or as csv.
+    """
+    from asphalt_nscd.api.exporting import ExportSettings, export
+
+    settings = ExportSettings(error_percent, error_deg, poisson, units, name)
+    click.echo(
+        export(
+            source,
+            output,
+            form,
+            settings=settings,
+            temperatures_C=temperatures_c,
+            frequencies_Hz=frequencies_hz,
+        )
+    )

@@ -26,9 +26,6 @@ class Test(click.ParamType):
 @click.option("--law", required=True, type=_options.File, help="Continuous law of the diagnosis.")
 @click.option("--measured", required=True, type=_options.File, help="Measurements that were diagnosed.")
 @_options.geometry
-@click.option(
-    "--specimen", required=True, type=_options.File, help="The sample, a file of `reduced-specimen`."
-)
 @click.option("--number", required=True, type=click.IntRange(0), help="Of the sample, from 0.")
 @click.option("--amplitude-m", required=True, type=_options.POSITIVE, help="Of the simulated tests.")
 @click.option(
@@ -36,10 +33,10 @@ class Test(click.ParamType):
 )
 @click.option("--rig-output", required=True, type=_options.File, help="Rig to write.")
 def command(
-    diagnosis: Path, law: Path, measured: Path, geometry: object, specimen: Path, number: int, amplitude_m: float,
+    diagnosis: Path, law: Path, measured: Path, geometry: Any, number: int, amplitude_m: float,
     tests: tuple[tuple[float, float, Path], ...], rig_output: Path,
 ) -> None:  # fmt: skip
     """Extend the simulation of one sample by what a diagnosis named: bond laws of its tests, and a rig."""
     from asphalt_nscd.diagnosis.extension import extend
 
-    extend(diagnosis, law, measured, geometry, specimen, number, amplitude_m, tests, rig_output)
+    extend(diagnosis, law, measured, geometry, number, amplitude_m, tests, rig_output)

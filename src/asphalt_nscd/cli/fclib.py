@@ -10,15 +10,18 @@ from asphalt_nscd.cli import _options
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=_options.File)
 @click.option(
-    "--tolerance", default=1e-8, type=_options.POSITIVE, help="Both errors of the natural map, relative."
+    "--tolerance",
+    default=1e-8,
+    type=_options.POSITIVE,
+    help="Tolerance on both relative errors of the natural map.",
 )
-@click.option("--output", type=_options.File, help="Table (CSV) to write as well.")
+@click.option("--output", type=_options.File, help="CSV table to write as well.")
 def command(files: tuple[Path, ...], tolerance: float, output: Path | None) -> None:
-    """Solve frictional contact problems in FCLIB's HDF5 format; exit status 1 if one did not converge.
+    """Solve frictional contact problems in FCLIB's HDF5 format. The exit status is 1 if one did not converge.
 
-    One line for each: contacts, iterations, error, CPU seconds, and whether it converged. The error
-    is that of Siconos and FCLIB; the scaled one does not depend on units. Iterations: Gauss-Seidel
-    sweeps and steps of the interior path and of Newton's method.
+    Prints a line for each problem: contacts, iterations, error, CPU seconds, and whether it converged. The
+    error is that of Siconos and FCLIB; the scaled error does not depend on units. Iterations count
+    Gauss-Seidel sweeps and steps of the interior path and of Newton's method.
     """
     from asphalt_nscd.files import store
     from asphalt_nscd.verification import fclib

@@ -27,14 +27,14 @@ Of a sieve table:
     required=True,
     multiple=True,
     type=_options.File,
-    help="Table (CSV, TSV, XLSX), machine export, or a folder of them; several times for several.",
+    help="Table (CSV, TSV, XLSX), machine export, or a folder of them; repeatable.",
 )
-@click.option("--sheet", help="Sheet of an XLSX file, where several hold something.")
+@click.option("--sheet", help="Sheet of an XLSX file, if several sheets hold data.")
 @_options.column
 @click.option(
     "--geometry",
     type=_options.Geometry(),
-    help="Specimens, b=B for prisms; the paper's if left out with moduli.",
+    help="Specimens, b_mm equal to B_mm for prisms. Needed for F0 and z0; with moduli the default is the paper's.",
 )
 @click.option(
     "--measured-in",
@@ -42,12 +42,12 @@ Of a sieve table:
     help="Test that gave the moduli; else tension-compression for machine exports, bending for tables.",
 )
 @click.option("--grading", type=_options.File, help="Sieve table for the spheres: sieve (mm), passing (%).")
-@click.option("--small", is_flag=True, help="One sample of some hundred spheres, to try out in minutes.")
+@click.option("--small", is_flag=True, help="One sample of some hundred spheres, to try a study in minutes.")
 def command(
     name: str, measurements: tuple[Path, ...], sheet: str | None, columns: tuple[tuple[str, str], ...], geometry: Any,
     measured_in: str | None, grading: Path | None, small: bool,
 ) -> None:  # fmt: skip
-    """Write config/NAME.yaml, a study of your own measurements, and say what was understood of them."""
+    """Write config/NAME.yaml, a study of your own measurements, and print how the table was read."""
     from asphalt_nscd.table_import.write import Wishes, new_study
 
     given = Path(geometry) if isinstance(geometry, str) else geometry

@@ -9,17 +9,25 @@ from asphalt_nscd.cli import _data, _options
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=_options.File)
-@click.option(
-    "--root", required=True, type=_options.File, help="Folder of the study that the files are below."
-)
+@click.option("--root", required=True, type=_options.File, help="Folder of the study, which holds the files.")
 @click.option("--output", required=True, type=_options.File, help="Folder to copy them to.")
-@click.option("--document", required=True, type=_options.File, help="Text whose blocks are filled.")
+@click.option(
+    "--document",
+    "documents",
+    multiple=True,
+    type=_options.File,
+    help="Markdown file, or folder of them, whose blocks are filled; repeatable.",
+)
 @click.option("--block", multiple=True, type=_data.Data(), help="name=table for a block; repeatable.")
 def command(
-    files: tuple[Path, ...], root: Path, output: Path, document: Path, block: tuple[tuple[str, Path], ...]
+    files: tuple[Path, ...],
+    root: Path,
+    output: Path,
+    documents: tuple[Path, ...],
+    block: tuple[tuple[str, Path], ...],
 ) -> None:
-    """Copy results to be committed, with checksums, and fill their tables into a document."""
+    """Copy results that will be committed, with checksums, and fill their tables into documents."""
     from asphalt_nscd.reporting.publish import fill_blocks, publish
 
-    fill_blocks(document, dict(block))
+    fill_blocks(documents, dict(block))
     publish(files, root, output)

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -39,7 +40,7 @@ from asphalt_nscd.cli import _options
 @click.option("--law-output", type=_options.File, help="File for the law behind the table.")
 @_options.output
 def command(
-    laws_table: Path, output: Path, frequencies_hz: tuple[float, ...], amplitude_m: float, **options: object
+    laws_table: Path, output: Path, frequencies_hz: tuple[float, ...], amplitude_m: float, **options: Any
 ) -> None:
     """Draw measurements about the smooth law behind a published table of Burgers laws."""
     from asphalt_nscd.rheology.reconstruct import reconstruct_table

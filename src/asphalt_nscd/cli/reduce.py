@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -13,10 +14,10 @@ from asphalt_nscd.cli import _options
 @click.option(
     "--cycles",
     type=click.IntRange(1),
-    help="Whole cycles at the end of a record; else those of the last 10 s.",
+    help="Number of whole cycles used, at the end of a record; else those of the last 10 s.",
 )
 @_options.output
-def command(measurements: Path, geometry: object, cycles: int | None, output: Path) -> None:
+def command(measurements: Path, geometry: Any, cycles: int | None, output: Path) -> None:
     """Reduce measured peaks, records or moduli to complex moduli, Eqs. (1)-(5)."""
     from asphalt_nscd.measurements.reduction import reduce_table
 

@@ -11,7 +11,7 @@ from asphalt_nscd.cli import _options
 @click.argument("model", type=_options.File)
 @_options.output
 def command(model: Path, output: Path) -> None:
-    """Keep of a condensed model what `diagnose --specimen` needs: two small matrices."""
+    """Extract from a condensed model the two small matrices that `diagnose --specimen` needs."""
     from asphalt_nscd.diagnosis.simulated import reduce_model
 
     reduce_model(model, output)

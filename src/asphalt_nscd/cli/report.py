@@ -28,7 +28,7 @@ class Part(click.ParamType):
     "entries",
     multiple=True,
     type=Part(),
-    help="A figure (PNG) or page (HTML), and the part it is in.",
+    help="A figure (PNG) or page (HTML) and the part of the report that shows it; repeatable.",
 )
 @click.option(
     "--captions", required=True, type=_options.File, help="Folder of captions, an .rst file for each entry."
@@ -38,7 +38,7 @@ def command(
     data: tuple[tuple[str, Path], ...], study: str, entries: tuple[tuple[str, Path], ...], captions: Path,
     output: Path,
 ) -> None:  # fmt: skip
-    """Put all results of a study into one HTML file, behind a first page made from measured=CSV
+    """Put all results of a study into one HTML file. Its first page is made from measured=CSV
     simulations=CSV samples=CSV diagnosis=JSON map=PNG."""
     from asphalt_nscd.files.store import atomic_path
     from asphalt_nscd.reporting.pages.assemble import Entry, assemble

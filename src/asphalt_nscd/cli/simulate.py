@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -23,7 +24,7 @@ from asphalt_nscd.cli import _options, _progress
     type=_options.File,
     help="Law of the bonds, JSON; one for all tests or one for each.",
 )
-@click.option("--law-source", default="", help="Where the law comes from; kept with the result.")
+@click.option("--law-source", default="", help="Source of the law, stored with the result.")
 @click.option(
     "--temperature-c",
     required=True,
@@ -36,7 +37,7 @@ from asphalt_nscd.cli import _options, _progress
     required=True,
     multiple=True,
     type=_options.POSITIVE,
-    help="Frequency of the head, Hz; given again, with an --output of its own, for each further test.",
+    help="Frequency of the head, Hz; repeatable, each with an --output of its own.",
 )
 @click.option("--amplitude-m", default=63e-6, type=_options.POSITIVE, help="Amplitude of the head, m.")
 @click.option("--cycles", default=5.0, type=_options.Number(low=1.0), help="Number of cycles.")
@@ -57,13 +58,16 @@ from asphalt_nscd.cli import _options, _progress
     help="Relative change per sweep that stops Gauss-Seidel.",
 )
 @click.option(
-    "--most-sweeps", default=50, type=click.IntRange(1), help="Most sweeps of Gauss-Seidel in a step."
+    "--most-sweeps",
+    default=50,
+    type=click.IntRange(1),
+    help="Largest number of Gauss-Seidel sweeps in a step.",
 )
 @click.option(
     "--rig",
     default=None,
     type=_options.File,
-    help="What stands at the head and in the measuring channel, JSON.",
+    help="Devices at the head and errors of the measuring channel, JSON.",
 )
 @click.option(
     "--scheme",
@@ -72,7 +76,7 @@ from asphalt_nscd.cli import _options, _progress
     help="Implicit Euler, or BDF2 fitted to the frequency: exact in steady oscillation, 100 steps a cycle do.",
 )
 @click.option(
-    "--energy", is_flag=True, help="Keep the energy account of a reduced run too; condensed ones always do."
+    "--energy", is_flag=True, help="Keep the energy balance of a reduced run; condensed runs always keep it."
 )
 @click.option(
     "--checkpoint",
@@ -84,30 +88,46 @@ from asphalt_nscd.cli import _options, _progress
     "--checkpoint-every", default=100, type=click.IntRange(1), help="Steps between two checkpoints."
 )
 @_options.outputs
+@_options.gather("case", amplitude="amplitude_m", cycles="cycles")
+@_options.gather(
+    "numerics",
+    time_step="time_step_s",
+    rest_steps="rest_steps",
+    method="method",
+    scheme="scheme",
+    tolerance="tolerance",
+    most_sweeps="most_sweeps",
+)
+@_options.gather(
+    "files", model="model", rig="rig", checkpoint="checkpoint", checkpoint_every="checkpoint_every",
+    law_source="law_source",
+)  # fmt: skip
+@_options.gather("tests", laws="laws", frequencies="frequencies", outputs="outputs")
 def command(
-    model: Path, excerpt: Path | None, laws: tuple[Path, ...], law_source: str, temperature_c: float,
-    frequencies: tuple[float, ...], amplitude_m: float,
-    cycles: float, time_step_s: float, rest_steps: int, method: str, tolerance: float, most_sweeps: int,
-    rig: Path | None, scheme: str, energy: bool, checkpoint: Path | None, checkpoint_every: int,
-    outputs: tuple[Path, ...],
+    tests: dict[str, Any], case: dict[str, Any], numerics: dict[str, Any], files: dict[str, Any],
+    temperature_c: float, excerpt: Path | None, energy: bool,
 ) -> None:  # fmt: skip
-    """Complex modulus tests at one temperature: for each frequency a file."""
-    tests = len(frequencies)
-    if len(outputs) != tests or len(laws) not in (1, tests):
+    """Simulate complex modulus tests at one temperature and write a file for each frequency."""
+    laws, frequencies, outputs = tests["laws"], tests["frequencies"], tests["outputs"]
+    count = len(frequencies)
+    if len(outputs) != count or len(laws) not in (1, count):
         raise click.UsageError(
-            f"{tests} x --frequency-hz, {len(laws)} x --law and {len(outputs)} x --output; give an --output "
+            f"{count} x --frequency-hz, {len(laws)} x --law and {len(outputs)} x --output; give an --output "
             "for each frequency, and one --law or one for each."
         )
-    if checkpoint is not None and tests > 1:
+    if files["checkpoint"] is not None and count > 1:
         raise click.UsageError("--checkpoint keeps one test; give one --frequency-hz.")
-    from asphalt_nscd.bending.bending_test import read_subject, simulate
+    from asphalt_nscd.bending.bending_test import TestFiles, read_subject, simulate
+    from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
 
-    specimen = read_subject(model, excerpt)
-    for law, frequency, output in zip(laws * (tests // len(laws)), frequencies, outputs, strict=True):
+    specimen = read_subject(files["model"], excerpt)
+    for law, frequency, output in zip(laws * (count // len(laws)), frequencies, outputs, strict=True):
         with _progress.bars("steps") as report:
-            simulate(
-                model, law, temperature_c, frequency, amplitude_m, cycles, time_step_s, rest_steps, output,
-                law_source, method, tolerance, most_sweeps,
+            options = RunOptions(
                 lambda done, total: report(f"testing at {frequency:g} Hz", done, total),  # noqa: B023
-                rig, scheme, energy, checkpoint, checkpoint_every, specimen,
+                energy,
+            )
+            simulate(
+                TestFiles(law=law, output=output, **files), temperature_c, LoadCase(frequency, **case),
+                Numerics(**numerics), options, specimen,
             )  # fmt: skip

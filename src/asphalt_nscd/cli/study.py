@@ -12,7 +12,7 @@ from asphalt_nscd.cli import _options
 @click.argument("study")
 @_options.output
 def command(study: str, output: Path) -> None:
-    """Write down STUDY, the complete configuration as JSON."""
+    """Write STUDY, the complete configuration in JSON, to a file."""
     from asphalt_nscd.files.errors import InputError
     from asphalt_nscd.files.store import write_json
 

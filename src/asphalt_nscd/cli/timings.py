@@ -13,7 +13,7 @@ from asphalt_nscd.cli import _options
 @click.option("--markdown", required=True, type=_options.File, help="File for the same table in Markdown.")
 @_options.output
 def command(benchmarks: tuple[Path, ...], folder: Path, markdown: Path, output: Path) -> None:
-    """Sum BENCHMARKS, files of Snakemake, by rule: where the time goes."""
+    """Sum Snakemake's BENCHMARKS files by rule, which shows where the time goes."""
     from asphalt_nscd.files.store import atomic_path, write_table
     from asphalt_nscd.reporting.timings import as_markdown, by_rule, elapsed
 

@@ -15,7 +15,7 @@ from asphalt_nscd.cli import _options
     "--volume-reduction",
     default=0.1,
     type=_options.Number(low=0.0, below=1.0),
-    help="Part of each sphere's volume taken away.",
+    help="Fraction of each sphere's volume that is removed.",
 )
 @click.option(
     "--area",

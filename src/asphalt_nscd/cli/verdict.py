@@ -14,7 +14,7 @@ from asphalt_nscd.cli import _options
 )
 @click.option("--summary", is_flag=True, help="Write one row for each theme.")
 def command(tables: tuple[Path, ...], output: Path | None, summary: bool) -> None:
-    """Judge TABLES of the verification: exit status 2, naming them, if any row has failed."""
+    """Judge TABLES of the verification. If a row has failed, name it and exit with status 2."""
     from asphalt_nscd.files.store import write_table
     from asphalt_nscd.verification.study import joined, require_passed, summarised
 

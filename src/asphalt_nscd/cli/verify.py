@@ -11,7 +11,7 @@ from asphalt_nscd.cli import _options
 @click.argument("theme")
 @_options.output
 def command(theme: str, output: Path) -> None:
-    """Verify the core on THEME: a table of what was expected and found, and the verdict of each row."""
+    """Verify the core on THEME and write a table: expected value, value found and verdict of each row."""
     from asphalt_nscd.files.store import write_table
     from asphalt_nscd.verification.study import verify
 

@@ -19,15 +19,17 @@ from asphalt_nscd.diagnosis.chance import CHANCE, Scores
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.start import ROUGHNESS, marginal_likelihood
+from asphalt_nscd.diagnosis.start import of_likeliest_roughness
 
 Vector = NDArray[np.float64]
 RUNGS = 4
 REFITS = 4  # candidates that are refitted at each rung
 LEAST_GAIN = 6.0  # of -2 ln likelihood over a discrepancy without a name: 20 times as likely
 AS_GOOD = 6.0  # gains closer than this are not told apart
+NEAR = 0.6  # share of what a name needs, above which a candidate is refitted
 SURVIVES = 2.0  # standard errors that an estimate must keep where something is left out
 SETTLED = 2  # rounds of fitting law and discrepancy in turn
+LARGER = 6  # times that a limit is raised by a quarter where a discrepancy would take the effect up
 CONVERGED = 0.01  # change of the objective at which a fit beside a discrepancy ends
 
 
@@ -69,6 +71,16 @@ class Found:
     rivals: tuple[Candidate, ...]
 
 
+@dataclass(frozen=True)
+class Survey:
+    """Every cause that is not in the fit, as if it were the next one: candidates, directions, estimates (k each)."""
+
+    candidates: list[Candidate]
+    pointing: Direction
+    estimates: list[Estimate]
+    one_sided: NDArray[np.bool_]
+
+
 def begin(plain: Joint, fitted: Fitted) -> State:
     """Law and discrepancy without any cause."""
     found = discrepancy.processes(plain, fitted)
@@ -78,16 +90,18 @@ def begin(plain: Joint, fitted: Fitted) -> State:
 
 def climb(
     state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
-) -> tuple[list[Found], State]:
+) -> tuple[list[Found], State, Survey]:
     """Causes that beat both chance and a discrepancy without a name, one after the other; the last state."""
     taken: list[Found] = []
+    surveyed = survey(state, catalogue)
     while len(taken) < RUNGS:
-        found = _next(state, catalogue, draws, random)
+        found = _next(state, surveyed, draws, random)
         if found is None:
             break
         taken.append(found)
         state = _smoothed(found.after)
-    return taken, state
+        surveyed = survey(state, catalogue)
+    return taken, state, surveyed
 
 
 def _settle(
@@ -102,39 +116,52 @@ def _settle(
         law, scales, active = fitted.law, fitted.scales, fitted.active
         linear = plain.linearise(law, scales, active)
         model = discrepancy.reduce(found, linear)
-        # Which of three specimens is the odd one may have two answers: the likelier is taken.
-        tried = [discrepancy.estimate(model, start=start) for start in (variances, None)]
-        variances = min(tried, key=lambda estimate: estimate.misfit).variances
+        variances = _likeliest(model, variances).variances
     return State(plain, wide, fitted, linear, model, variances)
+
+
+def _likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
+    """The likeliest of several answers: which of three specimens is odd, or a phase that is off at every
+    frequency for a modulus that is, may be told in two ways."""
+    uncommon = np.where(
+        [name.startswith("all") for name in model.processes.names], discrepancy.LEAST, variances
+    )
+    tried = [discrepancy.estimate(model, cause, start) for start in (variances, None, uncommon)]
+    return min(tried, key=lambda estimate: estimate.misfit)
 
 
 def _smoothed(state: State) -> State:
     """The same with the roughness of the law that is likeliest beside the discrepancy."""
-    scored, fitted = [], state.fitted
-    for roughness in ROUGHNESS:
-        base = replace(state.plain.base, roughness=roughness)
-        wide = Joint(state.plain.observed, base, state.wide.noise)
-        fitted = wide.fit(fitted.law, fitted.scales, fitted.active, CONVERGED)
-        scored.append((marginal_likelihood(wide, fitted), base, fitted))
-    _, base, fitted = max(scored, key=lambda item: item[0])
-    plain = Joint(state.plain.observed, base, state.plain.noise)
+    wide, fitted = of_likeliest_roughness(state.wide, state.fitted, CONVERGED)
+    plain = Joint(state.plain.observed, wide.base, state.plain.noise)
     return _settle(plain, state.model.processes, fitted, fitted.active, state.variances)
 
 
-def _next(state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator) -> Found | None:
+def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
+    """Candidates that the table can show, each estimated beside the discrepancy."""
     candidates, pointing = _pointing(state, catalogue)
+    # A cause with shapes of its own has many directions: one start is enough for a candidate that is refitted.
+    estimates = [
+        _likeliest(state.model, state.variances, pointing.column(k)) if len(candidate.values) == 1
+        else discrepancy.estimate(state.model, pointing.column(k), state.variances)
+        for k, candidate in enumerate(candidates)
+    ]  # fmt: skip
+    one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
+    return Survey(candidates, pointing, estimates, one_sided)
+
+
+def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Found | None:
+    candidates, estimates, one_sided = surveyed.candidates, surveyed.estimates, surveyed.one_sided
     if not candidates:
         return None
-    nothing = discrepancy.estimate(state.model, start=state.variances)
-    estimates = [
-        discrepancy.estimate(state.model, pointing.column(k), state.variances) for k in range(len(candidates))
-    ]
-    one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
+    nothing = _likeliest(state.model, state.variances)
     z = np.array([estimate.z for estimate in estimates])
     z = np.where(one_sided, np.maximum(z, 0.0), np.abs(z))
     gains = np.array([nothing.misfit - estimate.misfit for estimate in estimates])
-    by_chance = _by_chance(state, pointing, one_sided, draws, random)
-    eligible = (z > np.quantile(by_chance, 1.0 - CHANCE)) & (gains > LEAST_GAIN)
+    by_chance = _by_chance(state, surveyed, draws, random)
+    # A law fitted without the cause has followed it: what comes near is refitted before it is judged.
+    least = float(np.quantile(by_chance, 1.0 - CHANCE))
+    eligible = (z > NEAR * least) & (gains > NEAR * LEAST_GAIN)
     shortlist: dict[tuple, int] = {}
     for k in np.argsort(-np.where(eligible, gains, -np.inf)):
         if eligible[k] and len(shortlist) < REFITS:
@@ -147,8 +174,10 @@ def _next(state: State, catalogue: Sequence[Cause], draws: int, random: np.rando
         active = (*state.fitted.active, candidates[k].with_values(values))
         after = _settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
         gain = state.misfit - after.misfit - 2.0 * (len(candidates[k].values) - 1)
-        refits.append((gain, k, after))
-    refits = [refit for refit in refits if refit[0] > LEAST_GAIN]
+        if gain > LEAST_GAIN:
+            z[k] = max(z[k], abs(of_taken(after, after.fitted.active[-1]).z))
+            if z[k] > least:
+                refits.append((gain, k, after))
     if not refits:
         return None
     # A cause with shapes of its own follows almost any structure: it must be carried by the whole table.
@@ -182,17 +211,20 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
     return [candidates[k] for k in seen], kept
 
 
-def _by_chance(
-    state: State, pointing: Direction, one_sided: NDArray, draws: int, random: np.random.Generator
-) -> Vector:
-    correlation, _ = discrepancy.correlation(state.model, pointing, state.variances)
-    k = one_sided.size
+def _by_chance(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Vector:
+    correlation, _ = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
+    k = surveyed.one_sided.size
     scores = Scores(np.zeros(k), np.ones(k), np.ones(k, bool), correlation)
-    return chance.largest_by_chance(scores, one_sided, state.plain.noise.freedom, draws, random)
+    return chance.largest_by_chance(scores, surveyed.one_sided, state.plain.noise.freedom, draws, random)
 
 
-def of_taken(state: State, candidate: Candidate, rows: NDArray | None = None) -> Estimate:
-    """Amplitude of a cause that is in the fit, in typical units, from all rows or from some."""
+def of_taken(
+    state: State, candidate: Candidate, rows: NDArray | None = None, sizes_too: bool = False
+) -> Estimate:
+    """Amplitude of a cause that is in the fit, in typical units, from all rows or from some.
+
+    sizes_too: whether its standard error holds what is not known of the discrepancy's sizes.
+    """
     first = state.fitted.law.size + state.fitted.scales.size
     for active in state.fitted.active:
         if active.key == candidate.key:
@@ -212,7 +244,10 @@ def of_taken(state: State, candidate: Candidate, rows: NDArray | None = None) ->
     if rows is not None:
         found, start = _of_rows(found, plain, rows, start)
     model = discrepancy.reduce(found, rest)
-    found_value = discrepancy.estimate(model, discrepancy.directions(model, rest, d), start)
+    pointing = discrepancy.directions(model, rest, d)
+    found_value = discrepancy.estimate(model, pointing, start)
+    if sizes_too:
+        found_value = discrepancy.with_uncertain_sizes(model, pointing, found_value)
     stands = active.values[0] / active.typical[0]
     return replace(found_value, amplitude=found_value.amplitude + stands)
 
@@ -255,7 +290,7 @@ def _enough(rest: Observations, name: str) -> bool:
     return left[name] > (0 if name == "specimen" else 1)
 
 
-def estimates(state: State, catalogue: Sequence[Cause]) -> dict[tuple, tuple[float, float]]:
+def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]]:
     """Amplitude of every cause at every place and its standard error, in physical units.
 
     Of a cause that is in the fit, and of each other as if it were the next one. Of several shapes, the one
@@ -263,40 +298,61 @@ def estimates(state: State, catalogue: Sequence[Cause]) -> dict[tuple, tuple[flo
     """
     out: dict[tuple, tuple[float, float]] = {}
     for active in state.fitted.active:
-        own = of_taken(state, active)
+        own = of_taken(state, active, sizes_too=True)
         out[active.key] = (own.amplitude * active.typical[0], own.std_error * active.typical[0])
-    candidates, pointing = _pointing(state, catalogue)
-    for k, candidate in enumerate(candidates):
-        one = discrepancy.estimate(state.model, pointing.column(k), state.variances)
-        typical = candidate.typical[0]
-        if candidate.key not in out or one.std_error * typical < out[candidate.key][1]:
-            out[candidate.key] = (one.amplitude * typical, one.std_error * typical)
+    best: dict[tuple, int] = {}
+    for k, candidate in enumerate(surveyed.candidates):
+        other = best.setdefault(candidate.key, k)
+        if surveyed.estimates[k].std_error < surveyed.estimates[other].std_error:
+            best[candidate.key] = k
+    for key, k in best.items():
+        typical, direction = surveyed.candidates[k].typical[0], surveyed.pointing.column(k)
+        one = discrepancy.with_uncertain_sizes(state.model, direction, surveyed.estimates[k])
+        out[key] = (one.amplitude * typical, one.std_error * typical)
     return out
 
 
+def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> float:
+    """Amplitude, in typical units, that gains enough over a discrepancy without a name in 19 of 20 cases.
+
+    The effect is put into this table, less its own value of it: the discrepancy may take up what it can.
+    """
+    one, direction = surveyed.estimates[k], surveyed.pointing.column(k)
+    amplitude = (threshold + chance.POWER) * one.std_error
+    for _ in range(LARGER):
+        seen = amplitude - chance.POWER * one.std_error
+        model, pointing = discrepancy.moved(state.model, direction, seen - one.amplitude)
+        without = min(
+            discrepancy.estimate(model, start=start).misfit for start in (one.variances, state.variances)
+        )
+        if without - discrepancy.estimate(model, pointing, one.variances).misfit > LEAST_GAIN:
+            break
+        amplitude *= 1.25
+    return amplitude
+
+
 def detection_limits(
-    state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
+    state: State, surveyed: Survey, draws: int, random: np.random.Generator
 ) -> tuple[dict[tuple, float], list[Candidate], list[tuple[Candidate, Candidate]]]:
     """Limits beside the discrepancy of this table, causes never seen in it, and pairs that look alike."""
-    candidates, pointing = _pointing(state, catalogue)
     sizes: dict[tuple, float] = {}
     unseen: list[Candidate] = []
     alike: list[tuple[Candidate, Candidate]] = []
-    one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     threshold = chance.USUAL_THRESHOLD
-    if candidates:
-        by_chance = _by_chance(state, pointing, one_sided, draws, random)
-        threshold = float(np.quantile(by_chance, 1.0 - CHANCE))
-        errors = np.array([
-            discrepancy.estimate(state.model, pointing.column(k), state.variances).std_error
-            for k in range(len(candidates))
-        ])  # fmt: skip
-        correlation, _ = discrepancy.correlation(state.model, pointing, state.variances)
-        found = Scores(np.zeros(errors.size), errors**-2, np.ones(errors.size, bool), correlation)
+    if surveyed.candidates:
+        threshold = float(np.quantile(_by_chance(state, surveyed, draws, random), 1.0 - CHANCE))
+        correlation, errors = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
+        # A cause with shapes of its own must be carried by the whole table, which no single size says.
+        simple = np.array([len(candidate.values) == 1 for candidate in surveyed.candidates])
+        for k in np.flatnonzero(simple):
+            needed = _named_from(state, surveyed, k, threshold) / (threshold + chance.POWER)
+            errors[k] = max(surveyed.estimates[k].std_error, needed)
+        found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)
         sizes, unseen = limits.detection_limits(
-            state.wide, state.fitted, candidates, found, threshold + chance.POWER
+            state.wide, state.fitted, surveyed.candidates, found, threshold + chance.POWER
         )
-        alike = limits.alike(candidates, found, AS_GOOD)
+        every = replace(found, seen=np.ones(errors.size, bool))
+        alike = limits.alike(surveyed.candidates, every, AS_GOOD)
     for active in state.fitted.active:
         own = of_taken(state, active)
         sizes[active.key] = (threshold + chance.POWER) * own.std_error * float(active.typical[0])

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from asphalt_nscd.diagnosis.joint import Fitted, Noise
 from asphalt_nscd.diagnosis.observations import Observations
@@ -62,7 +62,7 @@ def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list
                     float(z),
                 )
             )
-    least = norm.isf(0.5 * CHANCE / max(tried, 1))
+    least = -ndtri(0.5 * CHANCE / max(tried, 1))
     return sorted((one for one in found if one.z > least), key=lambda one: -one.z)
 
 

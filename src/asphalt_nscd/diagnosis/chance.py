@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import norm
+from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -78,7 +78,7 @@ def tail(by_chance: Vector, z: float) -> float:
     if share * by_chance.size >= 10:
         return share
     edge = float(np.quantile(by_chance, 0.99))
-    return float(min(0.01, 0.01 * norm.sf(z) / norm.sf(edge)))
+    return float(min(0.01, 0.01 * float(ndtr(-z)) / float(ndtr(-edge))))
 
 
 def effective(found: Scores, one_sided: NDArray[np.bool_]) -> Vector:

@@ -6,8 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
-from scipy.stats import f as fisher
+from scipy.special import chdtrc, fdtrc
 
 from asphalt_nscd.diagnosis import causality, chance, scatter, start, suspects, within_isotherm
 from asphalt_nscd.diagnosis.causes import CATALOGUE
@@ -156,12 +155,12 @@ def misfit_p_value(fitted: Fitted, noise: Noise) -> float:
     size = fitted.residual.size
     used = float(np.trace(np.linalg.solve(fitted.precision, fitted.jacobian.T @ fitted.jacobian)))
     if noise.freedom >= scatter.STATED:
-        return float(chi2.sf(fitted.residual @ fitted.residual, size - used))
+        return float(chdtrc(size - used, fitted.residual @ fitted.residual))
     left = float(fitted.residual @ fitted.residual) - noise.freedom
     freedom = size - used - noise.freedom
     if freedom < 1.0:
         return 1.0
-    return float(fisher.sf(max(left, 0.0) / freedom, freedom, noise.freedom))
+    return float(fdtrc(freedom, noise.freedom, max(left, 0.0) / freedom))
 
 
 def _information(fitted: Fitted) -> float:

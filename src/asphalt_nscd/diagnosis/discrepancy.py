@@ -14,11 +14,12 @@ estimate for one more cause costs milliseconds.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
+from scipy.linalg.lapack import dpotrf, dpotri, dpotrs
 
 from asphalt_nscd.diagnosis.joint import Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -37,9 +38,11 @@ LEFT_OUT = {"isotherm": 1e-3, "all": 1e-3, "specimen": 0.05}  # share of the var
 # isotherms is rarer than what breaks one: it must come from the machine.
 USUAL = {"isotherm": 0.5, "all": 0.1, "specimen": 0.3, "spectrum": 1.0}
 OF_TIMES = 4.0  # of ln(relaxation time), over which the spectrum of a specimen departs from that of the mix
+STEP = 0.5  # of ln v, over which its curvature is taken
+UNKNOWN = 2.0  # standard deviation of the ln v that a table tells nothing of
 ITERATIONS = 25
 CONVERGED = 0.05  # change of -2 ln likelihood
-LEAST = 1e-4  # variance that is as good as none, in units of the scatter
+LEAST, MOST = 1e-4, 1e7  # variance that is as good as none, and that no table has, in units of the scatter
 
 
 @dataclass(frozen=True)
@@ -182,6 +185,14 @@ def directions(model: Reduced, fitted: Fitted, d: NDArray) -> Direction:
     )
 
 
+def moved(model: Reduced, cause: Direction, amount: float) -> tuple[Reduced, Direction]:
+    """The same with so much of an effect added to the data."""
+    return (
+        replace(model, along=model.along + amount * cause.cross[:, 0]),
+        replace(cause, along=cause.along + amount * cause.own[:, 0]),
+    )
+
+
 def _projected(fitted: Fitted, left: NDArray, right: NDArray) -> NDArray:
     """left^T A right: what the law may follow is taken out."""
     j = fitted.jacobian
@@ -196,24 +207,45 @@ def _data(fitted: Fitted, left: NDArray) -> Vector:
 
 def estimate(model: Reduced, cause: Direction | None = None, start: Vector | None = None) -> Estimate:
     """Penalised restricted likelihood: multiplicative steps (Zhou et al. 2019), extrapolated (SQUAREM)."""
-    lowest = np.log(LEAST)
+    lowest, highest = np.log(LEAST), np.log(MOST)
     usual = model.processes.usual
     log_v = np.log(usual**2 if start is None else np.maximum(start, LEAST))
     now = _point(model, cause, log_v)
     for _ in range(ITERATIONS):
-        first = np.maximum(log_v + now.step, lowest)
+        first = np.clip(log_v + now.step, lowest, highest)
         middle = _point(model, cause, first)
-        second = np.maximum(first + middle.step, lowest)
+        second = np.clip(first + middle.step, lowest, highest)
         one, change = first - log_v, second - 2.0 * first + log_v
         reach = float(np.clip(np.linalg.norm(one) / max(np.linalg.norm(change), 1e-12), 1.0, 20.0))
-        far = np.clip(log_v + 2.0 * reach * one + reach**2 * change, lowest, 30.0)
+        far = np.clip(log_v + 2.0 * reach * one + reach**2 * change, lowest, highest)
         trial = _point(model, cause, far)
         if not trial.objective <= middle.objective:
             far, trial = second, _point(model, cause, second)
+        if not np.isfinite(trial.objective):
+            break
         gained, log_v, now = now.objective - trial.objective, far, trial
         if gained < CONVERGED:
             break
     return Estimate(np.exp(log_v), now.misfit, now.amplitude, now.std_error)
+
+
+def with_uncertain_sizes(model: Reduced, cause: Direction, found: Estimate) -> Estimate:
+    """The same with a standard error that holds what is not known of the variances (Kackar and Harville 1984).
+
+    Their covariance is that of the curvature of the objective; what the table does not tell is held to a factor.
+    """
+    log_v, m = np.log(found.variances), found.variances.size
+    curvature, along = np.zeros((m, m)), np.zeros(m)
+    for k in range(m):
+        moved = np.zeros(m)
+        moved[k] = STEP
+        low, high = (_point(model, cause, log_v + sign * moved) for sign in (-1.0, 1.0))
+        if np.isfinite(low.objective) and np.isfinite(high.objective):
+            curvature[k] = (high.gradient - low.gradient) / (2.0 * STEP)
+            along[k] = (high.amplitude - low.amplitude) / (2.0 * STEP)
+    value, vector = np.linalg.eigh(0.25 * (curvature + curvature.T))  # half of it, for -2 ln likelihood
+    spread = (vector.T @ along) ** 2 / (np.maximum(value, 0.0) + UNKNOWN**-2)
+    return replace(found, std_error=float(np.sqrt(found.std_error**2 + spread.sum())))
 
 
 @dataclass(frozen=True)
@@ -223,41 +255,53 @@ class _Point:
     objective: float
     misfit: float
     step: Vector  # of ln v
+    gradient: Vector  # of the objective along ln v
     amplitude: float
     std_error: float
 
 
 def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
+    """With B = 1 + S G S, S = sqrt(v): S^-1 (1 - B^-1) S^-1 is what is left of G, S^-1 B^-1 S y of the data."""
     found = model.processes
     block, m, v = found.block, log_v.size, np.exp(log_v)
     s = np.sqrt(v)[block]
-    lower = np.linalg.cholesky(np.eye(s.size) + s[:, None] * model.gram * s)
-    right = [model.gram, model.along[:, None], *([] if cause is None else [cause.cross])]
-    half = solve_triangular(lower, s[:, None] * np.hstack(right), lower=True, check_finite=False)
-    of_gram, of_data = half[:, : s.size], half[:, s.size]
-    diagonal = np.diag(model.gram) - (of_gram**2).sum(axis=0)
-    pull = model.along - of_gram.T @ of_data
-    misfit = 2.0 * float(np.log(np.diag(lower)).sum()) - float(of_data @ of_data)
+    lower, failed = _factor(model, s)
+    if failed:
+        return _Point(np.inf, np.inf, np.zeros(m), np.zeros(m), 0.0, np.inf)
+    data = s * model.along
+    right = data[:, None] if cause is None else np.column_stack([data, s * cause.cross[:, 0]])
+    solved = dpotrs(lower, right, lower=1)[0]
+    diagonal = (1.0 - np.diag(dpotri(lower, lower=1)[0])) / s**2
+    pull = solved[:, 0] / s
+    misfit = 2.0 * float(np.log(np.diag(lower)).sum()) - float(data @ solved[:, 0])
     amplitude, std_error, interval = 0.0, np.inf, 0.0
     if cause is not None:
-        of_cause = half[:, -1]
-        information = max(float(cause.own[0, 0] - of_cause @ of_cause), 1e-12)
-        along = float(cause.along[0] - of_cause @ of_data)
+        information = max(float(cause.own[0, 0] - right[:, 1] @ solved[:, 1]), 1e-12)
+        along = float(cause.along[0] - right[:, 1] @ solved[:, 0])
         amplitude, std_error, interval = along / information, information**-0.5, np.log(information)
         misfit -= along * amplitude
-        sensed = cause.cross[:, 0] - of_gram.T @ of_cause
+        sensed = solved[:, 1] / s
         diagonal = diagonal - sensed**2 / information
         pull = pull - sensed * amplitude
     misfit += 2.0 * float(np.log1p(v / found.usual**2).sum())  # half-Cauchy on the size sqrt(v)
     trace = np.bincount(block, np.maximum(diagonal, 0.0), m) + 2.0 / (found.usual**2 + v)
-    step = 0.5 * np.log(np.maximum(np.bincount(block, pull**2, m), 1e-12) / trace)
-    return _Point(misfit + interval, misfit, step, amplitude, std_error)
+    square = np.bincount(block, pull**2, m)
+    step = 0.5 * np.log(np.maximum(square, 1e-12) / trace)
+    return _Point(misfit + interval, misfit, step, v * (trace - square), amplitude, std_error)
+
+
+def _factor(model: Reduced, s: Vector) -> tuple[NDArray, bool]:
+    """Lower factor of 1 + S G S, and whether there is none: rounding, where a size is absurd."""
+    whole = s[:, None] * model.gram * s
+    whole[np.diag_indices(s.size)] += 1.0
+    lower, failed = dpotrf(whole, lower=1)
+    return lower, bool(failed)
 
 
 def correlation(model: Reduced, all_directions: Direction, variances: Vector) -> tuple[NDArray, Vector]:
     """Correlation (k, k) of the z of directions where nothing is hidden, and their standard errors (k,)."""
     s = np.sqrt(variances)[model.processes.block]
-    lower = np.linalg.cholesky(np.eye(s.size) + s[:, None] * model.gram * s)
+    lower, _ = _factor(model, s)
     half = solve_triangular(lower, s[:, None] * all_directions.cross, lower=True, check_finite=False)
     information = all_directions.own - half.T @ half
     size = np.sqrt(np.maximum(np.diag(information), 1e-300))

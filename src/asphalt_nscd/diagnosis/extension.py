@@ -15,13 +15,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL, SPECIMEN
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
-from asphalt_nscd.diagnosis.simulated import read_specimen
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.measurements.reduction import LEAST_TESTS
@@ -108,26 +108,25 @@ def _without_causes(diagnosis: Diagnosis) -> Complex:
 
 def extend(
     diagnosis_file: str | Path, law_file: str | Path, measured: str | Path,
-    geometry: str | Path | Mapping[str, Any], specimen_file: str | Path, number: int, amplitude: float,
+    geometry: str | Path | Mapping[str, Any], number: int, amplitude: float,
     tests: Sequence[tuple[float, float, str | Path]], rig_output: str | Path,
 ) -> None:  # fmt: skip
     """Write the bond law (a Kelvin chain) of each test (T [degC], f [Hz], path) of one sample, and its rig.
 
-    specimen_file: the sample as `reduced-specimen` writes it; its packing's factor is divided out.
+    The law goes into the bonds as it is: with facets, |E*| of a specimen is that of its law (docs/mapping.md).
     number: of the sample from 0; it stands for the measured specimen of this number.
     """
     named = named_causes(diagnosis_file)
     observed, _ = read_observations(measured, geometry)
-    law, specimen = read_spectrum(law_file), read_specimen(specimen_file)
+    law = read_spectrum(law_file)
     stands_for = number % len(observed.names)
-    ratio = specimen.ratio()
     frequencies = [frequency for _, frequency, _ in tests]
     band = 2.0 * np.pi * min(frequencies) / MARGIN, 2.0 * np.pi * max(frequencies) * MARGIN
 
     for temperature, frequency, path in tests:
         row = _row(observed, stands_for, temperature, frequency)
         bonds = _bond_modulus(law, observed, row, named)
-        chain, error = kelvin_chain(lambda omega, bonds=bonds: bonds(omega) / ratio, *band, TOLERANCE)
+        chain, error = kelvin_chain(bonds, *band, TOLERANCE)
         lowest, highest = (omega / (2.0 * np.pi) for omega in band)
         write_chain(
             path, chain, source="diagnosis", temperature=temperature, error=error,
@@ -161,13 +160,13 @@ def _bond_modulus(
 
 
 def named_causes(diagnosis_file: str | Path) -> list[Candidate]:
-    """The causes on the ladder of a diagnosis.json, with their values; the law itself is not among them."""
+    """The causes on the ladder of a diagnosis.json, with their values; bonds and law are not among them."""
     content = read_json(diagnosis_file)
     causes = {cause.name: cause for cause in CATALOGUE}
     out = []
     try:
         for rung in content["ladder"]:
-            if rung["cause"] == "relaxation_spectrum":
+            if rung["cause"] in ("relaxation_spectrum", BOND_MAPPING):
                 continue
             cause = causes[rung["cause"]]
             values = tuple(float(rung["parameters"][p.name]["value"]) for p in cause.parameters)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.stats import norm
+from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
@@ -235,7 +235,7 @@ def _reason(one: Open, before: float, after: float) -> str:
     if one.kind == "apart":
         odds = f"expected odds {_odds(after)} to 1 (now {_odds(before)} to 1)"
         return f"It tells the {one.about} from {an(one.other)}: {odds}."
-    chances = [100.0 * float(norm.cdf(np.sqrt(strength) - USUAL_THRESHOLD)) for strength in (before, after)]
+    chances = [100.0 * float(ndtr(np.sqrt(strength) - USUAL_THRESHOLD)) for strength in (before, after)]
     if chances[1] - chances[0] < NOTICEABLE:
         return ""
     found = f"{chances[1]:.0f} % of cases (now {chances[0]:.0f} %)"

@@ -11,7 +11,8 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgError, block_diag, cho_factor, cho_solve, solve_triangular
+from scipy.linalg import block_diag, solve_triangular
+from scipy.linalg.lapack import dposv
 
 from asphalt_nscd.diagnosis.bases import Base
 from asphalt_nscd.diagnosis.causes._cause import Cause, Place
@@ -77,21 +78,27 @@ class Noise:
         parts = (values.real, values.imag)
         if self.discrepancy is None:
             return np.concatenate([self._whitened(k, part) for k, part in enumerate(parts)])
-        return solve_triangular(self._factor, np.concatenate(parts), lower=True, check_finite=False)
+        # Many small systems: a product costs less than a solution.
+        return self._root @ np.concatenate(parts)
 
     def _whitened(self, part: int, values: NDArray) -> NDArray:
         """By the symmetric root of a variance and a share common to each block."""
         scaled = values / self.within[part].reshape(-1, *[1] * (values.ndim - 1))
-        common = (self.shared[part] / self.within[part]) ** 2
-        if not common.any():
-            return scaled
+        membership, pull = self._pulls[part]
+        return scaled if membership is None else scaled - pull @ (membership.T @ scaled)
+
+    @cached_property
+    def _pulls(self) -> list[tuple[NDArray | None, NDArray]]:
+        """Of modulus and phase: the tests of each block, and what their sum takes off; None where nothing is shared."""
+        out: list[tuple[NDArray | None, NDArray]] = []
         count = np.bincount(self.block)
-        # Within a block the two have one ratio, for both follow the scatter of their isotherm.
-        ratio = np.bincount(self.block, common) / count
-        pull = (1.0 - 1.0 / np.sqrt(1.0 + count * ratio)) / count
         membership = np.eye(count.size)[self.block]
-        sums = membership.T @ scaled
-        return scaled - (membership * pull) @ sums
+        for within, shared in zip(self.within, self.shared, strict=True):
+            # Within a block the two have one ratio, for both follow the scatter of their isotherm.
+            ratio = np.bincount(self.block, (shared / within) ** 2) / count
+            pull = (1.0 - 1.0 / np.sqrt(1.0 + count * ratio)) / count
+            out.append((membership if shared.any() else None, membership * pull))
+        return out
 
     @cached_property
     def _factor(self) -> NDArray:
@@ -100,6 +107,11 @@ class Noise:
         same = self.block[:, None] == self.block
         parts = [np.diag(w**2) + np.outer(s, s) * same for w, s in zip(self.within, self.shared, strict=True)]
         return np.linalg.cholesky(block_diag(*parts) + self.discrepancy)
+
+    @cached_property
+    def _root(self) -> NDArray:
+        """Inverse of the factor."""
+        return solve_triangular(self._factor, np.eye(self._factor.shape[0]), lower=True, check_finite=False)
 
     @property
     def log_determinant(self) -> float:
@@ -132,18 +144,14 @@ class Joint:
     def __init__(self, observed: Observations, base: Base, noise: Noise) -> None:
         self.observed, self.base, self.noise = observed, base, noise
         self.membership = np.eye(len(observed.names))[observed.specimen]
+        self._last: tuple[Vector, tuple[Complex, Complex]] | None = None  # at the temperatures stated
 
     def apparent(
         self, law: Vector, active: tuple[Candidate, ...], scales: Vector | None = None
     ) -> tuple[Complex, Complex]:
         """Apparent E* (n,), and its derivatives (n, p + S) with respect to the law and the scales (none: 0)."""
         observed = self.observed
-        temperature = observed.temperature
-        for candidate in active:
-            rows = candidate.cause.rows(observed, candidate.place)
-            rise = candidate.cause.temperature_rise(np.array(candidate.values), observed)
-            temperature = temperature + np.where(rows, rise, 0.0)
-        modulus, slope = self.base.modulus(law, observed.omega, temperature)
+        modulus, slope = self._unscaled(law, active)
         # The scale belongs to the specimen: what the head adds, a mass say, is not scaled with it.
         factor = 1.0 if scales is None else np.exp(scales)[observed.specimen]
         slope = np.column_stack([slope, self.membership * modulus[:, None]])
@@ -158,6 +166,31 @@ class Joint:
             slope = np.where(rows, gain, 1.0)[:, None] * slope
         return modulus, slope
 
+    def _unscaled(self, law: Vector, active: tuple[Candidate, ...]) -> tuple[Complex, Complex]:
+        """E* of the mix and its derivatives, at the temperatures that the causes leave."""
+        observed = self.observed
+        temperature, moved = observed.temperature, False
+        for candidate in active:
+            rise = candidate.cause.temperature_rise(np.array(candidate.values), observed)
+            if np.any(rise):
+                moved = True
+                rows = candidate.cause.rows(observed, candidate.place)
+                temperature = temperature + np.where(rows, rise, 0.0)
+        if moved:
+            return self.base.modulus(law, observed.omega, temperature)
+        if self._last is None or not np.array_equal(self._last[0], law):
+            self._last = law, self.base.modulus(law, observed.omega, temperature)
+        return self._last[1]
+
+    def _shown(self, law: Vector, active: tuple[Candidate, ...], scales: Vector) -> Complex:
+        """Apparent E* (n,) without derivatives."""
+        modulus = np.exp(scales)[self.observed.specimen] * self._unscaled(law, active)[0]
+        for candidate in sorted(active, key=lambda c: c.cause.stage):
+            rows = candidate.cause.rows(self.observed, candidate.place)
+            after = candidate.cause.apparent(modulus, np.array(candidate.values), self.observed)
+            modulus = np.where(rows, after, modulus)
+        return modulus
+
     def direction(
         self, law: Vector, scales: Vector, active: tuple[Candidate, ...], index: int, parameter: int
     ) -> Complex:
@@ -168,7 +201,7 @@ class Joint:
             values = np.array(active[index].values)
             values[parameter] += sign * 1e-3 * typical[parameter]
             moved = active[:index] + (active[index].with_values(values),) + active[index + 1 :]
-            low_high.append(self.apparent(law, moved, scales)[0])
+            low_high.append(self._shown(law, moved, scales))
         return np.log(low_high[1] / low_high[0]) / 2e-3
 
     def linearise(self, law: Vector, scales: Vector, active: tuple[Candidate, ...]) -> Fitted:
@@ -180,8 +213,9 @@ class Joint:
             for k, candidate in enumerate(active)
             for j in range(len(candidate.values))
         ]
-        jacobian = self.noise.whiten(np.column_stack([slope / modulus[:, None], *causes]))
-        residual = self.noise.whiten(self.observed.logarithm - modelled)
+        left = self.observed.logarithm - modelled
+        whitened = self.noise.whiten(np.column_stack([slope / modulus[:, None], *causes, left]))
+        jacobian, residual = np.ascontiguousarray(whitened[:, :-1]), whitened[:, -1].copy()
         prior, prior_slope = self.base.prior(law)
         p, s, total = law.size, scales.size, jacobian.shape[1]
         precision = jacobian.T @ jacobian
@@ -260,7 +294,5 @@ def _damped_step(now: Fitted, damping: float) -> Vector | None:
     damped = now.precision + damping * np.diag(np.diag(now.precision) + 1e-9)
     if not (np.isfinite(damped).all() and np.isfinite(now.gradient).all()):
         return None
-    try:
-        return cho_solve(cho_factor(damped), now.gradient)
-    except LinAlgError:
-        return None
+    _, step, failed = dposv(damped, now.gradient)
+    return None if failed else step

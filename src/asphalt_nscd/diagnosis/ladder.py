@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.stats import f as fisher
+from scipy.special import fdtrc
 
 from asphalt_nscd.diagnosis import beside, chance, limits
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
@@ -89,10 +89,7 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
         ladder.remaining = _remaining(joint, fitted, draws, random)
         if not ladder.rungs:
             threshold = float(np.quantile(by_chance, 1.0 - CHANCE)) + chance.POWER
-            ladder.limits, ladder.unseen = limits.detection_limits(
-                joint, fitted, candidates, found, threshold
-            )
-            ladder.alike = limits.alike(candidates, found, AS_GOOD)
+            first = joint, fitted, candidates, found, threshold
         if not gains.size or len(ladder.rungs) == RUNGS:
             break
         begun = None if ladder.rungs else _begun_with(joint, fitted, candidates, gains.max())
@@ -109,12 +106,14 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
         ladder.rungs.append(rung)
         fitted = rung.after
     _drop_needless(ladder, draws, random)
-    if not _structure_left(ladder):
-        return ladder
+    left = _structure_left(ladder)
     # One isotherm does not tell what is its own from what is common to all.
-    if isinstance(joint.base, FlexibleSpectrum) and joint.observed.isotherms.size > 1:
+    if left and isinstance(joint.base, FlexibleSpectrum) and joint.observed.isotherms.size > 1:
         _climb_beside(ladder, joint, start, catalogue, draws, random)
-    else:
+        return ladder
+    ladder.limits, ladder.unseen = limits.detection_limits(*first)
+    ladder.alike = limits.alike(first[2], first[3], AS_GOOD)
+    if left:
         _withdraw(ladder, draws, random)
     return ladder
 
@@ -141,7 +140,7 @@ def _climb_beside(
 ) -> None:  # fmt: skip
     """The ladder again, beside a discrepancy; every cause with what it hangs on."""
     begun = beside.begin(joint, start)
-    found, end = beside.climb(begun, catalogue, draws, random)
+    found, end, survey = beside.climb(begun, catalogue, draws, random)
     ladder.joint, ladder.start = end.wide, begun.fitted
     named = {one.candidate.key for one in found}
     ladder.withdrawn = [rung for rung in ladder.rungs if rung.candidate.key not in named]
@@ -151,8 +150,8 @@ def _climb_beside(
     if ladder.rungs:
         ladder.rungs[-1] = replace(ladder.rungs[-1], after=end.fitted)
     ladder.hangs_on = {c.key: beside.hangs_on(end, c) for c in end.fitted.active}
-    ladder.limits, ladder.unseen, ladder.alike = beside.detection_limits(end, catalogue, draws, random)
-    ladder.estimates = beside.estimates(end, catalogue)
+    ladder.limits, ladder.unseen, ladder.alike = beside.detection_limits(end, survey, draws, random)
+    ladder.estimates = beside.estimates(end, survey)
     sizes = np.sqrt(end.variances)
     ladder.discrepancy = dict(zip(end.model.processes.names, sizes.tolist(), strict=True))
     ladder.remaining = _remaining(end.plain, end.linear, draws, random)
@@ -248,7 +247,7 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
         kept = value > 1e-3
         square = float((((vector.T @ found.z)[kept]) ** 2 / value[kept]).sum())
         rank = int(kept.sum())
-        p_value = 2.0 * float(fisher.sf(square / rank, rank, joint.noise.freedom))
+        p_value = 2.0 * float(fdtrc(rank, joint.noise.freedom, square / rank))
         out.append(
             Remaining(min(p_value, 1.0), f"each specimen at each frequency, {name}", max(square - rank, 0.0))
         )

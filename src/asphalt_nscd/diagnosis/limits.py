@@ -11,11 +11,12 @@ from asphalt_nscd.diagnosis import chance
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.chance import Scores
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
-from asphalt_nscd.diagnosis.start import fit_spectrum
+from asphalt_nscd.diagnosis.start import of_likeliest_roughness
 
 CLOSE = 0.05  # share of a direction left by the law, below which the law is refitted to see what it follows
 AT_LEAST = 0.5  # share of the strength that must survive the refit
 MOST = 0.9  # of the shapes of a cause
+CONVERGED = 0.01  # change of the objective at which such a refit ends
 STRONGEST = 3.0 * (3.7 + chance.POWER)  # three times a usual limit
 
 
@@ -54,7 +55,8 @@ def _by_refit(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, t
     modulus = joint.apparent(fitted.law, present, fitted.scales)[0]
     shown = Joint(replace(joint.observed, modulus=modulus), joint.base, joint.noise)
     truth = shown.linearise(fitted.law, fitted.scales, present).objective
-    left = fit_spectrum(shown.observed, joint.noise)[1].objective - truth
+    follows = shown.fit(fitted.law, fitted.scales, fitted.active, CONVERGED)
+    left = of_likeliest_roughness(shown, follows, CONVERGED)[1].objective - truth
     strength = float(np.sqrt(max(left, 0.0)))
     return max(threshold / strength, 1.0) if strength > AT_LEAST * threshold else np.inf
 

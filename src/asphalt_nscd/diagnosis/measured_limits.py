@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy.stats import norm
+from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis import report
 from asphalt_nscd.diagnosis.causes import CATALOGUE
@@ -143,4 +143,4 @@ def summarised(table: pd.DataFrame) -> dict[str, Any]:
 
 def stated_power(multiple: float) -> float:
     """Chance to find a cause at a multiple of its limit, which is 95 % at the limit itself."""
-    return float(norm.cdf(multiple * (USUAL_THRESHOLD + POWER) - USUAL_THRESHOLD))
+    return float(ndtr(multiple * (USUAL_THRESHOLD + POWER) - USUAL_THRESHOLD))

@@ -146,6 +146,8 @@ def _renamed(table: Table) -> Table:
         if name == "replicate" and "specimen" not in table.columns:
             wanted = "specimen"
         if wanted in columns or (wanted != name and wanted in table.columns):
-            raise InputError(f"{table.path}: columns {name!r} and {wanted!r} say the same; keep one of them.")
+            raise InputError(
+                f"{table.path}: columns {name!r} and {wanted!r} hold the same quantity; keep one of them."
+            )
         columns[wanted] = values
     return replace(table, columns=columns)

@@ -20,6 +20,7 @@ from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import CONFIDENCE, NOTABLE, SCHEMA_VERSION
 from asphalt_nscd.measurements.agreement import mean_relative_error
 
+ERRORS = ("mre_E_percent", "mre_phase_percent")  # of Table 4
 NOTICED = 0.1  # size of a discrepancy over the scatter of one test, below which it is none
 Logarithm = NDArray[np.complex128]  # ln E* (n,)
 
@@ -48,7 +49,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
             "law": "burgers",
             "parameters": _burgers_parameters(diagnosis),
             "p_value": diagnosis.baseline_p,
-            **_errors(diagnosis, _simulated(diagnosis.baseline_joint, diagnosis.baseline, specimen)),
+            **_errors(diagnosis, with_burgers_laws(diagnosis, specimen)),
         },
         "ladder": ladder,
         "withdrawn": [name_of(rung.candidate) for rung in diagnosis.ladder.withdrawn],
@@ -66,14 +67,29 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
     }  # fmt: skip
 
 
-def residual_table(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> pd.DataFrame:
-    """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated)."""
+def with_burgers_laws(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logarithm:
+    """ln E* (n,) as the numerical specimen shows a Burgers law fitted at each temperature."""
+    return _simulated(diagnosis.baseline_joint, diagnosis.baseline, specimen)
+
+
+def with_common_law(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logarithm:
+    """ln E* (n,) as the numerical specimen shows one law for all temperatures, without causes."""
+    return _simulated(diagnosis.ladder.joint, diagnosis.ladder.start, specimen)
+
+
+def residual_table(
+    diagnosis: Diagnosis, specimen: NumericalSpecimen, before: Logarithm | None = None
+) -> pd.DataFrame:
+    """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated).
+
+    before: ln E* (n,) of a simulation as it was (NaN: not simulated); else with a Burgers law fitted at each
+    temperature.
+    """
     observed, ladder = diagnosis.observed, diagnosis.ladder
     frame = _frame(diagnosis, observed.logarithm)
-    for name, joint, fitted in (
-        ("before", diagnosis.baseline_joint, diagnosis.baseline), ("after", ladder.joint, ladder.fitted)
-    ):  # fmt: skip
-        simulated = _simulated(joint, fitted, specimen)
+    if before is None:
+        before = with_burgers_laws(diagnosis, specimen)
+    for name, simulated in (("before", before), ("after", _simulated(ladder.joint, ladder.fitted, specimen))):
         left = observed.logarithm - simulated
         frame[f"E_{name}_MPa"] = np.exp(simulated.real) * 1e-6
         frame[f"phase_{name}_deg"] = np.degrees(simulated.imag)
@@ -83,19 +99,19 @@ def residual_table(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> pd.Data
 
 
 def _simulated(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> NDArray[np.complex128]:
-    """ln E* (n,) as the numerical specimen shows the law, its packing's factor divided out."""
+    """ln E* (n,) as the numerical specimen shows the law."""
     observed = joint.observed
     law = joint.apparent(fitted.law, ())[0]
-    effect = np.log(specimen.apparent_modulus(observed.omega, law) / specimen.ratio() / law)
+    effect = np.log(specimen.apparent_modulus(observed.omega, law) / law)
     return fitted.modelled + effect
 
 
 def _numerics(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
-    """What the simulation adds to its law, beside the packing's factor."""
+    """What the simulation adds to its law."""
     joint, fitted = diagnosis.baseline_joint, diagnosis.baseline
     effect = _simulated(joint, fitted, specimen) - fitted.modelled
     return {
-        "specimen": specimen.name, "packing_ratio": specimen.ratio(),
+        "specimen": specimen.name, "modulus_over_law": specimen.ratio(),
         "largest_modulus_percent": 100.0 * float(np.abs(effect.real).max()),
         "largest_phase_deg": float(np.degrees(np.abs(effect.imag).max())),
     }  # fmt: skip
@@ -111,15 +127,14 @@ def _frame(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> pd.DataFr
 
 
 def _errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, dict[str, float]]:
-    """Mean relative errors by temperature, as in Table 4."""
-    errors = mean_relative_error(
-        _frame(diagnosis, diagnosis.observed.logarithm), _frame(diagnosis, logarithm)
-    )
+    """Mean relative errors by temperature, as in Table 4, of what was simulated (NaN: not)."""
+    simulated = _frame(diagnosis, logarithm).dropna()
+    if simulated.empty:
+        return {name: {} for name in ERRORS}
+    scatter = float(np.degrees(diagnosis.noise.sigma[1]))
+    errors = mean_relative_error(_frame(diagnosis, diagnosis.observed.logarithm), simulated, scatter)
     by = [f"{t:g}" for t in errors["temperature_C"]]
-    return {
-        name: dict(zip(by, errors[name].tolist(), strict=True))
-        for name in ("mre_E_percent", "mre_phase_percent")
-    }
+    return {name: dict(zip(by, errors[name].tolist(), strict=True)) for name in ERRORS}
 
 
 def _misses(diagnosis: Diagnosis, logarithm: Logarithm, rows: NDArray[np.bool_]) -> dict[str, float]:
@@ -152,12 +167,20 @@ def _pair(diagnosis: Diagnosis, before: Logarithm, after: Logarithm, inner: bool
         rows = (temperature > temperature.min()) & (temperature < temperature.max())
     first, second = _misses(diagnosis, before, rows), _misses(diagnosis, after, rows)
     pair: dict[str, Any] = {name: {"before": first[name], "after": second[name]} for name in first}
+    pair["averages_by_temperature"] = averages(diagnosis, before, after)
+    return pair
+
+
+def averages(
+    diagnosis: Diagnosis, before: Logarithm, after: Logarithm
+) -> dict[str, dict[str, dict[str, float]]]:
+    """Errors before and after by temperature, as in Table 4, of the conditions that hold both (NaN: one does not)."""
+    before, after = np.where(np.isnan(after), after, before), np.where(np.isnan(before), before, after)
     errors = [_errors(diagnosis, logarithm) for logarithm in (before, after)]
-    pair["averages_by_temperature"] = {
+    return {
         t: {name: {"before": errors[0][name][t], "after": errors[1][name][t]} for name in errors[0]}
         for t in errors[0]["mre_E_percent"]
     }
-    return pair
 
 
 def _rung(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen) -> dict[str, Any]:
@@ -203,10 +226,12 @@ def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[st
         if active.key == candidate.key:
             break
         first += len(active.values)
-    errors = np.sqrt(np.diag(fitted.covariance))
+    errors = np.sqrt(np.diag(fitted.covariance))[first : first + len(candidate.values)] * candidate.typical
+    if candidate.key in diagnosis.ladder.estimates:
+        errors[0] = max(errors[0], diagnosis.ladder.estimates[candidate.key][1])
     return {
         parameter.name: {
-            "value": value, "std_error": float(errors[first + k] * parameter.typical), "unit": parameter.unit,
+            "value": value, "std_error": float(errors[k]), "unit": parameter.unit,
         }
         for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True))
     }  # fmt: skip
@@ -216,7 +241,7 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
     """The first rung: one continuous spectrum for all temperatures instead of a Burgers law for each."""
     ladder, observed = diagnosis.ladder, diagnosis.observed
     before = _simulated(diagnosis.baseline_joint, diagnosis.baseline, specimen)
-    after = _simulated(ladder.joint, ladder.start, specimen)
+    after = with_common_law(diagnosis, specimen)
     held_out = {}
     if observed.isotherms.size > 2:
         # A Burgers law says nothing of another temperature: before is its fit, which has seen the data.

@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import measured_limits, quality, repeatability, report, suspects, within_isotherm
+from asphalt_nscd.diagnosis import (
+    bond_mapping,
+    measured_limits,
+    quality,
+    repeatability,
+    report,
+    suspects,
+    within_isotherm,
+)
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.instructions import instructions
@@ -18,20 +28,20 @@ from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
-from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes
-from asphalt_nscd.rheology.spectrum_io import write_spectrum
+from asphalt_nscd.rheology.spectrum_io import spectrum_content
 
-STEPS = 6  # read, causes, law, second opinion, next tests, files
+STEPS = 5  # read, causes, law, second opinion, next tests
 FEW_DRAWS = 1000  # where a second opinion is asked for
 
 
 @dataclass
 class Steps:
-    """Tells how far a diagnosis has come."""
+    """Says how far a diagnosis has come."""
 
     progress: Progress
     done: int = 0
@@ -41,38 +51,70 @@ class Steps:
         self.progress("Diagnose", self.done, STEPS)
 
 
-@dataclass
-class Written:
-    """What a diagnosis wrote: the content of diagnosis.json and the names of all files in the folder."""
+@dataclass(frozen=True)
+class Outcome:
+    """What a diagnosis gives: the content of its files."""
 
-    folder: Path
-    content: dict[str, Any]
-    diagnosis: Diagnosis
-    names: list[str]
+    content: dict[str, Any]  # of diagnosis.json
+    residuals: pd.DataFrame
+    causality: pd.DataFrame
+    law: dict[str, Any] | None  # content of law.json; None for one isotherm
+    diagnosis: Diagnosis | None = None  # that gave them; None if they were read from files
+    limits: pd.DataFrame | None = None  # of limits.csv, where limits were verified
 
-    @property
-    def summary(self) -> str:
-        """The diagnosis on a terminal."""
-        return summary(self.content)
+    def with_limits(self, table: pd.DataFrame) -> Outcome:
+        """The same with limits that were verified."""
+        content = self.content | {"measured_limits": measured_limits.summarised(table)}
+        return replace(self, content=content, limits=table)
 
-    def add_limits(self, table: pd.DataFrame) -> None:
-        """Write the limits that were verified: limits.csv, and their summary in diagnosis.json."""
-        write_table(self.folder / "limits.csv", table)
-        self.content["measured_limits"] = measured_limits.summarised(table)
-        write_json(self.folder / "diagnosis.json", self.content)
-        self.names.append("limits.csv")
+    def write(self, folder: str | Path) -> list[str]:
+        """Write the files into a folder; their names."""
+        folder = Path(folder)
+        write_table(folder / "residuals.csv", self.residuals)
+        write_table(folder / "causality.csv", self.causality)
+        if self.law is not None:
+            write_json(folder / "law.json", self.law)
+        if self.limits is not None:
+            write_table(folder / "limits.csv", self.limits)
+        write_json(folder / "diagnosis.json", self.content)
+        return [
+            "diagnosis.json",
+            "residuals.csv",
+            "causality.csv",
+            *([] if self.law is None else ["law.json"]),
+            *([] if self.limits is None else ["limits.csv"]),
+        ]
+
+    def written(self, folder: str | Path) -> str:
+        """Write the files; the summary, and what was written."""
+        names = self.write(folder)
+        return f"{summary(self.content)}\n\nWritten to {folder}: {', '.join(names)}."
 
 
 def run(
     measurements: str | Path | Campaign, folder: str | Path, geometry: str | Path | Mapping[str, Any],
     specimen: str | Path | None = None, static_modulus: float | None = None,
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
-    simulations: str | Path | None = None, progress: Progress = lambda *_: None,
-) -> Written:  # fmt: skip
-    """Diagnose measurements and write files into the folder.
+    simulations: str | Path | None = None, facets: str | Path | None = None,
+) -> str:  # fmt: skip
+    """Diagnose measurements and write four files into the folder; the summary. See `conclude`."""
+    outcome = conclude(
+        measurements, geometry, specimen, static_modulus, scatter, draws, seed, simulations, facets
+    )
+    return outcome.written(folder)
 
-    The files: diagnosis.json, residuals.csv, causality.csv and, of several isotherms, law.json.
-    simulations: table of simulated tests whose numerics are told apart.
+
+def conclude(
+    measurements: str | Path | Campaign, geometry: str | Path | Mapping[str, Any],
+    specimen: str | Path | None = None, static_modulus: float | None = None,
+    scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
+    simulations: str | Path | None = None, facets: str | Path | None = None,
+    progress: Progress = lambda *_: None,
+) -> Outcome:  # fmt: skip
+    """Diagnose measurements.
+
+    static_modulus [Pa]; scatter: of |E*| (relative) and phase [rad]. simulations: table of simulated tests, whose
+    numerics are judged; facets: of the same tests with bonds that are facets, beside which bond_mapping is judged.
     """
     done = Steps(progress)
     numerical = read_specimen(specimen)
@@ -87,13 +129,14 @@ def run(
         raise InputError(f"{given}: {error}") from None
     done.step()
     fit = None if observed.isotherms.size < 2 else material_law(diagnosis)
-    content = report.as_json(diagnosis, numerical)
+    content, before = report.as_json(diagnosis, numerical), None
     if fit is not None:
         content["notes"] += law_notes(diagnosis, fit.law) + prior_notes(fit)
     done.step()
     content["reading"] = reading(observed, () if campaign is None else campaign.notes)
     if simulations is not None:
         content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
+        before = _begin_with_campaigns(content, diagnosis, numerical, simulations, facets)
     content["origin"] = origin
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
@@ -108,7 +151,7 @@ def run(
     content["provenance"] = {
         **provenance(),
         "measurements": given.name,
-        **_checksums(files),
+        **(_checksums(files) if files else {}),
         "draws": draws,
         "seed": seed,
         "geometry": dict(geometry) if isinstance(geometry, Mapping) else Path(geometry).name,
@@ -116,18 +159,41 @@ def run(
         "static_modulus_Pa": static_modulus,
         "scatter_stated": None if scatter is None else list(scatter),
     }
-    folder = Path(folder)
-    write_table(folder / "residuals.csv", report.residual_table(diagnosis, numerical))
-    write_table(folder / "causality.csv", suspects.table(observed, list(diagnosis.suspects), held))
+    law = None
     if fit is not None:
-        write_spectrum(
-            folder / "law.json", fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,
+        law = spectrum_content(
+            fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,
             std_error=fit.std_error, unseen=fit.unseen, from_prior=fit.from_prior,
         )  # fmt: skip
-    write_json(folder / "diagnosis.json", content)
-    written = ["diagnosis.json", "residuals.csv", "causality.csv", *([] if fit is None else ["law.json"])]
-    done.step()
-    return Written(folder, content, diagnosis, written)
+    return Outcome(
+        content, report.residual_table(diagnosis, numerical, before),
+        suspects.table(observed, list(diagnosis.suspects), held), law, diagnosis,
+    )  # fmt: skip
+
+
+def _begin_with_campaigns(
+    content: dict[str, Any], diagnosis: Diagnosis, specimen: NumericalSpecimen, simulations: str | Path,
+    facets: str | Path | None,
+) -> NDArray[np.complex128]:  # fmt: skip
+    """Put what was simulated before the ladder: its first rung, and the errors before the law. ln E* (n,) of it."""
+    observed = diagnosis.observed
+    before = after = bond_mapping.simulated(simulations, observed)
+    rung = None
+    if facets is None:
+        content["notes"].append(bond_mapping.void(simulations))
+    else:
+        after = bond_mapping.simulated(facets, observed)
+        rung, sentence = bond_mapping.bond_mapping(
+            simulations, facets, report.averages(diagnosis, before, after)
+        )
+        content["notes"].append(sentence)
+    for law in content["ladder"]:
+        if law["cause"] == "relaxation_spectrum":
+            law["gain"]["in_sample"]["averages_by_temperature"] = report.averages(
+                diagnosis, after, report.with_common_law(diagnosis, specimen)
+            )
+    content["ladder"][:0] = [] if rung is None else [rung]
+    return before
 
 
 def with_suspects(

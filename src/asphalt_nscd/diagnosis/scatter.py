@@ -6,8 +6,7 @@ from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
-from scipy.stats import f as fisher
+from scipy.special import chdtrc, fdtrc
 
 from asphalt_nscd.diagnosis.joint import Noise
 from asphalt_nscd.diagnosis.observations import Observations
@@ -85,7 +84,7 @@ def _by_isotherm(residual: Vector, temperature: Vector, share: float) -> Vector:
     # Bartlett's test
     statistic = freedom.sum() * np.log(mean) - freedom @ np.log(variance)
     statistic /= 1.0 + ((1.0 / freedom).sum() - 1.0 / freedom.sum()) / (3.0 * (isotherms.size - 1))
-    if chi2.sf(statistic, isotherms.size - 1) > UNEVEN:
+    if chdtrc(isotherms.size - 1, max(statistic, 0.0)) > UNEVEN:
         return np.ones(residual.size)
     return np.sqrt(variance / mean)[label]
 
@@ -104,7 +103,7 @@ def _components(residual: Vector, block: NDArray, share: float) -> tuple[float, 
     between = float((count * mean) @ mean) / blocks * share
     shared = max((between - within) / size, 0.0)
     # An excess that chance makes is no component: F of blocks against tests.
-    if shared == 0.0 or fisher.sf(between / within, blocks / share, (rows - blocks) / share) > 0.01:
+    if shared == 0.0 or fdtrc(blocks / share, (rows - blocks) / share, between / within) > 0.01:
         return total, 0.0
     return within, shared
 
@@ -130,7 +129,7 @@ def refuse_copies(observed: Observations) -> None:
         if len(common) > 2 and all(np.isclose(tests[one][c], tests[other][c], 1e-9, 0.0) for c in common):
             raise InputError(
                 f"specimens {one} and {other} have the same modulus at all {len(common)} conditions they share: "
-                "copies are no replicates and tell no scatter; keep one of them."
+                "copies are not replicates and give no scatter; keep one of them."
             )
 
 

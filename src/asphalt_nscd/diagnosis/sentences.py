@@ -8,16 +8,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
-from asphalt_nscd.diagnosis.written import CONFIDENCE, shown, three_digits
+from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
 
 Content = Mapping[str, Any]
 TEST_TYPES = {
     "bending": "two-point bending of a trapezoidal specimen",
     "tension-compression": "axial test of a cylinder (tension-compression, AMPT or UTM)",
 }
-OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {"relaxation_spectrum"}
+OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {
+    "relaxation_spectrum",
+    BOND_MAPPING,
+}
 SIMPLER = "one Burgers law for each temperature"
 LARGEST = 4  # parts of what stays unexplained that are listed
 CANNOT_JUDGE = "Nothing was found, but these data cannot judge the simulation"
@@ -59,15 +63,17 @@ def on_simulation(content: Content) -> str:
         if not content["tested"]:
             return f"{CANNOT_JUDGE}."
         return f"{SIMPLER} fits these data to within their scatter; nothing is to be explained."
-    first, last = (rung["gain"]["in_sample"] for rung in (ladder[0], ladder[-1]))
+    first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
     before, after = (
         [f"{three_digits(gain[name][when])} %" for name in ("mre_E_percent", "mre_phase_percent")]
         for gain, when in ((first, "before"), (last, "after"))
     )
-    found = joined([an(cause_words(rung)) for rung in ladder])
+    facets = ["facets for bonds" for rung in ladder if rung["cause"] == BOND_MAPPING]
+    found = joined([*facets, *(an(cause_words(rung)) for rung in ladder if rung["cause"] != BOND_MAPPING)])
     end = "no more" if content["verdict"] == "explained" else "more"
+    simpler = "the simulation of the paper" if facets else SIMPLER
     return (
-        f"{SIMPLER} misses |E*| by {before[0]} and the phase by {before[1]}; with {found} the simulation misses them "
+        f"{simpler} misses |E*| by {before[0]} and the phase by {before[1]}; with {found} the simulation misses them "
         f"by {after[0]} and {after[1]}, {end} than the scatter of the tests."
     )
 
@@ -96,7 +102,7 @@ def with_suspects(content: Content) -> str:
     with_all = content.get("with_suspects")
     if with_all is None:
         return ""
-    without = [cause_words(rung) for rung in content["ladder"]]
+    without = [cause_words(rung) for rung in content["ladder"] if rung["cause"] != BOND_MAPPING]
     other = [cause_words(rung) for rung in with_all["causes"]]
     if other == without:
         return "With these tests used the same causes are named."
@@ -118,6 +124,8 @@ def causes(content: Content) -> list[tuple[str, str]]:
 
 
 def _sure(rung: Content, content: Content) -> str:
+    if rung["cause"] == BOND_MAPPING:
+        return f"Established: {rung['evidence']}."
     chance = "chance alone does as well in less than 1 of a million tables" if rung["p_value"] < 1e-6 else (
         f"chance alone does as well in {_per_cent(rung['p_value'])} of all tables"
     )  # fmt: skip
@@ -183,8 +191,8 @@ def measured_limits(content: Content) -> list[list[str]]:
 
 
 LIMITS_STATED = (
-    "Each cause was put into these tests and the table diagnosed again. Stated: named in 95 % of cases at the limit, in "
-    "all at twice the limit."
+    "Each cause was put into these tests, and the table diagnosed again. Stated: named in 95 % of cases at the limit, "
+    "in all at twice the limit."
 )
 LIMITS_HEAD = ["cause", "stated limit", "named at the limit", "at twice", "at three times", "other names"]
 SCATTER_HEAD = ["isotherm", "between, |E*| %", "between, phase deg", "within, |E*| %", "within, phase deg"]

@@ -39,7 +39,7 @@ class NumericalSpecimen:
         return form_factor(self.geometry) * (force + mass_factor(self.geometry) * omega**2)
 
     def ratio(self) -> float:
-        """c: static modulus of the specimen over that of its bonds, the packing's own factor."""
+        """c: static modulus of the specimen over that of its law; one with facets, at full size."""
         return float(self.apparent_modulus([1e-3], [1e9 + 0j])[0].real / 1e9)
 
 

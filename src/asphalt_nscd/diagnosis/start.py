@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from asphalt_nscd.diagnosis.bases import CLEAR, BurgersAtEach, FlexibleSpectrum
-from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint, Noise
+from asphalt_nscd.diagnosis.joint import CONVERGED, Candidate, Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
@@ -35,11 +35,17 @@ def fit_spectrum(
         if best is None or fitted.objective < best[0] - 1e-3:
             best = fitted.objective, joint, fitted
     assert best is not None
-    _, joint, fitted = best
+    return of_likeliest_roughness(*best[1:])
+
+
+def of_likeliest_roughness(
+    joint: Joint, fitted: Fitted, converged: float = CONVERGED
+) -> tuple[Joint, Fitted]:
+    """The roughness of largest marginal likelihood, each fitted from where the one before ended."""
     scored = []
     for roughness in ROUGHNESS:
-        smooth = Joint(observed, replace(joint.base, roughness=roughness), noise)
-        fitted = smooth.fit(fitted.law, fitted.scales, fitted.active)
+        smooth = Joint(joint.observed, replace(joint.base, roughness=roughness), joint.noise)
+        fitted = smooth.fit(fitted.law, fitted.scales, fitted.active, converged)
         scored.append((marginal_likelihood(smooth, fitted), smooth, fitted))
     return max(scored, key=lambda item: item[0])[1:]
 

@@ -17,8 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from scipy.special import logsumexp
-from scipy.stats import t as student
+from scipy.special import logsumexp, stdtr
 
 from asphalt_nscd.diagnosis import quality, within_isotherm
 from asphalt_nscd.diagnosis.observations import Observations
@@ -224,7 +223,7 @@ def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[N
     if freedoms:
         usual = np.median(common, axis=0)
         z = apart[judged] / np.maximum(np.maximum(own[judged], usual / opened[judged]), 1e-9)
-        chance[judged] = 2.0 * student.sf(np.abs(z), sum(freedoms))
+        chance[judged] = 2.0 * stdtr(sum(freedoms), -np.abs(z))
     return apart, chance
 
 

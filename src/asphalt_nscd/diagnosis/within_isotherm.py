@@ -13,9 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import logsumexp
-from scipy.stats import f as fisher
-from scipy.stats import t as student
+from scipy.special import fdtrc, logsumexp, stdtr
 
 from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances, required_phase
 from asphalt_nscd.diagnosis.observations import Observations
@@ -121,7 +119,7 @@ class _Table:
         mean = (share * left).sum(axis=1)
         error = np.sqrt((share * (spread + (left - mean[:, None]) ** 2)).sum(axis=1))
         freedom = _side_by_side(self.freedom, rows)[:, None]
-        chance = (share * 2.0 * student.sf(np.abs(left) / np.sqrt(spread), freedom)).sum(axis=1)
+        chance = (share * 2.0 * stdtr(freedom, -np.abs(left) / np.sqrt(spread))).sum(axis=1)
         weight = (share / spread).sum(axis=1)
         squares = (share / spread * np.minimum(left**2 / spread, CLIP**2)).sum(axis=1)
         for column, part in enumerate((slice(0, k), slice(k, None))):
@@ -146,7 +144,7 @@ class _Table:
         inside = np.linalg.inv(spread - out)
         squares = np.einsum("bmki,bmkij,bmkj->bmk", left, inside, left)
         freedom = self.freedom[group.rows].min(axis=2)[:, None]
-        return (share * fisher.sf(0.5 * squares, 2.0, freedom)).sum(axis=1)
+        return (share * fdtrc(2.0, freedom, 0.5 * squares)).sum(axis=1)
 
     def learn(self, rounds: int) -> None:
         """Scatter of each isotherm, and how common each ripple and bend is, from all values.

@@ -59,10 +59,15 @@ def _schema() -> Draft202012Validator:
 
 
 def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
-    """The one residuals.csv: each test measured and simulated, before and after, and what lies between."""
+    """The one residuals.csv: each test measured and simulated, before and after, and what lies between.
+
+    NaN before: a condition that the study did not simulate.
+    """
     table = read_csv(the_only(paths, "residuals"))
     table.require(["specimen", *_NUMBERS])
-    numbers = {name: table.numbers(name) for name in _NUMBERS}
+    numbers = {
+        name: table.numbers_or_nan(name) if "_before_" in name else table.numbers(name) for name in _NUMBERS
+    }
     return pd.DataFrame({"specimen": table.text("specimen")} | numbers)
 
 
@@ -90,6 +95,18 @@ def conditions(residuals: pd.DataFrame, scatter: dict[str, float]) -> pd.DataFra
             column = RESIDUALS[quantity].format(when)
             means[f"z_{column}"] = means[column] / sigma * np.sqrt(means["count"])
     return means
+
+
+def mean_averages(gain: dict[str, Any]) -> dict[str, dict[str, float]]:
+    """Errors of |E*| and phase before and after in percent, as in Table 4, mean over temperatures."""
+    by_temperature = gain["averages_by_temperature"].values()
+    return {
+        name: {
+            when: sum(errors[name][when] for errors in by_temperature) / len(by_temperature)
+            for when in BEFORE_AFTER
+        }
+        for name in ("mre_E_percent", "mre_phase_percent")
+    }
 
 
 def shown(value: float, unit: str) -> tuple[float, str]:

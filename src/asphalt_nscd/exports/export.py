@@ -25,7 +25,7 @@ FORMATS = {
 def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Path) -> str:
     """Write a law in one of FORMATS; a line that says what and how well."""
     output = Path(output)
-    require_ending(form, output)
+    require_form(form, output)
     module = import_module(f"asphalt_nscd.exports.{FORMATS[form][0]}")
     if form == "mepdg":
         table = module.make_table(law)
@@ -43,8 +43,10 @@ def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Pa
     return f"{output}: {said}"
 
 
-def require_ending(form: str, output: Path) -> None:
-    """Refuse an output whose ending is not of the format."""
+def require_form(form: str, output: Path) -> None:
+    """Refuse an unknown format, and an output whose ending is not of the format."""
+    if form not in FORMATS:
+        raise InputError(f"format {form!r} is not known; give one of {', '.join(FORMATS)}.")
     endings = FORMATS[form][1]
     if output.suffix.lower() not in endings:
         raise InputError(

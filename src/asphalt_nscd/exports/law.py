@@ -16,10 +16,10 @@ from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
-from asphalt_nscd.rheology.laws_io import numbers_of, read_bond_law
+from asphalt_nscd.rheology.laws_io import bond_law_of, numbers_of
 from asphalt_nscd.rheology.shift import GAS_CONSTANT, WLF, ZERO_CELSIUS, Arrhenius
 from asphalt_nscd.rheology.spectrum import LAWS, Spectrum
-from asphalt_nscd.rheology.spectrum_io import read_spectrum
+from asphalt_nscd.rheology.spectrum_io import spectrum_of
 
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -142,17 +142,25 @@ def read_law_file(
     temperatures [degC], frequencies [Hz]: the tested ones, every pair. Where they are absent, those of
     residuals.csv beside the law of a diagnosis, or the band of a Kelvin chain, or usual ones.
     """
-    path = Path(path)
-    content = read_json(path)
+    return law_of(Path(path), read_json(path), temperatures, frequencies)
+
+
+def law_of(
+    path: Path,
+    content: Any,
+    temperatures: tuple[float, ...] | None = None,
+    frequencies: tuple[float, ...] | None = None,
+) -> ExportedLaw:
+    """The law in the content of a file, with the band as `read_law_file` takes it."""
     kind = content.get("law") if isinstance(content, dict) else None
     if kind not in NAMES:
         raise InputError(f"{path}: holds law {kind!r}; give a file with one of {', '.join(NAMES)}.")
     law: Any
     if kind in LAWS:
-        law = read_spectrum(path)
+        law = spectrum_of(path, content)
         shift, temperature = law.shift, law.shift.reference_temperature
     else:
-        law, shift = read_bond_law(path), None
+        law, shift = bond_law_of(path, content), None
         temperature = numbers_of(path, content, {"temperature": "temperature_C"})["temperature"]
         if temperatures is not None:
             raise InputError(

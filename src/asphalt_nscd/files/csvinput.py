@@ -156,7 +156,7 @@ def read_csv(path: str | Path) -> Table:
         raise InputError(f"{path}: columns are not separated by commas; {_AS_CSV}.")
     if len(set(header)) < len(header) or "" in header:
         raise InputError(
-            f"{path}: a column name is empty or stands twice in the header; name each column once."
+            f"{path}: a column name is empty or appears twice in the header; name each column once."
         )
     if len(rows) == 1:
         raise unreadable(path, "the table has a header but no rows", "add at least one")

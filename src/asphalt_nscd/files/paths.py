@@ -45,4 +45,4 @@ def inside(folder: Path, name: str) -> Path:
             return path
     except (OSError, ValueError):
         pass
-    raise InputError(f"{name}: leads out of {folder}; put the file into that folder.")
+    raise InputError(f"{name}: is outside {folder}; put the file into that folder.")

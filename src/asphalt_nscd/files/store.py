@@ -7,7 +7,6 @@ import io
 import json
 import os
 import platform
-import subprocess
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -19,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asphalt_nscd.files import digests
+from asphalt_nscd.files.commit import commit
 from asphalt_nscd.files.errors import DamagedFile, InputError, unreadable
 from asphalt_nscd.files.paths import require_readable
 
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     import pandas as pd  # a quarter of the time in which a step starts
 
 FORMAT_VERSION = 1
+_OF_OTHERS = (".csv", ".tsv", ".txt", ".dump", ".liggghts", ".vtk", ".vtp", ".vtu")
 _PACKAGES = ("asphalt-nscd", "numpy", "scipy", "numba", "pandas", "h5py", "matplotlib", "snakemake")
 
 
@@ -133,12 +134,20 @@ def load(path: str | Path, kind: str) -> Record:
                 )
             )
     except Exception as error:  # h5py raises nearly any exception on a damaged file
+        if Path(path).suffix.lower() in _OF_OTHERS:
+            raise InputError(
+                f"{path}: no HDF5; `asphalt-nscd import-packing` reads packings of that kind."
+            ) from None
         raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None
     found, format_version = attributes.pop("kind", None), attributes.pop("format_version", None)
     digest = attributes.pop("digest", None)
     attributes.pop("provenance", None)
     if found != kind:
-        raise unreadable(path, f"holds {found or 'nothing of ours'!r}, not {kind!r}", "give the right file")
+        raise unreadable(
+            path,
+            f"expected a {kind} file; found {f'a {found} file' if found else 'another kind of data'}",
+            "give the right file",
+        )
     if format_version != FORMAT_VERSION:
         raise DamagedFile(path, f"format {format_version}, this version reads {FORMAT_VERSION}")
     if digest != _digest(kind, arrays, attributes):
@@ -146,10 +155,23 @@ def load(path: str | Path, kind: str) -> Record:
     return Record(arrays, attributes, digest)
 
 
+def kind_of(path: str | Path) -> str:
+    """Kind of a result file, without reading its arrays."""
+    import h5py
+
+    if not Path(path).is_file():
+        raise InputError(f"{path}: no such file; make it with its rule or check the path.")
+    try:
+        with h5py.File(path, "r") as file:
+            return str(file.attrs.get("kind", "nothing of ours"))
+    except Exception as error:  # h5py raises nearly any exception on a damaged file
+        raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None
+
+
 def provenance() -> dict[str, Any]:
     """Git commit, package versions and Python of this run."""
     return {
-        "git_commit": _git_commit(),
+        "git_commit": commit(),
         "python": platform.python_version(),
         "packages": {name: _version(name) for name in _PACKAGES},
     }
@@ -179,12 +201,3 @@ def _version(name: str) -> str:
         return version(name)
     except PackageNotFoundError:
         return "absent"
-
-
-def _git_commit() -> str:
-    root = Path(__file__).resolve().parents[3]
-    run = subprocess.run(
-        ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=40"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    return run.stdout.strip() or "unknown"

@@ -10,13 +10,16 @@ from asphalt_nscd.files.errors import InputError
 KEYS = ["temperature_C", "frequency_Hz"]
 
 
-def mean_relative_error(measured: pd.DataFrame, simulated: pd.DataFrame) -> pd.DataFrame:
+def mean_relative_error(
+    measured: pd.DataFrame, simulated: pd.DataFrame, least_phase_deg: float = 0.0
+) -> pd.DataFrame:
     """Mean relative error of |E*| and phase for each temperature, in percent (Table 4).
 
     Both tables have the columns temperature_C, frequency_Hz, E_MPa, phase_deg. As in the paper, the
     average over specimens is compared with the average over samples, point by point, relative to
-    the measurement; the mean is over the frequencies that were simulated. Returns temperature_C,
-    mre_E_percent, mre_phase_percent.
+    the measurement; the mean is over the frequencies that were simulated. A measured phase below least_phase_deg,
+    of an elastic reference beam say, is nothing to divide by: the error is relative to least_phase_deg there.
+    Returns temperature_C, mre_E_percent, mre_phase_percent.
     """
     columns = ["E_MPa", "phase_deg"]
     experiment = measured.groupby(KEYS)[columns].mean()
@@ -25,6 +28,9 @@ def mean_relative_error(measured: pd.DataFrame, simulated: pd.DataFrame) -> pd.D
         raise InputError(f"no measurement at {temperature:g} degC, {frequency:g} Hz to compare with; add it.")
     if simulation.empty:
         raise InputError("the table of simulations is empty; simulate at least one test.")
-    errors = 100.0 * np.abs(simulation / experiment.loc[simulation.index] - 1.0)
+    experiment = experiment.loc[simulation.index]
+    size = experiment.abs()
+    size["phase_deg"] = size["phase_deg"].clip(lower=least_phase_deg)
+    errors = 100.0 * np.abs(simulation - experiment) / size
     errors.columns = ["mre_E_percent", "mre_phase_percent"]
     return errors.groupby("temperature_C").mean().reset_index()

@@ -61,7 +61,7 @@ def _from_table(path: str | Path) -> dict[str, Geometry]:
     known: dict[str, Geometry] = {}
     for row, specimen in enumerate(table.text("specimen")):
         if specimen in known:
-            raise table.error(row, f"specimen {specimen!r} stands twice; keep one line for it.")
+            raise table.error(row, f"specimen {specimen!r} appears twice; keep one line for it.")
         try:
             known[specimen] = _in_metres({name: float(column[row]) for name, column in values.items()})
         except InputError as error:

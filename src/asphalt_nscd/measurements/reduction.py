@@ -243,6 +243,6 @@ def _check_whole_table(table: Table, frame: pd.DataFrame, form: str) -> None:
     expected = LARGEST_PHASE_AT_LEAST["soft" if frame["E_MPa"].min() < GLASSY else "glassy"]
     if form != "records" and largest <= expected:
         raise InputError(
-            f"{table.path}: no {FORMS[form][-1]} exceeds {largest:.3g}, so the column looks like radians, or like an "
-            "elastic beam's, which says nothing of a mix; if radians, multiply it by 180/pi."
+            f"{table.path}: no {FORMS[form][-1]} exceeds {largest:.3g}, so the values look like radians, or like "
+            "those of an elastic beam, which say nothing about a mix; if radians, multiply them by 180/pi."
         )

@@ -125,7 +125,7 @@ def _window(
     wanted = max(1, int(WINDOW * frequency * (1 + 1e-9))) if cycles is None else cycles
     required = 1 if cycles is None else cycles
     if required < 1:
-        raise InputError(f"a window of {cycles} cycles was asked for; ask for at least one.")
+        raise InputError(f"a window of {cycles} cycles holds no cycle; give at least one.")
     if available < required:
         raise InputError(
             f"the record lasts {time.size / samples_per_cycle:.2f} cycles of {frequency:g} Hz, "

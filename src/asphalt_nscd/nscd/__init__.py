@@ -4,8 +4,10 @@ Imports nothing else of this package. Sign convention throughout: relative veloc
 opening, reaction on the second body positive = repulsion.
 """
 
+from typing import Any
 
-def __getattr__(name: str):
+
+def __getattr__(name: str) -> Any:
     """`solve_contacts`, imported when asked for: the other kernels do without scipy.sparse."""
     if name == "solve_contacts":
         from asphalt_nscd.nscd.contacts.friction import solve_contacts

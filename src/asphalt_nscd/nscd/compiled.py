@@ -6,9 +6,9 @@ another file (numba issue 1833). The cache folder is therefore named by a hash o
 
 from __future__ import annotations
 
-import numba
+from numba import config, njit
 
 from asphalt_nscd.nscd.core_cache import core_folder
 
-numba.config.CACHE_DIR = core_folder()
-compiled = numba.njit(cache=True, error_model="numpy")
+setattr(config, "CACHE_DIR", core_folder())  # noqa: B010 - numba declares none of its settings
+compiled = njit(cache=True, error_model="numpy")

@@ -16,12 +16,13 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
+from typing import TypeAlias
 
 import llvmlite.binding as llvm
 
 from asphalt_nscd.nscd.core_cache import core_folder
 
-Library = llvm.ExecutionEngine
+Library: TypeAlias = llvm.ExecutionEngine
 _loaded: list[Library] = []  # what is freed takes its functions with it
 
 

@@ -1,4 +1,4 @@
-"""Published results: files copied beside their checksums, and blocks of README.md made from them."""
+"""Published results: files copied beside their checksums, and tables in README.md and docs/ made from them."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import pandas as pd
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path
+from asphalt_nscd.reporting.layouts import shown
 
 CHECKSUMS = "SHA256SUMS"
 
@@ -53,25 +54,36 @@ def _sum(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def fill_blocks(document: Path, blocks: Mapping[str, Path]) -> None:
+def fill_blocks(documents: Sequence[Path], blocks: Mapping[str, Path]) -> None:
     """Replace what stands between `<!-- name -->` and `<!-- end name -->` by a table.
 
-    A Markdown file is taken as it is; of a CSV file the table is made.
+    documents: Markdown files, or folders of them; each block stands once in all of them together.
+    A Markdown source is taken as it is; of a CSV file the table is made (reporting/layouts.py).
+    Raises InputError if a block is not there, or there twice; then no document has changed.
     """
-    text = document.read_text(encoding="utf-8")
+    pages = [page for path in documents for page in (sorted(path.glob("*.md")) if path.is_dir() else [path])]
+    before = {page: page.read_text(encoding="utf-8") for page in pages}
+    texts = dict(before)
     for name, source in blocks.items():
         begin, end = f"<!-- {name} -->\n", f"<!-- end {name} -->"
-        if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
-            raise InputError(f"{document}: no block {begin.strip()} ... {end}; add the two lines.")
-        head, tail = text.split(begin)[0], text.split(end)[1]
-        text = head + begin + _markdown(source) + end + tail
-    with atomic_path(document) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+        places = [page for page, text in texts.items() if begin in text or end in text]
+        page = places[0] if len(places) == 1 else None
+        if page is None or not _stands_once(texts[page], begin, end):
+            where = ", ".join(map(str, places or documents))
+            raise InputError(
+                f"{where}: the block {begin.strip()} ... {end} must stand once; mend the two lines."
+            )
+        head, tail = texts[page].split(begin)[0], texts[page].split(end)[1]
+        texts[page] = head + begin + _markdown(name, source) + end + tail
+    for page, text in texts.items():
+        if text != before[page]:
+            with atomic_path(page) as temporary:
+                temporary.write_text(text, encoding="utf-8")
 
 
-def _markdown(source: Path) -> str:
-    if source.suffix == ".md":
-        return source.read_text(encoding="utf-8")
-    table = pd.read_csv(source).convert_dtypes()  # whole numbers stay so beside empty fields
-    shown = table.astype(object).where(table.notna(), None)
-    return shown.to_markdown(index=False, floatfmt=".4g", missingval="") + "\n"
+def _stands_once(text: str, begin: str, end: str) -> bool:
+    return text.count(begin) == 1 == text.count(end) and text.index(begin) < text.index(end)
+
+
+def _markdown(block: str, source: Path) -> str:
+    return source.read_text(encoding="utf-8") if source.suffix == ".md" else shown(block, pd.read_csv(source))

@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import write_json
 from asphalt_nscd.rheology.conversion import kelvin_chain
-from asphalt_nscd.rheology.laws_io import write_chain
+from asphalt_nscd.rheology.laws_io import chain_content
+from asphalt_nscd.rheology.spectrum import Spectrum
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
 
@@ -21,15 +23,27 @@ def chain_law(
 
     It follows the law within `tolerance`, |ln(E_chain / E)|, from lowest_hz to highest_hz [Hz].
     """
-    law = read_spectrum(spectrum)
+    content = chain_at(
+        read_spectrum(spectrum), str(spectrum), temperature, (lowest_hz, highest_hz), tolerance, factor
+    )
+    write_json(output, content)
+    return content
+
+
+def chain_at(
+    law: Spectrum, name: str, temperature: float, band: tuple[float, float], tolerance: float,
+    factor: float = 1.0,
+) -> dict[str, Any]:  # fmt: skip
+    """The chain of a law called `name`, as its file has it; band: lowest and highest frequency [Hz]."""
+    lowest_hz, highest_hz = band
     try:
         chain, error = kelvin_chain(
             lambda omega: law.complex_modulus(omega, temperature),
             2.0 * np.pi * lowest_hz, 2.0 * np.pi * highest_hz, tolerance,
         )  # fmt: skip
     except InputError as refusal:
-        raise InputError(f"{spectrum} at {temperature:g} degC: {refusal}") from None
-    return write_chain(
-        output, chain.scaled(factor), source=str(spectrum), temperature=temperature, error=error,
+        raise InputError(f"{name} at {temperature:g} degC: {refusal}") from None
+    return chain_content(
+        chain.scaled(factor), source=name, temperature=temperature, error=error,
         lowest_hz=lowest_hz, highest_hz=highest_hz,
     )  # fmt: skip

@@ -13,8 +13,8 @@ from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import stats
 from scipy.optimize import OptimizeResult, least_squares
+from scipy.special import stdtrit
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.burgers import Burgers
@@ -50,7 +50,7 @@ class Fit(Generic[Law]):
     def interval(self, name: str, level: float = 0.95) -> tuple[float, float]:
         """Confidence interval of a parameter that has a standard error: Student's t on its logarithm."""
         value, error = parameters(self.law)[name], (self.std_error or {})[name]
-        factor = float(np.exp(stats.t.ppf(0.5 + 0.5 * level, self.freedom) * error / value))
+        factor = float(np.exp(stdtrit(self.freedom, 0.5 + 0.5 * level) * error / value))
         return value / factor, value * factor
 
 

@@ -23,8 +23,7 @@ _CHAIN_KEYS = {"spring": "E_Pa", "dashpot": "eta_Pa_s"}
 _ELEMENT_KEYS = {"kelvin_springs": "Ek_Pa", "kelvin_dashpots": "eta_k_Pa_s"}
 
 
-def write_law(
-    path: str | Path,
+def law_content(
     law: Burgers,
     *,
     source: str,
@@ -32,8 +31,8 @@ def write_law(
     std_error: dict[str, float] | None = None,
     rms_log_residual: float | None = None,
 ) -> dict[str, Any]:
-    """Write the Burgers law of one temperature [degC]; source: "published" or "fitted"."""
-    content = {
+    """The Burgers law of one temperature [degC] as its file has it; source: "published" or "fitted"."""
+    return {
         "law": "burgers",
         "source": source,
         "temperature_C": float(temperature),
@@ -41,18 +40,25 @@ def write_law(
         "std_error": None if std_error is None else renamed(std_error, _BURGERS_KEYS),
         "rms_log_residual": rms_log_residual,
     }
+
+
+def write_law(path: str | Path, law: Burgers, **said: Any) -> dict[str, Any]:
+    """Write the Burgers law of one temperature; said: as in `law_content`."""
+    content = law_content(law, **said)
     write_json(path, content)
     return content
 
 
 def read_law(path: str | Path) -> Burgers:
     """Read a Burgers law."""
-    content = content_of(path, ["burgers"])
+    return _burgers_of(path, content_of(path, ["burgers"]))
+
+
+def _burgers_of(path: str | Path, content: dict[str, Any]) -> Burgers:
     return _built(path, Burgers, numbers_of(path, content, _BURGERS_KEYS))
 
 
-def write_chain(
-    path: str | Path,
+def chain_content(
     chain: KelvinChain,
     *,
     source: str,
@@ -61,11 +67,11 @@ def write_chain(
     lowest_hz: float,
     highest_hz: float,
 ) -> dict[str, Any]:
-    """Write a Kelvin chain that stands for a law at one temperature [degC].
+    """A Kelvin chain that stands for a law at one temperature [degC], as its file has it.
 
     error: its largest |ln(E_chain / E)| between lowest_hz and highest_hz [Hz].
     """
-    content = {
+    return {
         "law": "kelvin_chain",
         "source": source,
         "temperature_C": float(temperature),
@@ -75,15 +81,24 @@ def write_chain(
         "lowest_Hz": float(lowest_hz),
         "highest_Hz": float(highest_hz),
     }
+
+
+def write_chain(path: str | Path, chain: KelvinChain, **said: Any) -> dict[str, Any]:
+    """Write a Kelvin chain that stands for a law at one temperature; said: as in `chain_content`."""
+    content = chain_content(chain, **said)
     write_json(path, content)
     return content
 
 
 def read_bond_law(path: str | Path) -> Burgers | KelvinChain:
     """Read a law that bonds can follow: Burgers or Kelvin chain."""
-    content = content_of(path, ["burgers", "kelvin_chain"])
+    return bond_law_of(path, content_of(path, ["burgers", "kelvin_chain"]))
+
+
+def bond_law_of(path: str | Path, content: dict[str, Any]) -> Burgers | KelvinChain:
+    """The law that bonds can follow in the content of a file."""
     if content["law"] == "burgers":
-        return read_law(path)
+        return _burgers_of(path, content)
     absent = {key: math.inf for key in _CHAIN_KEYS.values() if key in content and content[key] is None}
     values: dict[str, Any] = numbers_of(path, content | absent, _CHAIN_KEYS)
     for name, key in _ELEMENT_KEYS.items():

@@ -75,7 +75,9 @@ def of_chain(chain: KelvinChain) -> MaxwellSeries:
     A Burgers law has two branches and no spring. A chain without spring has no such form.
     """
     if np.isinf(chain.spring):
-        raise InputError("Kelvin chain: it has no spring, so no finite modulus at once; fit a Prony series.")
+        raise InputError(
+            "Kelvin chain: it has no spring, so its instantaneous modulus is not finite; fit a Prony series."
+        )
     springs, dashpots = _merged(chain)
     poles = springs / dashpots
     flows = bool(np.isfinite(chain.dashpot))

@@ -37,7 +37,7 @@ def read_published(path: str | Path, unit: str = "kPa") -> tuple[np.ndarray, lis
     temperatures = table.numbers("temperature_C", LIMITS["temperature_C"])
     for row in range(1, temperatures.size):
         if temperatures[row] in temperatures[:row]:
-            raise table.error(row, f"{temperatures[row]:g} degC stands twice; keep one line for it.")
+            raise table.error(row, f"{temperatures[row]:g} degC appears twice; keep one line for it.")
     positive = Limits(1e-3, 1e15, "give a positive value in kPa or kPa s")
     columns = [table.numbers(name, positive) * UNITS[unit] for name in PUBLISHED_COLUMNS]
     return temperatures, [Burgers(*(float(value) for value in row)) for row in zip(*columns, strict=True)]

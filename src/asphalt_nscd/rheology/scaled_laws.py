@@ -18,7 +18,7 @@ def scale_law(law: str | Path, parameter: str, factor: float, output: str | Path
         raise InputError(f"{parameter!r} is no parameter of the law; give one of {', '.join(PARAMETERS)}.")
     if not LEAST_FACTOR <= factor <= LARGEST_FACTOR:
         raise InputError(
-            f"factor {factor:g} leaves no law; give a number from {LEAST_FACTOR:g} to {LARGEST_FACTOR:g}."
+            f"factor {factor:g} is out of range; give a number from {LEAST_FACTOR:g} to {LARGEST_FACTOR:g}."
         )
     content = read_json(law)
     key = PARAMETERS[parameter]

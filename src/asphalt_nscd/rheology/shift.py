@@ -30,7 +30,7 @@ class WLF:
         above = np.asarray(temperature, dtype=float) - self.reference_temperature
         if np.any(self.c2 + above <= 0.0):
             raise InputError(
-                f"WLF shift: nothing is defined {np.min(self.c2):g} K below {self.reference_temperature:g} "
+                f"WLF shift: it is not defined {np.min(self.c2):g} K below {self.reference_temperature:g} "
                 "degC or colder; take a higher temperature or an Arrhenius shift."
             )
         return 10.0 ** (-self.c1 * above / (self.c2 + above))

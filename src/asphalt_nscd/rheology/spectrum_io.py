@@ -27,8 +27,7 @@ _KEYS = {
 _REFERENCE = {"reference_temperature": "reference_temperature_C"}
 
 
-def write_spectrum(
-    path: str | Path,
+def spectrum_content(
     law: Spectrum,
     *,
     source: str,
@@ -37,7 +36,7 @@ def write_spectrum(
     unseen: Iterable[str] = (),
     from_prior: Iterable[str] | None = None,
 ) -> dict[str, Any]:
-    """Write a continuous law, which holds for all temperatures.
+    """A continuous law, which holds for all temperatures, as its file has it.
 
     unseen: parameters that the tests do not determine; from_prior: those of them that have the value of a prior,
     None where none was used. See `fitting.Fit`.
@@ -54,13 +53,23 @@ def write_spectrum(
     }
     if from_prior is not None:
         content["from_prior"] = [_KEYS[name] for name in from_prior]
+    return content
+
+
+def write_spectrum(path: str | Path, law: Spectrum, **said: Any) -> dict[str, Any]:
+    """Write a continuous law; said: as in `spectrum_content`."""
+    content = spectrum_content(law, **said)
     write_json(path, content)
     return content
 
 
 def read_spectrum(path: str | Path) -> Spectrum:
     """Read a continuous law."""
-    content = content_of(path, list(LAWS))
+    return spectrum_of(path, content_of(path, list(LAWS)))
+
+
+def spectrum_of(path: str | Path, content: dict[str, Any]) -> Spectrum:
+    """The law in the content of a file."""
     if content.get("shift") not in SHIFTS:
         raise InputError(
             f"{path}: key 'shift' is {content.get('shift')!r}; give one of {', '.join(SHIFTS)} "

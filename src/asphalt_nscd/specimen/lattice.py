@@ -51,7 +51,10 @@ def random_lattice(
     return position[by_height], radii[by_height]
 
 
-def _place(cells, shape, cell, radii, parts, corner, rng):
+def _place(
+    cells: np.ndarray, shape: np.ndarray, cell: float, radii: np.ndarray, parts: int, corner: np.ndarray,
+    rng: np.random.Generator,
+) -> np.ndarray:  # fmt: skip
     index = np.stack([cells % shape[0], cells // shape[0] % shape[1], cells // (shape[0] * shape[1])], axis=1)
     part = cell / parts
     slack = part - 2.0 * radii[:, None]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -13,15 +14,35 @@ from asphalt_nscd.files.store import load, save
 from asphalt_nscd.measurements.geometry import read_geometry, require_within
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.deposit import REST_SPEED, Granulate, PouringNumerics, Progress, settle, vibrate
+from asphalt_nscd.specimen.deposit import REST_SPEED, Course, Progress, Shaking, balance, settle, vibrate
+from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.specimen.network import Network
 from asphalt_nscd.specimen.trimming import Specimen, layer_height, trim
 
+DEPOSIT, SPECIMEN = "deposit", "specimen"  # kinds of files
+Content = tuple[dict[str, np.ndarray], dict[str, Any]]
+"""Arrays and attributes, as a file has them."""
+
+KEPT = (
+    "seed",
+    "source",
+    "layer_height_m",
+    "solid_fraction",
+)  # of a deposit, in the specimen; source: of an import
 DENSITY = 2600.0  # kg/m3 while pouring, section 3.2.1
 LONGEST_POURING = 3.0  # s
 LONGEST_REST = 0.3  # s
 TOUCHING = 1e-6  # m, gap below which two spheres count as touching
+
+
+@dataclass(frozen=True)
+class Vibration:
+    """Of the top wall, after pouring."""
+
+    stroke: float = 6e-3  # m, crest to crest
+    frequency: float = 30.0  # Hz
+    duration: float = 1.0  # s; zero for none
 
 
 def deposit(
@@ -33,31 +54,71 @@ def deposit(
 
     stroke [m] crest to crest at vibration_frequency [Hz] for vibration_time [s] (zero: none).
     """
+    vibration = Vibration(stroke, vibration_frequency, vibration_time)
+    save(
+        output, DEPOSIT, *pour(read_counts(counts_table), box, seed, friction, vibration, time_step, progress)
+    )
+
+
+def pour(
+    spheres: tuple[np.ndarray, np.ndarray], box: tuple[float, float, float], seed: int, friction: float,
+    vibration: Vibration, time_step: float, progress: Progress = lambda stage, done, total: None,
+) -> Content:  # fmt: skip
+    """Pour spheres, diameters [m] and their counts, into box (length, width, height) [m] and vibrate them.
+
+    Arrays and attributes of a deposit file.
+    """
     began = time.process_time()
-    diameters, counts = read_counts(counts_table)
+    stroke, vibration_frequency, vibration_time = vibration.stroke, vibration.frequency, vibration.duration
+    diameters, counts = spheres
     position, radius = random_lattice(diameters, counts, box, np.random.default_rng(seed))
     numerics = PouringNumerics.of(radius, time_step)
     granulate = Granulate.in_box(position, radius, box, DENSITY, friction)
+    granulate.let_fall()
     settle(granulate, numerics, REST_SPEED, LONGEST_POURING, progress, "pouring")
-    poured, poured_height = granulate.position.copy(), layer_height(granulate.position, radius)
+    stages = {"poured": _stage(granulate, numerics, Course(), progress, "settling")}
+    poured, course, pressure = granulate.position.copy(), Course(), 0.0
     if vibration_time > 0.0:
-        vibrate(granulate, numerics, stroke, vibration_frequency, vibration_time, progress)
+        course.note(granulate)
+        pressure = granulate.weight() / (box[0] * box[1])
+        shaking = Shaking(stroke, vibration_frequency, vibration_time, pressure)
+        vibrate(granulate, numerics, shaking, course, progress)
         settle(granulate, numerics, REST_SPEED, LONGEST_REST, progress, "coming to rest")
-    contacts, gap = granulate.contacts(TOUCHING)
+        stages["vibrated"] = _stage(granulate, numerics, course, progress, "coming to rest")
+        course.note(granulate)
+    last = stages["vibrated" if vibration_time > 0.0 else "poured"]
     attributes = {
         "seed": seed, "friction": friction, "stroke_m": stroke, "vibration_Hz": vibration_frequency,
-        "vibration_s": vibration_time, "spheres": radius.size, "poured_height_m": poured_height,
+        "vibration_s": vibration_time, "wall_pressure_Pa": pressure, "spheres": radius.size,
         "highest_point_m": granulate.top(), "steps": granulate.steps, "sweeps": granulate.sweeps,
-        **layer_statistics(granulate.position, radius, box, contacts),
-        "largest_penetration_m": float(max(0.0, -gap.min(initial=0.0))),
+        **last, **{f"poured_{name}": value for name, value in stages["poured"].items()},
         "kinetic_energy_J": granulate.kinetic_energy(),
         **asdict(numerics), "cpu_s": time.process_time() - began,
     }  # fmt: skip
     arrays = {
         "initial_position": position, "poured_position": poured, "position": granulate.position,
-        "radius": radius, "box": np.asarray(box, float),
+        "radius": radius, "box": np.asarray(box, float), **course.arrays(),
     }  # fmt: skip
-    save(output, "deposit", arrays, attributes)
+    return arrays, attributes
+
+
+def _stage(
+    granulate: Granulate, numerics: PouringNumerics, course: Course, progress: Progress, name: str
+) -> dict[str, float]:
+    """Bring the layer into equilibrium; what is said of it then, and of its way there."""
+    moving, granulate.overlap = granulate.overlap, 0.0
+    weight_balance, unbalanced = balance(granulate, numerics, LONGEST_REST, progress, name)
+    contacts, gap = granulate.contacts(TOUCHING)
+    box = (granulate.plane_point[3, 0], granulate.plane_point[4, 1], granulate.top())
+    touched = np.array(course.touched)
+    return {
+        **layer_statistics(granulate.position, granulate.radius, box, contacts),
+        "largest_overlap_m": float(max(0.0, -gap.min(initial=0.0))),
+        "weight_balance": weight_balance, "unbalanced_force": unbalanced,
+        "periods": touched.size, "periods_with_contact": int((touched > 0).sum()),
+        "grains_touched_per_period": float(touched.mean()) if touched.size else 0.0,
+        "largest_overlap_moving_m": moving,
+    }  # fmt: skip
 
 
 def layer_statistics(
@@ -84,28 +145,41 @@ def trim_deposit(
     gap_max: float, output: str | Path, area: str = "paper",
 ) -> None:  # fmt: skip
     """Cut a specimen from a deposit, bond its spheres (`trim`; gap_max [m] is its reach), and save."""
-    record = load(deposit_file, "deposit")
+    record = load(deposit_file, DEPOSIT)
     shape = read_geometry(geometry, ["specimen"])["specimen"]
-    require_within(shape, record.arrays["box"])
-    specimen = trim(
-        record.arrays["position"], record.arrays["radius"], shape, volume_reduction, gap_max, area
+    save(
+        output, SPECIMEN, *bonded((record.arrays, record.attributes), shape, volume_reduction, gap_max, area)
     )
+
+
+def bonded(
+    deposited: Content, shape: Geometry, volume_reduction: float, gap_max: float, area: str
+) -> Content:
+    """Arrays and attributes of a specimen file, cut from the content of a deposit file. See `trim_deposit`."""
+    arrays, attributes = deposited
+    require_within(shape, arrays["box"].tolist())
+    specimen = trim(arrays["position"], arrays["radius"], shape, volume_reduction, gap_max, area)
     network = specimen.network
-    attributes = {
-        **{name: record.attributes[name] for name in ("seed", "layer_height_m", "solid_fraction")},
+    said: dict[str, float | int | str] = {
+        **{name: attributes[name] for name in KEPT if name in attributes},
         **asdict(specimen.geometry),
         "spheres": specimen.radius.size, "bonds": network.first.size, "density": specimen.density,
         "volume_reduction": volume_reduction, "gap_max_m": gap_max, "area": area,
         "loose_grains": specimen.loose_grains, "smallest_gap_m": float(network.gap.min()),
     }  # fmt: skip
-    arrays = {"position": specimen.position, "radius": specimen.radius}
-    arrays |= {f"network/{name}": value for name, value in network.arrays().items()}
-    save(output, "specimen", arrays, attributes)
+    bodies = {"position": specimen.position, "radius": specimen.radius}
+    return bodies | {f"network/{name}": value for name, value in network.arrays().items()}, said
 
 
 def read_specimen(path: str | Path) -> Specimen:
     """The specimen in a file made by `trim_deposit`."""
-    arrays, attributes = (record := load(path, "specimen")).arrays, record.attributes
+    record = load(path, SPECIMEN)
+    return specimen_of((record.arrays, record.attributes))
+
+
+def specimen_of(content: Content) -> Specimen:
+    """The specimen in the content of its file."""
+    arrays, attributes = content
     return Specimen(
         geometry=Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__}),
         position=arrays["position"], radius=arrays["radius"], density=attributes["density"],

@@ -52,7 +52,7 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
 
 
 def refuse_repeated_keys(path: str | Path) -> None:
-    """Refuse a study in which a key stands twice, of which YAML silently takes the last.
+    """Refuse a study in which a key appears twice, of which YAML silently takes the last.
 
     Anchors are refused too: a few lines of them can stand for more than any memory holds.
     """
@@ -69,10 +69,10 @@ def refuse_repeated_keys(path: str | Path) -> None:
             for name, _ in node.value:
                 line = name.start_mark.line + 1
                 if not isinstance(name, yaml.ScalarNode):
-                    raise InputError(f"{path}, line {line}: a key is no word; give the name of a key.")
+                    raise InputError(f"{path}, line {line}: a key is not a word; give the name of a key.")
                 if name.value in seen:
                     raise InputError(
-                        f"{path}, line {line}: key {name.value!r} stands twice; keep one of the two."
+                        f"{path}, line {line}: key {name.value!r} appears twice; keep one of the two."
                     )
                 seen.add(name.value)
             return super().construct_mapping(node, deep)

@@ -44,6 +44,6 @@ def _require_apart(values: np.ndarray, near: np.ndarray, what: str, unit: str, p
     if near.any():
         place = int(np.flatnonzero(near)[0])
         raise InputError(
-            f"{path}: {what} {values[place]:g} and {values[place + 1]:g} {unit} are probably one as it was set; "
-            "give the set values, alike in all rows."
+            f"{path}: {what} {values[place]:g} and {values[place + 1]:g} {unit} are probably one set value; "
+            "give that value in all rows."
         )

@@ -108,12 +108,14 @@ def read_grading(path: str | Path, sheet: str | None = None) -> pd.Series:
             values[name] = value * column.factor
         if values["diameter_mm"] in curve:
             raise InputError(
-                f"{path}, line {line}: sieve {values['diameter_mm']:g} mm stands twice; keep one."
+                f"{path}, line {line}: sieve {values['diameter_mm']:g} mm appears twice; keep one."
             )
         curve[values["diameter_mm"]] = values["passing_percent"]
     grading = pd.Series(curve)
     if grading.max() <= 1.0:
-        raise InputError(f"{path}: passes at most {grading.max():g} %, as fractions would; give per cent.")
+        raise InputError(
+            f"{path}: passes at most {grading.max():g} %, which looks like fractions; give percent."
+        )
     try:
         counts_of_grading(
             np.array(grading.index, np.float64), np.array(grading, np.float64), SMALLEST_MM, 1000

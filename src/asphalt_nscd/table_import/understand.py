@@ -158,7 +158,7 @@ def _single(cells: Cells, name: str, places: list[Place]) -> Place:
     if others:
         names = [cells.header[place] for place, _ in places]
         if len(set(names)) < len(names):
-            raise InputError(f"{cells.path}: column {names[0]!r} stands twice; remove one or rename it.")
+            raise InputError(f"{cells.path}: column {names[0]!r} appears twice; remove one or rename it.")
         both = " and ".join(map(repr, names))
         raise InputError(
             f"{cells.path}: columns {both} may each be {name}; say which with "
@@ -190,7 +190,7 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> str:
         if missing[form] == [wanted] and angle in columns:
             place, column = columns[angle][0]
             raise InputError(
-                f"{cells.path}: column {cells.header[place]!r} does not tell whose phase it is; if it is that of "
+                f"{cells.path}: column {cells.header[place]!r} does not say whose phase it is; if it is that of "
                 f'{of}, say so with --column {_as_written(wanted, column)}="{cells.header[place]}".'
             )
     form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant

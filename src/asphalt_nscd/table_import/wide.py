@@ -44,7 +44,7 @@ def _melted(
         at = match["at"].replace("−", "-")
         if spread.setdefault(at, {}).setdefault(match["name"], place) != place:
             raise InputError(
-                f"{cells.path}: column {cells.header[place]!r} stands twice; keep one of the two."
+                f"{cells.path}: column {cells.header[place]!r} appears twice; keep one of the two."
             )
     names = list(next(iter(spread.values())))
     shared = [place for place in range(len(cells.header)) if place not in found]
@@ -52,7 +52,7 @@ def _melted(
     if plain or any(set(columns) != set(names) for columns in spread.values()):
         raise InputError(
             f"{cells.path}: {plural} stand in names of columns such as {cells.header[next(iter(found))]!r}, but "
-            f"not alike for all quantities; give one row for each test, with a column {column}."
+            f"not the same for all quantities; give one row for each test, with a column {column}."
         )
     header = [*(cells.header[place] for place in shared), column, *names]
     rows = [

@@ -112,7 +112,7 @@ def _require_free(name: str, config: Path, folder: Path) -> None:
     if not re.fullmatch(pattern.strip("^$"), name) or name in TAKEN or yaml.safe_load(name) != name:
         raise InputError(
             f"NAME {name!r}: give letters, digits, - and _, the first a letter, and none of "
-            f"{', '.join(TAKEN)}, nor what means something else in YAML, as true and null do."
+            f"{', '.join(TAKEN)}, and no word with a meaning of its own in YAML, such as true or null."
         )
     for path in (config, folder):
         if path.exists():
@@ -127,7 +127,7 @@ def for_study(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
     table, notes = campaign.table, list(campaign.notes)
     if form == "records":
         raise InputError(
-            f"{table.path}: holds records; have `asphalt-nscd reduce` make moduli of them first."
+            f"{table.path}: holds records; first reduce them to moduli with `asphalt-nscd reduce`."
         )
     columns = {name: table.columns[name] for name in ("specimen", *KEYS, *FORMS[form])}
     if "origin" in table.columns:

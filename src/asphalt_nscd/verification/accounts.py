@@ -7,11 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices
+from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.energy import Energies
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
-from asphalt_nscd.nscd.stepping.integrator import March
+from asphalt_nscd.nscd.stepping.integrator import March, Stepper
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
@@ -28,10 +29,11 @@ ACCOUNT = "dt F z' = stores + dissipation, see nscd.energy"
 
 def account(
     system: BondedSystem, amplitude: float, method: str, name: str, devices: HeadDevices = RIGID,
-    cycles: float = 1.0, law=QUICK_LAW,
+    cycles: float = 1.0, law: BondLaw = QUICK_LAW,
 ) -> tuple[Energies, float]:  # fmt: skip
     """(energies at the end, largest error of the account in any step over the work at the end)."""
     scheme = Scheme.named(name, OMEGA * DT)
+    stepper: Stepper
     if method == "reduced":
         stepper = ReducedStepper(
             ReducedModel(system, ritz_basis(system, 12)), law, DT / scheme.a, 1e-6, devices=devices

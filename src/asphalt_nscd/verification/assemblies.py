@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy import sparse
 from scipy.spatial import cKDTree
 
+Contact = tuple[int, int, np.ndarray, Sequence[float] | np.ndarray]
 GRAVITY_STEP = 9.81e-3  # m/s gained in a step of 1 ms
 
 
 class Assembly:
     """Bodies with their free velocities, and contacts as (body, other or -1, point, normal on the body)."""
 
-    def __init__(self, mass, inertia, centre, contacts, velocity):
+    def __init__(
+        self,
+        mass: Sequence[float],
+        inertia: Sequence[np.ndarray],
+        centre: Sequence[np.ndarray],
+        contacts: Sequence[Contact],
+        velocity: np.ndarray,
+    ) -> None:
         self.mass, self.contacts, self.velocity = np.asarray(mass), contacts, np.asarray(velocity, float)
         rows, columns, values = [], [], []
         for c, (body, other, point, normal) in enumerate(contacts):
@@ -31,12 +42,12 @@ class Assembly:
         self.W = (self.jacobian @ sparse.diags_array(self.inverse_mass) @ self.jacobian.T).tocsr()
         self.q = self.jacobian @ self.velocity.ravel()
 
-    def velocity_after(self, reactions):
+    def velocity_after(self, reactions: np.ndarray) -> np.ndarray:
         """Velocities (n, 6) of the bodies under the reactions."""
         return self.velocity + (self.inverse_mass * (self.jacobian.T @ reactions)).reshape(-1, 6)
 
 
-def frame(normal):
+def frame(normal: ArrayLike) -> np.ndarray:
     """Rows n, t1, t2."""
     n = np.asarray(normal, float)
     t = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
@@ -44,20 +55,22 @@ def frame(normal):
     return np.stack([n, t, np.cross(n, t)])
 
 
-def cuboid(size, density=1000.0):
+def cuboid(size: tuple[float, float, float], density: float = 1000.0) -> tuple[float, np.ndarray]:
     """Mass and principal moments of inertia."""
     a, b, c = size
     mass = density * a * b * c
     return mass, mass / 12 * np.array([b * b + c * c, a * a + c * c, a * a + b * b])
 
 
-def falling(bodies, kick=0.0, seed=0):
+def falling(bodies: int, kick: float = 0.0, seed: int = 0) -> np.ndarray:
     velocity = kick * np.random.default_rng(seed).normal(size=(bodies, 6))
     velocity[:, 2] -= GRAVITY_STEP
     return velocity
 
 
-def box_stack(height, across=3, kick=0.0, size=(1.0, 1.0, 1.0)):
+def box_stack(
+    height: int, across: int = 3, kick: float = 0.0, size: tuple[float, float, float] = (1.0, 1.0, 1.0)
+) -> Assembly:
     """Boxes one upon the other with across^2 contacts at each face: three would hold each of them."""
     mass, inertia = cuboid(size)
     spots = np.stack(np.meshgrid(*[np.linspace(-0.45, 0.45, across)] * 2), axis=-1).reshape(-1, 2)
@@ -69,7 +82,7 @@ def box_stack(height, across=3, kick=0.0, size=(1.0, 1.0, 1.0)):
     return Assembly([mass] * height, [inertia] * height, centre, contacts, falling(height, kick))
 
 
-def arch(stones):
+def arch(stones: int) -> Assembly:
     """A half circle of voussoirs, four contacts at each joint, both ends on the ground."""
     angle = np.linspace(0.0, np.pi, stones + 1)
     middle = 0.5 * (angle[1:] + angle[:-1])
@@ -85,7 +98,7 @@ def arch(stones):
     return Assembly([mass] * stones, [inertia] * stones, centre, contacts, falling(stones))
 
 
-def block_on_slope(slope, spin=0.0):
+def block_on_slope(slope: float, spin: float = 0.0) -> Assembly:
     """A flat block with four feet; gravity turned by `slope` towards x, so that x points downhill."""
     mass, inertia = cuboid((1.0, 1.0, 0.2))
     contacts = [(0, -1, np.array([x, y, 0.0]), [0.0, 0.0, 1.0]) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
@@ -93,7 +106,7 @@ def block_on_slope(slope, spin=0.0):
     return Assembly([mass], [inertia], [np.array([0.0, 0.0, 0.1])], contacts, velocity)
 
 
-def spheres_in_a_box(*cells, seed=0):
+def spheres_in_a_box(*cells: int, seed: int = 0) -> Assembly:
     """Spheres of a cubic lattice, jittered, each in contact with the neighbours and walls within reach.
 
     cells: of the lattice along each axis, or one number for all three.
@@ -116,4 +129,4 @@ def spheres_in_a_box(*cells, seed=0):
                     contacts.append((i, -1, position - 0.5 * normal, normal))
     mass = 2600.0 * 4 / 3 * np.pi * radius**3
     inertia = [np.full(3, 0.4 * m * r * r) for m, r in zip(mass, radius, strict=True)]
-    return Assembly(mass, inertia, centre, contacts, falling(len(mass)))
+    return Assembly(mass.tolist(), inertia, list(centre), contacts, falling(len(mass)))

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from asphalt_nscd.bending.bending_test import run_test
+from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
 from asphalt_nscd.bending.checkpoint import Checkpoint
 from asphalt_nscd.bending.model import Model
 from asphalt_nscd.nscd.stepping.break_modes import StandBy
@@ -33,7 +34,7 @@ def digest() -> str:
     """Of the states of a pile in motion, of a condensed run with breaking bonds, a reduced one, and contacts."""
     from asphalt_nscd.nscd import solve_contacts
     from asphalt_nscd.nscd.stepping.scheme import VARIABLES
-    from asphalt_nscd.specimen.deposit import PouringNumerics
+    from asphalt_nscd.specimen.granulate import PouringNumerics
     from asphalt_nscd.specimen.lattice import random_lattice
     from asphalt_nscd.verification.assemblies import box_stack
     from asphalt_nscd.verification.methods import march
@@ -94,10 +95,9 @@ def tested(method: str, scheme: str, checkpoint: Checkpoint | None = None, stop_
         if done == stop_after:
             raise _Stopped
 
-    record = run_test(
-        model, QUICK_LAW, 400.0, 2.5e-5, 1.0, 5e-5, 5, method, progress=progress, scheme=scheme,
-        energy=True, checkpoint=checkpoint,
-    )  # fmt: skip
+    case, numerics = LoadCase(400.0, 2.5e-5, 1.0), Numerics(5e-5, 5, method, scheme)
+    record = run_test(model, QUICK_LAW, case, numerics, RunOptions(progress, True, checkpoint))
+    assert record.velocity is not None
     broken, account = np.array(record.broken), np.array(list(record.details.values()))
     return b"".join(array.tobytes() for array in (record.force, record.velocity, broken, account))
 

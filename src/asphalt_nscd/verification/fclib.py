@@ -9,6 +9,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -84,7 +85,7 @@ def read_problem(path: str | Path) -> LocalProblem:
         raise InputError(f"{path}: no such file, or a folder; check the path.")
     try:
         with h5py.File(path, "r") as file:
-            found = {}
+            found: dict[str, Any] = {}
             file.visititems(
                 lambda name, item: (
                     found.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None

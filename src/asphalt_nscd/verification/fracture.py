@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cache
+from typing import Any
 
 import numpy as np
 
@@ -64,9 +65,9 @@ def stepper_of(method: str, scheme: Scheme, most_enrichments: int) -> CondensedS
     shifted = shifted_factor(system)
     basis = ritz_basis(system, 12, shifted)
     stand_by = StandBy.of(system, basis, shifted)
-    return ReducedStepper(
-        stand_by.model(system, basis, []), QUICK_LAW, dt, 1e-6, most_enrichments, stand_by=stand_by
-    )
+    model = stand_by.model(system, basis, [])
+    assert model is not None
+    return ReducedStepper(model, QUICK_LAW, dt, 1e-6, most_enrichments, stand_by=stand_by)
 
 
 @cache
@@ -80,6 +81,7 @@ def fractured(method: str, name: str, most_enrichments: int = 30) -> Run:
         try:
             run.force.append(march.move_to(at))
         except FullSystemNeeded:
+            assert isinstance(march.stepper, ReducedStepper)
             state = march.stepper.full_state()
             march.go_on_with(CondensedStepper(specimen(), QUICK_LAW, DT / scheme.a, state))
             before = march.now
@@ -97,7 +99,8 @@ def sum_apart(run: Run, march: March, before: History, new: list[int]) -> None:
     """What new breaks release at the beginning of the step, and half the squares of all changes in it."""
     then, now = before.values, march.now.values
     rows = (3 * np.array(new, int)[:, None] + np.arange(3)).ravel()
-    springs, weight = [(1.0 / QUICK_LAW.spring, "sigma", ...)], specimen().weight
+    springs: list[tuple[float, str, Any]] = [(1.0 / QUICK_LAW.spring, "sigma", ...)]
+    weight = specimen().weight
     springs += [(modulus, "kelvin", e) for e, modulus in enumerate(QUICK_LAW.kelvin_springs)]
     left = weight.copy()
     left[3 * np.array(run.broken, int)[:, None] + np.arange(3)] = 0.0
@@ -147,6 +150,7 @@ def energy() -> list[Row]:
         ("full", "euler", 30), ("reduced", "euler", NO_LIMIT), ("full", "fitted", 30), ("reduced", "fitted", 30),
     ):  # fmt: skip
         run = fractured(method, name, most)
+        assert run.energies is not None
         rows.append(
             Row(
                 f"energy account of the fracture, {method}, {name}", 0.0, run.error / run.energies.actuator,
@@ -154,6 +158,7 @@ def energy() -> list[Row]:
             )
         )  # fmt: skip
     run = fractured("full", "euler")
+    assert run.energies is not None
     sums, work = run.energies, run.energies.actuator
     return [
         *rows,

@@ -12,7 +12,7 @@ from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
-from asphalt_nscd.nscd.stepping.integrator import March
+from asphalt_nscd.nscd.stepping.integrator import March, Stepper
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
@@ -39,6 +39,7 @@ def march(
     """A run from rest with so many steps in a cycle, by the method "condensed" or "reduced"."""
     dt = 2 * np.pi / omega / steps
     scheme = Scheme.named(scheme_name, omega * dt)
+    stepper: Stepper
     if method == "reduced":
         stepper = ReducedStepper(ReducedModel(system, ritz_basis(system, 12)), law, dt / scheme.a, 1e-6)
     else:

@@ -46,7 +46,7 @@ MUTANTS = [
     ("velocity of a proximal point", "coupled", "nscd/contacts/proximal.py", "problem.free_velocity - each * r", "problem.free_velocity + each * r"),
     ("impulse in the condensed contact", "accounts", "nscd/stepping/condensed.py", "+= response @ impulse", "-= response @ impulse"),
     ("gravity of a sphere", "spheres", "nscd/spheres/granular.py", "+= dt * gravity[k]", "-= dt * gravity[k]"),
-    ("moment of a contact on a sphere", "spheres", "nscd/spheres/gauss_seidel.py", "motion[j, 4] -= wj * tx", "motion[j, 4] += wj * tx"),
+    ("moment of a contact on a sphere", "spheres", "nscd/spheres/gauss_seidel.py", "motion[j, 4] -= uj * tx", "motion[j, 4] += uj * tx"),
     ("spin in the slip of two spheres", "spheres", "nscd/spheres/gauss_seidel.py", "(vx - (sy * nz - sz * ny))", "(vx + (sy * nz - sz * ny))"),
     ("restitution of an impact", "spheres", "nscd/spheres/granular.py", "= -restitution * opening", "= restitution * opening"),
 ]  # fmt: skip

@@ -22,7 +22,7 @@ def elastic(modulus: float) -> BondLaw:
 
 
 def jittered_beam(
-    seed: int = 1, shape: tuple[int, int, int] = (3, 2, 9), spacing: float = 4e-3, fill: float = 0.42,
+    seed: int = 1, shape: tuple[int, ...] = (3, 2, 9), spacing: float = 4e-3, fill: float = 0.42,
     reach: float = 2e-3, area: str = "paper",
 ) -> Specimen:  # fmt: skip
     """A prismatic beam of spheres on a cubic lattice, each moved within its cell; bonds as in `trim`.
@@ -46,8 +46,8 @@ def jittered_beam(
 
 
 def system_of(
-    operator: np.ndarray, weight: np.ndarray, mass: np.ndarray, driven: int, load: np.ndarray | float = 0.0,
-    gap: float = 1.0, friction: float = 0.0,
+    operator: np.ndarray, weight: np.ndarray | float, mass: np.ndarray | float, driven: int,
+    load: np.ndarray | float = 0.0, gap: float = 1.0, friction: float = 0.0,
 ) -> BondedSystem:  # fmt: skip
     """A system from dense arrays; bonds do not break."""
     bonds, d = operator.shape[0] // 3, operator.shape[1]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics
+from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.verification.row import Checks, Row, order
 
@@ -15,8 +16,9 @@ TIGHT = PouringNumerics(time_step=1e-4, tolerance=1e-14, most_sweeps=5000, recov
 
 
 def balls(
-    position, radius=R, friction=0.5, restitution=0.0, gravity=(0.0, 0.0, -G), box=(1.0, 1.0, 1.0)
-) -> Granulate:
+    position: ArrayLike, radius: ArrayLike = R, friction: float = 0.5, restitution: float = 0.0,
+    gravity: ArrayLike = (0.0, 0.0, -G), box: tuple[float, float, float] = (1.0, 1.0, 1.0),
+) -> Granulate:  # fmt: skip
     """Spheres of 2600 kg/m3 at rest in a box of walls."""
     position = np.atleast_2d(np.asarray(position, float))
     radius = np.broadcast_to(radius, len(position)).astype(float)
@@ -167,8 +169,11 @@ def column() -> list[Row]:
     n = 5
     pile = advanced(balls([[0.5, 0.5, (2 * k + 1) * R] for k in range(n)]), 5)
     weight = masses(pile)[0] * G * TIGHT.time_step
+    assert pile._start is not None and pile._other is not None
     first = np.repeat(np.arange(n), np.diff(pile._start))
-    load = {(i, j): abs(r[2]) / weight for i, j, r in zip(first, pile._other, pile.impulse, strict=True)}
+    load = {
+        (int(i), int(j)): abs(r[2]) / weight for i, j, r in zip(first, pile._other, pile.impulse, strict=True)
+    }
     return [
         Row(
             "column of five spheres, force on the ground",

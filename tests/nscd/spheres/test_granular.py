@@ -17,7 +17,8 @@ from asphalt_nscd.nscd.spheres.gauss_seidel import (
     sweep_until,
 )
 from asphalt_nscd.nscd.spheres.granular import active_contacts
-from asphalt_nscd.specimen.deposit import Granulate, PouringNumerics, settle
+from asphalt_nscd.specimen.deposit import settle
+from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 
 G = 9.81
@@ -252,13 +253,15 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
         bodies, packed = pack_contacts(
             pair, first, second, normal, np.zeros(gap.size), pile.impulse, pile.inverse_mass
         )
-        sweeps, change = sweep_until(bodies, packed, motion, 0.5, tolerance, most_sweeps)
+        sweeps, change = sweep_until(
+            bodies, packed, motion, 0.5, np.zeros(2), tolerance, np.inf, most_sweeps, most_sweeps
+        )
         if most_sweeps < 2 * ROUND:
             assert sweeps == most_sweeps
             assert change > tolerance
     assert sweeps % ROUND == 1
     assert change < tolerance
-    changed, size, _ = sweep_contacts(bodies, packed, motion, 0.5, everyone, False, 0.0, lively)
+    changed, size, _, _ = sweep_contacts(bodies, packed, motion, 0.5, everyone, False, 0.0, np.inf, lively)
     assert 0.0 < np.sqrt(changed / size) < tolerance
 
 
@@ -335,11 +338,18 @@ def test_at_rest_contact_forces_balance_every_weight():
     assert (np.linalg.norm(torque, axis=1) / size).max() < 1e-10
 
 
+def meeting_gap(settings, velocity, plane_velocity):
+    """Below which a pair takes part in a step: both as fast as the fastest grain, or a grain and a plane."""
+    n = len(velocity) - len(plane_velocity)
+    fastest = np.linalg.norm(velocity[:n, :3], axis=1).max() + 9.81 * settings.time_step
+    return settings.margin + settings.time_step * (fastest + max(fastest, np.abs(plane_velocity).max()))
+
+
 @pytest.mark.parametrize(
-    ("restitution", "recovery_speed", "allowed_overlap"),
-    [(0.0, 0.02, 0.0), (0.5, 0.0, 0.0), (0.0, 0.2, 4e-6)],
+    ("restitution", "recovery_speed", "allowed_overlap", "penetration"),
+    [(0.0, 0.02, 0.0, np.inf), (0.5, 0.0, 0.0, np.inf), (0.0, 0.2, 4e-6, np.inf), (0.0, 0.02, 0.0, 1e-7)],
 )
-def test_naive_twin(restitution, recovery_speed, allowed_overlap):
+def test_naive_twin(restitution, recovery_speed, allowed_overlap, penetration):
     """A dozen balls thrown into a corner under a moving lid: all quantities to rounding, 1e-11."""
     rng = np.random.default_rng(9)
     position, radius = random_lattice(np.array([3e-3, 6e-3]), np.array([10, 3]), (0.012,) * 3, rng)
@@ -348,7 +358,9 @@ def test_naive_twin(restitution, recovery_speed, allowed_overlap):
     pile.position[1] = pile.position[0] + (radius[:2].sum() - 1e-5) * np.array([0.6, 0.0, 0.8])  # an overlap
     settings = numerics(
         most_sweeps=40,
-        tolerance=1e-6,
+        tolerance=1e-6 if penetration == np.inf else 1e-12,
+        falling_sweeps=1_000_000 if penetration == np.inf else 6,
+        penetration=penetration,
         recovery_speed=recovery_speed,
         allowed_overlap=allowed_overlap,
         margin=1e-4,
@@ -359,12 +371,12 @@ def test_naive_twin(restitution, recovery_speed, allowed_overlap):
     velocity[radius.size :, :3] = plane_velocity
     touched = 0
     for _ in range(25):
-        speed = np.linalg.norm(velocity[: radius.size, :3], axis=1)
         position, velocity, impulses = naive_step(
             position, radius, velocity, mass(pile), points, pile.plane_normal, pile.gravity, impulses,
             dt=settings.time_step, friction=0.4, restitution=restitution, recovery_speed=recovery_speed,
             allowed_overlap=allowed_overlap,
-            margin=settings.margin + 0.5 * settings.time_step * speed.mean(), tolerance=1e-6, most_sweeps=40,
+            margin=meeting_gap(settings, velocity, plane_velocity), tolerance=settings.tolerance, most_sweeps=40,
+            penetration=settings.penetration, enough_sweeps=settings.falling_sweeps,
         )  # fmt: skip
         points = points + settings.time_step * plane_velocity
         pile.advance(settings, plane_velocity)
@@ -376,6 +388,56 @@ def test_naive_twin(restitution, recovery_speed, allowed_overlap):
             np.testing.assert_allclose(found, expected, rtol=0, atol=1e-11 * mass(pile).max())
             touched += expected.any()
     assert touched > 100
+
+
+@pytest.mark.parametrize("push", [2e-4, 0.1])
+def test_naive_twin_of_the_driven_wall(push):
+    """A heap under a plate between rails, which yields to 0.5 N and keeps its speed at 250 N: to 1e-11."""
+    rng = np.random.default_rng(9)
+    position, radius = random_lattice(np.array([3e-3, 6e-3]), np.array([10, 3]), (0.012,) * 3, rng)
+    pile = balls(position, radius, (0.012,) * 3, 0.4)
+    pile.velocity[: radius.size] = rng.normal(0, 0.2, (radius.size, 6))
+    pile.hang_wall(pile.top() + 1e-5, 2e-3)
+    pile.drive[:] = -0.2, push
+    masses = np.append(mass(pile), 2e-3)
+    settings = numerics(time_step=4e-4, most_sweeps=60, tolerance=1e-7, margin=1e-4)
+    position, velocity, impulses, points = pile.position.copy(), pile.velocity.copy(), {}, pile.plane_point
+    yielded = touched = 0
+    for _ in range(25):
+        faster = np.abs(velocity[radius.size :, :3])  # or what the drive may make of the wall's speed
+        faster[5, 2] = max(faster[5, 2], min(0.2, faster[5, 2] + push / 2e-3))
+        position, velocity, impulses = naive_step(
+            position, radius, velocity, masses, points, pile.plane_normal, pile.gravity, impulses,
+            dt=settings.time_step, friction=0.4, restitution=0.0, recovery_speed=0.0, allowed_overlap=0.0,
+            margin=meeting_gap(settings, velocity, faster), tolerance=1e-7, most_sweeps=60,
+            drive=pile.drive,
+        )  # fmt: skip
+        points = points + settings.time_step * velocity[radius.size :, :3]
+        pile.advance(settings)
+        np.testing.assert_allclose(pile.position, position, rtol=0, atol=1e-14)
+        np.testing.assert_allclose(pile.velocity, velocity, rtol=0, atol=1e-11)
+        assert not pile.velocity[-1, [0, 1, 3, 4, 5]].any()
+        yielded += pile.velocity[-1, 2] > -0.2 + 1e-9
+        touched += pile.touching_wall().size
+    assert touched > 20
+    assert (yielded > 10) == (push < 1e-3)
+
+
+def test_a_plate_presses_with_what_its_drive_gives():
+    """On a column at rest: every contact carries the balls above and the push, no matter how fast the drive."""
+    n, push = 5, 3e-5
+    column = balls(np.column_stack([np.full((n, 2), 0.5), R * (2 * np.arange(n) + 1)]))
+    column.hang_wall(2 * n * R, 1e-3)
+    column.drive[:] = -0.5, push
+    settings = numerics()
+    for _ in range(50):
+        column.advance(settings)
+    weight = mass(column)[0] * G * settings.time_step
+    for first, second, impulse in pairs(column):
+        above = 0 if second == n + 5 else n if second > n - 1 else n - 1 - min(first, second)
+        assert abs(impulse[2]) == pytest.approx(above * weight + push, rel=1e-9)
+    assert np.abs(column.velocity).max() < 1e-10
+    assert column.touching_wall().tolist() == [n - 1]
 
 
 @pytest.mark.parametrize("contacts", [0, 7, BLOCK, 3 * BLOCK + 11])

@@ -78,21 +78,44 @@ def test_reactions_follow_their_pairs():
     assert came > 50 and stayed > 200 and len(kept) > stayed + 50
 
 
+def test_spheres_that_join_start_without_reactions():
+    rng = np.random.default_rng(3)
+    position, radius = cloud(rng, 60, 1.2e-2, 3.0)
+    planes = np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])
+    reach = np.full(60, 1e-3)
+    few = find_pairs_within(position[:40], radius[:40], *planes, reach[:40], 0.0 * reach[:40], reach[:1], 60)
+    all_ = find_pairs_within(position, radius, *planes, reach, 0.0 * reach, reach[:1], 60)
+    reaction = rng.normal(size=(few[1].size, 3))
+    kept = dict(zip(listed(*few), reaction))
+    carried = carry_reactions(*few, reaction, *all_)
+    for pair, value in zip(listed(*all_), carried):
+        np.testing.assert_array_equal(value, kept.get(pair, np.zeros(3)))
+    assert 50 < len(kept) < len(carried)
+    nobody = find_pairs_within(position[:0], radius[:0], *planes, reach[:0], reach[:0], reach[:1], 60)
+    assert (nobody[0].tolist(), nobody[1].size) == ([0], 0)
+
+
 def test_each_sphere_with_a_reach_of_its_own():
-    """The reach of the larger sphere of a pair counts; planes have one for all."""
+    """The reach of the larger sphere of a pair counts; each plane has one, and planes are numbered as told."""
     rng = np.random.default_rng(6)
     position, radius = cloud(rng, 150, 2e-2, 4.0)
-    point, normal = np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])
-    reach = rng.uniform(0.0, 4e-3, 150)
-    found = set(listed(*find_pairs_within(position, radius, point, normal, reach, 1e-3)))
-    far = all_pairs(position, radius, point, normal, 4e-3)
+    point, normal = np.zeros((2, 3)), np.array([[0.0, 0.0, 1.0]] * 2)
+    reach, plane_reach = rng.uniform(0.0, 4e-3, 150), np.array([1e-3, 3e-3])
+    extra = np.where(rng.random(150) < 0.2, 1e-3, 0.0)
+    found = set(listed(*find_pairs_within(position, radius, point, normal, reach, extra, plane_reach, 150)))
+    later = set(listed(*find_pairs_within(position, radius, point, normal, reach, extra, plane_reach, 170)))
+    assert later == {(i, j + 20 if j >= 150 else j) for i, j in found}
+    far = all_pairs(position, radius, point, normal, 6e-3)
 
     def gap(i, j):
-        if j == 150:
+        if j >= 150:
             return position[i, 2] - radius[i]
         return np.linalg.norm(position[j] - position[i]) - radius[i] - radius[j]
 
-    expected = {(i, j) for i, j in far if gap(i, j) < (1e-3 if j == 150 else reach[i])}
+    def within(i, j):
+        return extra[i] + (plane_reach[j - 150] if j >= 150 else reach[i] + extra[j])
+
+    expected = {(i, j) for i, j in far if gap(i, j) < within(i, j)}
     assert found == expected
     assert 100 < len(expected) < 0.8 * len(far)
 
@@ -104,7 +127,11 @@ def test_no_sphere_closes_in_faster_than_the_bound():
     velocity = rng.normal(0.0, 0.01, (200, 3))
     velocity[position[:, 2] > 0.05, 2] -= 5.0
     bound = closing_speeds(position, radius, velocity, 4e-3)
+    near: dict[int, list[int]] = {}
     for i, j in all_pairs(position, radius, NO_PLANES, NO_PLANES, 4e-3):
-        assert np.linalg.norm(velocity[j] - velocity[i]) <= bound[i] * (1 + 1e-14)
+        near.setdefault(i, []).append(j)
+    for i, others in near.items():  # any two of them may hit each other by way of i
+        fast = velocity[[i, *others]]
+        assert np.linalg.norm(fast[:, None] - fast, axis=-1).max() <= bound[i] * (1 + 1e-14)
     assert (bound > 4.9).sum() > 20
     assert (bound < 0.1).sum() > 100

@@ -14,6 +14,8 @@ from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
 from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, ReducedStepper
 from asphalt_nscd.specimen.system import bending_system
 
+pytestmark = pytest.mark.slow
+
 DT = 5e-5
 ELASTIC = BondLaw(1e10, 1e20, np.array([]), np.array([]))
 

@@ -65,6 +65,21 @@ def test_condition_that_was_not_tested_is_left_empty(results):
     assert [len(axes.texts) for axes in fig_residual_map.draw(**data).axes[:4]] == [5, 5, 5, 5]
 
 
+def test_condition_that_was_not_simulated_is_empty_before(results):
+    data = results.diagnosis()
+    table = pd.read_csv(data["residuals"][0], dtype={"specimen": str})
+    before = [name for name in table if "_before_" in name]
+    table.loc[table["frequency_Hz"] == 3.0, before] = np.nan
+    write_table(data["residuals"][0], table)
+    assert [len(axes.texts) for axes in fig_residual_map.draw(**data).axes[:4]] == [4, 6, 4, 6]
+    assert fig_residual_map.draw(**data).axes[0].collections[0].norm.vmax >= 20.0
+    fig_black.draw(**data), fig_master.draw(**data)
+    table.loc[0, "E_after_MPa"] = np.nan
+    write_table(data["residuals"][0], table)
+    with pytest.raises(InputError, match="E_after_MPa"):
+        fig_residual_map.draw(**data)
+
+
 def test_planes_hold_the_same_points(results):
     figure = fig_black.draw(**results.diagnosis(origin="measured"))
     black, cole = figure.axes

@@ -13,9 +13,9 @@ from asphalt_nscd.reporting.pages.diagnosis_page import render, sections
 def page(results, tmp_path):
     (picture := tmp_path / "map.png").write_bytes(b"picture")
 
-    def make(table4=(), **changes):
+    def make(table4=(), ladder_table=(), **changes):
         diagnosis = results.diagnosis(**changes)["diagnosis"]
-        html = render(sections(diagnosis, [picture], table4), "A diagnosis")
+        html = render(sections(diagnosis, [picture], table4, ladder_table), "A diagnosis")
         return re.sub(r"\s+", " ", re.sub(r"<style>.*</style>", "", html, flags=re.DOTALL))
 
     return make
@@ -146,7 +146,9 @@ GAIN = {
     **dict.fromkeys(
         ("mre_E_percent", "mre_phase_percent", "rms_over_scatter"), {"before": 2.0, "after": 1.0}
     ),
-    "averages_by_temperature": {},
+    "averages_by_temperature": {
+        "0": dict.fromkeys(("mre_E_percent", "mre_phase_percent"), {"before": 2.0, "after": 1.0})
+    },
 }
 
 
@@ -186,3 +188,33 @@ def test_the_scatter_stands_as_coefficients_of_variation(page):
     html = page(repeatability=found)
     assert "<td>−10 °C</td><td>12.1</td><td>1.91</td><td></td><td></td>" in html
     assert "specimens differ by 12.1 % in |E*| and 1.9° in phase" in html
+
+
+def test_bond_mapping_stands_first_with_its_evidence_and_without_a_chance(page, results):
+    made = json.loads(results.diagnosis()["diagnosis"][0].read_text())["ladder"]
+    averages = {
+        "0": {name: {"before": 10.2, "after": 2.0} for name in ("mre_E_percent", "mre_phase_percent")}
+    }
+    rung = {
+        "cause": "bond_mapping", "where": None, "p_value": None, "as_good": [], "sentence": "areas do not fill",
+        "evidence": "1.056 to 1.109 of the law", "confirmed_by": "packings",
+        "parameters": {"modulus_over_law": {"value": 1.09, "std_error": None, "unit": "1"}},
+        "gain": {"in_sample": {"averages_by_temperature": averages}, "held_out": {}},
+    }  # fmt: skip
+    html = page(ladder=[rung, *made])
+    assert html.index("<b>bond mapping</b>") < html.index("<b>relaxation spectrum</b>")
+    assert "Evidence: 1.056 to 1.109 of the law." in html
+    assert "<td></td> <td>fitted</td><td>10.2 → 2</td><td>10.2 → 2</td><td></td>" in html
+    assert (
+        "with facets for bonds, a relaxation spectrum and a loose clamp of specimen 2 the simulation" in html
+    )
+
+
+def test_the_whole_way_stands_by_temperature(page, results):
+    html = page()
+    assert "run again with each rung" not in html
+    html = page(ladder_table=results.ladder())
+    assert "<td>|E*|: as in the paper</td><td>10.2</td><td>12</td><td>11.1</td>" in html
+    assert "<td>|E*|: facets</td><td>2</td><td>3</td><td>2.5</td>" in html
+    assert "<td>|E*|: the law&#39;s own, as in the paper</td><td>2.1</td>" in html
+    assert "<td>phase: scatter of one test</td><td>4</td>" in html

@@ -9,7 +9,14 @@ from tiny_results import LAWS, modulus
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
-from asphalt_nscd.reporting.figures import fig_forces, fig_mapping, fig_packing, fig_ratio, fig_readings
+from asphalt_nscd.reporting.figures import (
+    fig_compaction,
+    fig_forces,
+    fig_mapping,
+    fig_packing,
+    fig_ratio,
+    fig_readings,
+)
 
 
 def test_ratio_and_phase_difference_of_every_test(results):
@@ -52,6 +59,15 @@ def test_packing_one_point_per_deposit(results):
     assert points == pytest.approx({0.65: 1.0, 0.62: 0.9})
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["0.2", "0.5"]
     assert axes.get_xlabel() == "solid fraction of the deposit"
+
+
+def test_compaction_from_the_start_of_the_vibration(results):
+    (axes,) = fig_compaction.draw(deposit=results.deposit()).axes
+    curve, last = axes.lines
+    np.testing.assert_allclose(curve.get_xydata(), [[0.0, 24.0], [0.5, 21.0], [1.25, 20.3]])
+    np.testing.assert_allclose(last.get_xydata(), [[1.25, 20.3]])
+    assert axes.get_ylabel().endswith("(mm)") and axes.get_xlabel().endswith("(s)")
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["sample deposit"]
 
 
 def readings(results):
@@ -104,7 +120,7 @@ def test_chains_leave_out_plates_and_what_lies_off_the_middle(results):
 
 
 def test_model_of_another_specimen_is_refused(results):
-    with pytest.raises(InputError, match="is of another specimen"):
+    with pytest.raises(InputError, match="belongs to another specimen"):
         fig_forces.draw(model=results.model("s2"), specimen=results.specimen())
 
 

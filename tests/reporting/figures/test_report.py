@@ -26,6 +26,7 @@ def page(results, tmp_path):
             [samples],
             diagnosis,
             [picture],
+            results.ladder(),
         )
 
     return make
@@ -40,11 +41,21 @@ def test_first_page_says_what_was_done_and_found(page):
     assert said["simulated"][0].endswith("at 6 conditions: 12 tests.")
     assert "|E*| times 1.1 to 1.2" in said["simulated"][1]
     assert "do not stand for the mix" in said["simulated"][2]
-    assert "most at 20 °C" in said["wrong"][0]
-    assert "(Table 4): |E*| by 10 %, the phase by 0.165 %." in said["wrong"][1]
+    assert "(Table 4) of |E*| by 11.1 %, most at 20 °C, and of the phase by 5 %" in said["wrong"][0]
+    assert "laws in their bonds miss 2.1 % and 4.9 % themselves" in said["wrong"][1]
     assert "with a relaxation spectrum and a loose clamp of specimen 2" in said["found"]["simulation"]
     assert said["found"]["data"].startswith("all 12 tests can be used; specimen 2 carries a loose clamp")
-    assert said["gained"][0] == ("error of |E*|, %", "8", "2")
+    assert said["gained"] == [
+        ("as in the paper", "11.1", "5"), ("facets", "2.5", "5"), ("spectrum", "0.6", "5"),
+        ("scatter of one test", "1", "4"),
+    ]  # fmt: skip
+    assert said["held_out"] is None, "two temperatures have none between them"
+
+
+def test_one_number_for_before_stands_on_the_first_page(page, tmp_path):
+    html = assemble("mine", page(), [], tmp_path)
+    assert html.count("11.1") == 2 and "<td>as in the paper</td>" in html
+    assert "2.5" in html and "0.6" in html
 
 
 def test_what_to_beware_of_stands_on_the_first_page(page, tmp_path):
@@ -65,9 +76,8 @@ def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
     assert "What to test next" not in assemble("mine", page(), [], tmp_path)
 
 
-def test_nothing_gained_where_no_cause_is_named(page):
-    said = page(ladder=[], verdict="nothing_to_explain")
-    assert said["gained"] == [] and said["held_out"] is None and said["found"]["causes"] == []
+def test_no_cause_where_none_is_named(page):
+    assert page(ladder=[], verdict="nothing_to_explain")["found"]["causes"] == []
 
 
 def test_entries_stand_in_their_parts_by_number_with_captions(page, tmp_path):

@@ -19,6 +19,11 @@ def test_each_test_stands_beside_its_own_deposit(tmp_path):
     deposits = sorted(tmp_path.glob("deposits/*.h5"), reverse=True)
     table = packing.make(tests=sorted(tmp_path.glob("tests/*.h5")), deposits=deposits)
     expected = {"s1-friction0.5": (0.5, 0.60), "s1": (0.2, 0.64)}
+    assert "mapping" not in table
+    both = packing.make(
+        tests=[tmp_path / "tests/s1.h5"], deposits=deposits, facets=[tmp_path / "tests/s1.h5"]
+    )
+    assert list(both["mapping"]) == ["paper", "facets"]
     found = table.set_index("specimen")[["friction", "solid_fraction"]]
     assert {name: tuple(row) for name, row in found.iterrows()} == expected
 

@@ -189,3 +189,11 @@ def test_a_broken_isotherm_does_not_bend_the_fitted_law():
     table = base.table.assign(phase_deg=base.table["phase_deg"] - np.where(broken, 15.0, 0.0))
     rates = [shift_rate(law, 5.0) for law in (_law(), fit_law(table))]
     assert rates[1] == pytest.approx(rates[0], rel=0.15) and rates[0] < 0.0
+
+
+def test_tables_of_cylinders_lie_in_a_folder_of_their_own(tmp_path):
+    for folder, test_type in (("mine", "bending"), ("tension-compression", "tension-compression")):
+        path = tmp_path / folder / "mix.csv"
+        path.parent.mkdir()
+        background().table.to_csv(path, index=False)
+        assert Background.read(path).test_type == test_type

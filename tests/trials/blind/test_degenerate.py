@@ -10,6 +10,8 @@ from blind.sealed import open_case
 from asphalt_nscd.diagnosis.causes import CATALOGUE as NAMEABLE
 from asphalt_nscd.files.errors import InputError
 
+pytestmark = pytest.mark.slow
+
 NO_REPLICATE = "No condition was repeated on another specimen"
 
 

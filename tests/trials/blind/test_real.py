@@ -160,7 +160,7 @@ LIMITS = {
 }  # fmt: skip
 
 
-def perfect(table, geometry):
+def perfect(table, geometry, test_type="bending"):
     """A diagnosis that measures an offset by what it knows of the untouched table."""
     base = Background.read(real_plan.real_tables()[0])
     turned = np.degrees(np.angle(Background(table).modulus / base.modulus))
@@ -209,7 +209,7 @@ def test_rows_of_a_real_table_hold_rates_and_nothing_of_the_table(folder, monkey
 
 
 def test_a_diagnosis_that_fails_is_counted_and_stops_nothing(folder, monkeypatch):
-    def broken(table, geometry):
+    def broken(table, geometry, test_type="bending"):
         if len(calls) > 0:
             raise np.linalg.LinAlgError("array must not contain infs or NaNs")
         calls.append(1)

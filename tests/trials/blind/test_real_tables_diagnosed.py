@@ -4,6 +4,8 @@ import pytest
 from blind import real, reallike
 from blind.real_plan import Task
 
+pytestmark = pytest.mark.slow
+
 SEED = 11
 
 

@@ -133,6 +133,17 @@ def test_in_pairs_each_effect_is_judged_and_the_other_s_name_is_not_wrong():
     assert table["outcome"].tolist() == [DELAY, NOTHING] and set(table["suite"]) == {"pair"}
 
 
+def test_a_name_given_as_established_is_a_confident_one_whatever_is_left():
+    sure = entry(DELAY) | {"established": True}
+    doubted = entry(DELAY) | {"established": False}
+    for one, confident in ((sure, 1), (doubted, 0)):
+        table = outcomes([(STEP, diagnosis(one, verdict=UNEXPLAINED))])
+        assert table["wrong"].tolist() == [1] and table["confident"].tolist() == [confident]
+        figures = summary(table)
+        assert figures["outside_confidently_named"]["hits"] == confident
+        assert figures["outside_unexplained"]["hits"] == 1 - confident
+
+
 def test_summary_efficiency_and_matrix():
     named, missed = diagnosis(entry(DELAY, 0.3)), diagnosis()
     cases = (

@@ -11,6 +11,8 @@ from blind.causes import CATALOGUE
 from blind.outside import OUTSIDE
 from blind.plan import JUDGED, NEEDS, Case
 
+pytestmark = pytest.mark.slow
+
 SINGLES = [cause for cause in CATALOGUE if cause not in ("guide_stiffness", "secondary_process")]
 SEED = 7
 STRONG = 5.0

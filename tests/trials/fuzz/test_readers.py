@@ -10,6 +10,8 @@ from fuzz.readers import BINARIES, TEXTS, tried
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
+pytestmark = pytest.mark.slow
+
 GROWTH = 400_000  # kB, of this process over all inputs of a reader
 
 

@@ -9,6 +9,8 @@ from fuzz import diagnoses, wild
 
 from asphalt_nscd.measurements.limits import LIMITS
 
+pytestmark = pytest.mark.slow
+
 SEEDS = range(300)
 
 

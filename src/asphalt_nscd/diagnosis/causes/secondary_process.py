@@ -19,6 +19,7 @@ class SecondaryProcess(Cause):
     )
     sentence = "a second relaxation process, with a shift of its own, adds a loss bump"
     confirmed_by = "tests at more frequencies, or the loss peak of the binder"
+    shows_in = "a table in which nothing but scatter is left: structure without a name passes for a loss bump"
 
     def places(self, observed):
         return (None,) if observed.isotherms.size > 2 and observed.frequencies.size > 2 else ()

@@ -34,6 +34,9 @@ class ShiftedOperator:
     def __init__(self, system: BondedSystem, scale: float) -> None:
         self._system, self._scale = system, scale
         self._broken: list[int] = []
+        self._taken: np.ndarray
+        self._response: np.ndarray
+        self._strength: np.ndarray
         self._factorise()
 
     def remove(self, broken: list[int]) -> None:

@@ -7,6 +7,8 @@ polynomial in the matrix smooths as well as Gauss-Seidel, at the cost of product
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import cg
@@ -82,7 +84,7 @@ def _times(blocks: np.ndarray, columns: np.ndarray) -> np.ndarray:
     return (blocks @ columns.reshape(-1, PER_BODY, columns.shape[1])).reshape(columns.shape)
 
 
-def _aggregated(matrix: sparse.bsr_matrix, modes: np.ndarray):
+def _aggregated(matrix: sparse.bsr_matrix, modes: np.ndarray) -> Any:
     """The levels; equal to the bit in each run, though spectral radii are estimated from random vectors."""
     import pyamg  # only large systems need it
 

@@ -46,6 +46,7 @@ class BondedSystem:
 
     def rigid_motions(self) -> np.ndarray:
         """The six motions (d, 6) of all bodies as one: three translations, three rotations."""
+        assert self.position is not None, "a system without places has no rotation as one"
         motion = np.zeros((len(self.position), 6, 6))
         motion[:, :3, :3] = motion[:, 3:, 3:] = np.eye(3)
         motion[:, :3, 3:] = np.cross(np.eye(3), self.position[:, None]).transpose(0, 2, 1)

@@ -7,13 +7,15 @@ all paths end, proximal points go on.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from asphalt_nscd.nscd.contacts.interior import interior_path
 from asphalt_nscd.nscd.contacts.newton import refine
-from asphalt_nscd.nscd.contacts.problem import ContactProblem
+from asphalt_nscd.nscd.contacts.problem import AnyMatrix, ContactProblem
 from asphalt_nscd.nscd.contacts.proximal import proximal_points
 
 PATHS = ((3.0, 0.0), (10.0, 0.3), (10.0, 1.0), (100.0, 0.3), (1000.0, 0.0))
@@ -51,7 +53,14 @@ class ContactSolution:
         return self
 
 
-def solve_contacts(W, q, mu, tolerance: float = 1e-8, most_sweeps: int = 3000, most_steps: int = 200):
+def solve_contacts(
+    W: AnyMatrix,
+    q: ArrayLike,
+    mu: ArrayLike,
+    tolerance: float = 1e-8,
+    most_sweeps: int = 3000,
+    most_steps: int = 200,
+) -> ContactSolution:
     """Reactions r with u = W r + q, opening u_n >= 0, r_n >= 0, complementary, and Coulomb friction.
 
     W (3 c, 3 c) [1/kg] positive semidefinite, sparse of any storage or dense; q (3 c,) [m/s]; mu, one
@@ -96,7 +105,9 @@ def solve_contacts(W, q, mu, tolerance: float = 1e-8, most_sweeps: int = 3000, m
     return ContactSolution(reactions, velocities, error, scaled, sweeps, steps, bool(least <= tolerance))
 
 
-def _follow(problem, path, tolerance, most_steps):
+def _follow(
+    problem: ContactProblem, path: Iterator[np.ndarray], tolerance: float, most_steps: int
+) -> tuple[np.ndarray, float, int]:
     """The best reactions along a path and by Newton's method from it, their error, and the steps."""
     best, least, steps = np.zeros_like(problem.free_velocity), np.inf, 0
     refined, refined_step, mark, mark_step = 10.0 * FIRST_REFINEMENT, 0, np.inf, 0
@@ -120,7 +131,9 @@ def _follow(problem, path, tolerance, most_steps):
     return best, least, steps
 
 
-def _sharpened(problem, r, error, tolerance):
+def _sharpened(
+    problem: ContactProblem, r: np.ndarray, error: float, tolerance: float
+) -> tuple[float, np.ndarray, int]:
     """(error, reactions, steps) of Newton's method from r, begun anew as long as it halves the error."""
     steps = 0
     while True:

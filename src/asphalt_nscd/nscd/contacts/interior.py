@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
+from scipy.sparse.linalg import SuperLU
 
 from asphalt_nscd.nscd.contacts.problem import ContactProblem
 
@@ -73,34 +74,42 @@ def interior_path(problem: ContactProblem, start: float, balance: float) -> Iter
         yield unit * transform * x.ravel()
 
 
-def _direction(factor, scaling, squared, keep, centre, residual, aim):
+def _direction(
+    factor: SuperLU,
+    scaling: np.ndarray,
+    squared: np.ndarray,
+    keep: np.ndarray,
+    centre: np.ndarray,
+    residual: np.ndarray,
+    aim: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
     """Changes of x and y that cancel the residual and make the change of x ∘ y, scaled, equal `aim`."""
     h = _times(scaling, _divide(centre, aim))
     dx = factor.solve((_times(keep, h) - residual).ravel(), "T").reshape(-1, 3)
     return dx, h - _times(squared, dx)
 
 
-def _determinant(x):
+def _determinant(x: np.ndarray) -> np.ndarray:
     tangential = np.hypot(x[:, 1], x[:, 2])
     return (x[:, 0] - tangential) * (x[:, 0] + tangential)
 
 
-def _times(matrices, x):
+def _times(matrices: np.ndarray, x: np.ndarray) -> np.ndarray:
     return np.einsum("aij,aj->ai", matrices, x)
 
 
-def _product(x, y):
+def _product(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Jordan product x ∘ y."""
     return np.column_stack([(x * y).sum(axis=1), x[:, :1] * y[:, 1:] + y[:, :1] * x[:, 1:]])
 
 
-def _divide(x, y):
+def _divide(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """The z with x ∘ z = y."""
     first = (x[:, 0] * y[:, 0] - (x[:, 1:] * y[:, 1:]).sum(axis=1)) / _determinant(x)
     return np.column_stack([first, (y[:, 1:] - first[:, None] * x[:, 1:]) / x[:, :1]])
 
 
-def _scaling(y, x):
+def _scaling(y: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Symmetric matrices S (c, 3, 3) with S x = S^-1 y."""
     sy, sx = np.sqrt(_determinant(y)), np.sqrt(_determinant(x))
     y, x = y / sy[:, None], x / sx[:, None]
@@ -113,7 +122,7 @@ def _scaling(y, x):
     return np.sqrt(sy / sx)[:, None, None] * s
 
 
-def _reach(x, dx):
+def _reach(x: np.ndarray, dx: np.ndarray) -> float:
     """Largest t for which all x + t dx are in the cone."""
     a = _determinant_difference(dx, dx)
     b = _determinant_difference(x, dx)
@@ -126,5 +135,5 @@ def _reach(x, dx):
     return candidates.min(initial=np.inf)
 
 
-def _determinant_difference(x, y):
+def _determinant_difference(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return x[:, 0] * y[:, 0] - x[:, 1] * y[:, 1] - x[:, 2] * y[:, 2]

@@ -81,7 +81,13 @@ def _norm(problem: ContactProblem, weight: np.ndarray, r: np.ndarray) -> float:
     return float(np.linalg.norm(weight * linearised(problem, r)[0]))
 
 
-def _newton_direction(problem, residual, by_reaction, by_velocity, proximal) -> np.ndarray | None:
+def _newton_direction(
+    problem: ContactProblem,
+    residual: np.ndarray,
+    by_reaction: np.ndarray,
+    by_velocity: np.ndarray,
+    proximal: float,
+) -> np.ndarray | None:
     """-(D + B (W + proximal / rho))^-1 F, with the open contacts taken out; None if singular."""
     pressed = np.abs(by_velocity).sum(axis=(1, 2)) > 0.0
     direction = -residual

@@ -9,14 +9,17 @@ contact. W need not have full rank, nor be exactly symmetric.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU, splu
 
 from asphalt_nscd.nscd.contacts.gauss_seidel import accelerated_sweeps, natural_map
 
+AnyMatrix: TypeAlias = Any  # dense, or sparse of any storage
 LARGEST = 1e100  # of W, and its reciprocal the least: squares of more overflow
 
 
@@ -36,7 +39,7 @@ class ContactProblem:
     part: np.ndarray  # (c,) number of the part that a contact is in: W couples no two parts
 
     @classmethod
-    def of(cls, W, q, mu) -> ContactProblem:
+    def of(cls, W: AnyMatrix, q: ArrayLike, mu: ArrayLike) -> ContactProblem:
         """From a matrix of any storage and a coefficient of friction, or one for each contact."""
         q = np.array(q, float).ravel()
         contacts = q.size // 3

@@ -29,11 +29,12 @@ def place(c, contacts):
 
 @compiled
 def pack_motion(velocity, inverse_mass):
-    """(bodies, 8): velocity [m/s], 1/mass [1/kg], spin as surface velocity [m/s], nothing."""
-    motion = np.zeros((velocity.shape[0], 8))
+    """(bodies, 8): velocity [m/s], 1/mass [1/kg], spin as surface velocity [m/s], 5/2 of 1/mass."""
+    motion = np.empty((velocity.shape[0], 8))
     motion[:, :3] = velocity[:, :3]
     motion[:, 3] = inverse_mass
     motion[:, 4:7] = velocity[:, 3:]
+    motion[:, 7] = 2.5 * inverse_mass
     return motion
 
 
@@ -61,35 +62,38 @@ def pack_contacts(pair, first, second, normal, target, impulse, inverse_mass):
 def apply_impulse(i, j, nx, ny, nz, px, py, pz, motion):
     """Give impulse p [N s] to body j and its opposite to body i at their point of contact."""
     wi, wj = motion[i, 3], motion[j, 3]
-    tx = 2.5 * (ny * pz - nz * py)
-    ty = 2.5 * (nz * px - nx * pz)
-    tz = 2.5 * (nx * py - ny * px)
+    ui, uj = motion[i, 7], motion[j, 7]
+    tx = ny * pz - nz * py
+    ty = nz * px - nx * pz
+    tz = nx * py - ny * px
     motion[i, 0] -= wi * px
     motion[i, 1] -= wi * py
     motion[i, 2] -= wi * pz
-    motion[i, 4] -= wi * tx
-    motion[i, 5] -= wi * ty
-    motion[i, 6] -= wi * tz
+    motion[i, 4] -= ui * tx
+    motion[i, 5] -= ui * ty
+    motion[i, 6] -= ui * tz
     motion[j, 0] += wj * px
     motion[j, 1] += wj * py
     motion[j, 2] += wj * pz
-    motion[j, 4] -= wj * tx
-    motion[j, 5] -= wj * ty
-    motion[j, 6] -= wj * tz
+    motion[j, 4] -= uj * tx
+    motion[j, 5] -= uj * ty
+    motion[j, 6] -= uj * tz
 
 
 @compiled
-def sweep_contacts(bodies, packed, motion, friction, visits, backward, quiet, lively):
+def sweep_contacts(bodies, packed, motion, friction, visits, backward, quiet, calm, lively):
     """One Gauss-Seidel sweep over contacts visits (v,), or back; updates impulses and motion.
 
     Signorini on velocities: opening >= target, impulse >= 0, complementary; Coulomb with `friction`.
     The local Delassus operator is diagonal: normal 1/m_i + 1/m_j, tangential 7/2 of it.
-    Contacts whose impulse changes by more than the root of `quiet` [N2 s2] are noted in `lively`.
-    Returns the sums of squares of the change of impulse and of the impulse, and how many were noted.
+    Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than
+    they may by more than `calm` [m/s], are noted in `lively`. Returns the sums of squares of the change of
+    impulse and of the impulse, how many were noted, and the largest excess of speed [m/s].
     """
     changed = 0.0
     size = 0.0
     noted = 0
+    fastest = 0.0
     for k in range(visits.shape[0]):
         c = visits[visits.shape[0] - 1 - k] if backward else visits[k]
         i, j = bodies[c, 0], bodies[c, 1]
@@ -100,8 +104,9 @@ def sweep_contacts(bodies, packed, motion, friction, visits, backward, quiet, li
         vy = motion[j, 1] - motion[i, 1]
         vz = motion[j, 2] - motion[i, 2]
         opening = vx * nx + vy * ny + vz * nz
+        excess = packed[c, 6] - opening
         old_normal = px * nx + py * ny + pz * nz
-        new_normal = old_normal - (opening - packed[c, 6]) * mass
+        new_normal = old_normal + excess * mass
         if new_normal <= 0.0:
             if px == 0.0 and py == 0.0 and pz == 0.0:
                 continue  # open and stays open
@@ -129,21 +134,40 @@ def sweep_contacts(bodies, packed, motion, friction, visits, backward, quiet, li
         apply_impulse(i, j, nx, ny, nz, dx, dy, dz, motion)
         packed[c, 3], packed[c, 4], packed[c, 5] = qx, qy, qz
         moved = dx * dx + dy * dy + dz * dz
-        if moved > quiet:
+        if moved > quiet or excess > calm:
             lively[noted] = c
             noted += 1
+        fastest = max(fastest, excess)
         changed += moved
         size += qx * qx + qy * qy + qz * qz
-    return changed, size, noted
+    return changed, size, noted, fastest
 
 
 @compiled
-def sweep_until(bodies, packed, motion, friction, tolerance, most_sweeps):
+def guide_wall(motion, drive, push):
+    """The last body, a wall between rails: it moves along z, no faster down than drive[0] [m/s].
+
+    Its drive pushes it down with the impulse that this takes, but at most with drive[1] [N s], and pulls
+    without limit. push [N s] is the impulse so far. Returns the new one. A wall of infinite mass needs none.
+    """
+    inverse_mass = motion[-1, 3]
+    if inverse_mass == 0.0:
+        return push
+    motion[-1, :2] = 0.0
+    motion[-1, 4:7] = 0.0
+    new = min(push + (motion[-1, 2] - drive[0]) / inverse_mass, drive[1])
+    motion[-1, 2] -= inverse_mass * (new - push)
+    return new
+
+
+@compiled
+def sweep_until(bodies, packed, motion, friction, drive, tolerance, calm, enough_sweeps, most_sweeps):
     """Gauss-Seidel from the given impulses until their relative change is below tolerance.
 
     Sweeps run alternately up and down the list, which carries weight through a pile in one pass. The
     first of each round visits all contacts and decides whether to end; the others visit those whose
-    impulse then changed by more than `tolerance` of the root mean square impulse.
+    impulse then changed by more than `tolerance` of the root mean square impulse, or that closed faster
+    than they may by more than `calm` [m/s]. After enough_sweeps the tolerance is waived, `calm` never.
     Returns (sweeps of either kind, relative change of the last sweep over all contacts).
     """
     contacts = packed.shape[0]
@@ -153,6 +177,7 @@ def sweep_until(bodies, packed, motion, friction, tolerance, most_sweeps):
             bodies[c, 0], bodies[c, 1], packed[c, 0], packed[c, 1], packed[c, 2],
             packed[c, 3], packed[c, 4], packed[c, 5], motion,
         )  # fmt: skip
+    push = guide_wall(motion, drive, 0.0)
     everyone = np.arange(contacts)
     lively = np.empty(contacts, np.int64)
     noted, size = 0, 0.0
@@ -161,12 +186,15 @@ def sweep_until(bodies, packed, motion, friction, tolerance, most_sweeps):
         if turn == 0:
             quiet = tolerance * tolerance * size / max(contacts, 1)
             backward = sweep // ROUND % 2 == 1
-            changed, size, noted = sweep_contacts(
-                bodies, packed, motion, friction, everyone, backward, quiet, lively
+            changed, size, noted, fastest = sweep_contacts(
+                bodies, packed, motion, friction, everyone, backward, quiet, calm, lively
             )
+            push = guide_wall(motion, drive, push)
             change = np.sqrt(changed / size) if size > 0.0 else 0.0
-            if change < tolerance:
+            if fastest < calm and (change < tolerance or sweep >= enough_sweeps):
                 return sweep + 1, change
         else:
-            sweep_contacts(bodies, packed, motion, friction, lively[:noted], turn % 2 == 1, np.inf, lively)
+            backward = turn % 2 == 1
+            sweep_contacts(bodies, packed, motion, friction, lively[:noted], backward, np.inf, np.inf, lively)
+            push = guide_wall(motion, drive, push)
     return most_sweeps, change

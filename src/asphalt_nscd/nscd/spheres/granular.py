@@ -23,7 +23,7 @@ def active_contacts(position, radius, velocity, plane_point, plane_normal, start
     A pair is active when its gap, less the approach at the free velocity, is below `margin` [m].
     The normal points from the first body to the second.
     """
-    n = position.shape[0]
+    n = position.shape[0]  # the first of them are on the list
     total = other.shape[0]
     pair = np.empty(total, np.int64)
     first = np.empty(total, np.int64)
@@ -32,7 +32,7 @@ def active_contacts(position, radius, velocity, plane_point, plane_normal, start
     gap = np.empty(total)
     d = np.empty(3)
     count = 0
-    for i in range(n):
+    for i in range(start.shape[0] - 1):
         for c in range(start[i], start[i + 1]):
             j = other[c]
             if j < n:
@@ -61,15 +61,17 @@ def active_contacts(position, radius, velocity, plane_point, plane_normal, start
 @compiled
 def step(
     position, radius, velocity, inverse_mass, plane_point, plane_normal, gravity,
-    start, other, impulse, dt, friction, restitution, recovery_speed, allowed_overlap, margin,
-    tolerance, most_sweeps,
+    start, other, impulse, drive, dt, friction, restitution, recovery_speed, allowed_overlap, margin,
+    tolerance, penetration, enough_sweeps, most_sweeps,
 ):  # fmt: skip
     """Advance spheres by dt [s]; position, velocity and impulse (per pair) change in place.
 
     position (n, 3) [m]; velocity (n + p, 6) [m/s] (linear, spin; planes last, prescribed);
     inverse_mass (n + p,) [1/kg], zero for planes; gravity (3,) [m/s2]; impulse (pairs, 3) [N s];
     Overlaps beyond allowed_overlap [m] are undone, no faster than by recovery_speed [m/s] (zero: never).
-    Returns (active contacts, sweeps, relative change of the last sweep).
+    Sweeps end as in sweep_until; penetration [m] is what a step may add to an overlap.
+    drive (2,): speed [m/s] and largest impulse [N s] of the last plane where its mass is finite (guide_wall).
+    Returns (sweeps, relative change of the last sweep, largest overlap at the start [m]).
     """
     n = position.shape[0]
     before = velocity.copy()
@@ -92,7 +94,9 @@ def step(
                 target[c] = -restitution * opening
     motion = pack_motion(velocity, inverse_mass)
     bodies, contacts = pack_contacts(pair, first, second, normal, target, impulse, inverse_mass)
-    sweeps, change = sweep_until(bodies, contacts, motion, friction, tolerance, most_sweeps)
+    sweeps, change = sweep_until(
+        bodies, contacts, motion, friction, drive, tolerance, penetration / dt, enough_sweeps, most_sweeps
+    )
     impulse[:] = 0.0
     for c in range(gap.shape[0]):
         impulse[pair[c]] = contacts[place(c, gap.shape[0]), 3:6]
@@ -101,4 +105,5 @@ def step(
     for i in range(n):
         for k in range(3):
             position[i, k] += dt * velocity[i, k]
-    return gap.shape[0], sweeps, change
+    overlap = max(0.0, -gap.min()) if gap.shape[0] > 0 else 0.0
+    return sweeps, change, overlap

@@ -15,23 +15,29 @@ from asphalt_nscd.nscd.compiled import compiled
 @compiled
 def find_pairs(position, radius, plane_point, plane_normal, reach):
     """Pairs whose gap is below `reach` [m]; see find_pairs_within."""
+    n, planes = position.shape[0], plane_point.shape[0]
     return find_pairs_within(
-        position, radius, plane_point, plane_normal, np.full(position.shape[0], reach), reach
+        position, radius, plane_point, plane_normal, np.full(n, reach), np.zeros(n), np.full(planes, reach), n
     )
 
 
 @compiled
-def find_pairs_within(position, radius, plane_point, plane_normal, reach, plane_reach):
-    """Pairs whose gap is below reach[i] (n,) [m] of their larger sphere, or below plane_reach [m].
+def find_pairs_within(position, radius, plane_point, plane_normal, reach, extra, plane_reach, first_plane):
+    """Pairs whose gap is below reach (n,) [m] of their larger sphere and extra (n,) [m] of both.
+
+    A plane's is below plane_reach (p,) [m] and the extra of the sphere.
 
     position (n, 3) [m], radius (n,) [m]; planes by point (p, 3) [m] and unit normal (p, 3) that
     points to the spheres. Returns (start, other): sphere i is paired with bodies
-    other[start[i]:start[i + 1]], ascending; body n + k is plane k. Each pair appears once, under
+    other[start[i]:start[i + 1]], ascending; body first_plane + k is plane k. Each pair appears once, under
     its larger sphere (under the lower index when equal).
     """
     n = position.shape[0]
+    if n == 0:
+        return np.zeros(1, np.int64), np.empty(0, np.int64)
     cell, low, shape = _grid(position, radius, reach)
-    first, members, sorted_sphere = _fill_cells(position, radius, cell, low, shape)
+    first, members, sorted_sphere = _fill_cells(position, radius, extra, cell, low, shape)
+    furthest = extra.max()
     start = np.zeros(n + 1, np.int64)
     other = np.empty(16 * n + 64, np.int64)
     for i in range(n):
@@ -40,7 +46,8 @@ def find_pairs_within(position, radius, plane_point, plane_normal, reach, plane_
                 i,
                 position,
                 radius,
-                reach[i],
+                reach[i] + extra[i],
+                furthest,
                 cell,
                 low,
                 shape,
@@ -56,7 +63,15 @@ def find_pairs_within(position, radius, plane_point, plane_normal, reach, plane_
             other = np.concatenate((other, np.empty(max(end, other.shape[0]), np.int64)))
         _sort(other, start[i], start[i] + found)
         found += _planes_near(
-            i, position, radius, plane_point, plane_normal, plane_reach, other, start[i] + found
+            i,
+            position,
+            radius,
+            plane_point,
+            plane_normal,
+            plane_reach + extra[i],
+            first_plane,
+            other,
+            start[i] + found,
         )
         start[i + 1] = start[i] + found
     return start, other[: start[n]].copy()
@@ -64,10 +79,11 @@ def find_pairs_within(position, radius, plane_point, plane_normal, reach, plane_
 
 @compiled
 def closing_speeds(position, radius, velocity, reach):
-    """Bounds (n,) [m/s] of the speed of any sphere with a gap below `reach` [m] relative to a sphere.
+    """Bounds (n,) [m/s] of the speeds relative to each other of all spheres with a gap below `reach` [m] to one.
 
     Only spheres that are not larger count, as in find_pairs. velocity (n, 3) [m/s] is bounded within
-    thin horizontal slabs: grains that rain at the same speed, or rest together, do not close in.
+    thin horizontal slabs: grains that rain at the same speed, or rest together, do not close in. The sphere's
+    own speed is no better than theirs: an impact may stop it, or hand on all of its own, within the step.
     """
     n = position.shape[0]
     thickness = 2.0 * radius.min()
@@ -87,19 +103,20 @@ def closing_speeds(position, radius, velocity, reach):
         last = min(slabs - 1, int(np.floor((position[i, 2] + away - bottom) / thickness)))
         square = 0.0
         for k in range(3):
-            difference = 0.0
+            slowest, fastest = velocity[i, k], velocity[i, k]
             for s in range(first, last + 1):
-                difference = max(difference, velocity[i, k] - least[s, k], most[s, k] - velocity[i, k])
-            square += difference * difference
+                slowest = min(slowest, least[s, k])
+                fastest = max(fastest, most[s, k])
+            square += (fastest - slowest) ** 2
         bound[i] = np.sqrt(square)
     return bound
 
 
 @compiled
 def carry_reactions(old_start, old_other, old_reaction, start, other):
-    """Reactions of the old pair list moved to the new one (zero where a pair is new)."""
+    """Reactions of the old pair list moved to the new one (zero where a pair is new); spheres may join."""
     reaction = np.zeros((other.shape[0], 3))
-    for i in range(start.shape[0] - 1):
+    for i in range(min(start.shape[0], old_start.shape[0]) - 1):
         k = old_start[i]
         for c in range(start[i], start[i + 1]):
             while k < old_start[i + 1] and old_other[k] < other[c]:
@@ -121,8 +138,8 @@ def _grid(position, radius, reach):
 
 
 @compiled
-def _fill_cells(position, radius, cell, low, shape):
-    """(first, members, sphere): cell k holds members[first[k]:first[k + 1]], spheres x, y, z, radius."""
+def _fill_cells(position, radius, extra, cell, low, shape):
+    """(first, members, sphere): cell k holds members[first[k]:first[k + 1]], spheres x, y, z, radius, extra."""
     n = position.shape[0]
     index = np.empty(n, np.int64)
     first = np.zeros(shape[0] * shape[1] * shape[2] + 1, np.int64)
@@ -134,13 +151,14 @@ def _fill_cells(position, radius, cell, low, shape):
         first[index[i] + 1] += 1
     first = np.cumsum(first)
     members = np.empty(n, np.int64)
-    sphere = np.empty((n, 4))  # in the order of the cells: read in one stream
+    sphere = np.empty((n, 5))  # in the order of the cells: read in one stream
     cursor = first.copy()
     for i in range(n):
         at = cursor[index[i]]
         members[at] = i
         sphere[at, :3] = position[i]
         sphere[at, 3] = radius[i]
+        sphere[at, 4] = extra[i]
         cursor[index[i]] += 1
     return first, members, sphere
 
@@ -151,10 +169,12 @@ def _cells_between(start, end, cell, cells):
 
 
 @compiled
-def _candidates(i, position, radius, reach, cell, low, shape, first, members, sphere, out, offset):
+def _candidates(
+    i, position, radius, reach, furthest, cell, low, shape, first, members, sphere, out, offset
+):  # fmt: skip
     """Count the partners of sphere i; write them from `offset` on as far as `out` has room."""
     x, y, z, size = position[i, 0], position[i, 1], position[i, 2], radius[i]
-    spread = 2.0 * size + reach
+    spread = 2.0 * size + reach + furthest
     x_first, x_last = _cells_between(x - spread - low[0], x + spread - low[0], cell, shape[0])
     y_first, y_last = _cells_between(y - spread - low[1], y + spread - low[1], cell, shape[1])
     z_first, z_last = _cells_between(z - spread - low[2], z + spread - low[2], cell, shape[2])
@@ -164,7 +184,7 @@ def _candidates(i, position, radius, reach, cell, low, shape, first, members, sp
             row = (cz * shape[1] + cy) * shape[0]
             for m in range(first[row + x_first], first[row + x_last + 1]):
                 dx, dy, dz = sphere[m, 0] - x, sphere[m, 1] - y, sphere[m, 2] - z
-                limit = size + sphere[m, 3] + reach
+                limit = size + sphere[m, 3] + reach + sphere[m, 4]
                 if dx * dx + dy * dy + dz * dz < limit * limit:
                     if sphere[m, 3] > size or (sphere[m, 3] == size and members[m] <= i):
                         continue
@@ -187,14 +207,14 @@ def _sort(numbers, begin, end):
 
 
 @compiled
-def _planes_near(i, position, radius, plane_point, plane_normal, reach, out, offset):
+def _planes_near(i, position, radius, plane_point, plane_normal, reach, first_plane, out, offset):
     """Count the planes near sphere i and write them from `offset` on."""
     found = 0
     for k in range(plane_point.shape[0]):
         height = 0.0
         for d in range(3):
             height += (position[i, d] - plane_point[k, d]) * plane_normal[k, d]
-        if height - radius[i] < reach:
-            out[offset + found] = position.shape[0] + k
+        if height - radius[i] < reach[k]:
+            out[offset + found] = first_plane + k
             found += 1
     return found

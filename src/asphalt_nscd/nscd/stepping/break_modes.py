@@ -8,6 +8,7 @@ hand; taking them in is then a matter of small matrices.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.sparse.linalg import SuperLU
@@ -65,7 +66,9 @@ class StandBy:
     def from_arrays(cls, arrays: dict[str, np.ndarray]) -> StandBy:
         """Of the `arrays` of a file."""
         own = {name: arrays[name] for name in ("bonds", "owner", "directions")}
-        projection = {name: arrays[f"projection/{name}"] for name in Projection.__dataclass_fields__}
+        projection: dict[str, Any] = {
+            name: arrays[f"projection/{name}"] for name in Projection.__dataclass_fields__
+        }
         for name in ("head_norm", "load_norm"):
             projection[name] = projection[name].item()
         return cls(**own, projection=Projection(**projection))

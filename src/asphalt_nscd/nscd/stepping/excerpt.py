@@ -70,7 +70,9 @@ class Excerpt:
         bounds = BondBounds(
             arrays["number"], utilised, np.abs(closing), arrays["gap"], Rest(**rest, gap=arrays["rest/gap"].item())
         )  # fmt: skip
+        small: dict[str, Any] = {name: arrays[name] for name in SMALL}
+        small |= {name: arrays[name].item() for name in NUMBERS}
         return cls(
-            **{name: arrays[name] for name in SMALL}, **{name: arrays[name].item() for name in NUMBERS},
+            **small,
             bounds=bounds, reaction=reaction, closing=closing, whole=whole,
         )  # fmt: skip

@@ -47,6 +47,7 @@ class March:
     def go_on_with(self, full: CondensedStepper) -> None:
         """Replace the reduced stepper by one of the full system, with the same bonds broken."""
         reduced = self.stepper
+        assert isinstance(reduced, ReducedStepper), "the full system has nothing beyond it"
 
         def lifted(history: History) -> History:
             history.put(reduced.state)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -173,13 +173,12 @@ class ReducedStepper:
         from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
 
         broken = arrays["broken"].tolist()
-        small = {name: arrays[name] for name in _PROJECTED}
+        small: dict[str, Any] = {name: arrays[name] for name in _PROJECTED}
         small |= {name: small[name].item() for name in ("head_norm", "load_norm")}
-        nothing = {"opening": np.empty((0, small["load"].size)), "weight": np.empty(0)}
-        self._part = ReducedModel(self.model.system, arrays["basis"], broken, Projection(**small, **nothing))
-        self.state = ReducedState(
-            *(arrays[name] for name in ("displacement", "velocity", "sigma", "kelvin")), broken
-        )
+        small |= {"opening": np.empty((0, small["load"].size)), "weight": np.empty(0)}
+        self._part = ReducedModel(self.model.system, arrays["basis"], broken, Projection(**small))
+        coordinates = {name: arrays[name] for name in ("displacement", "velocity", "sigma", "kelvin")}
+        self.state = ReducedState(**coordinates, broken=broken)
         for name in _REACHED:
             setattr(self, "_" + name, arrays[name])
         self.enrichments, self._smallest_gap = arrays["enrichments"].item(), arrays["smallest_gap"].item()
@@ -279,7 +278,7 @@ class ReducedStepper:
 
         self.enrichments += 1
         whole, model = self.model, None
-        if code == YIELD and self._stand_by is not None:
+        if code == YIELD and self._stand_by is not None and self._ritz is not None:
             model = self._stand_by.model(whole.system, self._ritz, self.state.broken)
         if model is None:
             self._stand_by = None  # its projection knows nothing of the directions now found

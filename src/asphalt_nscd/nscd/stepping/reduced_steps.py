@@ -36,7 +36,8 @@ def advance_reduced(
     _kernel()(
         _address(sizes, np.intp), *(_address(array, float) for array in arrays), _address(taken, np.intp)
     )
-    return tuple(taken.tolist())
+    steps, code, bond = taken.tolist()
+    return steps, code, bond
 
 
 def _address(array: np.ndarray, kind: type) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from scipy.integrate import quad
@@ -36,7 +37,7 @@ def equations(laws_as_kpa: dict[float, Burgers]) -> Iterator[Statement]:
     )  # fmt: skip
 
 
-def _width(x: float) -> float:
+def _width(x: Any) -> Any:
     return PAPER.B + (PAPER.b - PAPER.B) * x / PAPER.h
 
 

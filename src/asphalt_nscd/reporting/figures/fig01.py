@@ -71,9 +71,9 @@ def _dimension(
     axes: Axes, start: np.ndarray, end: np.ndarray, measure: tuple[str, float], offset: tuple[float, float],
     rotation: float = 0.0,
 ) -> None:  # fmt: skip
-    axes.annotate("", start, xytext=end, arrowprops=ARROW, annotation_clip=False)
+    axes.annotate("", tuple(start), xytext=tuple(end), arrowprops=ARROW, annotation_clip=False)
     axes.annotate(
-        f"${measure[0]}$ = {1e3 * measure[1]:g} mm", (start + end) / 2.0, xytext=offset, rotation=rotation,
+        f"${measure[0]}$ = {1e3 * measure[1]:g} mm", tuple((start + end) / 2.0), xytext=offset, rotation=rotation,
         textcoords="offset points", ha="center", va="center", annotation_clip=False,
     )  # fmt: skip
 
@@ -98,11 +98,14 @@ def _test(axes: Axes, geometry: Geometry, amplitude: float) -> None:
         Rectangle((-0.65 * b, h), 1.3 * b, plate, facecolor=style.GREY, edgecolor=style.INK, lw=0.6)
     )
     centre = np.array([0.0, h + plate + pin])
-    axes.add_patch(Circle(centre, pin, facecolor="white", edgecolor=style.INK, lw=0.8))
+    axes.add_patch(Circle(tuple(centre), pin, facecolor="white", edgecolor=style.INK, lw=0.8))
     for side in (-1.0, 1.0):
         tip = centre + [side * 0.22 * h, 0.0]
         axes.annotate(
-            "", tip, xytext=centre + [side * 1.5 * pin, 0.0], arrowprops={"arrowstyle": "->", "lw": 0.9}
+            "",
+            tuple(tip),
+            xytext=tuple(centre + [side * 1.5 * pin, 0.0]),
+            arrowprops={"arrowstyle": "->", "lw": 0.9},
         )
     axes.text(
         0.0, centre[1] + 2.0 * pin, rf"$z = A\,\sin\,\omega t$,  $A$ = {1e6 * amplitude:g} µm", ha="center"

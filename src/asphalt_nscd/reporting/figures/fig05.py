@@ -47,7 +47,7 @@ def draw(deposit: list[Path], specimen: list[Path]) -> Figure:
     axes = _scene(figure, (lattice, radius, shades), small, EDGE, HEIGHT - TITLE - TALL)
     _box(axes, poured.arrays["box"])
     _title(figure, "a", "lattice", EDGE, top)
-    heights = poured.attributes["poured_height_m"], poured.attributes["layer_height_m"]
+    heights = poured.attributes["poured_layer_height_m"], poured.attributes["layer_height_m"]
     for name, text, position, height in zip(
         "bc", ("poured", "vibrated"), (loose, dense), heights, strict=True
     ):
@@ -89,7 +89,13 @@ def _axes(figure: Figure, left: float, bottom: float, width: float, height: floa
     return axes
 
 
-def _scene(figure: Figure, spheres: tuple, scale: float, left: float, bottom: float) -> Axes:
+def _scene(
+    figure: Figure,
+    spheres: tuple[np.ndarray, np.ndarray, np.ndarray],
+    scale: float,
+    left: float,
+    bottom: float,
+) -> Axes:
     """Spheres (position, radius, colour) at `scale` [mm on paper per m]; axes in the view's plane [m]."""
     image, extent = picture(*spheres, VIEW, scale * PIXELS)
     width, height = (scale * (extent[n + 1] - extent[n]) for n in (0, 2))

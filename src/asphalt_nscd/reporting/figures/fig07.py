@@ -20,7 +20,7 @@ def draw(test: list[Path]) -> Figure:
     record = load(the_only(test, "test"), "test")
     frequency = record.attributes["frequency_Hz"]
     time, displacement, force = last_cycle(record)
-    history = (record.arrays[name] for name in ("time_s", "force_N", "displacement_m"))
+    history = record.arrays["time_s"], record.arrays["force_N"], record.arrays["displacement_m"]
     response = harmonic_response(*history, frequency, cycles=1)
     milliseconds, micrometres = 1e3 * time, 1e6 * displacement
 

@@ -45,7 +45,14 @@ def draw(test: list[Path], specimen: list[Path]) -> Figure:
     return figure
 
 
-def _profiles(axes: Axes, geometry: Geometry, height, cycles, velocity, head) -> None:
+def _profiles(
+    axes: Axes,
+    geometry: Geometry,
+    height: np.ndarray,
+    cycles: np.ndarray,
+    velocity: np.ndarray,
+    head: np.ndarray,
+) -> None:
     fine = np.linspace(0.0, geometry.h, 200)
     beam = deflection(geometry, fine)
     for (instant, text), (colour, marker) in zip(INSTANTS.items(), style.series(len(INSTANTS)), strict=True):
@@ -69,7 +76,7 @@ def _profiles(axes: Axes, geometry: Geometry, height, cycles, velocity, head) ->
     style.letter(axes, "a", "profiles at five instants", pad=15.0)
 
 
-def _histories(axes: Axes, height, cycles, velocity) -> None:
+def _histories(axes: Axes, height: np.ndarray, cycles: np.ndarray, velocity: np.ndarray) -> None:
     half = cycles <= 0.5 + 1e-9
     shares = np.linspace(0.2, 1.0, HEIGHTS)
     layers = [int(np.argmin(np.abs(height - share * height[-1]))) for share in shares]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -25,7 +26,7 @@ def draw(simulations: list[Path], extended: list[Path], measured: list[Path]) ->
     frequencies = np.unique(np.concatenate([before["frequency_Hz"], after["frequency_Hz"]]))
     figure, panels = style.new_figure(style.SINGLE, 165.0, rows=2, sharex=True, sharey=True)
     for axes, panel, words, tests in zip(
-        panels, "ab", ("before: a Burgers law at each temperature", "after: extended as diagnosed"),
+        panels, "ab", ("as in the paper", "with facets, extended as diagnosed"),
         (before, after), strict=True,
     ):  # fmt: skip
         _isotherms(axes, temperatures, tests, data)
@@ -34,7 +35,7 @@ def draw(simulations: list[Path], extended: list[Path], measured: list[Path]) ->
         style.letter(axes, panel, words)
     panels[0].set_xlabel("")
     panels[0].set_ylim(bottom=min(0.0, panels[0].get_ylim()[0]))
-    point = {"ls": "", "marker": "o", "color": style.INK}
+    point: dict[str, Any] = {"ls": "", "marker": "o", "color": style.INK}
     keys = [
         Line2D([], [], **point, markerfacecolor="white", label=origin_of(data)),
         Line2D([], [], **point, label="simulated"),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,7 +15,7 @@ from matplotlib.lines import Line2D
 from asphalt_nscd.diagnosis.written import conditions, read_diagnosis, read_residuals
 from asphalt_nscd.reporting.figures import style
 
-LINES = {"before": {"lw": 0.8, "ls": (0, (2.5, 1.5))}, "after": {"lw": 1.1}}
+LINES: dict[str, dict[str, Any]] = {"before": {"lw": 0.8, "ls": (0, (2.5, 1.5))}, "after": {"lw": 1.1}}
 COLUMNS = {"measured": ("E_MPa", "phase_deg")}
 COLUMNS |= {when: (f"E_{when}_MPa", f"phase_{when}_deg") for when in LINES}
 
@@ -44,7 +46,7 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     return figure
 
 
-def _isotherm(axes: Axes, rows: pd.DataFrame, plane, colour: object, marker: str) -> None:
+def _isotherm(axes: Axes, rows: pd.DataFrame, plane: Callable[..., Any], colour: Any, marker: str) -> None:
     for what, (norm, phase) in COLUMNS.items():
         x, y = plane(rows[norm].to_numpy() / 1e3, np.radians(rows[phase].to_numpy()))
         if what == "measured":
@@ -54,7 +56,7 @@ def _isotherm(axes: Axes, rows: pd.DataFrame, plane, colour: object, marker: str
 
 
 def _keys(origin: str) -> list[Line2D]:
-    point = {"ls": "", "marker": "o", "markerfacecolor": "white"}
+    point: dict[str, Any] = {"ls": "", "marker": "o", "markerfacecolor": "white"}
     keys = [Line2D([], [], color=style.INK, label=origin, **point)]
     return keys + [
         Line2D([], [], color=style.INK, label=f"simulated {when}", **LINES[when]) for when in LINES

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -17,11 +19,18 @@ from asphalt_nscd.reporting.figures import cells, style
 ACROSS = 3  # panels of a row
 HEAD, CELL = 30.0, 5.5  # mm: what stands around the panels of a row, and an isotherm
 CLEAR = 2.0  # standard errors, below which a number is grey
-OUT = {"marker": "X", "mfc": "white", "mec": style.INK, "ms": 6.0, "mew": 0.8, "ls": "none"}
-IN_USE = {"marker": "o", "mfc": "white", "mec": style.INK, "ms": 4.0, "mew": 0.8, "ls": "none"}
+OUT: dict[str, Any] = {"marker": "X", "mfc": "white", "mec": style.INK, "ms": 6.0, "mew": 0.8, "ls": "none"}
+IN_USE: dict[str, Any] = {
+    "marker": "o",
+    "mfc": "white",
+    "mec": style.INK,
+    "ms": 4.0,
+    "mew": 0.8,
+    "ls": "none",
+}
 # Corner of the cell [its width, its height] where a mark leaves the number free.
 SUSPECT_AT, FLAG_AT = (0.18, 0.24), (0.85, 0.8)
-FLAG = {"marker": "^", "mfc": style.INK, "mec": "white", "ms": 3.2, "mew": 0.3, "ls": "none"}
+FLAG: dict[str, Any] = {"marker": "^", "mfc": style.INK, "mec": "white", "ms": 3.2, "mew": 0.3, "ls": "none"}
 NONE = "No isotherm has the four tests that hold modulus against phase."
 
 
@@ -74,7 +83,7 @@ def draw(causality: list[Path], diagnosis: list[Path]) -> Figure:
     return figure
 
 
-def _panel(axes: Axes, own: pd.DataFrame, tests: pd.DataFrame, norm: BoundaryNorm):
+def _panel(axes: Axes, own: pd.DataFrame, tests: pd.DataFrame, norm: BoundaryNorm) -> QuadMesh:
     temperatures, frequencies = (np.unique(tests[name]) for name in ("temperature_C", "frequency_Hz"))
     places = {"index": "temperature_C", "columns": "frequency_Hz"}
     # Amplitudes share a cell, which shows the worst.

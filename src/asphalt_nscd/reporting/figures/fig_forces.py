@@ -34,7 +34,7 @@ def draw(model: list[Path], specimen: list[Path]) -> Figure:
     condensed, cut = load(the_only(model, "model"), "model"), load(the_only(specimen, "specimen"), "specimen")
     if condensed.attributes["name"] != Path(specimen[0]).stem:
         raise InputError(
-            f"{model[0]}: is of another specimen than {specimen[0]}; give a model and its specimen."
+            f"{model[0]}: belongs to another specimen than {specimen[0]}; give a model and its specimen."
         )
     motion, force = slow_deflection(condensed)
     position, radius = cut.arrays["position"], cut.arrays["radius"]
@@ -83,18 +83,22 @@ def _chains(axes: Axes, specimen: Record, force: NDArray[np.float64], colour: st
     ends = np.stack([position[first[shown]], position[second[shown]]], axis=1)
     axes.add_collection(
         LineCollection(
-            ends, linewidths=WIDTH * force[shown], colors=colour, capstyle="round", rasterized=True
+            list(ends), linewidths=WIDTH * force[shown], colors=colour, capstyle="round", rasterized=True
         )
     )
     axes.set_xlim(position[:, 0].min(), position[:, 0].max())
     axes.set_ylim(position[:, 1].min(), position[:, 1].max())
 
 
-def _field(axes: Axes, position, radius, speed) -> None:
+def _field(axes: Axes, position: np.ndarray, radius: np.ndarray, speed: np.ndarray) -> None:
     shades = ScalarMappable(Normalize(0.0, 1.0), colormaps["viridis"])
     resolution = PER_MM * TALL / np.ptp(position[:, 2])
     image, extent = picture(position, radius, shades.to_rgba(speed)[:, :3], VIEW, resolution)
-    axes.imshow(image, extent=[1e3 * edge for edge in extent], interpolation="antialiased")
+    axes.imshow(
+        image,
+        extent=(1e3 * extent[0], 1e3 * extent[1], 1e3 * extent[2], 1e3 * extent[3]),
+        interpolation="antialiased",
+    )
     bar = axes.figure.colorbar(shades, ax=axes, location="bottom", shrink=0.9, aspect=14.0, pad=0.02)
     bar.set_label("over that of the head")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -43,7 +44,7 @@ def draw(diagnosis: list[Path]) -> Figure:
     )
     for axes, (cause, rows) in zip(panels[:, 0], bars.items(), strict=True):
         _panel(axes, cause, rows, limits[cause]["unit"], found)
-    keys = [Patch(color=style.PALE, label="not seen: below the detection limit (95 %)")]
+    keys: list[Artist] = [Patch(color=style.PALE, label="not seen: below the detection limit (95 %)")]
     if any(cause in limits for cause, _ in found):
         keys.append(Line2D([], [], marker="D", color=style.ORANGE, label="found, with its 95 % interval"))
     figure.legend(

@@ -87,7 +87,7 @@ def _scatter_of_means(content: dict[str, Any], cells: pd.DataFrame) -> list[floa
 
 
 def _keys(origin: str) -> list[Line2D]:
-    point = {"ls": "", "marker": "o", "color": style.INK, "ms": 3.6}
+    point: dict[str, Any] = {"ls": "", "marker": "o", "color": style.INK, "ms": 3.6}
     return [
         Line2D([], [], **point, markerfacecolor="white", label=f"a, b: {origin}"),
         Line2D([], [], color=style.INK, lw=1.0, label="a, b: simulated after"),

@@ -6,24 +6,27 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.tables import read_tests
 from asphalt_nscd.reporting.figures import style
 
 
 @style.journal
 def draw(packing: list[Path]) -> Figure:
-    """One point for each deposit, labelled with its coefficient of friction."""
-    tests = read_tests(packing, numbers=["friction", "solid_fraction"])
+    """One point for each deposit, labelled with its coefficient of friction; open: with bonds that are facets."""
+    both = all("mapping" in read_csv(path).columns for path in packing)
+    tests = read_tests(packing, numbers=["friction", "solid_fraction"], texts=["mapping"] if both else [])
+    tests["facets"] = tests["mapping"] == "facets" if both else False
     tests["ratio"] = tests["E_MPa"] / tests["E_law_MPa"]
     figure, axes = style.new_figure(style.SINGLE, 60.0)
     axes.axhline(1.0, color=style.GREY, lw=0.5, zorder=0)
     frictions = sorted(tests["friction"].unique())
     for friction, (colour, marker) in zip(frictions, style.series(len(frictions)), strict=True):
-        points = tests[tests["friction"] == friction]
-        axes.plot(
-            points["solid_fraction"], points["ratio"], ls="", marker=marker, ms=5.0, color=colour,
-            label=f"{friction:g}",
-        )  # fmt: skip
+        for facets, points in tests[tests["friction"] == friction].groupby("facets"):
+            axes.plot(
+                points["solid_fraction"], points["ratio"], ls="", marker=marker, ms=5.0, color=colour,
+                markerfacecolor="white" if facets else colour, label=None if facets else f"{friction:g}",
+            )  # fmt: skip
     axes.margins(0.12)
     axes.set_xlabel("solid fraction of the deposit")
     axes.set_ylabel("|E*| simulated / law")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -53,7 +54,7 @@ def draw(simulations: list[Path]) -> Figure:
     for axes in panels:
         axes.tick_params(axis="x", length=0.0)
     panels[1].set_xlim(-0.5, len(samples) - 0.5)
-    point = {"ls": "", "ms": 3.2}
+    point: dict[str, Any] = {"ls": "", "ms": 3.2}
     handles = [
         Line2D([], [], **point, marker=marker, color=colour, label=style.celsius(temperature))
         for temperature, (colour, marker) in zip(temperatures, looks, strict=True)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
@@ -38,7 +39,7 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
         columns = [RESIDUALS[quantity].format(when) for when in BEFORE_AFTER]
         # Scatter alone must look pale.
         norm = cells.banded(
-            max(float(means[columns].abs().to_numpy().max()), NOTABLE * content["scatter"][scatter])
+            max(float(means[columns].abs().max().max()), NOTABLE * content["scatter"][scatter])
         )
         for axes, when, column in zip(row, BEFORE_AFTER, columns, strict=True):
             image = _map(axes, means, column, norm)
@@ -64,7 +65,7 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     return figure
 
 
-def _map(axes: Axes, conditioned: pd.DataFrame, column: str, norm: BoundaryNorm):
+def _map(axes: Axes, conditioned: pd.DataFrame, column: str, norm: BoundaryNorm) -> QuadMesh:
     places = {"index": "temperature_C", "columns": "frequency_Hz"}
     beyond = conditioned.pivot(values=f"z_{column}", **places).abs() > NOTABLE
     image = cells.draw_table(axes, conditioned.pivot(values=column, **places), norm)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -39,7 +40,7 @@ def draw_isotherms(
         points = simulated[simulated["temperature_C"] == temperature]
         known = reference[reference["temperature_C"] == temperature]
         if temperature in burgers:
-            law_line(axes, column, burgers[temperature], frequencies[[0, -1]], colour)
+            law_line(axes, column, burgers[temperature], (frequencies[0], frequencies[-1]), colour)
         error_bars(axes, column, known, 1.0 / APART, marker, colour, filled=False)
         error_bars(axes, column, points, APART, marker, colour, filled=True)
         ends.append(points[column].iloc[-1] * SHOWN_PER_UNIT[column])
@@ -62,7 +63,7 @@ def draw_isotherms(
 
 
 def law_line(
-    axes: Axes, column: str, law: Burgers, limits: Sequence[float], colour: object, **look: object
+    axes: Axes, column: str, law: Burgers, limits: tuple[float, float], colour: Any, **look: Any
 ) -> None:
     """The law as a line between two frequencies [Hz]."""
     frequency = np.geomspace(*limits, 200)
@@ -72,7 +73,7 @@ def law_line(
 
 
 def error_bars(
-    axes: Axes, column: str, points: pd.DataFrame, shift: float, marker: str, colour: object, filled: bool
+    axes: Axes, column: str, points: pd.DataFrame, shift: float, marker: str, colour: Any, filled: bool
 ) -> None:
     """Means with standard deviations; the bars are left out where there is one value only."""
     spread = points[f"{column}_sd"] * SHOWN_PER_UNIT[column]
@@ -85,7 +86,7 @@ def error_bars(
 
 def keys(measured: pd.DataFrame, tests: pd.DataFrame, law: bool) -> list[Line2D]:
     """Legend: what open and filled markers and lines are."""
-    point = {"ls": "", "marker": "o", "color": style.INK}
+    point: dict[str, Any] = {"ls": "", "marker": "o", "color": style.INK}
     handles = [Line2D([], [], **point, label=_of("simulated", tests, "sample"))]
     if not measured.empty:
         origin = _of(origin_of(measured), measured, "specimen")

@@ -17,7 +17,10 @@ def draw_section(axes: Axes, specimen: Record, colours: NDArray[np.float64]) -> 
     """Middle plane y = 0 around half the height, on axes whose shape sets that of the piece shown."""
     position, radius = specimen.arrays["position"], specimen.arrays["radius"]
     box = axes.get_position()
-    shape = box.height * axes.figure.get_figheight() / (box.width * axes.figure.get_figwidth())
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    width, height = figure.get_size_inches()
+    shape = box.height * height / (box.width * width)
     half = 0.5 * WINDOW * specimen.attributes["h"] * np.array([1.0, shape])
     centre = np.array([0.0, 0.5 * specimen.attributes["h"]])
     axes.set_xlim(centre[0] - half[0], centre[0] + half[0])
@@ -40,7 +43,7 @@ def draw_section(axes: Axes, specimen: Record, colours: NDArray[np.float64]) -> 
     shown = met[first] & met[second]
     axes.add_collection(
         LineCollection(
-            np.stack([plane[first[shown]], plane[second[shown]]], axis=1),
+            list(np.stack([plane[first[shown]], plane[second[shown]]], axis=1)),
             colors=style.INK,
             linewidths=0.4,
             zorder=1,

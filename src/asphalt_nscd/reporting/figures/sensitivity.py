@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from asphalt_nscd.files.errors import InputError
@@ -64,12 +66,13 @@ def draw_sensitivity(
     return figure
 
 
-def _legend(figure, axes, origin, temperature):
+def _legend(figure: Figure, axes: Axes, origin: str, temperature: float) -> None:
     point = axes.errorbar([], [], fmt="o", color=style.GREY, markerfacecolor="white")
     simulated = axes.errorbar([], [], fmt="s", color=style.INK)
     (line,) = axes.plot([], [], color=style.INK, lw=0.7)
+    keys: list[Any] = [point, simulated, line]  # matplotlib takes containers of artists too
     figure.legend(
-        [point, simulated, line],
+        keys,
         [f"{origin}, {style.celsius(temperature)}", "simulated", "Burgers law of the bonds"],
         loc="outside upper left", ncols=3, borderpad=0.1,
     )  # fmt: skip

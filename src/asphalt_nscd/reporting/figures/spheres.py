@@ -60,7 +60,9 @@ def picture(
     return image[::-1], (left, left + size[0] / scale, bottom, bottom + size[1] / scale)
 
 
-def _splat(depth, owner, n, centre, radius, height) -> None:
+def _splat(
+    depth: np.ndarray, owner: np.ndarray, n: int, centre: np.ndarray, radius: float, height: float
+) -> None:
     """Enter sphere n into the buffers where nothing lies before it."""
     x0, y0 = np.floor(centre - radius).astype(int)
     x1, y1 = np.ceil(centre + radius).astype(int) + 1
@@ -74,7 +76,9 @@ def _splat(depth, owner, n, centre, radius, height) -> None:
     owner[y0:y1, x0:x1][nearer] = n
 
 
-def _shade(depth, owner, centre, radius, colour) -> NDArray[np.float64]:
+def _shade(
+    depth: np.ndarray, owner: np.ndarray, centre: np.ndarray, radius: np.ndarray, colour: np.ndarray
+) -> NDArray[np.float64]:
     """Diffuse light on each pixel's sphere, less in crevices; RGB is weighted with alpha."""
     image = np.zeros((*depth.shape, 4))
     row, column = np.nonzero(owner >= 0)

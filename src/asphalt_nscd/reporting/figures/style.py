@@ -14,10 +14,11 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
+from numpy.typing import ArrayLike
 
 SINGLE, WIDE = 90.0, 140.0  # mm, the widths of a journal's column and of a column and a half
 MM = 1.0 / 25.4  # inch
-RC = {
+RC: dict[Any, Any] = {
     "font.family": "DejaVu Sans",  # comes with matplotlib, so that every machine draws the same
     "font.size": 8.0, "axes.labelsize": 8.0, "legend.fontsize": 7.0,
     "xtick.labelsize": 7.0, "ytick.labelsize": 7.0, "mathtext.fontset": "dejavusans",
@@ -64,7 +65,9 @@ class RepeatableLayout(ConstrainedLayoutEngine):
         return solved
 
 
-def new_figure(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any):
+def new_figure(
+    width: float, height: float, rows: int = 1, columns: int = 1, **options: Any
+) -> tuple[Figure, Any]:
     """Figure of width x height [mm] and its axes."""
     figure = Figure(figsize=(width * MM, height * MM), layout=RepeatableLayout(w_pad=0.03, h_pad=0.03))
     return figure, figure.subplots(rows, columns, **options)
@@ -94,14 +97,14 @@ def isotherm_legends(figure: Figure, keys: Sequence[Line2D], temperatures: Seque
     )
 
 
-def frequency_axis(axes: Axes, frequencies: Sequence[float]) -> None:
+def frequency_axis(axes: Axes, frequencies: ArrayLike) -> None:
     """Logarithmic frequency axis with the tested frequencies as ticks, where these are few."""
-    frequencies = np.unique(np.asarray(frequencies, float))
+    tested = np.unique(np.asarray(frequencies, float))
     axes.set_xscale("log")
     axes.set_xlabel("frequency (Hz)")
-    axes.set_xlim(frequencies[0] / 1.15, frequencies[-1] * 1.15)
-    if frequencies.size <= MOST_LABELLED_FREQUENCIES:
-        axes.xaxis.set_major_locator(FixedLocator(list(frequencies)))
+    axes.set_xlim(tested[0] / 1.15, tested[-1] * 1.15)
+    if tested.size <= MOST_LABELLED_FREQUENCIES:
+        axes.xaxis.set_major_locator(FixedLocator(tested.tolist()))
         axes.xaxis.set_minor_locator(NullLocator())
     else:
         axes.xaxis.set_minor_formatter(NullFormatter())
@@ -119,10 +122,12 @@ def label_ends(
     axes: Axes, x: float, ends: Sequence[float], texts: Sequence[str], colours: Sequence[Any]
 ) -> None:
     """Write each text at the right of its line's end (x, y), moved apart where they would overlap."""
-    axes.figure.draw_without_rendering()  # settles the size of the axes
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    figure.draw_without_rendering()  # settles the size of the axes
     points = 72.0 / axes.figure.dpi
     at = np.array([axes.transData.transform((x, y))[1] for y in ends]) * points
-    for y, text, colour, shift in zip(ends, texts, colours, spread(at, 8.5) - at, strict=True):
+    for y, text, colour, shift in zip(ends, texts, colours, spread(at.tolist(), 8.5) - at, strict=True):
         axes.annotate(
             text, (x, y), xytext=(5.0, shift), textcoords="offset points", va="center",
             fontsize=7.0, color=colour, annotation_clip=False,
@@ -131,18 +136,18 @@ def label_ends(
 
 def spread(places: Sequence[float], least: float) -> np.ndarray:
     """Places moved as little as needed so that neighbours are `least` apart, in unchanged order."""
-    places = np.asarray(places, float)
-    order = np.argsort(places, kind="stable")
+    wanted = np.asarray(places, float)
+    order = np.argsort(wanted, kind="stable")
     # Pool adjacent violators: clusters of touching labels are centred on their mean.
     clusters: list[list[float]] = []
-    for rank, place in enumerate(places[order]):
+    for rank, place in enumerate(wanted[order]):
         clusters.append([place - rank * least, 1.0])
         while len(clusters) > 1 and clusters[-2][0] > clusters[-1][0]:
             (mean, size), (last, more) = clusters[-2], clusters.pop()
             clusters[-1] = [(mean * size + last * more) / (size + more), size + more]
     base = np.repeat([mean for mean, _ in clusters], [int(size) for _, size in clusters])
-    result = np.empty_like(places)
-    result[order] = base + least * np.arange(places.size)
+    result = np.empty_like(wanted)
+    result[order] = base + least * np.arange(wanted.size)
     return result
 
 

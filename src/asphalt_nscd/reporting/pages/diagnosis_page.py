@@ -13,9 +13,11 @@ import pandas as pd
 from jinja2 import Environment, StrictUndefined
 
 from asphalt_nscd.diagnosis import sentences
+from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
     limits_by_place,
+    mean_averages,
     member_name,
     place_name,
     read_diagnosis,
@@ -25,6 +27,7 @@ from asphalt_nscd.diagnosis.written import (
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.pages.style import STYLE
+from asphalt_nscd.reporting.pages.way import QUANTITIES, read_ladder
 
 TEMPLATE = "diagnosis_page.html"
 LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
@@ -72,12 +75,12 @@ def render(content: dict[str, Any], title: str) -> str:
 
 
 def sections(
-    diagnosis: list[Path], map: list[Path], table4: Sequence[Path] = (), specimens: Sequence[Path] = (),
-    causality: Sequence[Path] = (),
+    diagnosis: list[Path], map: list[Path], table4: Sequence[Path] = (), ladder: Sequence[Path] = (),
+    specimens: Sequence[Path] = (), causality: Sequence[Path] = (),
 ) -> dict[str, Any]:  # fmt: skip
     """What the page says, as text and rows of text. map, specimens, causality: pictures (PNG)."""
     content = read_diagnosis(diagnosis)
-    ladder = content["ladder"]
+    rungs = content["ladder"]
     return {
         "first": first(content),
         "pictures": {
@@ -87,8 +90,9 @@ def sections(
         "scatter": _scatter(content),
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
-        "ladder": [_rung(rung) | {"as_good": _members(rung["as_good"], content)} for rung in ladder],
+        "ladder": [_rung(rung) | {"as_good": _members(rung["as_good"], content)} for rung in rungs],
         "held_out": HELD_OUT,
+        "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
         "map": _picture(map),
         "unexplained": [_unexplained(row) for row in content["unexplained"]],
@@ -99,7 +103,9 @@ def sections(
         "alike": [_members(group, content) for group in content["indistinguishable"]],
         "suspects": [_suspect(one) for one in content.get("suspect_tests", [])],
         "withdrawn": _members(content["withdrawn"], content),
-        "confirmed_by": [(_cause(rung), rung["confirmed_by"]) for rung in ladder],
+        "confirmed_by": [
+            (_cause(rung), rung["confirmed_by"]) for rung in rungs if rung["cause"] != BOND_MAPPING
+        ],
     }
 
 
@@ -157,11 +163,31 @@ def _rung(rung: dict[str, Any]) -> dict[str, Any]:
     gain = rung["gain"]
     return {
         "cause": _cause(rung), "sentence": rung["sentence"], "p": _chance(rung["p_value"]),
+        "evidence": rung.get("evidence"),
         "parameters": [_estimate(name, value) for name, value in rung["parameters"].items()],
         "hangs_on": rung.get("hangs_on", []),
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {name: _gain(gain["held_out"][name]) for name in HELD_OUT if name in gain["held_out"]},
     }  # fmt: skip
+
+
+def _way(paths: Sequence[Path]) -> dict[str, Any]:
+    """Errors of each campaign by temperature and in the mean, the law's own and the scatter of one test below them."""
+    ladder = read_ladder(paths)
+    at = list(ladder["temperature_C"].unique())
+    rows = []
+    for quantity, words in QUANTITIES.items():
+        shown = {f"{words}: {rung}": rung for rung in ladder["rung"].unique()}
+        columns = dict.fromkeys(shown, f"mre_{quantity}_percent")
+        first = next(iter(shown.values()))
+        shown |= {f"{words}: the law's own, {first}": first, f"{words}: scatter of one test": first}
+        columns |= dict(
+            zip(list(shown)[-2:], (f"mre_{quantity}_law_percent", f"scatter_{quantity}_percent"), strict=True)
+        )
+        for label, rung in shown.items():
+            errors = ladder[ladder["rung"] == rung].set_index("temperature_C")[columns[label]]
+            rows.append([label, *(_number(errors[t]) for t in at), _number(errors.mean())])
+    return {"head": ["", *map(place_name, at), "mean"], "rows": rows}
 
 
 def _suspect(one: dict[str, Any]) -> list[str]:
@@ -187,8 +213,9 @@ def _estimate(name: str, estimate: dict[str, Any]) -> str:
 
 
 def _gain(gain: dict[str, Any]) -> list[str]:
-    names = ("mre_E_percent", "mre_phase_percent", "rms_over_scatter")
-    return [" → ".join(_number(gain[name][when]) for when in ("before", "after")) for name in names]
+    """Errors as in Table 4, mean over temperatures, and residuals over scatter; empty where these are none."""
+    pairs = [*mean_averages(gain).values(), gain.get("rms_over_scatter", {})]
+    return [" → ".join(map(_number, pair.values())) for pair in pairs]
 
 
 def _baseline(baseline: dict[str, Any]) -> list[list[str]]:
@@ -224,5 +251,8 @@ def _number(value: float) -> str:
     return "" if pd.isna(value) else three_digits(value).replace("-", "\N{MINUS SIGN}")
 
 
-def _chance(p: float) -> str:
+def _chance(p: float | None) -> str:
+    """Empty for bond_mapping, which no measurement is asked about."""
+    if p is None:
+        return ""
     return f"below {LEAST_P:g}" if p < LEAST_P else f"{p:.1g}"

@@ -10,9 +10,9 @@ import pandas as pd
 
 from asphalt_nscd.diagnosis.written import three_digits
 from asphalt_nscd.files.csvinput import read_csv
-from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.pages.diagnosis_page import in_type, sections
+from asphalt_nscd.reporting.pages.way import inner_held_out, means, read_ladder
 
 ENOUGH = 5000  # spheres
 TOO_FEW = (
@@ -23,20 +23,20 @@ TOO_FEW = (
 
 def first_page(
     measured: Sequence[Path], simulations: Sequence[Path], samples: Sequence[Path], diagnosis: list[Path],
-    map: list[Path],
+    map: list[Path], ladder: Sequence[Path],
 ) -> dict[str, Any]:  # fmt: skip
     """Sentences of each part, and rows of the gain.
 
     measured, simulations, samples: one CSV table each, as the workflow makes them; diagnosis: diagnosis.json;
-    map: PNG picture of the residuals.
+    map: PNG picture of the residuals; ladder: ladder.csv, the errors of each campaign.
     """
     found = sections(diagnosis, map)
-    ladder = found["diagnosis"]["ladder"]
+    way = read_ladder(ladder)
     moduli, tests = _frame(measured, "measured"), _frame(simulations, "simulations")
     return {
         "measured": _measured(moduli, found),
         "simulated": _simulated(tests, _frame(samples, "samples")),
-        "wrong": [*_wrong(found["diagnosis"]), _as_simulated(moduli, tests)],
+        "wrong": _wrong(way),
         "found": {
             name: _typed(found["first"][name])
             for name in ("data", "simulation", "causes", "left", "with_suspects")
@@ -44,8 +44,8 @@ def first_page(
         "not_used": [in_type(where) for where, _ in found["first"]["not_used"]],
         "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in found["first"]["orders"]],
         "notes": _typed(found["diagnosis"]["notes"]),
-        "gained": _gained(ladder),
-        "held_out": _held_out(ladder),
+        "gained": _gained(way),
+        "held_out": _held_out(way),
         "map": found["map"],
     }
 
@@ -79,62 +79,45 @@ def _simulated(tests: pd.DataFrame, samples: pd.DataFrame) -> list[str]:
     return [
         f"{_many(len(samples), 'sample')} of {_range(samples['spheres'])} bonded spheres, poured from the grading, "
         f"in two-point bending at {_many(len(conditions), 'condition')}: {_many(len(tests), 'test')}.",
-        f"They return the law of their bonds, |E*| times {_range(samples['E_over_law'])} by their packing.",
+        f"They return the law of their bonds, |E*| times {_range(samples['E_over_law'])} as they are bonded.",
         *([TOO_FEW] if samples["spheres"].max() < ENOUGH else []),
     ]  # fmt: skip
 
 
-def _wrong(diagnosis: dict[str, Any]) -> list[str]:
-    modulus, phase = diagnosis["baseline"]["mre_E_percent"], diagnosis["baseline"]["mre_phase_percent"]
+def _wrong(way: pd.DataFrame) -> list[str]:
+    """What the campaign that the ladder begins with misses, and how much of it is its law's."""
+    begin = way[way["rung"] == way["rung"].iloc[0]]
+    mean, worst = begin.mean(numeric_only=True), begin.set_index("temperature_C")
+    modulus, phase = (worst[f"mre_{name}_percent"] for name in ("E", "phase"))
     return [
-        "With one Burgers law for each temperature, as in the paper, and the packing taken out, the simulation misses "
-        f"averages over specimens of |E*| by {_mean(modulus)} %, most at {_worst(modulus)} °C, and of the phase by "
-        f"{_mean(phase)} %, most at {_worst(phase)} °C."
+        f"The simulated tests miss averages over specimens (Table 4) of |E*| by {three_digits(modulus.mean())} %, most "
+        f"at {_number(modulus.idxmax())} °C, and of the phase by {three_digits(phase.mean())} %, most at "
+        f"{_number(phase.idxmax())} °C.",
+        f"Of this the Burgers laws in their bonds miss {three_digits(mean['mre_E_law_percent'])} % and "
+        f"{three_digits(mean['mre_phase_law_percent'])} % themselves.",
     ]
 
 
-def _as_simulated(moduli: pd.DataFrame, tests: pd.DataFrame) -> str:
-    errors = mean_relative_error(moduli, tests).mean()
-    return (
-        "The tests as they were simulated, packing and all (Table 4): |E*| by "
-        f"{three_digits(errors['mre_E_percent'])} %, the phase by {three_digits(errors['mre_phase_percent'])} %."
-    )
-
-
-def _gained(ladder: list[dict[str, Any]]) -> list[tuple[str, str, str]]:
-    """Quantity, before all causes and after all of them."""
-    if not ladder:
-        return []
-    names = {
-        "mre_E_percent": "error of |E*|, %", "mre_phase_percent": "error of the phase, %",
-        "rms_over_scatter": "residual over scatter",
-    }  # fmt: skip
-    first, last = ladder[0]["gain"]["in_sample"], ladder[-1]["gain"]["in_sample"]
-    return [
-        (words, three_digits(first[name]["before"]), three_digits(last[name]["after"]))
-        for name, words in names.items()
+def _gained(way: pd.DataFrame) -> list[tuple[str, ...]]:
+    """Errors after each rung, mean over temperatures; last the scatter of one test."""
+    errors = means(way)
+    rows = [
+        (rung, *(three_digits(errors.loc[rung, f"mre_{name}_percent"]) for name in ("E", "phase")))
+        for rung in errors.index
     ]
+    scatter = (three_digits(errors[f"scatter_{name}_percent"].iloc[0]) for name in ("E", "phase"))
+    return [*rows, ("scatter of one test", *scatter)]
 
 
-def _held_out(ladder: list[dict[str, Any]]) -> str | None:
+def _held_out(way: pd.DataFrame) -> str | None:
     """Errors of temperatures that took no part in the fit, where there are enough to leave one out."""
-    predicted = ladder[-1]["gain"]["held_out"].get("leave_one_isotherm_out") if ladder else None
-    if predicted is None:
+    held = inner_held_out(way)
+    if not held:
         return None
-    modulus, phase = (
-        three_digits(predicted[name]["after"]) for name in ("mre_E_percent", "mre_phase_percent")
-    )
+    modulus, phase = (three_digits(held[name]) for name in ("E", "phase"))
     return (
         f"Each inner temperature predicted from the rest alone: |E*| to {modulus} %, the phase to {phase} %."
     )
-
-
-def _mean(by_temperature: dict[str, float]) -> str:
-    return three_digits(sum(by_temperature.values()) / len(by_temperature))
-
-
-def _worst(by_temperature: dict[str, float]) -> str:
-    return _number(float(max(by_temperature, key=by_temperature.__getitem__)))
 
 
 def _range(values: pd.Series) -> str:

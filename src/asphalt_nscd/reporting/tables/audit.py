@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from itertools import chain
 from pathlib import Path
@@ -24,7 +25,7 @@ def make(
     grading: list[Path], counts: list[Path], laws: list[Path], fitted: list[Path], measured: list[Path],
     simulations: list[Path], sensitivity: list[Path], readings: list[Path], packing: list[Path],
     table4: list[Path], deposits: list[Path], specimens: list[Path], converged: list[Path],
-    stopped: list[Path], profile: list[Path],
+    stopped: list[Path], profile: list[Path], ladder: list[Path], facets: Sequence[Path] = (),
 ) -> pd.DataFrame:  # fmt: skip
     """One row for each statement: where, statement, published, ours, unit, verdict, evidence."""
     tests = pd.read_csv(the_only(simulations, "simulations"))
@@ -37,6 +38,8 @@ def make(
     audited = str(other["specimen"].iloc[0])
     whole = tests[(tests["specimen"] == audited) & (tests["broken_bonds"] == 0)]
     c = float((whole["E_MPa"] / whole["E_law_MPa"]).mean())
+    rungs = pd.read_csv(the_only(ladder, "ladder"))
+    scatter = float(rungs.loc[rungs["temperature_C"].idxmin(), "scatter_phase_percent"])
     rows = chain(
         equations.equations(published),
         equations.readings(c, _by_frequency(pascal), _by_frequency(blocked)),
@@ -48,8 +51,11 @@ def make(
         ),
         outcomes.numerics(tests, collect(converged), collect(stopped)),
         outcomes.profile(load(the_only(profile, "profile"), "test").arrays),
-        outcomes.laws_and_samples(tests, pd.read_csv(the_only(packing, "packing"))),
-        outcomes.agreement(errors, _refit_errors(fitted, measured)),
+        outcomes.laws_and_samples(
+            tests, pd.read_csv(the_only(packing, "packing")),
+            pd.read_csv(the_only(facets, "facets")) if facets else None,
+        ),
+        outcomes.agreement(errors, _refit_errors(fitted, measured), scatter),
         outcomes.sensitivity(changed, at_temperature(tests, float(changed["temperature_C"].iloc[0]))),
         outcomes.not_checkable(),
     )  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -13,10 +14,15 @@ from asphalt_nscd.files.store import load
 OF_THE_DEPOSIT = ["friction", "solid_fraction", "layer_height_m", "coordination"]
 
 
-def make(tests: list[Path], deposits: list[Path]) -> pd.DataFrame:
-    """Tests on samples with what is known of the deposits that these were cut from, by name."""
+def make(tests: list[Path], deposits: list[Path], facets: Sequence[Path] = ()) -> pd.DataFrame:
+    """Tests on samples with what is known of the deposits that these were cut from, by name.
+
+    tests: with the bonds of the study; facets: the same with bonds that are facets, where that is another mapping.
+    """
     layers = {path.stem: load(path, "deposit").attributes for path in deposits}
-    table = collect(tests)
+    table = collect([*tests, *facets])
+    if facets:
+        table["mapping"] = ["paper"] * len(tests) + ["facets"] * len(facets)
     for specimen in table["specimen"]:
         if specimen not in layers:
             raise InputError(f"no deposit {specimen}.h5 among the deposits; give it too.")

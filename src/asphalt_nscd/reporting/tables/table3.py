@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -26,7 +27,7 @@ MEGA = 1e-6
 def make(fitted: list[Path], measured: list[Path], published: Sequence[Path] = ()) -> pd.DataFrame:
     """One row for each temperature and parameter, in MPa or MPa s; published numbers are read in kPa."""
     data = read_measured(measured)
-    printed = {}
+    printed: dict[float, Any] = {}
     for path in published:
         printed |= dict(zip(*read_published(path), strict=True))
     rows = []

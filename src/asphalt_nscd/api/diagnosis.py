@@ -1,0 +1,272 @@
+"""The diagnosis of measurements as one object: verdict, ladder, suspects, limits, law, figures."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from importlib import import_module
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.api.laws import Law
+from asphalt_nscd.api.pictures import shown_in_notebooks
+from asphalt_nscd.api.tables import Measurements, campaign_in
+from asphalt_nscd.diagnosis.measured_limits import Progress, Trials, verify
+from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
+from asphalt_nscd.diagnosis.run import Outcome, conclude
+from asphalt_nscd.diagnosis.sentences import on_data, on_simulation
+from asphalt_nscd.diagnosis.summary import summary
+from asphalt_nscd.diagnosis.written import mean_averages, read_diagnosis
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.paths import is_file
+from asphalt_nscd.files.store import read_json, write_json
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class Draws:
+    """Of the chance level: how many, and the seed of their random numbers."""
+
+    number: int = 4000
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What the simulation gets wrong about measurements, how sure that is, and what could not have been seen.
+
+    `str(diagnosis)` is what the command line prints.
+    """
+
+    outcome: Outcome
+
+    @classmethod
+    def read(cls, folder: str | Path) -> Diagnosis:
+        """The diagnosis in a folder that `write` or `asphalt-nscd diagnose` made."""
+        folder = Path(folder)
+        content = read_diagnosis([folder / "diagnosis.json"])
+        tables = []
+        for name in ("residuals.csv", "causality.csv"):
+            if not is_file(folder / name):
+                raise InputError(
+                    f"{folder / name}: no such file; it belongs to diagnosis.json, diagnose again."
+                )
+            tables.append(pd.read_csv(folder / name, dtype={"specimen": str}))
+        tables[1]["reasons"] = tables[1]["reasons"].fillna("")
+        law = read_json(folder / "law.json") if is_file(folder / "law.json") else None
+        return cls(Outcome(content, tables[0], tables[1], law))
+
+    @property
+    def content(self) -> Mapping[str, Any]:
+        """Everything, as in diagnosis.json; its keys are described in diagnosis/diagnosis.schema.yaml."""
+        return self.outcome.content
+
+    @property
+    def verdict(self) -> str:
+        """One of explained, unexplained_structure, nothing_to_explain."""
+        return str(self.content["verdict"])
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on how the table was read and on what was found."""
+        return (*self.content.get("reading", {}).get("notes", ()), *self.content["notes"])
+
+    @property
+    def ladder(self) -> pd.DataFrame:
+        """One row for each cause named, in the order found.
+
+        value and std_error [unit] are those of its amplitude. error_...: mean relative errors [%] without and with
+        it. established: whether it stays whichever isotherm, frequency or specimen is left out; else it is the
+        likeliest, `hangs_on` names what must not be left out and `as_good` what fits as well.
+        """
+        return pd.DataFrame([_rung(rung) for rung in self.content["ladder"]], columns=_LADDER)
+
+    @property
+    def suspects(self) -> pd.DataFrame:
+        """One row for each doubtful test: specimen, temperature_C, frequency_Hz, used, reasons."""
+        rows = [
+            {**one, "reasons": "; ".join(one["reasons"])} for one in self.content.get("suspect_tests", [])
+        ]
+        return pd.DataFrame(rows, columns=["specimen", "temperature_C", "frequency_Hz", "used", "reasons"])
+
+    @property
+    def limits(self) -> pd.DataFrame:
+        """Amplitude [unit] of each cause that these data would show in 19 of 20 cases; where: specimen or degC."""
+        rows = []
+        for cause, limit in self.content["detection_limits"].items():
+            for where, value in limit.get("places", {"": limit["value"]}).items():
+                rows.append((cause, limit.get("confined_to", ""), where, value, limit["unit"]))
+        return pd.DataFrame(rows, columns=["cause", "confined_to", "where", "value", "unit"])
+
+    @property
+    def residuals(self) -> pd.DataFrame:
+        """Each test used: measured, simulated before and after, ln(measured / simulated) in % and degrees."""
+        return self.outcome.residuals
+
+    @property
+    def causality(self) -> pd.DataFrame:
+        """Each test: phase measured, and phase that its |E*| and its isotherm require (Kramers and Kronig)."""
+        return self.outcome.causality
+
+    @cached_property
+    def law(self) -> Law | None:
+        """The law of the mix without the named causes, 2S2P1D with a shift; None where one isotherm was tested."""
+        return None if self.outcome.law is None else Law(self.outcome.law)
+
+    def plot_black(self) -> Figure:
+        """Black diagram and Cole-Cole plane: points measured, lines simulated."""
+        return self._figure("fig_black")
+
+    def plot_master_curve(self) -> Figure:
+        """|E*|, phase and their residuals against reduced frequency, and the shift factors."""
+        return self._figure("fig_master")
+
+    def plot_residuals(self) -> Figure:
+        """Residuals over temperature and frequency, before and after."""
+        return self._figure("fig_residual_map")
+
+    def verify_limits(self, processes: int | None = None, progress: Progress = lambda *_: None) -> Diagnosis:
+        """The same with measured limits: each cause put into the tests at 1, 2 and 3 times its stated limit.
+
+        processes: at once, one for each core if None; progress(stage, done, total): called after each. The table
+        stands in limits.csv and in `content["measured_limits"]`. Takes minutes; equal on any number of processes.
+        """
+        made, stated = self.outcome.diagnosis, self.content["provenance"]["scatter_stated"]
+        if made is None:
+            raise InputError("This diagnosis was read from files; diagnose the measurements again.")
+        scatter = None if stated is None else (float(stated[0]), float(stated[1]))
+        trials = Trials(scatter, self.content["provenance"]["seed"], processes)
+        return Diagnosis(self.outcome.with_limits(verify(made, trials, progress)))
+
+    def to_json(self, path: str | Path | None = None) -> str:
+        """The content of diagnosis.json as text; written to a path if one is given."""
+        text = json.dumps(self.content, indent=2)
+        if path is not None:
+            write_json(path, self.content)
+        return text
+
+    def write(self, folder: str | Path) -> str:
+        """Write diagnosis.json, residuals.csv, causality.csv and law.json; what the command line prints."""
+        return self.outcome.written(folder)
+
+    def _figure(self, name: str) -> Figure:
+        # By name: a step of the workflow that imports this module must not run again after a change to a figure.
+        draw = import_module(f"asphalt_nscd.reporting.figures.{name}").draw
+        with TemporaryDirectory() as folder:
+            self.outcome.write(folder)
+            files = [Path(folder) / "residuals.csv"], [Path(folder) / "diagnosis.json"]
+            figure = draw(*files)
+        return shown_in_notebooks(figure)
+
+    def __str__(self) -> str:
+        return summary(self.content)
+
+    def __repr__(self) -> str:
+        named = [
+            f"{row.cause}{f' ({row.where})' if row.where else ''} {row.value:.3g} {row.unit} "
+            f"({'established' if row.established else 'likely'})"
+            for row in self.ladder.itertuples()
+            if row.cause != "relaxation_spectrum"
+        ]
+        aside = int((~self.suspects["used"].astype(bool)).sum())
+        return (
+            f"Diagnosis({self.verdict}: {'; '.join(named) or 'no cause named'}; {self.content['tests']} tests used, "
+            f"{aside} not used)"
+        )
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        ladder = self.ladder[["cause", "where", "value", "std_error", "unit", "p_value", "established"]]
+        parts = [
+            f"<p><b>Data:</b> {escape(on_data(self.content))}</p>",
+            f"<p><b>Simulation:</b> {escape(on_simulation(self.content))}</p>",
+            ladder.to_html(index=False, float_format="{:.3g}".format, na_rep=""),
+        ]
+        if len(self.suspects):
+            parts += [
+                "<p>Doubtful tests:</p>",
+                self.suspects.to_html(index=False, float_format="{:g}".format),
+            ]
+        if self.notes:
+            items = "".join(f"<li>{escape(note)}</li>" for note in self.notes)
+            parts.append(f"<details><summary>Notes</summary><ul>{items}</ul></details>")
+        return "".join(parts)
+
+
+_ERRORS = ("E", "phase")
+_LADDER = [
+    "cause", "where", "parameter", "value", "std_error", "unit", "p_value",
+    *(f"error_{q}_{when}_percent" for q in _ERRORS for when in ("before", "after")),
+    "established", "as_good", "hangs_on", "sentence", "confirmed_by",
+]  # fmt: skip
+
+
+def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
+    name, amplitude = next(iter(rung["parameters"].items()))
+    inside = mean_averages(rung["gain"]["in_sample"])
+    return {
+        "cause": rung["cause"], "where": "" if rung["where"] is None else rung["where"], "parameter": name,
+        "value": amplitude["value"], "unit": amplitude["unit"],
+        "std_error": np.nan if amplitude["std_error"] is None else amplitude["std_error"],
+        "p_value": rung["p_value"],
+        **{
+            f"error_{q}_{when}_percent": inside[f"mre_{q}_percent"][when]
+            for q in _ERRORS for when in ("before", "after")
+        },
+        "established": bool(rung.get("established")), "as_good": ", ".join(rung["as_good"]),
+        "hangs_on": ", ".join(map(str, rung.get("hangs_on", ()))),
+        "sentence": rung["sentence"], "confirmed_by": rung["confirmed_by"],
+    }  # fmt: skip
+
+
+def diagnose(
+    measurements: Measurements, *, geometry: str | Path | Mapping[str, Any] = PAPER_GEOMETRY,
+    specimen: str | Path | None = None, static_modulus_MPa: float | None = None,
+    scatter: tuple[float, float] | None = None, simulations: str | Path | None = None,
+    facets: str | Path | None = None, draws: Draws = Draws(),  # noqa: B008  frozen
+    progress: Progress = lambda *_: None,
+) -> Diagnosis:  # fmt: skip
+    """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
+
+    measurements: a file, a folder, several of them, or a DataFrame, read as `read` says. geometry: b_mm, B_mm, e_mm,
+    h_mm, mass_kg, mobile_mass_kg of the specimens, or a table of them; of ready moduli only the form factor counts.
+    specimen: numerical specimen, a file of `asphalt-nscd reduced-specimen`; else the one shipped. static_modulus_MPa:
+    of the mix at long times, if known. scatter: standard deviations of one test, |E*| in % and phase in degrees; else
+    from replicates. simulations: table of simulated tests, to say what in them is numerics; facets: of the same tests
+    with bonds that are facets, to judge bond_mapping. progress(stage, done, total): called as the work goes on.
+
+    Raises InputError, with one sentence, for tables that cannot be diagnosed.
+
+    >>> diagnosis = diagnose("data/tutorial/exports", draws=Draws(500))
+    >>> diagnosis
+    Diagnosis(explained: channel_delay 0.000792 s (established); 71 tests used, 1 not used)
+    >>> diagnosis.ladder[["cause", "error_E_before_percent", "error_E_after_percent"]].round(1)
+                     cause  error_E_before_percent  error_E_after_percent
+    0  relaxation_spectrum                    16.0                    3.9
+    1        channel_delay                     3.9                    0.8
+    """
+    stated = None if scatter is None else (scatter[0] / 100.0, float(np.radians(scatter[1])))
+    static = None if static_modulus_MPa is None else 1e6 * static_modulus_MPa
+    return Diagnosis(
+        conclude(
+            campaign_in(measurements),
+            geometry,
+            specimen,
+            static,
+            stated,
+            draws.number,
+            draws.seed,
+            simulations,
+            facets,
+            progress,
+        )
+    )

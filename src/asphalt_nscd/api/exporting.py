@@ -1,0 +1,86 @@
+"""What comes out for other programs: laws as Prony series, workbooks and tables; spheres and bonds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from asphalt_nscd.api.laws import Law
+from asphalt_nscd.api.results import Result
+from asphalt_nscd.exports.card import UNITS, Settings
+from asphalt_nscd.exports.export import export_law, require_form
+from asphalt_nscd.exports.law import law_of, read_law_file
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.maxwell_fitting import Miss
+
+if TYPE_CHECKING:
+    from asphalt_nscd.api.diagnosis import Diagnosis
+
+
+@dataclass(frozen=True)
+class ExportSettings:
+    """Largest errors of the Prony series over the tested band, Poisson's ratio, units and name of the material.
+
+    poisson: None for 0.35, said to be assumed. units: "SI" or "mm-N-MPa".
+    """
+
+    error_percent: float = 1.0
+    error_deg: float = 0.5
+    poisson: float | None = None
+    units: str = "SI"
+    name: str = "ASPHALT"
+
+    def of_card(self) -> Settings:
+        """As the exports take them."""
+        if self.units not in UNITS:
+            raise InputError(f"units {self.units!r} are not known; give one of {', '.join(UNITS)}.")
+        if not (self.error_percent > 0.0 and self.error_deg > 0.0):
+            raise InputError(
+                "an error that the Prony series may have must be greater than zero; give such a number."
+            )
+        return Settings(Miss(self.error_percent, self.error_deg), self.poisson, UNITS[self.units], self.name)
+
+
+def export(
+    law: Law | Diagnosis | Result | str | Path, output: str | Path, form: str, *,
+    settings: ExportSettings = ExportSettings(),  # noqa: B008  frozen
+    temperatures_C: tuple[float, ...] | None = None, frequencies_Hz: tuple[float, ...] | None = None,
+) -> str:  # fmt: skip
+    """Write a law, or spheres and bonds, for another program; one line that says what and how well.
+
+    law: a Law, a Diagnosis (whose law is taken), or a law file. form: abaqus, ansys, comsol, csv, xlsx or mepdg. Or a
+    Packing, a Specimen or a Test, or a file of one; form: vtk (.vtp, for ParaView; bonds in a file beside) or csv.
+    temperatures_C, frequencies_Hz: the tested ones, over which the series holds; else those of the diagnosis, or
+    usual ones, which the file says.
+
+    >>> law = Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
+    >>> with TemporaryDirectory() as folder:  # doctest: +ELLIPSIS
+    ...     print(export(law, f"{folder}/T15.csv", "csv", frequencies_Hz=(3.0, 40.0)))
+    /.../T15.csv: 2 Prony terms at 15 degC, largest errors less than 1e-06 % of |E*| ...
+    """
+    if isinstance(law, Result) or Path(str(law)).suffix.lower() in (".h5", ".hdf5"):
+        return _export_result(law, output, form)
+    card, tested = settings.of_card(), (temperatures_C, frequencies_Hz)
+    require_form(form, Path(output))
+    if isinstance(law, str | Path):
+        return export_law(read_law_file(law, *tested), card, form, output)
+    if isinstance(law, Law):
+        return export_law(law_of(law.source, dict(law.content), *tested), card, form, output)
+    if law.law is None:
+        raise InputError("a diagnosis of one isotherm has no law; diagnose tests at more temperatures.")
+    with TemporaryDirectory() as folder:  # the export finds the tests beside the law
+        law.write(folder)
+        return export_law(read_law_file(Path(folder, "law.json"), *tested), card, form, output)
+
+
+def _export_result(result: Result | str | Path | Law | Diagnosis, output: str | Path, form: str) -> str:
+    from asphalt_nscd.packings.outgoing import export_result
+
+    if not isinstance(result, Result):
+        return export_result(str(result), form, output)
+    with TemporaryDirectory() as folder:
+        path = Path(folder, "result.h5")
+        result.write(path)
+        return export_result(path, form, output)

@@ -1,0 +1,211 @@
+"""Laws of the material: fitted, read, evaluated, written, exported."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike, NDArray
+
+from asphalt_nscd.api.tables import observed_in
+from asphalt_nscd.exports.law import ONE_TEMPERATURE, ExportedLaw, law_of
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import read_json, write_json
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.chain import KelvinChain
+from asphalt_nscd.rheology.chain_law import chain_at
+from asphalt_nscd.rheology.fitted_laws import burgers_at
+from asphalt_nscd.rheology.laws_io import law_content
+from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE
+from asphalt_nscd.rheology.spectrum import LAWS
+from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
+from asphalt_nscd.rheology.spectrum_io import spectrum_content
+
+SAME_TEMPERATURE = 1e-6  # K
+CHAIN_ERROR = 1e-3  # of ln E*, of the chain that bonds follow
+MARGIN = 2.0  # of its band to either side of the tested frequency, for the transient
+
+
+@dataclass(frozen=True)
+class Law:
+    """A law of E*, of one temperature (Burgers, Kelvin chain) or of all (2S2P1D, Huet-Sayegh with their shift).
+
+    >>> law = Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
+    >>> print(f"{abs(law.complex_modulus(10.0)) / 1e9:.2f} GPa")  # Table 3 of the paper, at 10 Hz
+    18.70 GPa
+    """
+
+    content: Mapping[str, Any]  # as its JSON file has it
+    source: Path = Path("in memory", "law.json")  # of the file; tests beside it are its band
+
+    def __post_init__(self) -> None:
+        self._parsed  # noqa: B018  refuses a content that is no law
+
+    @classmethod
+    def read(cls, path: str | Path) -> Law:
+        """The law in a file of `fit`, `diagnose` or `chain-law`."""
+        return cls(read_json(path), Path(path))
+
+    @classmethod
+    def burgers(
+        cls, *, Em_Pa: float, eta_m_Pa_s: float, Ek_Pa: float, eta_k_Pa_s: float, temperature_C: float
+    ) -> Law:
+        """A Burgers law of one temperature, Eqs. (27)-(29): moduli [Pa], viscosities [Pa s]."""
+        law = Burgers(Em_Pa, eta_m_Pa_s, Ek_Pa, eta_k_Pa_s)
+        return cls(law_content(law, source="stated", temperature=temperature_C))
+
+    @cached_property
+    def _parsed(self) -> ExportedLaw:
+        return law_of(self.source, dict(self.content))
+
+    @property
+    def kind(self) -> str:
+        """One of burgers, kelvin_chain, 2s2p1d, huet-sayegh."""
+        return self._parsed.kind
+
+    @property
+    def temperature_C(self) -> float | None:
+        """The only temperature for which the law holds; None if it holds for all."""
+        return self._parsed.temperature if self.kind in ONE_TEMPERATURE else None
+
+    @property
+    def parameters(self) -> pd.DataFrame:
+        """Value and standard error of each parameter, and whether the tests determine it.
+
+        The index carries the units: E_glassy_Pa, tau_s.
+        """
+        parsed = self._parsed
+        names = [name for name in parsed.parameters if name != "reference_temperature_C"]
+        return pd.DataFrame(
+            {
+                "value": [parsed.parameters[name] for name in names],
+                "std_error": [parsed.std_error.get(name, np.nan) for name in names],
+                "determined": [name not in parsed.unseen for name in names],
+            },
+            index=pd.Index(names, name="parameter"),
+        )
+
+    def complex_modulus(
+        self, frequency_Hz: ArrayLike, temperature_C: ArrayLike | None = None
+    ) -> NDArray[np.complex128]:
+        """E* [Pa] at frequencies [Hz] and temperatures [degC], broadcast together.
+
+        temperature_C is left out for a law of one temperature, and needed for a law of all.
+        """
+        omega = 2.0 * np.pi * np.asarray(frequency_Hz, float)
+        law: Any = self._parsed.law
+        if self.temperature_C is None:
+            if temperature_C is None:
+                raise InputError(f"{self.source}: a law of all temperatures; give temperature_C.")
+            return np.asarray(law.complex_modulus(omega, np.asarray(temperature_C, float)))
+        if temperature_C is not None:
+            self._require(temperature_C)
+        return np.asarray(law.complex_modulus(omega))
+
+    def shift_factor(self, temperature_C: ArrayLike) -> NDArray[np.float64]:
+        """a_T: reduced frequency over frequency at temperatures [degC]."""
+        if self.temperature_C is not None:
+            raise InputError(f"{self.source}: a law of one temperature has no shift; give a law of all.")
+        return self._parsed.factor(np.asarray(temperature_C, float))
+
+    def write(self, path: str | Path) -> None:
+        """Write the law as JSON, as the command line does."""
+        write_json(path, dict(self.content))
+
+    def of_bonds(self, frequency_Hz: float, temperature_C: float) -> Law:
+        """The law that bonds follow in a test: itself, or a Kelvin chain of it at a temperature [degC].
+
+        The chain is within 0.1 % of the law from half to twice the frequency [Hz].
+        """
+        if self.temperature_C is not None:
+            self._require(temperature_C)
+            return self
+        law: Any = self._parsed.law
+        band = frequency_Hz / MARGIN, frequency_Hz * MARGIN
+        return Law(chain_at(law, str(self.source), temperature_C, band, CHAIN_ERROR))
+
+    @property
+    def bonds(self) -> Burgers | KelvinChain:
+        """What a bond needs of a law of one temperature; see `of_bonds`."""
+        law = self._parsed.law
+        if not isinstance(law, Burgers | KelvinChain):
+            raise InputError(f"{self.source}: a law of all temperatures; take `of_bonds` at one.")
+        return law
+
+    def _require(self, temperature_C: ArrayLike) -> None:
+        if np.any(np.abs(np.asarray(temperature_C, float) - self._parsed.temperature) > SAME_TEMPERATURE):
+            raise InputError(
+                f"{self.source}: holds at {self._parsed.temperature:g} degC only; ask for that temperature, or give "
+                "a law of all."
+            )
+
+    def __repr__(self) -> str:
+        said = ", ".join(f"{name} = {value:.4g}" for name, value in self.parameters["value"].items())
+        return f"Law({self._parsed.name}{self._holds()}: {said})"
+
+    def _repr_html_(self) -> str:
+        return f"<p><b>{self._parsed.name}</b>{self._holds()}</p>{self.parameters.to_html()}"
+
+    def _holds(self) -> str:
+        if self.temperature_C is not None:
+            return f" at {self.temperature_C:g} degC"
+        return f", reference {self._parsed.temperature:g} degC"
+
+
+def fit(table: Any, law: str = "2s2p1d", *, temperature_C: float | None = None, shift: str = "wlf") -> Law:
+    """Fit a law to the moduli of a table.
+
+    table: path, folder or DataFrame with columns temperature_C, frequency_Hz, E_MPa and phase_deg (or what `read`
+    understands as these). law: "burgers" at one temperature_C [degC], Eqs. (27)-(29), or "2s2p1d" or "huet-sayegh"
+    at all, with shift "wlf" or "arrhenius". Laws of all temperatures stand under priors of what asphalt concrete can
+    be; `parameters` says what the tests do not determine. Errors of |E*| and of the phase count alike.
+
+    >>> made = Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
+    >>> f = np.array([3.0, 10.0, 25.0, 40.0])
+    >>> E = made.complex_modulus(f)
+    >>> table = pd.DataFrame({"temperature_C": 15.0, "frequency_Hz": f, "E_MPa": abs(E) / 1e6,
+    ...                       "phase_deg": np.degrees(np.angle(E))})
+    >>> print(f"{fit(table, 'burgers', temperature_C=15).parameters.loc['Em_Pa', 'value']:.3g}")
+    2.43e+10
+    """
+    observed, name, origin = observed_in(table)
+    if law == "burgers":
+        if temperature_C is None:
+            raise InputError(
+                'fit: a Burgers law holds at one temperature; give temperature_C, or law="2s2p1d".'
+            )
+        frame = pd.DataFrame(
+            {
+                "temperature_C": observed.isotherm, "frequency_Hz": observed.frequency,
+                "E_MPa": 1e-6 * np.abs(observed.modulus), "phase_deg": np.degrees(np.angle(observed.modulus)),
+            }
+        )  # fmt: skip
+        return Law(burgers_at(frame, temperature_C, name))
+    if law not in LAWS:
+        raise InputError(f"fit: law {law!r} is not known; give one of burgers, {', '.join(LAWS)}.")
+    if temperature_C is not None:
+        raise InputError(f"fit: a law of kind {law} holds at all temperatures; leave out temperature_C.")
+    reference = float(observed.isotherms[observed.isotherms.size // 2])
+    try:
+        fitted = fit_spectrum(
+            observed.omega,
+            observed.temperature,
+            observed.modulus,
+            reference,
+            law,
+            shift,
+            prior=ASPHALT_CONCRETE,
+        )
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
+    return Law(
+        spectrum_content(
+            fitted.law, source=f"fitted ({origin})", rms_log_residual=fitted.rms_log_residual,
+            std_error=fitted.std_error, unseen=fitted.unseen, from_prior=fitted.from_prior,
+        )
+    )  # fmt: skip

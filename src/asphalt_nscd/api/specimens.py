@@ -1,0 +1,202 @@
+"""Packings of spheres, and specimens cut from them and bonded."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.api.results import Result
+from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.geometry import read_geometry
+from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.packings.incoming import as_deposit
+from asphalt_nscd.packings.incoming import read_packing as read_spheres
+from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
+from asphalt_nscd.specimen.network import AREAS
+from asphalt_nscd.specimen.preparation import DEPOSIT, SPECIMEN, Vibration, bonded, specimen_of
+from asphalt_nscd.specimen.preparation import pour as pour_spheres
+from asphalt_nscd.specimen.trimming import Specimen as BondedSpheres
+
+SPHERE_COLUMNS = ["x_m", "y_m", "z_m", "radius_m"]
+
+
+class Packing(Result):
+    """Spheres at rest in a box [0, length] x [0, width] x [0, height], z upwards."""
+
+    kind = DEPOSIT
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """How a file of another program was read; none for what was poured here."""
+        return tuple(filter(None, str(self.attributes.get("notes", "")).split("\n")))
+
+    @property
+    def position_m(self) -> np.ndarray:
+        """Centres (n, 3) [m]."""
+        return self.arrays["position"]
+
+    @property
+    def radius_m(self) -> np.ndarray:
+        """Radii (n,) [m]."""
+        return self.arrays["radius"]
+
+    @property
+    def box_m(self) -> np.ndarray:
+        """Length, width and height (3,) [m]."""
+        return self.arrays["box"]
+
+    @property
+    def spheres(self) -> pd.DataFrame:
+        """One row for each sphere: x_m, y_m, z_m, radius_m."""
+        return pd.DataFrame(np.column_stack([self.position_m, self.radius_m]), columns=SPHERE_COLUMNS)
+
+    def __repr__(self) -> str:
+        said = self.attributes
+        return (
+            f"Packing({self.radius_m.size} spheres, radii {1e3 * self.radius_m.min():.3g} to "
+            f"{1e3 * self.radius_m.max():.3g} mm, layer {1e3 * said['layer_height_m']:.3g} mm high, solid fraction "
+            f"{said['solid_fraction']:.3f})"
+        )
+
+
+@dataclass(frozen=True)
+class Specimen(Result):
+    """Bonded spheres between the foot (z = 0) and the head (z = h); bending along x."""
+
+    kind = SPECIMEN
+
+    @property
+    def position_m(self) -> np.ndarray:
+        """Centres (n, 3) [m]; the origin is the middle of the foot."""
+        return self.arrays["position"]
+
+    @property
+    def radius_m(self) -> np.ndarray:
+        """Radii (n,) [m], after the reduction of volume."""
+        return self.arrays["radius"]
+
+    @cached_property
+    def bonded(self) -> BondedSpheres:
+        """The same as the core takes it."""
+        return specimen_of((dict(self.arrays), dict(self.attributes)))
+
+    @property
+    def geometry(self) -> Geometry:
+        """b, B, e, h [m] and masses [kg]."""
+        return self.bonded.geometry
+
+    @property
+    def bonds(self) -> pd.DataFrame:
+        """One row for each bond: bodies first and second (n is the head, n + 1 the foot), gap_m, length_m, area_m2."""
+        network = self.bonded.network
+        return pd.DataFrame(
+            {
+                "first": network.first, "second": network.second, "gap_m": network.gap,
+                "length_m": network.length, "area_m2": network.area,
+            }
+        )  # fmt: skip
+
+    def __repr__(self) -> str:
+        g = self.geometry
+        return (
+            f"Specimen({self.radius_m.size} spheres, {self.bonded.network.first.size} bonds by {self.bonded.area}, b = "
+            f"{1e3 * g.b:g}, B = {1e3 * g.B:g}, e = {1e3 * g.e:g}, h = {1e3 * g.h:g} mm)"
+        )
+
+
+def pour(
+    counts: str | Path | pd.DataFrame | Mapping[float, int], box_m: tuple[float, float, float], *,
+    seed: int = 0, friction: float = 0.2, vibration: Vibration = Vibration(),  # noqa: B008  frozen
+    time_step_s: float = 4e-4,
+) -> Packing:  # fmt: skip
+    """Pour spheres from a random lattice by gravity, then vibrate the layer with the top wall.
+
+    counts: number of spheres by diameter in mm, {6.0: 120, 10.0: 30}, or a table diameter_mm,count. box_m: length,
+    width and height [m]. friction: of spheres and walls. vibration: Vibration(stroke [m], frequency [Hz],
+    duration [s]); a duration of 0 is none. Raises InputError where the box cannot hold the spheres.
+
+    >>> packing = pour({8.0: 40}, (0.04, 0.03, 0.12), vibration=Vibration(duration=0.0))
+    >>> packing.radius_m.size, 0.4 < packing.attributes["solid_fraction"] < 0.7
+    (40, True)
+    """
+    if len(box_m) != 3 or not all(np.isfinite(box_m)) or min(box_m) <= 0.0:
+        raise InputError(f"box_m = {box_m}: give length, width and height in m, greater than zero.")
+    spheres = _counts(counts)
+    return Packing(*pour_spheres(spheres, box_m, seed, friction, vibration, time_step_s))
+
+
+def read_packing(path: str | Path, *, unit: str | None = None, up: str = "z") -> Packing:
+    """Spheres that another program poured or a scanner saw, as a packing.
+
+    path: CSV with columns x, y, z, radius (or diameter), with or without their unit; text of YADE; dump of LIGGGHTS or
+    LAMMPS, of which the last snapshot is taken; VTK points with an array radius. unit: m, cm, mm or um, where the file
+    does not say it; else m or mm, whichever makes aggregate of the radii. up: the axis against gravity. `notes` says
+    what was understood. Raises InputError, with one sentence, for what is no packing.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     table = Path(folder, "pile.csv")
+    ...     _ = table.write_text("x_mm,y_mm,z_mm,diameter_mm\\n5,5,5,10\\n5,5,15,10\\n")
+    ...     read_packing(table).radius_m.tolist()
+    [0.005, 0.005]
+    """
+    (arrays, attributes), notes = as_deposit(read_spheres(path), unit, up)
+    return Packing(arrays, {**attributes, "notes": "\n".join(notes)}, Path(path).stem)
+
+
+def _counts(counts: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Diameters [m] and numbers of spheres."""
+    if isinstance(counts, str | Path):
+        return read_counts(counts)
+    if isinstance(counts, pd.DataFrame):
+        missing = [name for name in ("diameter_mm", "count") if name not in counts]
+        if missing:
+            raise InputError(f"counts: no column {missing[0]!r}; give diameter_mm and count.")
+        pairs = list(zip(counts["diameter_mm"], counts["count"], strict=True))
+    else:
+        pairs = list(counts.items())
+    for diameter, count in pairs:
+        if not 0.01 <= diameter <= 100.0:
+            raise InputError(f"counts: a diameter of {diameter:g} mm; give diameters in mm, 0.01 to 100.")
+        if count != round(count) or not 0 <= count <= MOST_SPHERES:
+            raise InputError(
+                f"counts: {count:g} spheres of {diameter:g} mm; give whole numbers, zero or more."
+            )
+    if not sum(count for _, count in pairs):
+        raise InputError("counts: no sphere; give at least one.")
+    diameters, numbers = zip(*pairs, strict=True)
+    return 1e-3 * np.array(diameters, float), np.array(numbers, int)
+
+
+def specimen(
+    packing: Packing | str | Path, geometry: str | Path | Mapping[str, Any] = PAPER_GEOMETRY, *,
+    area: str = "paper", volume_reduction: float = 0.1, gap_max_mm: float = 2.0,
+) -> Specimen:  # fmt: skip
+    """Cut a specimen from a packing, turn it upright, shrink its spheres and bond them.
+
+    geometry: b_mm, B_mm, e_mm, h_mm, mass_kg, mobile_mass_kg; h lies along x of the packing, e along y, B along z. area
+    of a bond: "paper", pi rmin^2 between spheres with a gap below gap_max_mm, or "facets", those of the cells that fill
+    the specimen (docs/mapping.md). volume_reduction: part of each sphere's volume that makes room for the mastic.
+
+    >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
+    >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}
+    >>> specimen(packing, g, area="facets").bonded.area
+    'facets'
+    """
+    if area not in AREAS:
+        raise InputError(f"area {area!r} is not known; give one of {', '.join(AREAS)}.")
+    if not 0.0 <= volume_reduction < 1.0:
+        raise InputError(f"volume_reduction = {volume_reduction:g}: give a part of the volume, 0 to below 1.")
+    given = packing if isinstance(packing, Packing) else Packing.read(packing)
+    shape = read_geometry(geometry, ["specimen"])["specimen"]
+    content = bonded(
+        (dict(given.arrays), dict(given.attributes)), shape, volume_reduction, 1e-3 * gap_max_mm, area
+    )
+    return Specimen(*content, given.name)

@@ -1,0 +1,40 @@
+"""Measurements in any form that people have them, as a campaign."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.campaign import TEST_TYPES, Campaign
+from asphalt_nscd.table_import.campaign import read_campaign
+from asphalt_nscd.table_import.frames import campaign_of
+
+Measurements = str | Path | pd.DataFrame | Campaign | list[str | Path] | tuple[str | Path, ...]
+
+
+def campaign_in(
+    measurements: Measurements, sheet: str | None = None, columns: Mapping[str, str] | None = None,
+    measured_in: str | None = None,
+) -> Campaign:  # fmt: skip
+    """A path, a folder, several of them, or a DataFrame as a campaign."""
+    if measured_in not in (None, *TEST_TYPES):
+        raise InputError(f"measured_in {measured_in!r} is not known; give one of {', '.join(TEST_TYPES)}.")
+    if isinstance(measurements, Campaign):
+        return measurements
+    if isinstance(measurements, pd.DataFrame):
+        return campaign_of(measurements, columns, measured_in)
+    several = measurements if isinstance(measurements, list | tuple) else [measurements]
+    return read_campaign([Path(path) for path in several], sheet, columns, measured_in)[0]
+
+
+def observed_in(measurements: Any) -> tuple[Observations, str, str]:
+    """The tests as arrays, what a refusal calls their table, and their origin."""
+    campaign = campaign_in(measurements)
+    observed, origin = read_observations(campaign, PAPER_GEOMETRY)
+    return observed, str(campaign.table.path), origin

@@ -1,0 +1,215 @@
+"""How each method follows the actuator through a test, from rest or from a checkpoint.
+
+Sparse matrices are imported where a run needs them: importing them takes as long as most reduced tests.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
+from asphalt_nscd.bending.layers import Layers
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, ReducedStepper
+from asphalt_nscd.nscd.stepping.scheme import Scheme
+
+if TYPE_CHECKING:
+    from asphalt_nscd.bending.checkpoint import Checkpoint
+    from asphalt_nscd.bending.excerpt import ModelExcerpt
+    from asphalt_nscd.bending.model import Model
+    from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
+    from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
+    from asphalt_nscd.nscd.stepping.integrator import March
+
+Vector = NDArray[np.float64]
+Arrays = dict[str, NDArray[Any]]
+Details = dict[str, float | int]
+RESIDUAL_TOLERANCE = 1e-6  # of the full equations, relative to the load of the head
+
+
+@dataclass
+class Histories:
+    """What a run gives, a row for each step, those at rest included."""
+
+    force: Vector  # (n,) N, of the actuator
+    velocity: Vector  # (n, l) m/s, means of the layers
+    broken: list[int] = field(default_factory=list)  # bonds, in the order in which they broke
+    residual: float = np.nan  # of the full equations; relative change of the last sweep; NaN if not checked
+    details: Details = field(default_factory=dict)
+    full_steps: int = 0  # made by the full system
+    done: int = 0  # steps
+
+
+def reduced(
+    model: Model | ModelExcerpt, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions
+) -> Histories:
+    """By the reduced system, and by the full one from where it is needed.
+
+    The compiled kernel makes all steps in one call; where an account, a checkpoint or another scheme than implicit
+    Euler is wanted, they are made one by one.
+    """
+    if numerics.scheme == "euler" and not options.energy and options.checkpoint is None:
+        stepper = _reduced_stepper(model, law, numerics.time_step, case)
+        run = _in_one_call(stepper, model, law, numerics.driven(case), options)
+    else:
+        stepper = _reduced_stepper(model.whole, law, numerics.time_step / _scheme(case, numerics).a, case)
+        run = _one_by_one(stepper, model.whole, law, (case, numerics), options)
+    certificate = stepper.certificate()
+    run.residual = certificate.largest_residual
+    run.details = {
+        "largest_utilisation": certificate.largest_utilisation,
+        "smallest_gap_m": certificate.smallest_gap,
+        "enrichments": certificate.enrichments,
+        "full_steps": run.full_steps,
+    } | run.details
+    return run
+
+
+def condensed(
+    model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions
+) -> Histories:
+    """By the full system, its bonds condensed, with the energy account."""
+    from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+
+    state = CondensedState.at_rest(model.system, law)
+    if options.checkpoint and (kept := options.checkpoint.resume()):
+        state.broken = kept["march/broken"].tolist()
+    dt = numerics.time_step / _scheme(case, numerics).a
+    stepper = CondensedStepper(model.system, law, dt, state, case.rig)
+    return _one_by_one(stepper, model, law, (case, numerics), options)
+
+
+def sweeps(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions) -> Histories:
+    """By Gauss-Seidel on the bonds, as in the paper; bonds do not break."""
+    from asphalt_nscd.nscd.stepping.condensed import CondensedState
+    from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
+
+    state = CondensedState.at_rest(model.system, law)
+    tolerance, most = numerics.tolerance, numerics.most_sweeps
+    stepper = SweepingStepper(model.system, law, numerics.time_step, state, tolerance, most)
+    run = _follow(stepper, np.concatenate([[0.0], numerics.driven(case)]), model.layers, options)
+    run.residual = stepper.largest_change
+    run.details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most}
+    return run
+
+
+def _scheme(case: LoadCase, numerics: Numerics) -> Scheme:
+    return Scheme.named(numerics.scheme, case.omega * numerics.time_step)
+
+
+def _reduced_stepper(
+    model: Model | ModelExcerpt, law: BondLaw, time_step: float, case: LoadCase
+) -> ReducedStepper:
+    small, stand_by = model.reduced_form
+    return ReducedStepper(small, law, time_step, RESIDUAL_TOLERANCE, devices=case.rig, stand_by=stand_by)
+
+
+def _in_one_call(
+    stepper: ReducedStepper, model: Model | ModelExcerpt, law: BondLaw, driven: Vector, options: RunOptions
+) -> Histories:
+    along = model.along
+    try:
+        force, coordinates = stepper.run(driven)
+        run = Histories(force, coordinates @ along, stepper.state.broken)
+    except FullSystemNeeded as accepted:
+        from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
+
+        whole, done = model.whole, accepted.force.size
+        state = stepper.full_state()
+        path = np.concatenate([[0.0], driven])[done:]
+        full = CondensedStepper(whole.system, law, stepper.dt, state, stepper.devices, path[0])
+        rest = _follow(full, path, whole.layers, options, lambda: stepper.certify(full))
+        force = np.concatenate([accepted.force, rest.force])
+        velocity = np.concatenate([accepted.velocity @ along, rest.velocity])
+        run = Histories(force, velocity, state.broken, full_steps=driven.size - done)
+    options.progress(driven.size, driven.size)
+    return run
+
+
+def _follow(
+    stepper: CondensedStepper | SweepingStepper, path: Vector, layers: Layers, options: RunOptions,
+    check: Callable[[], None] = lambda: None,
+) -> Histories:  # fmt: skip
+    """Steps of the full system along the actuator's displacements (n + 1,) [m]; `check` is called after each."""
+    steps = path.size - 1
+    run = _empty(steps, layers)
+    velocity = np.diff(path) / stepper.dt
+    for n in range(steps):
+        run.force[n] = stepper.advance(velocity[n])
+        run.velocity[n] = layers.mean @ stepper.state.velocity
+        check()
+        if n % 20 == 19:
+            options.progress(n + 1, steps)
+    return run
+
+
+def _one_by_one(
+    stepper: ReducedStepper | CondensedStepper, model: Model, law: BondLaw, what: tuple[LoadCase, Numerics],
+    options: RunOptions,
+) -> Histories:  # fmt: skip
+    """Steps of any scheme with their energy account, from rest or from the checkpoint."""
+    from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+    from asphalt_nscd.nscd.stepping.integrator import March
+
+    case, numerics = what
+    driven, layers = numerics.driven(case), model.layers
+    march = March(stepper, _scheme(case, numerics), law, numerics.time_step)
+    run = _empty(driven.size, layers)
+    small = stepper if isinstance(stepper, ReducedStepper) else None
+    if options.checkpoint and (kept := options.checkpoint.resume()):
+        if small is not None:
+            small.put(_below("reduced/", kept))
+            if kept["full_steps"] > 0:
+                state = CondensedState.at_rest(model.system, law)
+                state.broken = kept["march/broken"].tolist()
+                march.stepper = CondensedStepper(model.system, law, stepper.dt, state, case.rig)
+        march.put(_below("march/", kept))
+        run.done, run.full_steps = kept["force"].size, kept["full_steps"].item()
+        run.force[: run.done], run.velocity[: run.done] = kept["force"], kept["velocity"]
+    along = np.empty((0, 0)) if small is None else layers.mean @ small.model.basis
+    for n in range(run.done, driven.size):
+        try:
+            run.force[n] = march.move_to(driven[n])
+        except FullSystemNeeded:
+            assert small is not None, "the full system makes every step"
+            state = small.full_state()
+            march.go_on_with(CondensedStepper(model.system, law, stepper.dt, state, case.rig))
+            run.force[n] = march.move_to(driven[n])
+        if small is None:
+            run.velocity[n] = layers.mean @ stepper.state.velocity
+        elif march.stepper is small:
+            if small.model.basis.shape[1] != along.shape[1]:
+                along = layers.mean @ small.model.basis
+            run.velocity[n] = along @ small.state.velocity
+        else:
+            full = cast("CondensedStepper", march.stepper)
+            small.certify(full)
+            run.velocity[n] = layers.mean @ full.state.velocity
+            run.full_steps += 1
+        run.done += 1
+        if options.checkpoint and options.checkpoint.is_due(run.done, driven.size):
+            _keep(options.checkpoint, run, march, small)
+        options.progress(n + 1, driven.size)
+    run.broken, run.details = march.stepper.state.broken, march.account.sums.columns()
+    return run
+
+
+def _empty(steps: int, layers: Layers) -> Histories:
+    return Histories(np.empty(steps), np.empty((steps, layers.height.size)))
+
+
+def _keep(checkpoint: Checkpoint, run: Histories, march: March, small: ReducedStepper | None) -> None:
+    arrays = {f"march/{name}": value for name, value in march.arrays().items()}
+    if small is not None:
+        arrays |= {f"reduced/{name}": value for name, value in small.arrays().items()}
+    arrays |= {"force": run.force[: run.done], "velocity": run.velocity[: run.done]}
+    checkpoint.keep(arrays | {"full_steps": np.asarray(run.full_steps)})
+
+
+def _below(prefix: str, arrays: Arrays) -> Arrays:
+    return {name.removeprefix(prefix): a for name, a in arrays.items() if name.startswith(prefix)}

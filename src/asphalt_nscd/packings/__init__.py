@@ -1,0 +1,1 @@
+"""Spheres from other programs, and results for them: CSV, LIGGGHTS, YADE, VTK."""

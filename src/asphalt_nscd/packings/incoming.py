@@ -1,0 +1,110 @@
+"""A packing of another program as a deposit: in metres, upright, on the floor of its box, its overlaps judged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.paths import is_file
+from asphalt_nscd.nscd.spheres.neighbours import find_pairs
+from asphalt_nscd.packings.spheres import Spheres
+from asphalt_nscd.packings.texts import read_text
+from asphalt_nscd.packings.vtk_files import ENDINGS, read_points
+from asphalt_nscd.specimen.preparation import TOUCHING, Content, layer_statistics
+
+NOTABLE, MOST = 0.01, 0.1  # overlap over the smaller radius: said, refused
+UP = ("x", "y", "z")
+
+
+@dataclass(frozen=True)
+class Overlaps:
+    """Pairs that touch (p, 2), and the largest overlap [m], between which spheres, over the smaller radius."""
+
+    touching: NDArray[np.int64]
+    largest: float
+    pair: tuple[int, int]
+    share: float
+    count: int  # of pairs that overlap by more than NOTABLE
+
+
+def read_packing(path: str | Path) -> Spheres:
+    """Spheres of a file: CSV, text of YADE, dump of LIGGGHTS or LAMMPS, VTK."""
+    path = Path(path)
+    if not is_file(path):
+        raise InputError(f"{path}: no such file; check the path.")
+    if path.suffix.lower() in ENDINGS:
+        return read_points(path)
+    return read_text(path)
+
+
+def as_deposit(spheres: Spheres, unit: str | None = None, up: str = "z") -> tuple[Content, list[str]]:
+    """Arrays and attributes of a deposit file, and sentences on what was read.
+
+    unit: of lengths, where the file does not say it. up: the axis against gravity. The longer horizontal side becomes
+    x, the length of the box; the box is as large as the spheres are.
+    """
+    if up not in UP:
+        raise InputError(f"up {up!r} is no axis; give one of {', '.join(UP)}.")
+    metric, said = spheres.in_metres(unit)
+    notes = [*spheres.notes, said]
+    order = [axis for axis in range(3) if axis != UP.index(up)] + [UP.index(up)]
+    position, radius = metric.position[:, order], metric.radius
+    low, high = (position - radius[:, None]).min(axis=0), (position + radius[:, None]).max(axis=0)
+    if high[1] - low[1] > (high[0] - low[0]) * (1.0 + 1e-9):
+        turn = [1, 0, 2]
+        position, low, high = position[:, turn], low[turn], high[turn]
+        order = [order[1], order[0], order[2]]
+    if order != [0, 1, 2]:
+        notes.append(f"axes {', '.join(UP[axis] for axis in order)} of the file became length, width, height")
+    position = np.ascontiguousarray(position - low)
+    box = high - low
+    found = overlaps(position, radius)
+    _judge(spheres.path, found, notes)
+    statistics = layer_statistics(position, radius, (box[0], box[1], box[2]), found.touching)
+    notes.append(
+        f"{radius.size} spheres, radii {1e3 * radius.min():.3g} to {1e3 * radius.max():.3g} mm, in a box of "
+        f"{1e3 * box[0]:.4g} x {1e3 * box[1]:.4g} x {1e3 * box[2]:.4g} mm, solid fraction "
+        f"{statistics['solid_fraction']:.3f}"
+    )
+    arrays = {"position": position, "radius": np.ascontiguousarray(radius), "box": box}
+    attributes = {
+        "source": spheres.path.name, "spheres": radius.size, "highest_point_m": float(box[2]), **statistics,
+        "largest_overlap_m": found.largest,
+    }  # fmt: skip
+    return (arrays, attributes), notes
+
+
+def overlaps(position: NDArray[np.float64], radius: NDArray[np.float64]) -> Overlaps:
+    """What touches and overlaps among spheres, position (n, 3) and radius (n,) [m]."""
+    none = np.empty((0, 3))
+    start, other = find_pairs(position, radius, none, none, TOUCHING)
+    first = np.repeat(np.arange(radius.size), np.diff(start))
+    gap = np.linalg.norm(position[other] - position[first], axis=1) - radius[first] - radius[other]
+    touching = np.column_stack([first, other])[gap < TOUCHING]
+    if not gap.size or gap.min() >= 0.0:
+        return Overlaps(touching, 0.0, (0, 0), 0.0, 0)
+    share = -gap / np.minimum(radius[first], radius[other])
+    worst = int(share.argmax())
+    return Overlaps(
+        touching, float(-gap.min()), (int(first[worst]) + 1, int(other[worst]) + 1), float(share[worst]),
+        int((share > NOTABLE).sum()),
+    )  # fmt: skip
+
+
+def _judge(path: Path, found: Overlaps, notes: list[str]) -> None:
+    one, other = found.pair
+    if found.share > MOST:
+        raise InputError(
+            f"{path}: spheres {one} and {other} overlap by {100.0 * found.share:.0f} % of the smaller radius, and "
+            f"{found.count} pairs by more than {100.0 * NOTABLE:g} %; bonds need spheres apart: give a packing at rest "
+            "of stiffer spheres, and no clumps."
+        )
+    if found.count:
+        notes.append(
+            f"{found.count} pairs overlap by more than {100.0 * NOTABLE:g} % of the smaller radius, spheres {one} and "
+            f"{other} by {100.0 * found.share:.1f} %; trimming takes 3.5 % off the radii unless told otherwise"
+        )

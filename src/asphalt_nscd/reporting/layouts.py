@@ -1,0 +1,178 @@
+"""How published tables are shown in README.md and docs/: which columns, under which headings.
+
+A page shows at most 120 characters in a line. A table with more columns is shown in parts, and its CSV holds the rest.
+A block that is not named here shows all columns of its table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import pandas as pd
+
+
+@dataclass(frozen=True)
+class Layout:
+    """One table of a block: its columns with their headings, below a sentence. A column the table lacks is left out.
+
+    figures: significant figures. shorter: cells that are too long for a page, and what stands there instead.
+    """
+
+    columns: Mapping[str, str]
+    sentence: str = ""
+    figures: int = 4
+    shorter: Mapping[str, str] = field(default_factory=dict)
+
+    def markdown(self, table: pd.DataFrame) -> str:
+        columns = [column for column in self.columns if column in table]
+        shown = table[columns].rename(columns=dict(self.columns)).replace(dict(self.shorter))
+        return (f"{self.sentence}\n\n" if self.sentence else "") + _grid(shown, self.figures)
+
+
+@dataclass(frozen=True)
+class Notes:
+    """A list of sentences: the text of one column behind the names in others."""
+
+    names: Sequence[str]
+    text: str
+
+    def markdown(self, table: pd.DataFrame) -> str:
+        """Rows without a text are left out. Raises KeyError if the table lacks a column."""
+        rows = table[table[self.text].notna()]
+        return "".join(f"* {', '.join(row[: len(self.names)])}: {row[-1]}\n" for row in self._rows(rows))
+
+    def _rows(self, table: pd.DataFrame) -> list[tuple[str, ...]]:
+        return [tuple(map(str, row)) for row in table[[*self.names, self.text]].itertuples(index=False)]
+
+
+@dataclass(frozen=True)
+class Rungs:
+    """Errors of one quantity in ladder.csv: a row for each temperature, a column for each rung.
+
+    besides: columns that are not of a rung alone, with their headings: "law" is that of the first rung, "held_out" that
+    of the last. scatter: whether that of one test stands at the end.
+    """
+
+    quantity: str
+    besides: Mapping[str, str] = field(default_factory=dict)
+    sentence: str = ""
+    scatter: bool = False
+
+    def markdown(self, table: pd.DataFrame) -> str:
+        error, rungs = f"mre_{self.quantity}", list(dict.fromkeys(table["rung"]))
+        by = {rung: rows.set_index("temperature_C") for rung, rows in table.groupby("rung", sort=False)}
+        first, last = by[rungs[0]], by[rungs[-1]]
+        columns = {}
+        if f"{error}_published_percent" in first:
+            columns["printed"] = first[f"{error}_published_percent"]
+        columns |= {rung: by[rung][f"{error}_percent"] for rung in rungs}
+        for kind, heading in self.besides.items():
+            columns[heading] = (last if kind == "held_out" else first)[f"{error}_{kind}_percent"]
+        if self.scatter:
+            columns["scatter"] = first[f"scatter_{self.quantity}_percent"]
+        shown = pd.DataFrame(columns).rename_axis("T, °C").reset_index()
+        return (f"{self.sentence}\n\n" if self.sentence else "") + _grid(shown, figures=3)
+
+
+def shown(block: str, table: pd.DataFrame) -> str:
+    """The table of a block in Markdown."""
+    parts = BLOCKS.get(block, [Layout({str(name): str(name) for name in table.columns})])
+    return "\n".join(part.markdown(table) for part in parts)
+
+
+def _grid(table: pd.DataFrame, figures: int) -> str:
+    table = table.convert_dtypes()  # whole numbers stay so beside empty fields
+    filled = table.astype(object).where(table.notna(), None)
+    return filled.to_markdown(index=False, floatfmt=f".{figures}g", missingval="") + "\n"
+
+
+def _errors(quantity: str, kinds: Mapping[str, str], sentence: str, scatter: str = "") -> Layout:
+    """Mean relative errors of a quantity, a row for each temperature."""
+    columns = {f"mre_{quantity}_{kind}_percent": heading for kind, heading in kinds.items()}
+    columns |= {scatter: "scatter"} if scatter else {}
+    return Layout({"temperature_C": "T, °C", **columns}, sentence, figures=3)
+
+
+_TABLE4 = {"published": "published", "simulated": "simulated", "law": "law of the bonds"}
+BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
+    "ladder": [
+        Rungs("E", sentence="Modulus |E\\*|, mean relative error in percent:"),
+        Rungs("phase", sentence="Phase angle, mean relative error in percent:"),
+    ],
+    "samples": [
+        Layout(
+            {
+                "sample": "sample", "spheres": "spheres", "bonds": "bonds", "solid_fraction": "solid fraction",
+                "tests": "tests", "tests_with_broken_bonds": "tests that broke a bond",
+            }
+        ),
+        Layout(
+            {
+                "sample": "sample", "E_over_law": "E over law", "E_over_law_lowest": "lowest",
+                "E_over_law_highest": "highest", "largest_phase_difference_deg": "largest phase difference, deg",
+            }
+        ),
+    ],
+    "table4": [
+        _errors("E", _TABLE4, sentence="Modulus |E\\*|, mean relative error in percent:"),
+        _errors("phase", _TABLE4, sentence="Phase angle, mean relative error in percent:"),
+    ],
+    "gain": [
+        Rungs("E", {"law": "Burgers law", "held_out": "held out"}, "Modulus |E\\*|, percent:", scatter=True),
+        Rungs("phase", {"law": "Burgers law", "held_out": "held out"}, "Phase angle, percent:", scatter=True),
+    ],
+    "outputs": [
+        Layout({"in the paper": "in the paper", "files": "files", "minutes": "minutes"}, figures=3),
+        Notes(["in the paper"], "rules"),
+    ],
+    "blind": [
+        Layout(
+            {
+                "what": "what", "target": "target", "percent": "%", "interval_percent": "interval", "of": "of",
+                "met": "met",
+            },
+            shorter={
+                "the same of averages over specimens, which hide what one of them does":
+                    "the same of averages over specimens",
+                "outside the catalogue: confident wrong name, at 3 times the limit":
+                    "outside the catalogue: wrong name, at 3 times the limit",
+
+                "causes whose removal leaves their effects unexplained (80 %), not misnamed (10 %)":
+                    "removed causes whose effects stay unexplained, not misnamed",
+            },
+        )
+    ],
+    "mapping": [
+        Layout(
+            {
+                "mapping": "bonds", "kt_over_kn": "kt / kn", "spheres": "spheres", "packings": "packings",
+                "least E / law": "least", "mean": "mean", "largest": "largest", "in tension": "in tension",
+                "Poisson's ratio": "ν",
+            }
+        )
+    ],
+    "benchmark": [
+        Layout(
+            {
+                "topic": "topic", "case": "case", "spheres": "spheres", "time_step_s": "time step, s",
+                "cpu_s": "CPU time, s", "memory_MB": "memory, MB",
+            }
+        ),
+        Notes(["topic", "case"], "remark"),
+    ],
+    "growth": [
+        Layout(
+            {
+                "stage": "stage", "from": "from", "to": "to", "exponent_of_time": "exponent of time",
+                "last_exponent_of_time": "last", "cpu_s_of_largest": "CPU time of largest, s",
+            }
+        ),
+        Layout(
+            {
+                "stage": "stage", "exponent_of_memory": "exponent of memory", "last_exponent_of_memory": "last",
+                "memory_MB_of_largest": "memory of largest, MB",
+            }
+        ),
+    ],
+}  # fmt: skip

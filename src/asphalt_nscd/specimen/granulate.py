@@ -1,0 +1,268 @@
+"""Spheres in a box and how they advance: what is searched when, and the numbers of the time stepping."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from asphalt_nscd.nscd.spheres import granular, neighbours
+from asphalt_nscd.specimen.trimming import layer_height
+
+WALL = 5
+"""The plane that is the top of the box; the last body of a granulate."""
+WALL_REACH = 3e-3  # m, further than for spheres: a moving plane alone calls for no search
+SEARCH_EVERY = 25  # steps, for which the motion of each sphere is allowed for
+FALLING = 0.01  # m/s, mean speed
+FALLING_SWEEPS = 20
+MOST_SWEEPS = 300
+TOLERANCE = 3e-3
+PENETRATION = 0.02  # of the smallest radius
+ALLOWED_OVERLAP = 0.005  # of the smallest radius
+
+
+@dataclass(frozen=True)
+class PouringNumerics:
+    """Numerical choices of the preparation; each is written into the deposit file."""
+
+    time_step: float = 4e-4  # s
+    tolerance: float = 1e-3  # relative change of the impulses in the last sweep
+    most_sweeps: int = 60
+    falling_sweeps: int = (
+        1_000_000  # after so many the tolerance is waived while the mean speed is above FALLING
+    )
+    penetration: float = np.inf  # m, sweeps go on while the step would deepen an overlap by more
+    skin: float = 4e-4  # m, pairs are searched again when a sphere has moved half of it
+    margin: float = (
+        2e-5  # m, gap below which a resting pair takes part in a step; of moving pairs see _search
+    )
+    recovery_speed: float = 0.02  # m/s, at most, by which overlaps are undone
+    allowed_overlap: float = 0.0  # m, left as it is
+
+    @classmethod
+    def of(cls, radius: np.ndarray, time_step: float) -> PouringNumerics:
+        """Those for spheres of radius (n,) [m], with steps of time_step [s].
+
+        The sweeps of a step leave small overlaps everywhere in a layer. Undone at once, they would keep it
+        in motion for ever; so those below ALLOWED_OVERLAP stay. An impact may need many sweeps, most steps
+        need few: they end when the impulses hardly change and no step deepens an overlap by PENETRATION.
+        """
+        smallest = float(radius.min())
+        return cls(
+            time_step=time_step, tolerance=TOLERANCE, most_sweeps=MOST_SWEEPS,
+            falling_sweeps=FALLING_SWEEPS, penetration=PENETRATION * smallest,
+            allowed_overlap=ALLOWED_OVERLAP * smallest,
+        )  # fmt: skip
+
+
+@dataclass
+class Granulate:
+    """Spheres in a box, in motion. Bodies n, n + 1, ... of `velocity` are the planes."""
+
+    position: np.ndarray  # (n, 3) m
+    radius: np.ndarray  # (n,) m
+    velocity: np.ndarray  # (n + p, 6) m/s, linear and spin (surface velocity)
+    inverse_mass: np.ndarray  # (n + p,) 1/kg
+    plane_point: np.ndarray  # (p, 3) m
+    plane_normal: np.ndarray  # (p, 3), pointing to the spheres
+    friction: float
+    restitution: float = 0.0
+    gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
+    time: float = 0.0
+    steps: int = 0
+    sweeps: int = 0
+
+    def __post_init__(self) -> None:
+        self._start: np.ndarray | None = None
+        self._other = np.empty(0, np.int64)
+        self.impulse = np.zeros((0, 3))
+        self.drive = np.zeros(2)  # of the top wall: speed [m/s], largest impulse of a step [N s]
+        self.overlap = 0.0  # m, the largest of all steps since it was last set to zero
+        self._lowest: np.ndarray | None = None  # m, of each sphere and all after it, when they began to fall
+        self._involved = self.radius.size  # spheres that are searched, the first ones
+        self._searched_at = self.position
+        self._planes_at = self.plane_point
+        self._reach = 0.0  # m, within which pairs were searched
+        self._extra = np.empty(0)  # (m,) m, what each sphere may move until the next search
+        self._plane_reach = np.empty(0)  # (p,) m
+
+    @classmethod
+    def in_box(
+        cls, position: np.ndarray, radius: np.ndarray, box: tuple[float, float, float],
+        density: float, friction: float, restitution: float = 0.0,
+    ) -> Granulate:  # fmt: skip
+        """Spheres at rest in a box [0, length] x [0, width] x [0, height]; plane 5 is its top."""
+        size = np.asarray(box, float)
+        normal = np.concatenate([np.eye(3), -np.eye(3)])
+        point = np.concatenate([np.zeros((3, 3)), np.diag(size)])
+        mass = density * 4.0 / 3.0 * np.pi * radius**3
+        return cls(
+            position=position.copy(), radius=radius.copy(),
+            velocity=np.zeros((radius.size + 6, 6)),
+            inverse_mass=np.concatenate([1.0 / mass, np.zeros(6)]),
+            plane_point=point, plane_normal=normal, friction=friction, restitution=restitution,
+        )  # fmt: skip
+
+    def let_fall(self) -> None:
+        """The spheres are at rest, apart from each other and ordered by height; now they rain.
+
+        Grains that began to fall together keep their distances, so only those near the ground and near the
+        landed ones are searched.
+        """
+        low = self.position[:, 2] - self.radius
+        self._lowest = np.minimum.accumulate(low[::-1])[::-1] - self.position[-1, 2]
+        self._involved = 0
+
+    def advance(
+        self, numerics: PouringNumerics, plane_velocity: np.ndarray | None = None
+    ) -> tuple[int, float]:
+        """One step; planes move with plane_velocity (p, 3) [m/s]. Returns (sweeps, relative change)."""
+        n, dt = self.radius.size, numerics.time_step
+        if plane_velocity is not None:
+            self.velocity[n:, :3] = plane_velocity
+        self._involve(dt)
+        speed = np.sqrt((self.velocity[:n, :3] ** 2).sum(axis=1))
+        enough = numerics.falling_sweeps if speed.mean() > FALLING else numerics.most_sweeps
+        meeting = self._search(numerics, speed)
+        sweeps, change, overlap = granular.step(
+            self.position, self.radius, self.velocity, self.inverse_mass, self.plane_point,
+            self.plane_normal, self.gravity, self._start, self._other, self.impulse, self.drive, dt,
+            self.friction, self.restitution, numerics.recovery_speed, numerics.allowed_overlap, meeting,
+            numerics.tolerance, numerics.penetration, enough, numerics.most_sweeps,
+        )  # fmt: skip
+        self.plane_point = self.plane_point + dt * self.velocity[n:, :3]
+        self.overlap = max(self.overlap, overlap)
+        self.time += dt
+        self.steps += 1
+        self.sweeps += sweeps
+        return sweeps, change
+
+    def _involve(self, dt: float) -> None:
+        """Count the spheres that may meet the landed ones within the step, directly or through a third."""
+        if self._lowest is None:
+            return
+        falling, landed = self.velocity[self.radius.size - 1, 2], slice(0, self._involved)
+        moved = self.velocity[landed, 2] != falling
+        top = (self.position[landed, 2] + self.radius[landed])[moved].max(initial=self.plane_point[2, 2])
+        rising = self.velocity[landed, 2].max(initial=0.0)
+        near = top + 4.0 * self.radius.max() + 2.0 * dt * (rising - falling)
+        lowest = self._lowest + self.position[-1, 2]
+        self._involved = max(self._involved, int(np.searchsorted(lowest, near)))
+        if self._involved == self.radius.size:
+            self._lowest = None
+
+    def _search(self, numerics: PouringNumerics, speeds: np.ndarray) -> float:
+        """List the pairs that may meet within the step; returns the gap [m] below which they take part in it.
+
+        An impact hands its speed on within the step, so a grain at rest may move as far as the fastest one.
+        """
+        m, n, dt, margin = self._involved, self.radius.size, numerics.time_step, numerics.margin
+        speed = float(speeds[:m].max(initial=0.0)) + dt * float(np.linalg.norm(self.gravity))
+        plane_speed = np.abs(self.velocity[n:, :3]).max(axis=1)
+        if self.inverse_mass[-1] > 0.0:  # what its drive makes of the wall's speed within the step
+            faster = plane_speed[WALL] + self.drive[1] * self.inverse_mass[-1]
+            plane_speed[WALL] = max(plane_speed[WALL], min(abs(self.drive[0]), faster), self.drive[0])
+        furthest = margin + 2.0 * dt * speed  # apart, two spheres that meet in this step
+        nearing = margin + dt * (speed + plane_speed)  # (p,), a sphere and a plane
+        meeting = max(furthest, float(nearing.max()))
+        if self._start is not None and self._start.size == m + 1:
+            square = ((self.position[:m] - self._searched_at) ** 2).sum(axis=1)
+            moved = (np.sqrt(square) - self._extra).max(initial=0.0)  # beyond what was allowed for
+            planes_moved = np.abs(self.plane_point - self._planes_at).max(axis=1)
+            planes_valid = moved + planes_moved + nearing < self._plane_reach
+            if 2.0 * moved + furthest < self._reach and planes_valid.all():
+                return meeting
+        position, radius = self.position[:m], self.radius[:m]
+        if furthest > 2.0 * numerics.skin:  # a rain of grains: a list for this step alone, but a short one
+            self._reach = 0.0
+            closing = neighbours.closing_speeds(position, radius, self.velocity[:m, :3], furthest)
+            # deeper down, impacts come through others and are weaker
+            reach, self._plane_reach = np.maximum(margin + dt * closing, 0.5 * numerics.skin), nearing
+            self._extra = np.zeros(m)
+        else:
+            # a few fast grains shall not call for searches among all: what each moves is allowed for
+            self._extra = np.minimum(SEARCH_EVERY * dt * speeds[:m], numerics.skin)
+            self._reach = numerics.skin + furthest
+            reach = np.full(m, self._reach)
+            self._plane_reach = numerics.skin + nearing + np.where(plane_speed > 0.0, WALL_REACH, 0.0)
+        start, other = neighbours.find_pairs_within(
+            position, radius, self.plane_point, self.plane_normal, reach, self._extra, self._plane_reach, n
+        )
+        if self._start is None:
+            self.impulse = np.zeros((other.size, 3))
+        else:
+            self.impulse = neighbours.carry_reactions(self._start, self._other, self.impulse, start, other)
+        self._start, self._other = start, other
+        self._searched_at, self._planes_at = position.copy(), self.plane_point.copy()
+        return meeting
+
+    def kinetic_energy(self) -> float:
+        """Of the spheres [J]; spin counts with 2/5 of its surface velocity squared."""
+        n = self.radius.size
+        square = (self.velocity[:n, :3] ** 2).sum(axis=1) + 0.4 * (self.velocity[:n, 3:] ** 2).sum(axis=1)
+        return float(0.5 * (square / self.inverse_mass[:n]).sum())
+
+    def contacts(self, below: float) -> tuple[np.ndarray, np.ndarray]:
+        """Index pairs (c, 2) and gaps (c,) [m] of all contacts with a gap under `below` [m]."""
+        start, other = neighbours.find_pairs(
+            self.position, self.radius, self.plane_point, self.plane_normal, below
+        )
+        still = np.zeros_like(self.velocity)
+        _, first, second, _, gap = granular.active_contacts(
+            self.position, self.radius, still, self.plane_point, self.plane_normal, start, other, 1.0, below
+        )
+        return np.stack([first, second], axis=1), gap
+
+    def top(self) -> float:
+        """Height of the highest point of any sphere [m]."""
+        return float((self.position[:, 2] + self.radius).max())
+
+    def weight(self) -> float:
+        """Of all spheres [N]."""
+        return float(np.linalg.norm(self.gravity) * (1.0 / self.inverse_mass[: self.radius.size]).sum())
+
+    def layer_height(self) -> float:
+        """Twice the height of the centre of mass [m]."""
+        return layer_height(self.position, self.radius)
+
+    def hang_wall(self, height: float, mass: float) -> None:
+        """Put the top wall at `height` [m], of `mass` [kg], between rails; `drive` then moves it."""
+        self.inverse_mass[-1] = 1.0 / mass
+        self._put_wall(height)
+
+    def fix_wall(self, height: float) -> None:
+        """Put the top wall at `height` [m], where it stays."""
+        self.inverse_mass[-1] = 0.0
+        self._put_wall(height)
+
+    def _put_wall(self, height: float) -> None:
+        self.velocity[-1] = 0.0
+        self.plane_point = self.plane_point.copy()
+        self.plane_point[WALL, 2] = height
+
+    def touching_wall(self) -> np.ndarray:
+        """Indices (t,) of the spheres that the top wall pushed in the last step."""
+        assert self._start is not None
+        listed = np.flatnonzero(self._other == self.radius.size + WALL)
+        pushed = listed[self.impulse[listed].any(axis=1)]
+        return np.searchsorted(self._start, pushed, side="right") - 1
+
+    def out_of_balance(self, time_step: float) -> tuple[float, float]:
+        """How far the forces of the last step, of time_step [s], are from equilibrium; both near zero at rest.
+
+        The force on all planes against the weight, less one; the mean resultant on a sphere, its weight
+        included, over the mean contact force.
+        """
+        assert self._start is not None
+        n = self.radius.size
+        weight = self.gravity / self.inverse_mass[:n, None] * time_step  # as impulses
+        first = np.repeat(np.arange(self._start.size - 1), np.diff(self._start))
+        pushed = np.flatnonzero(self.impulse.any(axis=1))
+        first, second, impulse = first[pushed], self._other[pushed], self.impulse[pushed]
+        force = np.zeros_like(self.velocity[:, :3])
+        np.add.at(force, first, -impulse)
+        np.add.at(force, second, impulse)
+        total = weight.sum(axis=0)
+        carried = force[n:].sum(axis=0) @ total / (total @ total)
+        resultant = np.linalg.norm(force[:n] + weight, axis=1).mean()
+        return abs(float(carried) - 1.0), float(resultant / np.linalg.norm(impulse, axis=1).mean())

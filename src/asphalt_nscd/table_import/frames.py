@@ -1,0 +1,67 @@
+"""Campaigns as data frames, to look at and to change before a diagnosis."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.campaign import Campaign
+from asphalt_nscd.table_import.cells import Cells
+from asphalt_nscd.table_import.understand import TEXTS, understand
+
+CALLED = "DataFrame (lines counted from 1)"  # where a refusal names the file
+TEST_TYPE, NOTES, SOURCE = "test_type", "notes", "source"  # keys of `attrs`
+
+
+def frame_of(campaign: Campaign) -> pd.DataFrame:
+    """The tests of a campaign, one row each; `attrs` holds the test type, the source and the notes of the import."""
+    columns: dict[str, Any] = {}
+    for name, cells in campaign.table.columns.items():
+        if name in (*TEXTS, "record"):
+            columns[name] = cells
+        else:
+            columns[name] = campaign.table.numbers_or_nan(name)
+    frame = pd.DataFrame(columns)
+    frame.attrs = {
+        TEST_TYPE: campaign.test_type,
+        NOTES: list(campaign.notes),
+        SOURCE: str(campaign.table.path),
+    }
+    return frame
+
+
+def campaign_of(
+    frame: pd.DataFrame, chosen: Mapping[str, str] | None = None, test_type: str | None = None
+) -> Campaign:
+    """The campaign in a data frame, whose columns are named as those of a file may be.
+
+    chosen: see `understand`. test_type: else that of `attrs`, else bending.
+    """
+    header = [str(name) for name in frame.columns]
+    texts = [[_text(value) for value in frame[name]] for name in frame.columns]
+    rows = [(line, list(cells)) for line, cells in enumerate(zip(*texts, strict=True), start=1)]
+    kept = frame.attrs.get(SOURCE)
+    # Records are files beside their table.
+    path = Path(kept) if kept and "record" in header else Path(CALLED)
+    if not rows:
+        raise InputError(f"{path}: has no rows; add one for each test.")
+    read = understand(Cells(path, header, rows), chosen)
+    notes = frame.attrs.get(NOTES) or [
+        *read.notes,
+        *(f"{a} from column {b}" for a, b in read.sources.items()),
+    ]
+    return Campaign(read.table, (), test_type or frame.attrs.get(TEST_TYPE, "bending"), tuple(notes))
+
+
+def _text(value: Any) -> str:
+    """A value as a CSV file would have it; nothing for what is missing."""
+    if value is None or (isinstance(value, float | np.floating) and np.isnan(value)):
+        return ""
+    if isinstance(value, float | np.floating):
+        return repr(float(value))
+    return " ".join(str(value).split())

@@ -1,0 +1,139 @@
+"""A diagnosis from Python: the same from path, folder and DataFrame, on disk and as the command line has it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from pandas.testing import assert_frame_equal
+
+import asphalt_nscd as an
+from asphalt_nscd import cli
+
+EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
+
+
+@pytest.fixture(scope="module")
+def diagnosis() -> an.Diagnosis:
+    return an.diagnose(EXPORTS, draws=an.Draws(500))
+
+
+@pytest.fixture(scope="module")
+def folder(diagnosis, tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("diagnosis")
+    diagnosis.write(folder)
+    return folder
+
+
+def test_the_fault_of_the_tutorial_is_on_the_ladder(diagnosis):
+    ladder = diagnosis.ladder.set_index("cause")
+    delay = ladder.loc["channel_delay"]
+    assert diagnosis.verdict == "explained" and delay["established"] and delay["unit"] == "s"
+    assert delay["value"] == pytest.approx(
+        0.8e-3, abs=4 * delay["std_error"]
+    )  # as tools/tutorial_exports.py made it
+    assert delay["error_phase_after_percent"] < 0.3 * delay["error_phase_before_percent"]
+
+
+def test_suspects_and_limits_are_frames(diagnosis):
+    (suspect,) = diagnosis.suspects.itertuples()
+    assert (suspect.specimen, suspect.temperature_C, suspect.frequency_Hz, suspect.used) == (
+        "Mix-B",
+        4.0,
+        25.0,
+        False,
+    )
+    limits = diagnosis.limits.set_index("cause")
+    assert limits.loc["channel_delay", "unit"] == "s" and 0.0 < limits.loc["channel_delay", "value"] < 0.8e-3
+    assert set(limits.loc["specimen_geometry", "where"]) == {"Mix-A", "Mix-B", "Mix-C"}
+
+
+def test_a_frame_is_diagnosed_as_the_files_it_was_read_from(diagnosis):
+    table = an.read(EXPORTS)
+    from_frame = an.diagnose(table, draws=an.Draws(500))
+    assert_frame_equal(from_frame.residuals, diagnosis.residuals)
+    assert from_frame.ladder.equals(diagnosis.ladder)
+    assert from_frame.content["reading"] == diagnosis.content["reading"]
+    assert from_frame.content["provenance"]["measurements"].startswith("DataFrame")
+
+
+def test_rows_taken_out_of_a_frame_are_not_diagnosed():
+    table = an.read(EXPORTS)
+    without = an.diagnose(table[table["specimen"] != "Mix-B"], draws=an.Draws(500))
+    assert set(without.residuals["specimen"]) == {"Mix-A", "Mix-C"}
+    assert without.content["reading"]["test_type"] == "tension-compression"
+
+
+def test_a_frame_of_ones_own_is_understood_as_a_file_is():
+    own = pd.DataFrame(
+        {"Sample": ["A"], "Temp °C": [20], "f (Hz)": [10.0], "|E*| [GPa]": [9.5], "delta_rad": [0.4]}
+    )
+    (row,) = an.read(own, measured_in="tension-compression").itertuples()
+    assert (row.specimen, row.temperature_C, row.E_MPa) == ("A", 20.0, 9500.0)
+    assert row.phase_deg == pytest.approx(np.degrees(0.4))
+
+
+KEYS = {"temperature_C": [20.0, 20.0], "frequency_Hz": [1.0, 10.0]}
+
+
+@pytest.mark.parametrize(
+    ("frame", "sentence"),
+    [
+        (pd.DataFrame({"temperature_C": [20.0]}), "no column for"),
+        (pd.DataFrame(columns=["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]), "has no rows"),
+        (
+            pd.DataFrame(KEYS | {"E_MPa": [5e3, np.nan], "phase_deg": 30.0}),
+            "line 2: E_MPa: the cell is empty",
+        ),
+    ],
+)
+def test_bad_frames_are_refused_in_a_sentence(frame, sentence):
+    with pytest.raises(an.InputError, match=sentence):
+        an.diagnose(frame)
+
+
+def test_what_was_written_reads_back(diagnosis, folder):
+    again = an.read(folder)
+    assert isinstance(again, an.Diagnosis) and again.content == json.loads(diagnosis.to_json())
+    assert_frame_equal(again.residuals, diagnosis.residuals)
+    assert_frame_equal(again.causality, diagnosis.causality, check_dtype=False)
+    assert again.law.parameters.equals(diagnosis.law.parameters)
+    assert an.read(folder / "law.json").kind == "2s2p1d"
+
+
+def test_the_command_line_gives_the_same(folder, tmp_path, capsys):
+    with pytest.raises(SystemExit) as done:
+        cli.main(["diagnose", str(EXPORTS), "--output", str(tmp_path), "--draws", "500"])
+    assert done.value.code == 0 and "Written to" in capsys.readouterr().out
+    for name in ("residuals.csv", "causality.csv", "law.json"):
+        assert (tmp_path / name).read_bytes() == (folder / name).read_bytes()
+    ours, theirs = (json.loads((place / "diagnosis.json").read_text()) for place in (tmp_path, folder))
+    assert ours == theirs
+
+
+@pytest.mark.parametrize("plot", ["plot_black", "plot_master_curve", "plot_residuals"])
+def test_figures_are_pictures_in_a_notebook(diagnosis, plot):
+    figure = getattr(diagnosis, plot)()
+    assert figure._repr_png_().startswith(b"\x89PNG") and len(figure.axes) >= 2
+
+
+def test_how_it_shows_itself(diagnosis):
+    assert repr(diagnosis) == (
+        "Diagnosis(explained: channel_delay 0.000792 s (established); 71 tests used, 1 not used)"
+    )
+    html = diagnosis._repr_html_()
+    assert "<b>Data:</b>" in html and "channel_delay" in html and "|E*|" in html and "<script" not in html
+    assert str(diagnosis).splitlines()[:2] == ["WHAT WAS READ", diagnosis.notes[0]]
+
+
+def test_export_of_a_diagnosis_is_that_of_its_folder(diagnosis, folder, tmp_path):
+    said = [
+        an.export(what, tmp_path / f"{name}.inp", "abaqus")
+        for name, what in (("object", diagnosis), ("file", folder / "law.json"))
+    ]
+    ours, theirs = ((tmp_path / f"{name}.inp").read_text() for name in ("object", "file"))
+    assert ours == theirs and "*VISCOELASTIC" in ours and "tests in residuals.csv" in ours
+    assert said[0].partition(": ")[2] == said[1].partition(": ")[2]

@@ -1,0 +1,56 @@
+"""`import asphalt_nscd as an`: what it offers, that it starts fast, and that the command line does the same."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import asphalt_nscd as an
+
+STUB = Path(an.__file__).with_suffix(".pyi")
+
+
+def test_import_loads_nothing_heavy():
+    script = (
+        "import sys, asphalt_nscd as an; dir(an)\n"
+        "heavy = {'numpy', 'pandas', 'scipy', 'numba', 'h5py', 'matplotlib'}; print(heavy & set(sys.modules))"
+    )
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout == "set()\n"
+
+
+def test_the_stub_of_editors_names_the_same_from_the_same_modules():
+    named = re.findall(r"^from ([\w.]+) import (\w+) as \2$", STUB.read_text(), re.MULTILINE)
+    assert sorted(name for _, name in named) == sorted(an.__all__)
+    for module, name in named:
+        assert inspect.unwrap(getattr(an, name)).__module__ == module
+
+
+@pytest.mark.parametrize("name", an.__all__)
+def test_every_public_name_is_documented_and_every_function_has_an_example(name):
+    thing = inspect.unwrap(getattr(an, name))
+    assert inspect.getdoc(thing)
+    if inspect.isfunction(thing):
+        assert ">>>" in thing.__doc__
+
+
+def test_an_unknown_name_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="'asphalt_nscd' has no attribute 'diagnos'"):
+        an.diagnos  # noqa: B018
+
+
+@pytest.mark.parametrize("before", ["", "import asphalt_nscd.specimen.preparation; "])
+def test_specimen_is_the_function_although_a_folder_has_its_name(before):
+    script = (
+        f"{before}import asphalt_nscd as an, inspect\n"
+        "print(next(iter(inspect.signature(an.specimen).parameters)))\n"
+        "import asphalt_nscd.specimen.counts as counts; print(counts.MOST_SPHERES)\n"
+        "try: an.specimen('no.h5')\n"
+        "except an.InputError as error: print(error)"
+    )
+    said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout
+    assert said == "packing\n10000000\nno.h5: no such file; make it with its rule or check the path.\n"

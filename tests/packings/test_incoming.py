@@ -1,0 +1,169 @@
+"""Packings of other programs: every form gives the same spheres, and what is no packing is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import asphalt_nscd as an
+from asphalt_nscd import cli
+
+vtk = pytest.importorskip("vtk")
+MADE = np.random.default_rng(5)
+CELLS = np.stack(np.meshgrid(range(6), range(4), range(5), indexing="ij"), axis=-1).reshape(-1, 3)
+RADIUS = MADE.uniform(2e-3, 3e-3, len(CELLS))  # m
+POSITION = 3e-3 + 6.01e-3 * CELLS  # m
+TABLE = np.column_stack([POSITION, RADIUS])
+
+
+def lines(numbers: np.ndarray, separator: str) -> str:
+    return "\n".join(separator.join(f"{value:.12g}" for value in row) for row in numbers) + "\n"
+
+
+def dump(numbers: np.ndarray, atoms: int | None = None) -> str:
+    atoms = len(numbers) if atoms is None else atoms
+    rows = np.column_stack([np.arange(1, len(numbers) + 1), np.ones(len(numbers)), numbers])
+    head = f"ITEM: TIMESTEP\n7000\nITEM: NUMBER OF ATOMS\n{atoms}\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
+    return head + "ITEM: ATOMS id type x y z radius \n" + lines(rows, " ").replace("\n", " \n")
+
+
+FORMS = {
+    "metres.csv": "x_m,y_m,z_m,radius_m\n" + lines(TABLE, ","),
+    "plain.csv": "# from a scan\nx,y,z,radius\n" + lines(TABLE, ","),
+    "mm.csv": "X [mm];Y [mm];Z [mm];diameter (mm)\n" + lines(1e3 * TABLE * [1, 1, 1, 2], ";"),
+    "shuffled.tsv": "id\tradius_mm\tz_mm\ty_mm\tx_mm\n"
+    + lines(np.column_stack([np.arange(len(TABLE)), 1e3 * TABLE[:, ::-1]]), "\t"),
+    "yade.txt": "#format x_y_z_r\n" + lines(TABLE, "\t"),
+    "yade_ids.txt": "#format x_y_z_r_matId\n" + lines(np.column_stack([TABLE, np.zeros(len(TABLE))]), "\t"),
+    "four.xyz": lines(1e3 * TABLE, " "),
+    "dump.liggghts": dump(1e-3 * TABLE) + dump(TABLE),
+}
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_each_form_gives_the_same_spheres(tmp_path, name):
+    (tmp_path / name).write_text(FORMS[name])
+    packing = an.read_packing(tmp_path / name)
+    low = (POSITION - RADIUS[:, None]).min(axis=0)
+    assert np.allclose(packing.position_m, POSITION - low, atol=1e-11)
+    assert np.allclose(packing.radius_m, RADIUS, atol=1e-12)
+
+
+@pytest.mark.parametrize("ending", [".vtp", ".vtu", ".vtk"])
+def test_points_of_vtk(tmp_path, ending):
+    from vtk.util.numpy_support import numpy_to_vtk
+
+    points = vtk.vtkPoints()
+    points.SetData(numpy_to_vtk(1e3 * POSITION, deep=True))
+    kind = vtk.vtkPolyData if ending == ".vtp" else vtk.vtkUnstructuredGrid
+    data, size = kind(), numpy_to_vtk(1e3 * RADIUS, deep=True)
+    data.SetPoints(points)
+    size.SetName("Radius")
+    data.GetPointData().AddArray(size)
+    writers = {
+        ".vtp": vtk.vtkXMLPolyDataWriter, ".vtu": vtk.vtkXMLUnstructuredGridWriter,
+        ".vtk": vtk.vtkUnstructuredGridWriter,
+    }  # fmt: skip
+    writer = writers[ending]()
+    writer.SetFileName(str(tmp_path / f"spheres{ending}"))
+    writer.SetInputData(data)
+    writer.Write()
+    packing = an.read_packing(tmp_path / f"spheres{ending}")
+    assert np.allclose(packing.radius_m, RADIUS) and "lengths taken as mm" in " ".join(packing.notes)
+
+
+def test_what_was_understood_is_said(tmp_path):
+    (tmp_path / "dump.liggghts").write_text(FORMS["dump.liggghts"])
+    notes = " ".join(an.read_packing(tmp_path / "dump.liggghts").notes)
+    assert "step 7000, the last of 2 snapshots" in notes and "lengths taken as m," in notes
+    assert "120 spheres, radii 2 to 3 mm" in notes
+
+
+def test_the_axis_against_gravity_becomes_the_height(tmp_path):
+    (tmp_path / "y.csv").write_text(
+        "z_m,x_m,y_m,radius_m\n" + lines(TABLE[:, [1, 0, 2, 3]], ",")
+    )  # x z y of ours
+    packing = an.read_packing(tmp_path / "y.csv", up="y")
+    straight = POSITION - (POSITION - RADIUS[:, None]).min(axis=0)
+    assert np.allclose(packing.position_m, straight)
+    assert packing.attributes["layer_height_m"] == pytest.approx(
+        2 * np.average(straight[:, 2], weights=RADIUS**3)
+    )
+
+
+def test_overlaps_are_measured(tmp_path):
+    pair = np.array([[0, 0, 5, 5.0], [0, 0, 14.8, 5.0], [0, 0, 30, 5.0]])
+    (tmp_path / "pair.csv").write_text("x_mm,y_mm,z_mm,radius_mm\n" + lines(pair, ","))
+    packing = an.read_packing(tmp_path / "pair.csv")
+    assert packing.attributes["largest_overlap_m"] == pytest.approx(0.2e-3)
+    assert "spheres 2 and 1 by 4.0 %" in " ".join(packing.notes) or "spheres 1 and 2 by 4.0 %" in " ".join(
+        packing.notes
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "the file is empty"),
+        ("x,y,z,radius\n", "not a table of numbers|no sphere|no line"),
+        ("x,y,z\n1,2,3\n", "no column for radius"),
+        ("x,y,z,radius\n1,2,3,oops\n", "sphere 1: radius = 'oops' is not a number"),
+        ("x,y,z,radius\n1,2,3,-4\n", "sphere 1 has a radius of zero or less"),
+        ("x,y,z,radius\n1,2,3,inf\n", "sphere 1 is not finite"),
+        ("x,y,z,radius\n1,2,3,400\n", "neither in m nor in mm; state the unit with --unit"),
+        ("x_mm,y_mm,z_mm,radius_m\n1,2,3,0.004\n", "have different units"),
+        ("x_m,y_m,z_m,radius_m\n1,2,3,4\n", "not those of aggregate"),
+        ("1 2 3\n", "3 columns without a header"),
+        ("x,y,z,radius\n0,0,0,4\n0,0,4,4\n", "overlap by 100 % of the smaller radius"),
+        (dump(TABLE, atoms=500), "holds 120 of 500 atoms; was the run interrupted"),
+        ("ITEM: TIMESTEP\n0\n", "without ITEM: ATOMS"),
+        ("ITEM: TIMESTEP\n0\nITEM: ATOMS id xs ys zs radius\n1 0 0 0 1\n", "scaled coordinates"),
+        ("x;y;z;radius\n1,5;2,5;3,5;4,5\n", "decimals are written with a comma"),
+    ],
+)  # fmt: skip
+def test_what_is_no_packing_is_refused_in_a_sentence(tmp_path, text, sentence):
+    (tmp_path / "bad.csv").write_text(text)
+    with pytest.raises(an.InputError, match=sentence) as refused:
+        an.read_packing(tmp_path / "bad.csv")
+    assert str(tmp_path / "bad.csv") in str(refused.value)
+
+
+def test_a_stated_unit_decides(tmp_path):
+    (tmp_path / "cm.csv").write_text("x,y,z,radius\n1,2,3,0.4\n1,2,4,0.4\n")
+    assert an.read_packing(tmp_path / "cm.csv", unit="cm").radius_m.tolist() == [0.004, 0.004]
+    (tmp_path / "mm.csv").write_text("x_mm,y_mm,z_mm,radius_mm\n1,2,3,4\n")
+    with pytest.raises(an.InputError, match="its columns are in mm; leave out --unit m"):
+        an.read_packing(tmp_path / "mm.csv", unit="m")
+
+
+def test_the_public_rules_go_on_from_an_imported_packing(tmp_path):
+    """Cut, bonded and bent: |E*| of the beam is that of the law, whoever poured."""
+    run = CliRunner()
+    (tmp_path / "pile.csv").write_text(FORMS["mm.csv"])
+    deposit, beam = tmp_path / "deposit.h5", tmp_path / "beam.h5"
+    said = run.invoke(cli.group, ["import-packing", str(tmp_path / "pile.csv"), "--output", str(deposit)])
+    assert said.exit_code == 0 and "lengths in mm, as the file says" in said.output
+    h_mm = 1e3 * an.read(deposit).box_m[0]  # from wall to wall
+    shape = f"b_mm=20,B_mm=24,e_mm=22,h_mm={h_mm},mass_kg=0.03,mobile_mass_kg=0.01"
+    done = run.invoke(
+        cli.group, ["trim", str(deposit), "--geometry", shape, "--area", "facets", "--output", str(beam)],
+        standalone_mode=False,
+    )  # fmt: skip
+    assert done.exception is None, done.exception
+    specimen = an.read(beam)
+    assert specimen.attributes["source"] == "pile.csv" and "seed" not in specimen.attributes
+    law = an.Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
+    test = an.bend(specimen, law, 10.0, 15.0)
+    assert (
+        test.phase_deg == pytest.approx(test.attributes["phase_law_deg"], abs=0.3) and not test.broken_bonds
+    )
+
+
+def test_a_deposit_that_is_a_table_says_which_command_reads_it(tmp_path):
+    (tmp_path / "pile.csv").write_text(FORMS["mm.csv"])
+    with pytest.raises(an.InputError, match="import-packing"):
+        an.specimen(tmp_path / "pile.csv")
+    assert Path(tmp_path / "pile.csv").is_file()

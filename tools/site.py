@@ -1,0 +1,65 @@
+"""A hook of MkDocs (mkdocs.yml): pages that lie outside docs/, and files that pages link to.
+
+The site holds README.md, ARCHITECTURE.md and the like beside docs/, and a copy of each file of the repository
+that a page names in a link. Links are rewritten to match, so that pages read the same in a checkout and in the site.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from mkdocs.structure.files import File, Files
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = {
+    "README.md": "index.md",
+    "ARCHITECTURE.md": "architecture.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "CHANGELOG.md": "changes.md",
+    "config/README.md": "configuration.md",
+}
+LINK = re.compile(r"(?<=\]\()([^)#\s]+)")
+
+
+def on_files(files: Files, *, config: Any) -> Files:
+    """Add the pages, and the files that any page links to."""
+    for path, name in PAGES.items():
+        files.append(File.generated(config, name, abs_src_path=str(ROOT / path)))
+    for page in list(files.documentation_pages()):
+        for target in _targets(page.src_uri, page.content_string):
+            if files.get_file_from_path(_in_site(target)) is None and (ROOT / target).is_file():
+                files.append(File.generated(config, target, abs_src_path=str(ROOT / target)))
+    return files
+
+
+def on_page_markdown(markdown: str, *, page: Any, config: Any, files: Files) -> str:
+    """Point links at places in the site instead of the repository."""
+    folder = posixpath.dirname(page.file.src_uri) or "."
+
+    def moved(match: re.Match[str]) -> str:
+        target = _in_repository(page.file.src_uri, match[0])
+        return match[0] if target is None else posixpath.relpath(_in_site(target), folder)
+
+    return LINK.sub(moved, markdown)
+
+
+def _targets(page: str, text: str) -> Iterator[str]:
+    for link in LINK.findall(text):
+        if target := _in_repository(page, link):
+            yield target
+
+
+def _in_repository(page: str, link: str) -> str | None:
+    """The path of a link's target below the root of the repository, None for an address."""
+    if "://" in link or link.startswith("mailto:"):
+        return None
+    source = next((path for path, name in PAGES.items() if name == page), f"docs/{page}")
+    return posixpath.normpath(posixpath.join(posixpath.dirname(source), link))
+
+
+def _in_site(target: str) -> str:
+    return PAGES.get(target, target.removeprefix("docs/"))

@@ -1,0 +1,69 @@
+"""Measurements drawn from a family of laws that the simulation does not fit, as a table for `diagnose`.
+
+    python -m families huet_sayegh --seed 2020 --temperatures=-10,0,15 --frequencies 3,10,40 --output measured.csv
+
+The reconstructed measurements are drawn from 2S2P1D with a WLF shift, and the extended simulation fits just that. These
+are the same design and scatter about another mix: Huet-Sayegh with an Arrhenius shift, or a ladder of Maxwell
+branches whose weights are skewed, with a WLF shift. The laws are those of the blind tests; nothing of the package
+under test is imported.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from blind.laws import CENTRES, Law
+
+SHIFTS = {
+    "huet_sayegh": ("arrhenius", {"energy": 200e3}),  # J/mol
+    "maxwell_ladder": ("wlf", {"c1": 15.0, "c2": 120.0}),
+}
+SPECIMEN_SCATTER, MODULUS_SCATTER, PHASE_SCATTER = 0.03, 0.01, np.radians(0.3)  # of the reconstruction
+SPECIMENS = 4
+
+
+def law(family: str) -> Law:
+    """The mix of a family."""
+    return Law(family, CENTRES[family], *SHIFTS[family])
+
+
+def draw(family: str, temperatures: Sequence[float], frequencies: Sequence[float], seed: int) -> pd.DataFrame:
+    """Moduli of specimens "1" to "4" about the law: specimen, temperature_C, frequency_Hz, E_MPa, phase_deg, origin."""
+    temperature, frequency = (grid.ravel() for grid in np.meshgrid(temperatures, frequencies, indexing="ij"))
+    true = np.log(law(family).modulus(2.0 * np.pi * frequency, temperature))
+    parts = []
+    for number in range(SPECIMENS):
+        rng = np.random.default_rng([seed, list(SHIFTS).index(family), number])
+        norm = true.real + SPECIMEN_SCATTER * rng.standard_normal()
+        norm = norm + MODULUS_SCATTER * rng.standard_normal(true.size)
+        phase = true.imag + PHASE_SCATTER * rng.standard_normal(true.size)
+        parts.append(
+            pd.DataFrame(
+                {
+                    "specimen": str(number + 1), "temperature_C": temperature, "frequency_Hz": frequency,
+                    "E_MPa": np.exp(norm) * 1e-6, "phase_deg": np.degrees(phase), "origin": "synthetic",
+                }
+            )
+        )  # fmt: skip
+    return pd.concat(parts, ignore_index=True)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("family", choices=SHIFTS)
+    parser.add_argument("--seed", type=int, required=True)
+    for name in ("temperatures", "frequencies"):
+        parser.add_argument(f"--{name}", required=True, type=lambda text: [float(x) for x in text.split(",")])
+    parser.add_argument("--output", type=Path, required=True)
+    given = parser.parse_args()
+    given.output.parent.mkdir(parents=True, exist_ok=True)
+    table = draw(given.family, given.temperatures, given.frequencies, given.seed)
+    table.to_csv(given.output, index=False, float_format="%.10g", lineterminator="\n")
+
+
+if __name__ == "__main__":
+    main()
