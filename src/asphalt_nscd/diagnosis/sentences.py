@@ -83,7 +83,8 @@ def _beyond_bonds(content: Content) -> str:
     bonds = content["numerics"]["largest_modulus_percent"]
     if bonds <= content["scatter"]["modulus_percent"]:
         return f"{end} than the scatter of the tests"
-    return f"of which the simulated bonds add up to {bonds:.1f} % to |E*|; the rest is {end} than the scatter of the tests"
+    added = f"of which the simulated bonds add up to {bonds:.1f} % to |E*|"
+    return f"{added}; the rest is {end} than the scatter of the tests"
 
 
 def test_type(content: Content) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -13,7 +14,7 @@ from asphalt_nscd.diagnosis.written import read_causality, read_diagnosis
 from asphalt_nscd.reporting.figures import style
 
 MOST_LISTED = 10  # specimens in the legend
-POINT = {"ls": "", "ms": 4.0, "mew": 0.9}
+POINT: dict[str, Any] = {"ls": "", "ms": 4.0, "mew": 0.9}
 SHIFTED = "reduced frequency (Hz), at {}"
 UNSHIFTED = "frequency (Hz); no law common to all temperatures"
 
