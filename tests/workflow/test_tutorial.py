@@ -84,7 +84,7 @@ def test_commands_lead_from_the_table_to_the_plan_of_a_report(workspace):
 def test_options_of_the_tutorial_exist(workspace):
     helped = new_study(workspace, "asphalt-nscd new-study --help").stdout
     helped += new_study(workspace, "asphalt-nscd diagnose --help").stdout
-    used = set(re.findall(r"`?(--[a-z-]+)", TUTORIAL)) - {"--cores", "--configfile", "--help"}
+    used = set(re.findall(r"(?<!-)(--[a-z][a-z-]*)", TUTORIAL)) - {"--cores", "--configfile", "--help"}
     assert used and all(option in helped for option in used)
 
 
