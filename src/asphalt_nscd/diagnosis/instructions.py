@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import norm
 
+from asphalt_nscd.diagnosis import tails
 from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.further_tests import METAL, NEW, Costs, Possible, Sweep, possible
@@ -218,7 +218,9 @@ def _reason(one: Open, before: float, after: float) -> str:
         )
     if one.kind == "repeat":
         return f"It shows whether {one.about} comes back. If not, it was the machine or the mounting, and the new test counts."
-    power = [f"{100.0 * norm.cdf(np.sqrt(strength) - USUAL_THRESHOLD):.0f} %" for strength in (before, after)]
+    power = [
+        f"{100.0 * tails.normal(USUAL_THRESHOLD - np.sqrt(strength)):.0f} %" for strength in (before, after)
+    ]
     return f"{one.about[0].upper()}{one.about[1:]} would be found in {power[1]} of cases (now {power[0]})."
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
+from asphalt_nscd.diagnosis.chance import CHANCE
 from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
 
 Content = Mapping[str, Any]
@@ -71,6 +72,8 @@ def on_simulation(content: Content) -> str:
         "explained": "no more than the scatter of the tests",
         "unexplained_structure": "more than the scatter of the tests",
     }.get(content["verdict"], "")
+    if any(rung.get("doubts") for rung in ladder) and not _more_than_scatter(content):
+        end = "no more than the scatter of the tests, by a cause that is not established"
     return f"with {joined(with_them)} it misses the data by {after}, {end}; {as_it_was} by {before}."
 
 
@@ -118,11 +121,20 @@ def _sure(rung: Content, content: Content) -> str:
         return (
             f"Likely, not established. Without {joined(rung['hangs_on'], 'or')} these tests do not show it."
         )
+    if rung.get("doubts"):
+        return f"Likely, not established. {'. '.join(rung['doubts'])}."
     if not rung.get("established", True):
         return "Likely, not established. These tests are too few to exclude what the catalogue lacks."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     return f"Established: {chance}."
+
+
+def _more_than_scatter(content: Content) -> bool:
+    """Whether the named causes leave structure, whatever the verdict says of their names."""
+    pattern = content["largest_pattern_left"]
+    chances = [content.get("lack_of_fit_p_value", 0.0), 1.0 if pattern is None else pattern["p_value"]]
+    return min(chances) <= 0.5 * CHANCE
 
 
 def left(content: Content) -> list[str]:
@@ -132,7 +144,7 @@ def left(content: Content) -> list[str]:
     if parts:
         return [f"{name}: {_in_units(name, value, scatter)}" for name, value in parts]
     pattern = content["largest_pattern_left"]
-    if content["verdict"] == "unexplained_structure" and pattern is not None:
+    if content["verdict"] == "unexplained_structure" and pattern is not None and _more_than_scatter(content):
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} standard deviations"]
     return []
 

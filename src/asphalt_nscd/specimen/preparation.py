@@ -24,7 +24,12 @@ DEPOSIT, SPECIMEN = "deposit", "specimen"  # kinds of files
 Content = tuple[dict[str, np.ndarray], dict[str, Any]]
 """Arrays and attributes, as a file has them."""
 
-KEPT = ("seed", "source", "layer_height_m", "solid_fraction")  # of a deposit, in the specimen; source: of an import
+KEPT = (
+    "seed",
+    "source",
+    "layer_height_m",
+    "solid_fraction",
+)  # of a deposit, in the specimen; source: of an import
 DENSITY = 2600.0  # kg/m3 while pouring, section 3.2.1
 LONGEST_POURING = 3.0  # s
 LONGEST_REST = 0.3  # s
