@@ -20,6 +20,9 @@
 # CORES=1 limits the cores; PYTHON=/path/to/python3.12 chooses the Python.
 
 CORES ?= all
+# Named one by one: of the package itself, pdoc shows only the names in its __all__ (among them specimen).
+ROOMS := $(filter-out asphalt_nscd.cli asphalt_nscd.specimen,$(patsubst src/asphalt_nscd/%/__init__.py,asphalt_nscd.%,\
+	$(wildcard src/asphalt_nscd/*/__init__.py)))
 CONFIG ?=
 READY := .venv/.ready
 
@@ -82,11 +85,11 @@ cluster: $(READY)
 	@PYTHONPATH=trials .venv/bin/python -m cluster
 
 api: $(READY)
-	@.venv/bin/pdoc --output-directory docs/api asphalt_nscd '!asphalt_nscd.cli'
+	@.venv/bin/pdoc --output-directory docs/api asphalt_nscd $(ROOMS)
 	@echo "Reference: $(CURDIR)/docs/api/index.html"
 
 docs: $(READY) api
-	@NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet
+	@NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict # with --quiet it would be silent on dead links
 	@echo "Site: $(CURDIR)/site/index.html"
 
 lint: $(READY)

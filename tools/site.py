@@ -6,6 +6,7 @@ that a page names in a link. Links are rewritten to match, so that pages read th
 
 from __future__ import annotations
 
+import logging
 import posixpath
 import re
 from collections.abc import Iterator
@@ -22,11 +23,15 @@ PAGES = {
     "CHANGELOG.md": "changes.md",
     "config/README.md": "configuration.md",
 }
+MODULES = ROOT / "src/asphalt_nscd"
 LINK = re.compile(r"(?<=\]\()([^)#\s]+)")
 
 
 def on_files(files: Files, *, config: Any) -> Files:
-    """Add the pages, and the files that any page links to."""
+    """Add the pages, and the files that any page links to. A part of the package without a reference is a warning."""
+    for room in sorted(path.parent.name for path in MODULES.glob("*/__init__.py")):
+        if room != "cli" and files.get_file_from_path(f"api/asphalt_nscd/{room}.html") is None:
+            logging.getLogger("mkdocs.hooks").warning(f"docs/api lacks asphalt_nscd.{room}; run make api.")
     for path, name in PAGES.items():
         files.append(File.generated(config, name, abs_src_path=str(ROOT / path)))
     for page in list(files.documentation_pages()):
