@@ -36,7 +36,7 @@ def test_what_is_not_given_is_zero(tmp_path):
         ('{"head_mass_kg": true}', "key 'head_mass_kg' is True"),
         (
             '{"head_mass_kg": -0.1, "clamp_compliance_m_N": 1e-7}',
-            "head_mass_kg = -0.1 behind a compliant clamp",
+            "head_mass_kg = -0.1 is negative, which a compliant clamp does not allow",
         ),
         ('{"channel_delay_s": NaN}', "channel_delay_s = nan must be finite"),
     ],

@@ -84,7 +84,7 @@ def test_trouble_is_one_sentence(capsys, error, status, sentence):
 def test_damaged_compiled_core_is_removed(capsys, monkeypatch, tmp_path, error):
     (core := tmp_path / "core").mkdir()
     (core / "kernel.nbi").write_bytes(b"half")
-    monkeypatch.setattr("numba.config.CACHE_DIR", str(core))
+    monkeypatch.setattr("asphalt_nscd.nscd.core_cache.core_folder", lambda: str(core))
 
     def step():
         raise error
@@ -358,4 +358,27 @@ def test_a_result_of_another_kind_is_made_anew(tmp_path):
         done.returncode == 2
         and not path.exists()
         and "expected a test file; found a model file" in done.stderr
+    )
+
+
+def test_version_names_the_commit(monkeypatch, tmp_path):
+    from asphalt_nscd.files import commit
+
+    said = run("--version").stdout
+    assert said.startswith("asphalt-nscd 0.1.0, commit ") and len(said.split()) == 4
+    monkeypatch.setattr(
+        commit, "PACKAGE", tmp_path
+    )  # as in an environment that lies in no repository of ours
+    assert commit.commit() == "unknown"
+    (tmp_path / commit.BUILT_FROM).write_text("abc\n")
+    assert commit.commit() == "abc"
+
+
+def test_a_step_of_the_workflow_without_its_extra_is_one_sentence(capsys):
+    def step():
+        raise ModuleNotFoundError("No module named 'docutils'", name="docutils")
+
+    assert cli._status(step) == 2
+    assert (
+        capsys.readouterr().err == "error: this step needs docutils; pip install 'asphalt-nscd[workflow]'.\n"
     )

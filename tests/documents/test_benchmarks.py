@@ -65,6 +65,34 @@ def test_exponents_are_those_of_the_powers(tmp_path):
     assert pd.isna(growth.exponent_of_time["cut"]) and growth.cpu_s_of_largest["cut"] == 1.0
 
 
+def test_packings_are_compared_by_version_and_size(tmp_path):
+    """Overlaps in parts of the smallest radius, heights in mm; mean and half the range over the seeds."""
+    for seed, height in ((1, 0.062), (2, 0.064)):
+        attributes = {
+            "spheres": 3, "seed": seed, "layer_height_m": height, "poured_layer_height_m": 0.065, "solid_fraction": 0.6,
+            "coordination": 5.0, "largest_overlap_m": 1e-5, "largest_overlap_moving_m": 4e-5,
+            "poured_largest_overlap_moving_m": 2e-4, "weight_balance": 1e-4, "unbalanced_force": 2e-4, "cpu_s": 7.0,
+        }  # fmt: skip
+        save(tmp_path / f"s{seed}.h5", "deposit", {"radius": np.array([1e-3, 2e-3])}, attributes)
+    command = [sys.executable, str(BENCHMARKS / "packings.py"), "old=s1.h5", "new=s1.h5", "new=s2.h5"]
+    done = subprocess.run(
+        [*command, "--output", "table.csv"], cwd=tmp_path, check=True, capture_output=True, text=True
+    )
+    table = pd.read_csv(tmp_path / "table.csv")
+    assert table.version.tolist() == ["old", "new", "new"] and table.vibrated_mm.tolist() == [
+        62.0,
+        62.0,
+        64.0,
+    ]
+    assert table.loc[0, ["overlap_at_rest", "overlap_falling", "overlap_vibrating"]].tolist() == [
+        0.01,
+        0.2,
+        0.04,
+    ]
+    assert "| 3 | new | 2 | 65 ± 0 | 63 ± 1 | 0.6 ± 0 |" in done.stdout
+    assert "| 3 | old | 1 | 65 | 62 | 0.6 |" in done.stdout
+
+
 @pytest.mark.parametrize(
     ("script", "arguments", "said"),
     [

@@ -228,7 +228,7 @@ def test_synthetic_exports_say_so(tmp_path):
     ("old", "new", "sentence"),
     [
         (",25 Hz,10 Hz,0.5 Hz\n", "", "a machine export without its line of frequencies"),
-        ("modulus (MPa)", "modulus", "'Dynamic modulus' does not say its unit; write it behind the name"),
+        ("modulus (MPa)", "modulus", "'Dynamic modulus' does not say its unit; write it after the name"),
         ("modulus (MPa)", "modulus (m)", "'m' is no unit of it; give one of Pa, kPa, MPa"),
         (" Phase angle (Degrees),12.5,13.25,19\n", "", "no column for phase_deg"),
         (" Load drift", " E* (MPa),9,8,7\n Load drift", "'Dynamic modulus (MPa)' and 'E* (MPa)' may each be E_MPa"),

@@ -135,7 +135,7 @@ LONG = "T_C;f_Hz;E_MPa;phi_deg"
          "columns 'T set (°C)' and 'T core (°C)' may each be temperature_C"),
         ("T_C;f_Hz;E_MPa;E_MPa;phi_deg", "15;10;9000;9001;20", "column 'E_MPa' appears twice; remove one"),
         ("T_C;f_Hz;E;phi_deg", "15;10;9000;20",
-         "column 'E' does not say its unit; write it behind the name, as in E (MPa)."),
+         "column 'E' does not say its unit; write it after the name, as in E (MPa)."),
         ("T_C;f_Hz;F0_N;z0_m;phi_rad", "15;10;9;9;2",
          'if it is that of force over displacement, say so with --column psi_rad="phi_rad"'),
         ("T_C;f_Hz;E_MPa", "15;10;9000", "no column for phase_deg (found: T_C, f_Hz, E_MPa)"),

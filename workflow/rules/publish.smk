@@ -72,6 +72,19 @@ rule publish_faults:
         "asphalt-nscd publish {input.files} --root results/faults --output results/published/faults --document docs --block faults={input.summary}"
 
 
+rule publish_fuzz:
+    # After `make fuzz`, whose tables of wild measurements these are. Only on request:
+    #   snakemake --cores 1 publish_fuzz
+    input:
+        table="results/fuzz/wild.csv",
+        files=["results/fuzz/wild_failures.csv", "results/fuzz/provenance.json"],
+        code=code("publish"),
+    message:
+        "Copy how wild tables ended"
+    shell:
+        "asphalt-nscd publish {input.table} {input.files} --root results/fuzz --output results/published/fuzz --document README.md"
+
+
 rule publish_cluster:
     # After a run of trials/cluster, whose table this is. Only on request:
     #   snakemake --cores 1 publish_cluster

@@ -85,7 +85,8 @@ class Diagnosis:
 
         value and std_error [unit] are those of its amplitude. error_...: mean relative errors [%] without and with
         it. established: whether it stays whichever isotherm, frequency or specimen is left out; else it is the
-        likeliest, `hangs_on` names what must not be left out and `as_good` what fits as well.
+        likeliest, `hangs_on` names what must not be left out, `as_good` what fits as well, and `doubts` says why an
+        unknown effect may stand behind it.
         """
         return pd.DataFrame([_rung(rung) for rung in self.content["ladder"]], columns=_LADDER)
 
@@ -206,7 +207,7 @@ _ERRORS = ("E", "phase")
 _LADDER = [
     "cause", "where", "parameter", "value", "std_error", "unit", "p_value",
     *(f"error_{q}_{when}_percent" for q in _ERRORS for when in ("before", "after")),
-    "established", "as_good", "hangs_on", "sentence", "confirmed_by",
+    "established", "as_good", "hangs_on", "doubts", "sentence", "confirmed_by",
 ]  # fmt: skip
 
 
@@ -224,6 +225,7 @@ def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
         },
         "established": bool(rung.get("established")), "as_good": ", ".join(rung["as_good"]),
         "hangs_on": ", ".join(map(str, rung.get("hangs_on", ()))),
+        "doubts": ". ".join(rung.get("doubts", ())),
         "sentence": rung["sentence"], "confirmed_by": rung["confirmed_by"],
     }  # fmt: skip
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import pandas as pd
 
@@ -15,7 +15,7 @@ from asphalt_nscd.measurements.campaign import TEST_TYPES, Campaign
 from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.frames import campaign_of
 
-Measurements = str | Path | pd.DataFrame | Campaign | list[str | Path] | tuple[str | Path, ...]
+Measurements: TypeAlias = str | Path | pd.DataFrame | Campaign | list[str | Path] | tuple[str | Path, ...]
 
 
 def campaign_in(

@@ -44,8 +44,8 @@ class Rig(HeadDevices):
                 raise InputError(f"rig: {KEYS[name]} = {value:g} must be {wanted}.")
         if self.head_mass < 0.0 < self.clamp_compliance:
             raise InputError(
-                f"rig: head_mass_kg = {self.head_mass:g} behind a compliant clamp; give one of the two, or a "
-                "smaller mobile mass."
+                f"rig: head_mass_kg = {self.head_mass:g} is negative, which a compliant clamp does not allow; give one "
+                "of the two, or a smaller mobile mass."
             )
 
     @property

@@ -12,6 +12,7 @@ from asphalt_nscd.diagnosis import causality, chance, scatter, start, suspects, 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import CHANCE
+from asphalt_nscd.diagnosis.doubts import Key, find_doubts
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.observations import Observations
@@ -44,10 +45,11 @@ class Diagnosis:
     whole: Observations | None = None  # with the tests that are set aside
     suspects: tuple[Suspect, ...] = ()  # rows of whole
     too_few: str = ""  # why these data tell no cause from what the catalogue lacks; empty if they may
+    doubts: dict[Key, list[str]] = field(default_factory=dict)  # of names, see `diagnosis.doubts`
 
     def established(self, rung: Rung) -> bool:
-        """Whether a name is more than the likeliest: no rival, and carried by the whole table."""
-        if self.too_few or rung.rivals:
+        """Whether a name is more than the likeliest: no rival, with a name or without, carried by the whole table."""
+        if self.too_few or rung.rivals or rung.candidate.key in self.doubts:
             return False
         if self.ladder.discrepancy:
             return not self.ladder.hangs_on[rung.candidate.key]
@@ -99,6 +101,7 @@ def diagnose(
         joint is not baseline_joint and baseline_p <= CHANCE and spectrum_better, ladder, notes=notes,
     )  # fmt: skip
     diagnosis.whole, diagnosis.suspects = whole, tuple(doubtful)
+    diagnosis.doubts = _doubts(ladder, noise)
     diagnosis.verdict = _verdict(diagnosis)
     diagnosis.too_few = too_few = _too_few(diagnosis)
     if ladder.rungs and too_few:
@@ -135,6 +138,13 @@ def _by_scatter(ladder: Ladder, noise: Noise) -> Fitted:
         return fitted
     plain = Joint(ladder.joint.observed, ladder.joint.base, noise)
     return plain.linearise(fitted.law, fitted.scales, fitted.active)
+
+
+def _doubts(ladder: Ladder, noise: Noise) -> dict[Key, list[str]]:
+    """Of the names on the ladder, beside its discrepancy."""
+    plain = Joint(ladder.joint.observed, ladder.joint.base, noise)
+    named = [rung.candidate for rung in ladder.rungs]
+    return find_doubts(plain, ladder.fitted, named, tuple(ladder.discrepancy.values()))
 
 
 def _at_bounds(ladder: Ladder) -> list[str]:
@@ -217,7 +227,7 @@ def _verdict(diagnosis: Diagnosis) -> str:
     unexplained = remaining is not None and remaining.p_value <= 0.5 * CHANCE
     if diagnosis.replicated:
         unexplained = unexplained or diagnosis.law_p <= 0.5 * CHANCE
-    if unexplained:
+    if unexplained or diagnosis.doubts:
         return "unexplained_structure"
     if diagnosis.ladder.rungs or diagnosis.relaxation_spectrum:
         return "explained"

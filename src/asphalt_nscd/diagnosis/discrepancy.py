@@ -83,7 +83,7 @@ def processes(joint: Joint, fitted: Fitted) -> Processes:
             roots.append(spectra * (observed.specimen == k)[:, None])
             usual.append(USUAL["spectrum"])
     for kind, name, kernel in _kernels(observed):
-        root = _root(kernel, LEFT_OUT[kind])
+        root = factor_of(kernel, LEFT_OUT[kind])
         for part, unit in (("modulus", noise.sigma[0]), ("phase", 1j * noise.sigma[1])):
             names.append(f"{name}, {part}")
             roots.append(unit * root)
@@ -98,7 +98,9 @@ def _of_spectrum(joint: Joint, fitted: Fitted) -> NDArray[np.complex128]:
     times = joint.base.times
     modulus, slope = joint.base.modulus(fitted.law, joint.observed.omega, joint.observed.temperature)
     apart = np.log(times)[:, None] - np.log(times)
-    return (slope[:, : times.size] / modulus[:, None]) @ _root(np.exp(-0.5 * (apart / OF_TIMES) ** 2), 1e-2)
+    return (slope[:, : times.size] / modulus[:, None]) @ factor_of(
+        np.exp(-0.5 * (apart / OF_TIMES) ** 2), 1e-2
+    )
 
 
 def _kernels(observed: Observations):
@@ -121,7 +123,7 @@ def _kernels(observed: Observations):
             yield "specimen", f"specimen {name}", (0.5 + 0.5 * kernel) * np.outer(at, at)
 
 
-def _root(kernel: NDArray, left_out: float) -> NDArray:
+def factor_of(kernel: NDArray, left_out: float) -> NDArray:
     rows = np.flatnonzero(np.diag(kernel) > 0.0)
     value, vector = np.linalg.eigh(kernel[np.ix_(rows, rows)])
     value, vector = np.maximum(value[::-1], 0.0), vector[:, ::-1]

@@ -203,6 +203,7 @@ def _rung(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen) -> dict
         "as_good": [name_of(rival) for rival in rung.rivals],
         "established": diagnosis.established(rung),
         "hangs_on": diagnosis.ladder.hangs_on.get(rung.candidate.key, []),
+        "doubts": diagnosis.doubts.get(rung.candidate.key, []),
         "sentence": rung.candidate.cause.sentence, "confirmed_by": rung.candidate.cause.confirmed_by,
     }  # fmt: skip
 
@@ -265,7 +266,7 @@ def _law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
         },
         "log10_shift": {f"{t:g}": float(s) for t, s in zip(observed.isotherms, shift, strict=True)},
         "p_value": diagnosis.baseline_p, "gain": {"in_sample": _pair(diagnosis, before, after), "held_out": held_out},
-        "as_good": [], "established": not diagnosis.too_few, "hangs_on": [],
+        "as_good": [], "established": not diagnosis.too_few, "hangs_on": [], "doubts": [],
         "sentence": "the mix relaxes over many decades of time; one Burgers law for each temperature has two times",
         "confirmed_by": "tests over more decades of frequency, or creep at the warmest temperature",
     }  # fmt: skip

@@ -11,6 +11,7 @@ from typing import Any
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
+from asphalt_nscd.diagnosis.chance import CHANCE
 from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
 
 Content = Mapping[str, Any]
@@ -80,6 +81,8 @@ def on_simulation(content: Content) -> str:
 def _beyond_bonds(content: Content) -> str:
     """Whether more than scatter is left, once what the simulated bonds add to their law is taken off."""
     end = "no more" if content["verdict"] == "explained" else "more"
+    if any(rung.get("doubts") for rung in content["ladder"]) and not _more_than_scatter(content):
+        return "no more than the scatter of the tests, by a cause that is not established"
     bonds = content["numerics"]["largest_modulus_percent"]
     if bonds <= content["scatter"]["modulus_percent"]:
         return f"{end} than the scatter of the tests"
@@ -145,11 +148,20 @@ def _sure(rung: Content, content: Content) -> str:
         return (
             f"Likely, not established. Without {joined(rung['hangs_on'], 'or')} these tests do not show it."
         )
+    if rung.get("doubts"):
+        return f"Likely, not established. {'. '.join(rung['doubts'])}."
     if not rung.get("established", True):
         return "Likely, not established. These tests are too few to exclude what the catalogue lacks."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     return f"Established: {chance}."
+
+
+def _more_than_scatter(content: Content) -> bool:
+    """Whether the named causes leave structure, whatever the verdict says of their names."""
+    pattern = content["largest_pattern_left"]
+    chances = [content.get("lack_of_fit_p_value", 0.0), 1.0 if pattern is None else pattern["p_value"]]
+    return min(chances) <= 0.5 * CHANCE
 
 
 def left(content: Content) -> list[str]:
@@ -159,7 +171,7 @@ def left(content: Content) -> list[str]:
     if parts:
         return [f"{_place(name)}: {_in_units(name, value, scatter)}" for name, value in parts]
     pattern = content["largest_pattern_left"]
-    if content["verdict"] == "unexplained_structure" and pattern is not None:
+    if content["verdict"] == "unexplained_structure" and pattern is not None and _more_than_scatter(content):
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} standard deviations"]
     return []
 

@@ -168,7 +168,9 @@ def make_card(law: ExportedLaw, settings: Settings) -> Card:
     if isinstance(chain, KelvinChain) and chain.spring < float("inf"):
         series = of_chain(chain)
         if not series.moduli:
-            raise InputError(f"{law.path}: a spring alone, which does not relax; enter its modulus by hand.")
+            raise InputError(
+                f"{law.path}: this law is a single spring and does not relax; enter its modulus by hand."
+            )
         return Card(law, settings, series, miss(series, law.at_reference, low, high), exact=True)
     try:
         series, error = fit_series(law.at_reference, low, high, settings.allowed)

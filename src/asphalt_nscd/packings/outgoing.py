@@ -60,7 +60,7 @@ def _specimen(record: Record, form: str, output: Path) -> str:
             place[used],
             {},
             lines.reshape(ends.shape),
-            own | {"plate": plate.any(axis=1).astype(np.int8)},
+            own | {"plate": np.asarray(plate.any(axis=1), np.int8)},
         )
     return f"{output}: {n} spheres; {beside.name}: {len(ends)} bonds; lengths in m, areas in m2."
 

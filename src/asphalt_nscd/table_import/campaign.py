@@ -189,7 +189,7 @@ def _joined(paths: Sequence[Path], parts: list[_Part], notes: list[str]) -> Tabl
     if len(parts) == 1:
         return first
     if parts[0].read.form == "records":
-        raise InputError(f"{_called(paths)}: records are read from one table; put the tables into one.")
+        raise InputError(f"{_called(paths)}: records are read from one table only; join the tables.")
     tables = [part.read.table for part in parts]
     names = list(dict.fromkeys(name for table in tables for name in table.columns))
     columns: dict[str, list[str]] = {}

@@ -20,7 +20,7 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
         marks = sum(text.count(mark) for mark in "., '\u00a0\u202f")
         if marks > 1 and _GROUPED.fullmatch(text):
             raise InputError(
-                f"{where}, line {line}: {text!r} seems to group its digits in thousands; write it without."
+                f"{where}, line {line}: {text!r} seems to group its digits in thousands; write it without separators."
             )
         for mark, pattern in ((",", _COMMA), (".", _POINT)):
             if pattern.fullmatch(text):

@@ -167,7 +167,7 @@ def _single(cells: Cells, name: str, places: list[Place]) -> Place:
     if column.unit is None:
         stem, _, unit = name.rpartition("_")
         raise InputError(
-            f"{cells.path}: column {cells.header[place]!r} does not say its unit; write it behind the name, "
+            f"{cells.path}: column {cells.header[place]!r} does not say its unit; write it after the name, "
             f"as in {stem} ({unit})."
         )
     return place, column

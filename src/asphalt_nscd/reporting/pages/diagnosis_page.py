@@ -166,6 +166,7 @@ def _rung(rung: dict[str, Any]) -> dict[str, Any]:
         "evidence": rung.get("evidence"),
         "parameters": [_estimate(name, value) for name, value in rung["parameters"].items()],
         "hangs_on": rung.get("hangs_on", []),
+        "doubts": rung.get("doubts", []),
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {name: _gain(gain["held_out"][name]) for name in HELD_OUT if name in gain["held_out"]},
     }  # fmt: skip

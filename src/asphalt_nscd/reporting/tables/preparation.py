@@ -18,7 +18,8 @@ OF_A_STAGE = [
 def make(deposits: list[Path]) -> pd.DataFrame:
     """Two rows for each sample, poured and vibrated; one where it was not vibrated.
 
-    Overlaps are those at rest and the largest while the wall was driven, in parts of the smallest radius.
+    Overlaps are those at rest and the largest while grains fell or the wall was driven, in parts of the
+    smallest radius.
     """
     rows = []
     for path in deposits:

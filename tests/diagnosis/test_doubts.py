@@ -1,0 +1,129 @@
+"""A name in doubt: a look-alike takes most of an effect, but not its shape."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.diagnosis import scatter, start
+from asphalt_nscd.diagnosis.bases import BurgersAtEach
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.doubts import find_doubts
+from asphalt_nscd.diagnosis.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum import HuetSayegh
+
+LAW = HuetSayegh(
+    static_modulus=80e6, glassy_modulus=32e9, k=0.22, h=0.6, delta=2.3, tau=0.3, shift=WLF(18.0, 140.0, 15.0)
+)
+CAUSES = {cause.name: cause for cause in CATALOGUE}
+SCATTER = (0.01, np.radians(0.3))
+
+
+def table(effect=lambda omega, temperature: 0.0, seed: int = 3) -> Observations:
+    """Three specimens, five temperatures, six frequencies; effect: what is added to ln E* (n,)."""
+    random = np.random.default_rng(seed)
+    grid = np.array(
+        [
+            (s, t, f)
+            for s in range(3)
+            for t in (-10.0, 4.0, 21.0, 37.0, 54.0)
+            for f in (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)
+        ]
+    )
+    temperature, omega = grid[:, 1], 2.0 * np.pi * grid[:, 2]
+    noise = SCATTER[0] * random.standard_normal(len(grid)) + 1j * SCATTER[1] * random.standard_normal(
+        len(grid)
+    )
+    modulus = LAW.complex_modulus(omega, temperature) * np.exp(effect(omega, temperature) + noise)
+    ones = np.ones(len(grid))
+    return Observations(
+        specimen=grid[:, 0].astype(int), names=("A", "B", "C"), temperature=temperature, frequency=grid[:, 2],
+        modulus=modulus, form_factor=25e3 * ones, inertia=0.0 * ones,
+    )  # fmt: skip
+
+
+def doubts_of(observed: Observations, *names: str | Candidate) -> dict:
+    """Doubts of these causes, fitted together and found in this order."""
+    noise = scatter.stated(observed, *SCATTER, 0.03)
+    joint, fitted = start.fit_spectrum(observed, noise)
+    named = [n if isinstance(n, Candidate) else Candidate(CAUSES[n], None, (0.0,)) for n in names]
+    return find_doubts(joint, joint.fit(fitted.law, fitted.scales, tuple(named)), named)
+
+
+def late(omega, temperature):
+    return 6e-4j * omega
+
+
+def turned(omega, temperature):
+    return 1j * np.radians(3.0)
+
+
+@pytest.mark.parametrize(
+    "effect,right,wrong",
+    [(late, "channel_delay", "phase_offset"), (turned, "phase_offset", "channel_delay")],
+)
+def test_a_look_alike_is_in_doubt_and_the_cause_itself_is_not(effect, right, wrong):
+    observed = table(effect)
+    assert doubts_of(observed, right) == {}
+    (reason, *_) = doubts_of(observed, wrong)[wrong, None]
+    assert "size" in reason or "smooth effect" in reason
+
+
+def test_an_effect_that_grows_with_temperature_is_no_offset():
+    observed = table(lambda omega, temperature: 1j * np.radians(0.12) * (temperature + 10.0))
+    assert ("phase_offset", None) in doubts_of(observed, "phase_offset")
+
+
+def test_a_small_effect_is_only_likely():
+    observed = table(lambda omega, temperature: 0.06 * turned(omega, temperature))
+    (reason,) = doubts_of(observed, "phase_offset")["phase_offset", None]
+    assert "fewer than 5" in reason
+
+
+def test_what_follows_a_name_in_doubt_is_in_doubt():
+    observed = table(lambda omega, temperature: turned(omega, temperature) + late(omega, temperature))
+    assert doubts_of(observed, "phase_offset", "channel_delay") == {}
+    observed = table(lambda omega, temperature: turned(omega, temperature) + 0.05 * late(omega, temperature))
+    found = doubts_of(observed, "channel_delay", "phase_offset")
+    assert found["phase_offset", None] == ["It was found after a name that is in doubt"]
+    assert list(doubts_of(observed, "phase_offset", "channel_delay")) == [("channel_delay", None)]
+
+
+def test_a_parameter_at_its_bound_is_no_estimate():
+    observed = table(lambda omega, temperature: 1j * np.radians(40.0))
+    (reason, *_) = doubts_of(observed, "phase_offset")["phase_offset", None]
+    assert reason == "Its offset stands at the bound of 30 deg"
+
+
+def test_a_fault_of_most_specimens_is_no_fault_of_one():
+    observed = table()
+    clamp = CAUSES["specimen_geometry"]
+    shift = np.where(observed.specimen == 0, 1.3, np.where(observed.specimen == 1, 0.75, 1.0))
+    observed = replace(observed, modulus=shift * observed.modulus)
+    both = [Candidate(clamp, name, (0.0,)) for name in "AB"]
+    found = doubts_of(observed, *both)
+    assert all("2 of 3 specimens" in reasons[0] for reasons in found.values()) and len(found) == 2
+
+
+def test_names_against_burgers_laws_are_not_judged():
+    observed = table(turned)
+    joint = Joint(observed, BurgersAtEach(observed.isotherms), scatter.stated(observed, *SCATTER, 0.03))
+    _, burgers = start.fit_burgers_at_each(observed, joint.noise)
+    candidate = Candidate(CAUSES["phase_offset"], None, (0.1,))
+    assert find_doubts(joint, joint.fit(burgers.law, burgers.scales, (candidate,)), [candidate]) == {}
+
+
+def test_a_name_in_doubt_explains_nothing():
+    observed = table(late)
+    without = tuple(cause for cause in CATALOGUE if cause.name != "channel_delay")
+    found = diagnose(observed, catalogue=without, draws=500)
+    assert found.verdict == "unexplained_structure"
+    assert not any(found.established(rung) for rung in found.ladder.rungs)
+    named = diagnose(observed, draws=500)
+    assert [rung.candidate.cause.name for rung in named.ladder.rungs] == ["channel_delay"]
+    assert named.verdict == "explained" and named.established(named.ladder.rungs[0])
