@@ -83,7 +83,9 @@ def _how_sure(content: Content) -> list[str]:
     lines = []
     for rung in content["ladder"]:
         where = "" if rung["where"] is None else f" ({rung['where']})"
-        if rung["as_good"]:
+        if rung.get("evidence"):
+            lines.append(f"{rung['cause']}: {rung['evidence']}.")
+        elif rung["as_good"]:
             lines.append(
                 f"{rung['cause']}{where}: likely. {', '.join(rung['as_good'])} fits as well; the data do not say which."
             )
