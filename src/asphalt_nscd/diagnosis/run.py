@@ -186,7 +186,8 @@ def _begin_with_campaigns(
         rung, sentence = bond_mapping.bond_mapping(
             simulations, facets, report.averages(diagnosis, before, after)
         )
-        content["notes"].append(sentence)
+        if rung is None:
+            content["notes"].append(sentence)
     for law in content["ladder"]:
         if law["cause"] == "relaxation_spectrum":
             law["gain"]["in_sample"]["averages_by_temperature"] = report.averages(
