@@ -4,7 +4,7 @@ A look-alike takes most of an unknown effect but not its shape. So each name com
 a smooth effect over ln f, common to all tests; one that changes with temperature too; and the cause itself with a
 size of its own on each isotherm, or at each frequency. All are Gaussian processes beside the discrepancy
 (`discrepancy`), their variances estimated by restricted likelihood with the cause in the model. A name is in
-doubt if its size is less than six standard errors beside a rival, or if a smooth effect remains beside it.
+doubt if its size is less than six standard errors beside a rival.
 """
 
 from __future__ import annotations
@@ -25,7 +25,6 @@ Key = tuple[str, str | float | None]
 # Standard errors that the size must keep beside each rival. Measured in drawn tables: look-alikes of a cause that the
 # catalogue lacks keep up to 5.1, right names at three times the limit 8.7 or more.
 ENOUGH = 6.0
-REMAINS = 6.0  # gain of -2 ln likelihood by a smooth effect beside the cause: 20 times as likely
 FIRST = 0.05  # size at which the search for the size of a rival begins, in its own units
 MOST_SPECIMENS = 0.5  # share of the specimens at which a fault of one specimen may be named
 
@@ -115,17 +114,15 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
     rest, direction, effect = table.without(candidate)
     alone = table.beside(rest, direction, (), 1.0)
     observed, sigma = table.plain.observed, table.plain.noise.sigma
-    least, remains = abs(alone.z), 0.0
+    least = abs(alone.z)
     for root in _smooth(table.plain):
-        one = table.beside(rest, direction, (sigma[0] * root, 1j * sigma[1] * root), 1.0)
-        least, remains = min(least, abs(one.z)), max(remains, alone.misfit - one.misfit)
+        beside = table.beside(rest, direction, (sigma[0] * root, 1j * sigma[1] * root), 1.0)
+        least = min(least, abs(beside.z))
     if least < ENOUGH:
         yield (
             f"Beside a smooth effect without a name its size is {np.floor(10.0 * least) / 10.0:g} standard errors, "
             f"fewer than {ENOUGH:g}"
         )
-    elif remains > REMAINS:
-        yield "A smooth effect without a name remains beside it"
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))
         parts = parts[:, np.abs(parts).max(axis=0) > 0.0]
