@@ -23,6 +23,14 @@ def test_import_loads_nothing_heavy():
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout == "set()\n"
 
 
+def test_a_diagnosis_starts_without_what_takes_long_to_import():
+    script = (
+        "import sys, asphalt_nscd.api.diagnosis\n"
+        "print({'scipy.stats', 'numba', 'matplotlib'} & set(sys.modules))"
+    )
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout == "set()\n"
+
+
 def test_the_stub_of_editors_names_the_same_from_the_same_modules():
     named = re.findall(r"^from ([\w.]+) import (\w+) as \2$", STUB.read_text(), re.MULTILINE)
     assert sorted(name for _, name in named) == sorted(an.__all__)

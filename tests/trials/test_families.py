@@ -26,12 +26,14 @@ def test_moduli_scatter_about_the_law(family):
     assert table["E_MPa"].between(500, 45_000).all() and table["phase_deg"].between(0.5, 60).all()
 
 
-@pytest.mark.parametrize("family", SHIFTS)
-def test_no_law_of_the_fitted_family_is_behind_them(family):
-    """A 2S2P1D law misses the mix itself, without scatter, by more than it misses its own family."""
-    temperature, frequency = (x.ravel() for x in np.meshgrid(TEMPERATURES, FREQUENCIES, indexing="ij"))
-    omega = 2.0 * np.pi * frequency
-    true = law(family).modulus(omega, temperature)
-    fit = fit_spectrum(omega, temperature, true, 15.0)
-    off = np.log(fit.law.complex_modulus(omega, temperature) / true)
-    assert np.abs(off).max() > 1e-3
+def test_only_huet_sayegh_is_of_the_fitted_family():
+    """2S2P1D with WLF is Huet-Sayegh with Arrhenius where beta is large and C2 is the temperature in kelvin."""
+    off = {}
+    for family in SHIFTS:
+        temperature, frequency = (x.ravel() for x in np.meshgrid(TEMPERATURES, FREQUENCIES, indexing="ij"))
+        omega = 2.0 * np.pi * frequency
+        true = law(family).modulus(omega, temperature)
+        fit = fit_spectrum(omega, temperature, true, 15.0)
+        off[family] = np.abs(np.log(fit.law.complex_modulus(omega, temperature) / true)).max()
+    assert off.pop("huet_sayegh") < 1e-6
+    assert all(1e-4 < miss < 0.05 for miss in off.values()), off

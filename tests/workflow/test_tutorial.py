@@ -64,10 +64,10 @@ def test_exports_are_read_and_the_machine_itself_names_the_artefact():
 
 
 def test_commands_lead_from_the_table_to_the_plan_of_a_report(workspace):
-    small, full = [command for command in COMMANDS if command.startswith("asphalt-nscd")]
+    small, full = [command for command in COMMANDS if command.startswith("asphalt-nscd new-study")]
     done = new_study(workspace, small)
     assert done.returncode == 0, done.stderr
-    said = next(block for kind, block in BLOCKS if not kind)
+    said = next(block for kind, block in BLOCKS if not kind and block.startswith("columns"))
     assert done.stdout == said
     assert new_study(workspace, full).returncode == 0
     assert "snakemake --cores all --configfile config/mine.yaml" in COMMANDS
@@ -83,5 +83,18 @@ def test_commands_lead_from_the_table_to_the_plan_of_a_report(workspace):
 
 def test_options_of_the_tutorial_exist(workspace):
     helped = new_study(workspace, "asphalt-nscd new-study --help").stdout
-    used = set(re.findall(r"`?(--[a-z-]+)", TUTORIAL)) - {"--cores", "--configfile", "--help"}
+    helped += new_study(workspace, "asphalt-nscd diagnose --help").stdout
+    used = set(re.findall(r"(?<!-)(--[a-z][a-z-]*)", TUTORIAL)) - {"--cores", "--configfile", "--help"}
     assert used and all(option in helped for option in used)
+
+
+def test_the_folder_of_exports_gets_the_answer_of_the_page(workspace):
+    """The output in the tutorial is what the command prints, and its page opens with it."""
+    (command,) = [command for command in COMMANDS if command.startswith("asphalt-nscd diagnose")]
+    done = new_study(workspace, command)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    said = next(block for kind, block in BLOCKS if not kind and block.startswith("VERDICT"))
+    assert done.stdout.endswith(said)
+    html = (workspace.folder / "diagnosis/diagnosis.html").read_text(encoding="utf-8")
+    assert "71 of 72 tests can be used; they carry a channel delay of 0.792 ± 0.018 ms" in html
+    assert html.count("data:image/png;base64,") == 3

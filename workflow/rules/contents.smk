@@ -18,6 +18,10 @@ FIGURES = {
         "0 Diagnosis",
         {"diagnosis": RESIDUALS["diagnosis"], "causality": DIAGNOSED[2:]},
     ),
+    "fig_specimens": (
+        "0 Diagnosis",
+        {"diagnosis": RESIDUALS["diagnosis"], "causality": DIAGNOSED[2:]},
+    ),
     "fig_black": ("0 Diagnosis", RESIDUALS),
     "fig_master": ("0 Diagnosis", RESIDUALS),
     "fig_limits": ("0 Diagnosis", {"diagnosis": RESIDUALS["diagnosis"]}),

@@ -48,7 +48,7 @@ rule diagnose:
     message:
         "Diagnose where simulation and measurements differ, and why"
     shell:
-        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} {params.campaigns} --geometry {params.geometry:q} {params.settings} --output {params.folder} > {log} 2>&1"
+        "asphalt-nscd diagnose {input.measured} --specimen {input.specimen} {params.campaigns} --geometry {params.geometry:q} {params.settings} --no-page --output {params.folder} > {log} 2>&1"
 
 
 rule diagnosis_page:
@@ -69,7 +69,7 @@ rule diagnosis_page:
         ),
     params:
         title=title("diagnosis"),
-        data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "map", "table4", "ladder")],
+        data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "map", "specimens", "causality", "table4", "ladder")],
     log:
         "<results>/logs/page/diagnosis.log",
     benchmark:

@@ -1,7 +1,7 @@
 # Honest gains: reconstructed measurements are drawn from the family of laws that the extended simulation fits. The same
 # design and scatter about mixes of two other families, diagnosed in the same way and predicted by the law on facets.
 
-FAMILIES = ["huet_sayegh", "maxwell_ladder"] if "reconstruct" in STUDY["measurements"] and COMMON_LAW else []
+FAMILIES = ["huet_sayegh", "maxwell_ladder", "havriliak_negami"] if "reconstruct" in STUDY["measurements"] and COMMON_LAW else []
 FAMILY = "<results>/families/{family}/"
 
 

@@ -17,6 +17,7 @@ import pandas as pd
 from asphalt_nscd.api.laws import Law
 from asphalt_nscd.api.pictures import shown_in_notebooks
 from asphalt_nscd.api.tables import Measurements, campaign_in
+from asphalt_nscd.diagnosis.measured_limits import Progress, Trials, verify
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.run import Outcome, conclude
 from asphalt_nscd.diagnosis.sentences import on_data, on_simulation
@@ -133,6 +134,19 @@ class Diagnosis:
         """Residuals over temperature and frequency, before and after."""
         return self._figure("fig_residual_map")
 
+    def verify_limits(self, processes: int | None = None, progress: Progress = lambda *_: None) -> Diagnosis:
+        """The same with measured limits: each cause put into the tests at 1, 2 and 3 times its stated limit.
+
+        processes: at once, one for each core if None; progress(stage, done, total): called after each. The table
+        stands in limits.csv and in `content["measured_limits"]`. Takes minutes; equal on any number of processes.
+        """
+        made, stated = self.outcome.diagnosis, self.content["provenance"]["scatter_stated"]
+        if made is None:
+            raise InputError("This diagnosis was read from files; diagnose the measurements again.")
+        scatter = None if stated is None else (float(stated[0]), float(stated[1]))
+        trials = Trials(scatter, self.content["provenance"]["seed"], processes)
+        return Diagnosis(self.outcome.with_limits(verify(made, trials, progress)))
+
     def to_json(self, path: str | Path | None = None) -> str:
         """The content of diagnosis.json as text; written to a path if one is given."""
         text = json.dumps(self.content, indent=2)
@@ -221,6 +235,7 @@ def diagnose(
     specimen: str | Path | None = None, static_modulus_MPa: float | None = None,
     scatter: tuple[float, float] | None = None, simulations: str | Path | None = None,
     facets: str | Path | None = None, draws: Draws = Draws(),  # noqa: B008  frozen
+    progress: Progress = lambda *_: None,
 ) -> Diagnosis:  # fmt: skip
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
 
@@ -229,7 +244,7 @@ def diagnose(
     specimen: numerical specimen, a file of `asphalt-nscd reduced-specimen`; else the one shipped. static_modulus_MPa:
     of the mix at long times, if known. scatter: standard deviations of one test, |E*| in % and phase in degrees; else
     from replicates. simulations: table of simulated tests, to say what in them is numerics; facets: of the same tests
-    with bonds that are facets, to judge bond_mapping.
+    with bonds that are facets, to judge bond_mapping. progress(stage, done, total): called as the work goes on.
 
     Raises InputError, with one sentence, for tables that cannot be diagnosed.
 
@@ -254,5 +269,6 @@ def diagnose(
             draws.seed,
             simulations,
             facets,
+            progress,
         )
     )

@@ -7,19 +7,25 @@ from contextlib import contextmanager
 
 
 @contextmanager
-def bars(unit: str) -> Iterator[Callable[[str, float, float], None]]:
-    """Yield report(stage, done, total); a change of stage or a smaller `done` opens a new bar."""
+def bars(unit: str, on_terminal: bool = False) -> Iterator[Callable[[str, float, float], None]]:
+    """Yield report(stage, done, total); a change of stage or a smaller `done` opens a new bar.
+
+    on_terminal: nothing is shown elsewhere, and more often there.
+    """
     from tqdm import tqdm
 
     bar: tqdm | None = None
+    shown = ""
 
     def report(stage: str, done: float, total: float) -> None:
-        nonlocal bar
-        if bar is None or bar.desc != stage:
+        nonlocal bar, shown
+        if bar is None or shown != stage:
             if bar is not None:
                 bar.close()
+            shown = stage
             bar = tqdm(
-                total=total, desc=stage, unit=unit, mininterval=5.0,
+                total=total, desc=stage, unit=unit, mininterval=0.1 if on_terminal else 5.0,
+                disable=None if on_terminal else False,
                 bar_format="{desc}: {percentage:3.0f}% |{bar:20}| {elapsed} gone, {remaining} left",
             )  # fmt: skip
         bar.update(done - bar.n)

@@ -5,7 +5,8 @@ from typing import Any
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli import _data, _options
+from asphalt_nscd.cli._progress import bars
 
 PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 
@@ -56,13 +57,20 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
     type=_options.File,
     help="The same tests on specimens bonded by facets, to say what the paper's bonds make of |E*|.",
 )
+@click.option(
+    "--verify-limits",
+    is_flag=True,
+    help="Put each cause into these tests at 1, 2 and 3 times its limit; minutes.",
+)
+@click.option("--jobs", type=click.IntRange(1), help="Processes of --verify-limits; else one for each core.")
+@click.option("--page/--no-page", default=True, help="Whether to write diagnosis.html too.")
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 def command(
     measurements: tuple[Path, ...], output: Path, sheet: str | None, columns: tuple[tuple[str, str], ...],
     measured_in: str | None, geometry: Any, specimen: Path | None, static_modulus_mpa: float | None,
     modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
-    simulations: Path | None, facets: Path | None,
+    simulations: Path | None, facets: Path | None, page: bool, verify_limits: bool, jobs: int | None,
 ) -> None:  # fmt: skip
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
 
@@ -79,9 +87,19 @@ def command(
     scatter = None
     if modulus_scatter_percent is not None and phase_scatter_deg is not None:
         scatter = modulus_scatter_percent, phase_scatter_deg
-    diagnosis = diagnose(
-        campaign_in(measurements, sheet, dict(columns), measured_in), geometry=geometry, specimen=specimen,
-        static_modulus_MPa=static_modulus_mpa, scatter=scatter, simulations=simulations, facets=facets,
-        draws=Draws(draws, seed),
-    )  # fmt: skip
-    click.echo(diagnosis.write(output))
+    with bars("step", on_terminal=True) as progress:
+        diagnosis = diagnose(
+            campaign_in(measurements, sheet, dict(columns), measured_in), geometry=geometry, specimen=specimen,
+            static_modulus_MPa=static_modulus_mpa, scatter=scatter, simulations=simulations, facets=facets,
+            draws=Draws(draws, seed), progress=progress,
+        )  # fmt: skip
+        if verify_limits:
+            diagnosis = diagnosis.verify_limits(jobs, progress)
+    names = diagnosis.outcome.write(output)
+    if page:
+        # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
+        title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
+        names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
+    click.echo(f"{diagnosis}\n\nWritten to {output}: {', '.join(names)}.")
+    if page:
+        click.echo(f"Open {output / names[-1]} in a browser; it needs no network.")

@@ -23,6 +23,7 @@ from asphalt_nscd.diagnosis.start import of_likeliest_roughness
 
 Vector = NDArray[np.float64]
 RUNGS = 4
+SEVERAL_STARTS = 300  # tests up to which the sizes of the discrepancy are sought from several starts
 REFITS = 4  # candidates that are refitted at each rung
 LEAST_GAIN = 6.0  # of -2 ln likelihood over a discrepancy without a name: 20 times as likely
 AS_GOOD = 6.0  # gains closer than this are not told apart
@@ -140,9 +141,11 @@ def _smoothed(state: State) -> State:
 def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     """Candidates that the table can show, each estimated beside the discrepancy."""
     candidates, pointing = _pointing(state, catalogue)
-    # A cause with shapes of its own has many directions: one start is enough for a candidate that is refitted.
+    # A cause with shapes of its own has many directions: one start is enough for a candidate that is refitted. In a
+    # large table the sizes are well determined, and each start takes a second.
+    several = state.plain.observed.size <= SEVERAL_STARTS
     estimates = [
-        _likeliest(state.model, state.variances, pointing.column(k)) if len(candidate.values) == 1
+        _likeliest(state.model, state.variances, pointing.column(k)) if several and len(candidate.values) == 1
         else discrepancy.estimate(state.model, pointing.column(k), state.variances)
         for k, candidate in enumerate(candidates)
     ]  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,15 +58,20 @@ class Diagnosis:
 
 def diagnose(
     observed: Observations, scatter_stated: tuple[float, float] | None = None,
-    catalogue: tuple[Cause, ...] = CATALOGUE, draws: int = DRAWS, seed: int = 0,
+    catalogue: tuple[Cause, ...] = CATALOGUE, draws: int = DRAWS, seed: int = 0, use_suspects: bool = False,
 ) -> Diagnosis:  # fmt: skip
-    """Diagnose a table. scatter_stated: of |E*| (relative) and phase [rad], where replicates do not tell."""
+    """Diagnose a table. scatter_stated: of |E*| (relative) and phase [rad], where replicates do not tell.
+
+    use_suspects: whether tests that contradict their own isotherm are used all the same.
+    """
     require_enough(observed.size, observed.frequencies.size)
     scatter.refuse_copies(observed)
     notes: list[str] = []
     whole = observed
     held = within_isotherm.hold(whole)
     doubtful = suspects.find(whole, held)
+    if use_suspects:
+        doubtful = [replace(one, used=True) for one in doubtful]
     aside = np.array([one.row for one in doubtful if not one.used], np.int64)
     observed = whole.subset(np.setdiff1d(np.arange(whole.size), aside))
     noise, replicated = _noise(observed, scatter_stated, catalogue, notes)

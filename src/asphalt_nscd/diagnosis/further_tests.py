@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,9 +45,9 @@ class Costs:
     @property
     def sentence(self) -> str:
         return (
-            f"Counted: {self.mounting:g} h to mount a specimen, {self.conditioning:g} h to bring it to a temperature outside "
-            f"{self.room[0]:g} to {self.room[1]:g} degC, {self.new_specimen:g} h to prepare a new one, {self.cycles:g} cycles "
-            "and one minute at each frequency."
+            f"Counted: {self.mounting:g} h to mount a specimen, {self.conditioning:g} h to bring it to a temperature "
+            f"outside {self.room[0]:g} to {self.room[1]:g} degC, {self.new_specimen:g} h to prepare a new one, "
+            f"{self.cycles:g} cycles and one minute at each frequency."
         )
 
 
@@ -67,8 +68,8 @@ class Possible:
     """The model at the tests done and at all that could follow.
 
     candidates: causes, in the order of the effects. departures: what effects come next, each "linear" and its isotherm
-    (what changes at half the strain if the departure is proportional to the strain) or "repeat" and a test that cannot be
-    used (by how much it departs). metal_frequencies: of the rows that follow those of the table [Hz].
+    (what changes at half the strain if the departure is proportional to the strain) or "repeat" and a test that
+    cannot be used (by how much it departs). metal_frequencies: of the rows that follow those of the table [Hz].
     """
 
     table: Observations
@@ -143,12 +144,13 @@ def _repeats(
             row = int(np.flatnonzero(again)[-1])
             effect = np.zeros(linear.effects.shape[0], complex)
             effect[row] = whole.logarithm[one.row] - expected[row]
-            found["repeat", f"the reading of {name} at {t:g} degC, {f:g} Hz"] = effect
+            found["repeat", f"{name} at {t:g} degC, {f:g} Hz"] = effect
     return found
 
 
 def _departures(
-    linear: Linear, moved: NDArray, names: Sequence[str], roots: Sequence[NDArray], first: int, doubtful: Sequence[float]
+    linear: Linear, moved: NDArray, names: Sequence[str], roots: Sequence[NDArray], first: int,
+    doubtful: Sequence[float],
 ) -> dict[float, NDArray[np.complex128]]:  # fmt: skip
     """By isotherm [degC], ln E* (N,) that its own discrepancy takes up."""
     found: dict[float, NDArray[np.complex128]] = {}
@@ -190,7 +192,7 @@ def _with_strain(observed: Observations) -> Observations:
 def temperatures(observed: Observations) -> list[float]:
     """Isotherms tested, one between any two that are far apart, and one beyond either end [degC]."""
     tested = observed.isotherms
-    middle = [round(float(a + b) / 2.0) for a, b in zip(tested, tested[1:]) if b - a >= APART]
+    middle = [round(float(a + b) / 2.0) for a, b in pairwise(tested) if b - a >= APART]
     ends = [round(float(tested[0] - BEYOND)), round(float(tested[-1] + BEYOND))]
     inside = [t for t in (*middle, *ends) if COLDEST <= t <= WARMEST]
     return sorted({*map(float, tested), *map(float, inside)})
@@ -217,7 +219,7 @@ def _table(observed: Observations, at: Sequence[float]) -> Observations:
         for t in observed.isotherms
         for f in observed.frequencies
     ]
-    specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half))
+    specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half, strict=True))
     like = np.array([np.flatnonzero(observed.specimen == min(s, len(names) - 2))[0] for s in specimen])
     more = replace(
         observed.subset(like), specimen=specimen, temperature=temperature, frequency=frequency,

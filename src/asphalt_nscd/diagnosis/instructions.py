@@ -1,10 +1,10 @@
 """What to test next: the few sweeps that answer most of what a diagnosis leaves open, per hour of the machine.
 
-Open questions are: does a named cause show without the tests that carry it, and on a metal specimen; which of two causes
-that look alike; does a test that cannot be used repeat itself; is an isotherm that contradicts itself out of the linear
-range; is a cause there that these tests could not show. The expected gain of each is evidence for the right answer in nats
-(ln of the Bayes factor), no more than is needed. The sweep of largest gain per hour is taken, then the next, given the
-first.
+Open questions are: does a named cause show without the tests that carry it, and on a metal specimen; which of two
+causes that look alike; does a test that cannot be used repeat itself; is an isotherm that contradicts itself out of
+the linear range; is a cause there that these tests could not show. The expected gain of each is evidence for the right
+answer in nats (ln of the Bayes factor), no more than is needed. The sweep of largest gain per hour is taken, then the
+next, given the first.
 """
 
 from __future__ import annotations
@@ -14,9 +14,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.special import ndtr
 
-from asphalt_nscd.diagnosis import tails
 from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.further_tests import METAL, NEW, Costs, Possible, Sweep, possible
@@ -27,6 +26,7 @@ from asphalt_nscd.diagnosis.sentences import an, joined
 from asphalt_nscd.diagnosis.written import shown, three_digits
 
 MOST, REASONS = 5, 3
+NOTICEABLE = 10.0  # percent of cases
 LEAST = 0.3  # nats, below which a sweep tells nothing
 SURVIVES = 2.0  # standard errors that a cause keeps without what it hangs on
 FOUND = (USUAL_THRESHOLD + POWER) ** 2  # strength of a cause that is found in 19 of 20 cases
@@ -48,26 +48,31 @@ class Open:
 
 @dataclass
 class Order:
-    """One order to the laboratory; hours, nats: what it costs and is expected to tell."""
+    """One order to the laboratory; hours, nats: what it costs and is expected to tell.
+
+    helps: of each question that it helps, the strength before and after.
+    """
 
     sweep: Sweep
     specimens: list[str]
     hours: float
     nats: float
-    why: list[str]
+    helps: dict[int, tuple[float, float]]
 
 
 def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, Any]:
     """Content of `instructions` in diagnosis.json: at most five, the one of largest gain per hour first."""
     costs = costs or Costs()
     model = possible(diagnosis, costs)
-    chosen = choose(model, open_questions(diagnosis, model))
+    questions = open_questions(diagnosis, model)
+    chosen = choose(model, questions)
     return {
         "costs": costs.sentence,
         "orders": [
             {
-                "text": _text(one), "why": one.why, "hours": round(one.hours, 2), "nats": round(one.nats, 2),
-                "specimens": one.specimens, "temperature_C": None if one.sweep.specimen == METAL else one.sweep.temperature,
+                "text": _text(one), "why": _reasons(one, questions), "hours": round(one.hours, 2),
+                "nats": round(one.nats, 2), "specimens": one.specimens,
+                "temperature_C": None if one.sweep.specimen == METAL else one.sweep.temperature,
                 "frequencies_Hz": list(one.sweep.frequencies), "half_strain": one.sweep.half_strain,
             }
             for one in chosen
@@ -91,13 +96,18 @@ def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
             break
         before = inquiry.strengths()
         inquiry.take(sweep.tested)
-        why = _reasons(sweep, questions, gain, before, inquiry.strengths())
+        after = inquiry.strengths()
+        # The part of a sweep that a question profits from most is told.
+        helped = [int(k) for k in np.argsort(-gain)[:REASONS] if gain[k] >= max(0.1 * nats, 0.05)]
         if alike is None:
-            orders.append(Order(sweep, [sweep.specimen], sweep.hours, nats, why))
-        else:
-            alike.specimens.append(sweep.specimen)
-            alike.hours, alike.nats = alike.hours + sweep.hours, alike.nats + nats
-            alike.why = list(dict.fromkeys([*alike.why, *why]))
+            alike = Order(sweep, [], 0.0, 0.0, {})
+            orders.append(alike)
+        alike.specimens = [
+            name for name in model.table.names if name in (*alike.specimens, sweep.specimen)
+        ] or [METAL]
+        alike.hours, alike.nats = alike.hours + sweep.hours, alike.nats + nats
+        for k in helped:
+            alike.helps[k] = alike.helps.get(k, (before[k], 0.0))[0], after[k]
     return orders
 
 
@@ -191,37 +201,45 @@ def _sized(candidate: Candidate, typical: float) -> str:
     return f"{an(words_of(candidate))} of {three_digits(value)} {unit}"
 
 
-def _reasons(
-    sweep: Sweep, questions: Sequence[Open], gain: NDArray[np.float64], before: Sequence[float], after: Sequence[float]
-) -> list[str]:  # fmt: skip
+def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
     """What the tests would do for the questions that they help most."""
-    least = max(0.1 * float(gain.sum()), 0.05)
-    largest = [int(k) for k in np.argsort(-gain)[:REASONS] if gain[k] >= least]
-    return [
-        _reason(questions[k], before[k], after[k])
-        for k in largest if sweep.half_strain or questions[k].kind != "linear"
-    ]  # fmt: skip
+    told = {
+        k: strengths for k, strengths in order.helps.items() if questions[k].kind not in ("repeat", "linear")
+    }
+    kinds = {questions[k].kind for k in order.helps}
+    again = sorted(questions[k].about for k in order.helps if questions[k].kind == "repeat")
+    reasons = []
+    if again:
+        reasons.append(
+            f"The reading of {joined(again)} contradicts its isotherm. If it does not come back, the machine or the "
+            "mounting was at fault, and the new test counts."
+        )
+    if "linear" in kinds and order.sweep.half_strain:
+        reasons.append(
+            f"If the mix is not linear at {order.sweep.temperature:g} degC, what is unexplained there halves. If the "
+            "machine is at fault, it stays."
+        )
+    reasons += [_reason(questions[k], *strengths) for k, strengths in told.items()]
+    return [reason for reason in reasons if reason][:REASONS]
 
 
 def _reason(one: Open, before: float, after: float) -> str:
     if one.kind == "kept":
         errors = [f"{np.sqrt(strength):.1f}" for strength in (before, after)]
-        return f"The {one.about} should then show without {one.other} too, by {errors[1]} standard errors (now {errors[0]})."
+        return (
+            f"The {one.about} should then show without {one.other} too, by {errors[1]} standard errors "
+            f"(now {errors[0]})."
+        )
     if one.kind == "metal":
         return f"The {one.about} must show on metal too, as {one.other}. The mix has no part in that."
     if one.kind == "apart":
-        return f"It tells the {one.about} from {an(one.other)}: expected odds {_odds(after)} to 1 (now {_odds(before)} to 1)."
-    if one.kind == "linear":
-        return (
-            f"At half the strain the contradiction at {one.about} halves if the mix is not linear there. It stays if the "
-            "machine is at fault."
-        )
-    if one.kind == "repeat":
-        return f"It shows whether {one.about} comes back. If not, it was the machine or the mounting, and the new test counts."
-    power = [
-        f"{100.0 * tails.normal(USUAL_THRESHOLD - np.sqrt(strength)):.0f} %" for strength in (before, after)
-    ]
-    return f"{one.about[0].upper()}{one.about[1:]} would be found in {power[1]} of cases (now {power[0]})."
+        odds = f"expected odds {_odds(after)} to 1 (now {_odds(before)} to 1)"
+        return f"It tells the {one.about} from {an(one.other)}: {odds}."
+    chances = [100.0 * float(ndtr(np.sqrt(strength) - USUAL_THRESHOLD)) for strength in (before, after)]
+    if chances[1] - chances[0] < NOTICEABLE:
+        return ""
+    found = f"{chances[1]:.0f} % of cases (now {chances[0]:.0f} %)"
+    return f"{one.about[0].upper()}{one.about[1:]} would be found in {found}."
 
 
 def _odds(strength: float) -> str:

@@ -179,6 +179,7 @@ def _best(joint, fitted, candidates, gains, p_value, least) -> Rung:
     as good the one of fewest parameters: a loss bump far above the band is a delay with three more.
     """
     order = np.argsort(-gains)
+    least = min(least, gains.max())  # few draws know the tail better than its quantile
     shortlist: dict[tuple, Candidate] = {}
     for k in order:
         if gains[k] >= max(SHORTLIST * gains.max(), least) and len(shortlist) < MOST_REFITS:

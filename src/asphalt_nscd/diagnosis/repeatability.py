@@ -1,8 +1,8 @@
 """The scatter of a campaign as a laboratory quotes it: coefficients of variation, by isotherm.
 
 Between specimens: how far specimens differ at one temperature and frequency. Within specimens: how far the tests of one
-specimen scatter about its own level, which is taken off together with the mean of each condition. Both in percent of |E*|
-and in degrees of phase, root mean square over the frequencies of an isotherm.
+specimen scatter about its own level, which is taken off together with the mean of each condition. Both in percent of
+|E*| and in degrees of phase, root mean square over the frequencies of an isotherm.
 """
 
 from __future__ import annotations

@@ -52,7 +52,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
             **_errors(diagnosis, with_burgers_laws(diagnosis, specimen)),
         },
         "ladder": ladder,
-        "withdrawn": [_name(rung.candidate) for rung in diagnosis.ladder.withdrawn],
+        "withdrawn": [name_of(rung.candidate) for rung in diagnosis.ladder.withdrawn],
         "indistinguishable": _indistinguishable(diagnosis),
         "not_testable": _not_testable(diagnosis),
         "detection_limits": _limits(diagnosis),
@@ -200,7 +200,7 @@ def _rung(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen) -> dict
     return {
         "cause": rung.candidate.cause.name, "where": rung.candidate.place,
         "parameters": _parameters(diagnosis, final), "p_value": rung.p_value, "gain": gain,
-        "as_good": [_name(rival) for rival in rung.rivals],
+        "as_good": [name_of(rival) for rival in rung.rivals],
         "established": diagnosis.established(rung),
         "hangs_on": diagnosis.ladder.hangs_on.get(rung.candidate.key, []),
         "doubts": diagnosis.doubts.get(rung.candidate.key, []),
@@ -212,6 +212,12 @@ def _final(diagnosis: Diagnosis, candidate: Candidate) -> Candidate:
     """The candidate as the last fit has it, with all causes fitted together."""
     active = diagnosis.ladder.rungs[-1].after.active
     return next(c for c in active if c.key == candidate.key)
+
+
+def amplitude(diagnosis: Diagnosis, candidate: Candidate) -> tuple[float, float]:
+    """Amplitude of a named cause and its standard error, in the last fit."""
+    first = next(iter(_parameters(diagnosis, _final(diagnosis, candidate)).values()))
+    return first["value"], first["std_error"]
 
 
 def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[str, Any]]:
@@ -298,7 +304,8 @@ def _burgers_parameters(diagnosis: Diagnosis) -> dict[str, dict[str, float]]:
     }
 
 
-def _name(candidate: Candidate) -> str:
+def name_of(candidate: Candidate) -> str:
+    """`cause` or `cause @ place`."""
     place = candidate.place
     return candidate.cause.name if place is None else f"{candidate.cause.name} @ {place}"
 
@@ -306,9 +313,11 @@ def _name(candidate: Candidate) -> str:
 def _indistinguishable(diagnosis: Diagnosis) -> list[list[str]]:
     """Groups that this design, or these data, cannot tell apart."""
     out = [
-        [_name(rung.candidate), *map(_name, rung.rivals)] for rung in diagnosis.ladder.rungs if rung.rivals
+        [name_of(rung.candidate), *map(name_of, rung.rivals)]
+        for rung in diagnosis.ladder.rungs
+        if rung.rivals
     ]
-    out += [[_name(one), _name(other)] for one, other in diagnosis.ladder.alike]
+    out += [[name_of(one), name_of(other)] for one, other in diagnosis.ladder.alike]
     out.append(["loose_clamp of all specimens", "relaxation_spectrum"])
     if not any(name == "guide_stiffness" for name, _ in diagnosis.ladder.limits):
         out.append(["guide_stiffness", "static modulus of relaxation_spectrum"])
@@ -325,10 +334,10 @@ def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
     ]  # fmt: skip
     shown = {c.key for rung in diagnosis.ladder.rungs for c in (rung.candidate, *rung.rivals)}
     out += [
-        {"cause": _name(candidate), "needs": candidate.cause.shows_in}
+        {"cause": name_of(candidate), "needs": candidate.cause.shows_in}
         for candidate in diagnosis.ladder.unseen if candidate.key not in shown
     ]  # fmt: skip
-    seen = {name for name, _ in _physical_limits(diagnosis)}
+    seen = {name for name, _ in physical_limits(diagnosis)}
     out += [
         {"cause": name, "needs": "a design in which less of it shows than is physical"}
         for name in sorted({name for name, _ in diagnosis.ladder.limits} - seen)
@@ -344,7 +353,7 @@ def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
     """Amplitude found with 95 % probability: of each cause, and of each place of a confined one."""
     units = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
     limits: dict[str, dict[str, Any]] = {}
-    for (name, place), value in _physical_limits(diagnosis).items():
+    for (name, place), value in physical_limits(diagnosis).items():
         entry = limits.setdefault(name, {"value": np.inf, "unit": units[name]})
         entry["value"] = min(entry["value"], float(value))
         if place is not None:
@@ -376,7 +385,7 @@ def _estimates(diagnosis: Diagnosis) -> dict[str, Any]:
     return out
 
 
-def _physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
+def physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
     """Limits that the cause can reach within the bounds of its amplitude."""
     most = {
         cause.name: max(abs(cause.parameters[0].low), abs(cause.parameters[0].high)) for cause in CATALOGUE

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -12,10 +12,19 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import bond_mapping, quality, repeatability, report, suspects, within_isotherm
+from asphalt_nscd.diagnosis import (
+    bond_mapping,
+    measured_limits,
+    quality,
+    repeatability,
+    report,
+    suspects,
+    within_isotherm,
+)
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.instructions import instructions
+from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
@@ -26,6 +35,21 @@ from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes
 from asphalt_nscd.rheology.spectrum_io import spectrum_content
 
+STEPS = 5  # read, causes, law, second opinion, next tests
+FEW_DRAWS = 1000  # where a second opinion is asked for
+
+
+@dataclass
+class Steps:
+    """Says how far a diagnosis has come."""
+
+    progress: Progress
+    done: int = 0
+
+    def step(self) -> None:
+        self.done += 1
+        self.progress("Diagnose", self.done, STEPS)
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -35,6 +59,13 @@ class Outcome:
     residuals: pd.DataFrame
     causality: pd.DataFrame
     law: dict[str, Any] | None  # content of law.json; None for one isotherm
+    diagnosis: Diagnosis | None = None  # that gave them; None if they were read from files
+    limits: pd.DataFrame | None = None  # of limits.csv, where limits were verified
+
+    def with_limits(self, table: pd.DataFrame) -> Outcome:
+        """The same with limits that were verified."""
+        content = self.content | {"measured_limits": measured_limits.summarised(table)}
+        return replace(self, content=content, limits=table)
 
     def write(self, folder: str | Path) -> list[str]:
         """Write the files into a folder; their names."""
@@ -43,12 +74,15 @@ class Outcome:
         write_table(folder / "causality.csv", self.causality)
         if self.law is not None:
             write_json(folder / "law.json", self.law)
+        if self.limits is not None:
+            write_table(folder / "limits.csv", self.limits)
         write_json(folder / "diagnosis.json", self.content)
         return [
             "diagnosis.json",
             "residuals.csv",
             "causality.csv",
             *([] if self.law is None else ["law.json"]),
+            *([] if self.limits is None else ["limits.csv"]),
         ]
 
     def written(self, folder: str | Path) -> str:
@@ -75,25 +109,30 @@ def conclude(
     specimen: str | Path | None = None, static_modulus: float | None = None,
     scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
     simulations: str | Path | None = None, facets: str | Path | None = None,
+    progress: Progress = lambda *_: None,
 ) -> Outcome:  # fmt: skip
     """Diagnose measurements.
 
     static_modulus [Pa]; scatter: of |E*| (relative) and phase [rad]. simulations: table of simulated tests, whose
     numerics are judged; facets: of the same tests with bonds that are facets, beside which bond_mapping is judged.
     """
+    done = Steps(progress)
     numerical = read_specimen(specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None
     given = Path(measurements) if campaign is None else campaign.table.path
     files = (given,) if campaign is None else campaign.files
     observed, origin = read_observations(measurements, geometry, static_modulus)
+    done.step()
     try:
         diagnosis = diagnose(observed, scatter, draws=draws, seed=seed)
     except InputError as error:
         raise InputError(f"{given}: {error}") from None
+    done.step()
     fit = None if observed.isotherms.size < 2 else material_law(diagnosis)
     content, before = report.as_json(diagnosis, numerical), None
     if fit is not None:
         content["notes"] += law_notes(diagnosis, fit.law) + prior_notes(fit)
+    done.step()
     content["reading"] = reading(observed, () if campaign is None else campaign.notes)
     if simulations is not None:
         content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
@@ -101,7 +140,10 @@ def conclude(
     content["origin"] = origin
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
+    content["with_suspects"] = with_suspects(diagnosis, scatter, seed)
+    done.step()
     content["instructions"] = instructions(diagnosis)
+    done.step()
     content["contradictory_isotherms"] = [
         {"temperature_C": one.temperature, "sentence": one.sentence}
         for one in suspects.broken_isotherms(observed, held)
@@ -125,7 +167,7 @@ def conclude(
         )  # fmt: skip
     return Outcome(
         content, report.residual_table(diagnosis, numerical, before),
-        suspects.table(observed, list(diagnosis.suspects), held), law,
+        suspects.table(observed, list(diagnosis.suspects), held), law, diagnosis,
     )  # fmt: skip
 
 
@@ -152,6 +194,20 @@ def _begin_with_campaigns(
             )
     content["ladder"][:0] = [] if rung is None else [rung]
     return before
+
+
+def with_suspects(
+    diagnosis: Diagnosis, scatter: tuple[float, float] | None, seed: int
+) -> dict[str, Any] | None:
+    """What is named if the tests that were set aside are used; None where none was."""
+    if diagnosis.whole is None or not diagnosis.set_aside.size:
+        return None
+    other = diagnose(diagnosis.whole, scatter, draws=FEW_DRAWS, seed=seed, use_suspects=True)
+    named = [
+        {"cause": rung.candidate.cause.name, "where": rung.candidate.place} for rung in other.ladder.rungs
+    ]
+    law = [{"cause": "relaxation_spectrum", "where": None}] if other.relaxation_spectrum else []
+    return {"verdict": other.verdict, "causes": [*law, *named]}
 
 
 def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:

@@ -25,6 +25,7 @@ def summary(content: Content) -> str:
         ("What stays unexplained", _left(content)),
         ("What to do next", _orders(content)),
         ("Scatter", _scatter(content)),
+        ("Limits, stated and measured", _limits(content)),
         ("Remarks", content["notes"]),
     ]  # fmt: skip
     return "\n\n".join(_part(title, lines) for title, lines in parts if lines)
@@ -39,6 +40,7 @@ def _suspects(content: Content) -> list[str]:
     for one in sentences.not_used(content):
         lines.append(f"{sentences.place_of_test(one)}:")
         lines += [f"  {reason}" for reason in one["reasons"]]
+    lines += filter(None, [sentences.with_suspects(content)])
     kept = len(sentences.doubtful(content))
     if kept:
         tests = "test is" if kept == 1 else "tests are"
@@ -61,6 +63,16 @@ def _orders(content: Content) -> list[str]:
     for number, one in enumerate(found["orders"], 1):
         lines += [f"{number}. {one['text']}", *(f"   {why}" for why in one["why"])]
     return [*lines, found["costs"]] if lines else []
+
+
+def _limits(content: Content) -> list[str]:
+    rows = sentences.measured_limits(content)
+    if not rows:
+        return []
+    return [
+        sentences.LIMITS_STATED,
+        *tabulate(rows, sentences.LIMITS_HEAD, disable_numparse=True).splitlines(),
+    ]
 
 
 def _scatter(content: Content) -> list[str]:

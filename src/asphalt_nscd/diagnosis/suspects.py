@@ -149,6 +149,7 @@ def table(observed: Observations, found: list[Suspect], held: Held) -> pd.DataFr
         "specimen": [observed.names[k] for k in observed.specimen],
         "temperature_C": observed.isotherm,
         "frequency_Hz": observed.frequency,
+        "E_MPa": np.abs(observed.modulus) / 1e6,
         "phase_deg": np.degrees(observed.logarithm.imag),
         "phase_required_deg": np.degrees(held.required),
         "std_error_deg": np.degrees(held.required_error),

@@ -30,7 +30,7 @@ _NUMBERS += [
     for when in BEFORE_AFTER
     for column in ("E_{}_MPa", "phase_{}_deg", *RESIDUALS.values())
 ]
-_CAUSALITY = ["temperature_C", "frequency_Hz", "phase_deg"]
+_CAUSALITY = ["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
 _SHOWN = {
     "s": (1e3, "ms"), "Pa": (1e-6, "MPa"), "1/Pa": (1e12, "1/TPa"), "kg": (1e3, "g"), "deg": (1.0, "°"),
     "degC": (1.0, "°C"), "1": (1.0, ""),

@@ -47,7 +47,7 @@ def _specimen(record: Record, form: str, output: Path) -> str:
     beside = output.with_name(f"{output.stem}{BONDS}{output.suffix}")
     arrays, n = record.arrays, record.arrays["radius"].size
     ends = np.column_stack([arrays["network/first"], arrays["network/second"]])
-    own: dict[str, np.ndarray] = {name: arrays[f"network/{key}"] for name, key in _OF_BONDS.items()}
+    own = {f"{name}": arrays[f"network/{key}"] for name, key in _OF_BONDS.items()}
     if form == "csv":
         write_table(beside, pd.DataFrame({"first": ends[:, 0], "second": ends[:, 1], **own}))
     else:
@@ -60,7 +60,7 @@ def _specimen(record: Record, form: str, output: Path) -> str:
             place[used],
             {},
             lines.reshape(ends.shape),
-            {**own, "plate": np.asarray(plate.any(axis=1), np.int8)},
+            own | {"plate": np.asarray(plate.any(axis=1), np.int8)},
         )
     return f"{output}: {n} spheres; {beside.name}: {len(ends)} bonds; lengths in m, areas in m2."
 

@@ -43,7 +43,8 @@ def test_first_page_says_what_was_done_and_found(page):
     assert "do not stand for the mix" in said["simulated"][2]
     assert "(Table 4) of |E*| by 11.1 %, most at 20 °C, and of the phase by 5 %" in said["wrong"][0]
     assert "laws in their bonds miss 2.1 % and 4.9 % themselves" in said["wrong"][1]
-    assert said["verdict"].startswith("Explained: with relaxation spectrum and loose clamp (specimen 2)")
+    assert "with a relaxation spectrum and a loose clamp of specimen 2" in said["found"]["simulation"]
+    assert said["found"]["data"].startswith("all 12 tests can be used; specimen 2 carries a loose clamp")
     assert said["gained"] == [
         ("as in the paper", "11.1", "5"), ("facets", "2.5", "5"), ("spectrum", "0.6", "5"),
         ("scatter of one test", "1", "4"),
@@ -62,8 +63,21 @@ def test_what_to_beware_of_stands_on_the_first_page(page, tmp_path):
     assert html.index("<h3>Why") < html.index("Only one specimen.") < html.index("<h3>What was gained")
 
 
+def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
+    order = {
+        "text": "0.5 h: test a metal reference specimen, 25 Hz.", "why": ["As 7.1 deg."], "hours": 0.5, "nats": 3.0,
+        "specimens": ["m"], "temperature_C": None, "frequencies_Hz": [25.0], "half_strain": False,
+    }  # fmt: skip
+    html = assemble("mine", page(instructions={"costs": "c", "orders": [order]}), [], tmp_path)
+    assert (
+        "What to test next" in html
+        and "<li>0.5 h: test a metal reference specimen, 25 Hz. As 7.1°.</li>" in html
+    )
+    assert "What to test next" not in assemble("mine", page(), [], tmp_path)
+
+
 def test_no_cause_where_none_is_named(page):
-    assert page(ladder=[], verdict="nothing_to_explain")["causes"] == []
+    assert page(ladder=[], verdict="nothing_to_explain")["found"]["causes"] == []
 
 
 def test_entries_stand_in_their_parts_by_number_with_captions(page, tmp_path):

@@ -21,11 +21,16 @@ PNG_DPI = 250
 
 def save_figure(figure: Figure, stem: str | Path) -> None:
     """Write stem.pdf, stem.png and stem.svg, in the size that the figure was drawn in."""
+    for kind in _METADATA:
+        with atomic_path(f"{stem}.{kind}") as path:
+            path.write_bytes(as_bytes(figure, kind))
+
+
+def as_bytes(figure: Figure, kind: str) -> bytes:
+    """The figure as a file of one kind: pdf, png or svg."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()  # a user's matplotlibrc must not show
         matplotlib.rcParams.update(RC | {"svg.hashsalt": "asphalt-nscd"})
-        for kind, metadata in _METADATA.items():
-            content = BytesIO()  # matplotlib's own files complain again, at length, when they are closed
-            figure.savefig(content, format=kind, dpi=PNG_DPI, metadata=metadata)
-            with atomic_path(f"{stem}.{kind}") as path:
-                path.write_bytes(content.getvalue())
+        content = BytesIO()  # matplotlib's own files complain again, at length, when they are closed
+        figure.savefig(content, format=kind, dpi=PNG_DPI, metadata=_METADATA[kind])
+        return content.getvalue()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from base64 import b64encode
 from collections.abc import Sequence
 from importlib.resources import files
@@ -11,11 +12,10 @@ from typing import Any
 import pandas as pd
 from jinja2 import Environment, StrictUndefined
 
+from asphalt_nscd.diagnosis import sentences
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
-from asphalt_nscd.diagnosis.ladder import CHANCE
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
-    UNJUDGED,
     limits_by_place,
     mean_averages,
     member_name,
@@ -43,11 +43,23 @@ ORIGINS = {
     ),
     "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
 }
-MISMAPPED = "The bonds of Eqs. (30)-(33) miss the modulus of their own law."
 TABLE4 = (
     "temperature_C",
     *(f"mre_{q}_{k}_percent" for q in ("E", "phase") for k in ("published", "simulated")),
 )
+
+
+CELSIUS, DEGREES, MINUS = (
+    re.compile(r"\bdegC\b"),
+    re.compile(r"(?<=\d) deg\b"),
+    re.compile(r"(?<![\w.)])-(?=\d)"),
+)
+
+
+def in_type(text: str) -> str:
+    """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus."""
+    text = DEGREES.sub("°", CELSIUS.sub("°C", text).replace("+-", "±"))
+    return MINUS.sub("\N{MINUS SIGN}", text)
 
 
 def render(content: dict[str, Any], title: str) -> str:
@@ -55,6 +67,7 @@ def render(content: dict[str, Any], title: str) -> str:
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
+    environment.filters["in_type"] = in_type
     template = environment.from_string(
         (files("asphalt_nscd.reporting.pages") / TEMPLATE).read_text(encoding="utf-8")
     )
@@ -62,13 +75,17 @@ def render(content: dict[str, Any], title: str) -> str:
 
 
 def sections(
-    diagnosis: list[Path], map: list[Path], table4: Sequence[Path] = (), ladder: Sequence[Path] = ()
-) -> dict[str, Any]:
-    """What the page says, as text and rows of text."""
+    diagnosis: list[Path], map: list[Path], table4: Sequence[Path] = (), ladder: Sequence[Path] = (),
+    specimens: Sequence[Path] = (), causality: Sequence[Path] = (),
+) -> dict[str, Any]:  # fmt: skip
+    """What the page says, as text and rows of text. map, specimens, causality: pictures (PNG)."""
     content = read_diagnosis(diagnosis)
     rungs = content["ladder"]
     return {
-        "verdict": _verdict(content),
+        "first": first(content),
+        "pictures": {
+            name: _picture(paths) for name, paths in (("specimens", specimens), ("causality", causality))
+        },
         "origin": _origin(content["origin"]),
         "scatter": _scatter(content),
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
@@ -77,7 +94,7 @@ def sections(
         "held_out": HELD_OUT,
         "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
-        "map": b64encode(the_only(map, "map").read_bytes()).decode(),
+        "map": _picture(map),
         "unexplained": [_unexplained(row) for row in content["unexplained"]],
         "limits": _limits(content["detection_limits"]),
         "not_testable": [
@@ -86,37 +103,36 @@ def sections(
         "alike": [_members(group, content) for group in content["indistinguishable"]],
         "suspects": [_suspect(one) for one in content.get("suspect_tests", [])],
         "withdrawn": _members(content["withdrawn"], content),
-        "next": [(_cause(rung), rung["confirmed_by"]) for rung in rungs if rung["cause"] != BOND_MAPPING],
+        "confirmed_by": [
+            (_cause(rung), rung["confirmed_by"]) for rung in rungs if rung["cause"] != BOND_MAPPING
+        ],
     }
 
 
-def _verdict(content: dict[str, Any]) -> str:
-    """The verdict; a cause that others match is the likeliest. What simulations alone show stands before it."""
-    rungs = [rung for rung in content["ladder"] if rung["cause"] != BOND_MAPPING]
-    if len(rungs) < len(content["ladder"]):
-        beyond = _verdict(content | {"ladder": rungs})
-        return f"{MISMAPPED} Beyond that: {beyond[0].lower()}{beyond[1:]}"
-    causes = " and ".join(
-        f"{_cause(rung)}, or what fits no worse," if rung["as_good"] else _cause(rung)
-        for rung in content["ladder"]
-    )
-    if content["verdict"] == "nothing_to_explain" and not content["tested"]:
-        return f"Not judged: {UNJUDGED}."
-    if content["verdict"] == "nothing_to_explain":
-        return "Nothing to explain: the simulation misses these data by no more than their scatter."
-    if content["verdict"] == "explained":
-        return f"Explained: with {causes} in the simulation, what is left is the scatter of replicates."
-    left = content["largest_pattern_left"]
-    chances = [content["lack_of_fit_p_value"], *([left["p_value"]] if left else [])]
-    if causes and min(chances) > 0.5 * CHANCE:  # as `diagnose` judges either
-        return f"Not established: {causes} would explain these data, and so might what the catalogue lacks."
-    where = (
-        f", most of all at {left['pattern']} ({three_digits(left['z'])} standard deviations)" if left else ""
-    )
-    part = f"with {causes} in the simulation, " if causes else ""
-    return (
-        f"Not explained in full: {part}more than scatter is left that no cause of the catalogue fits{where}."
-    )
+def first(content: dict[str, Any]) -> dict[str, Any]:
+    """What a laboratory reads first, as the terminal says it."""
+    found = content.get("instructions", {"orders": [], "costs": ""})
+    return {
+        "test": sentences.test_type(content),
+        "data": sentences.on_data(content),
+        "simulation": sentences.on_simulation(content),
+        "not_used": [(sentences.place_of_test(one), one["reasons"]) for one in sentences.not_used(content)],
+        "with_suspects": sentences.with_suspects(content),
+        "causes": sentences.causes(content),
+        "left": sentences.left(content),
+        "orders": found["orders"],
+        "costs": found["costs"],
+        "limits_head": sentences.LIMITS_HEAD,
+        "limits_stated": sentences.LIMITS_STATED,
+        "measured_limits": [[in_type(cell) for cell in row] for row in sentences.measured_limits(content)],
+        "scatter_head": [in_type(name).replace("deg", "°") for name in sentences.SCATTER_HEAD],
+        "scatter": [[in_type(cell) for cell in row] for row in sentences.scatter_rows(content)],
+    }
+
+
+def _picture(paths: Sequence[Path]) -> str:
+    """PNG as text for an <img>; empty where there is none."""
+    return b64encode(the_only(list(paths), "picture").read_bytes()).decode() if paths else ""
 
 
 def _scatter(content: dict[str, Any]) -> str:

@@ -11,7 +11,7 @@ import pandas as pd
 from asphalt_nscd.diagnosis.written import three_digits
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.reporting.pages.diagnosis_page import sections
+from asphalt_nscd.reporting.pages.diagnosis_page import in_type, sections
 from asphalt_nscd.reporting.pages.way import inner_held_out, means, read_ladder
 
 ENOUGH = 5000  # spheres
@@ -37,13 +37,22 @@ def first_page(
         "measured": _measured(moduli, found),
         "simulated": _simulated(tests, _frame(samples, "samples")),
         "wrong": _wrong(way),
-        "verdict": found["verdict"],
-        "causes": found["ladder"],
-        "notes": found["diagnosis"]["notes"],
+        "found": {
+            name: _typed(found["first"][name])
+            for name in ("data", "simulation", "causes", "left", "with_suspects")
+        },
+        "not_used": [in_type(where) for where, _ in found["first"]["not_used"]],
+        "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in found["first"]["orders"]],
+        "notes": _typed(found["diagnosis"]["notes"]),
         "gained": _gained(way),
         "held_out": _held_out(way),
         "map": found["map"],
     }
+
+
+def _typed(value: Any) -> Any:
+    """Sentences of the terminal as they are printed."""
+    return in_type(value) if isinstance(value, str) else [_typed(part) for part in value]
 
 
 def _frame(paths: Sequence[Path], name: str) -> pd.DataFrame:

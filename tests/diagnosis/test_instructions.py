@@ -1,0 +1,111 @@
+"""Orders to a laboratory: which test is asked for, and that carrying it out does what was promised."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from test_diagnose import SCATTER, table
+
+from asphalt_nscd.diagnosis import instructions
+from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
+from asphalt_nscd.diagnosis.further_tests import METAL, Costs, possible
+from asphalt_nscd.diagnosis.information import Knowledge, Question
+from asphalt_nscd.diagnosis.observations import Observations
+
+
+@pytest.fixture(scope="module")
+def delayed() -> Diagnosis:
+    return diagnose(table(3, lambda e, s, t, w: e * np.exp(1.5e-4j * w)), draws=1000)
+
+
+@pytest.fixture(scope="module")
+def empty() -> Diagnosis:
+    return diagnose(table(4), draws=1000)
+
+
+def test_limits_of_the_linear_model_are_those_of_the_diagnosis(empty):
+    """Two ways to the same standard error: a score test of the whole table, and information of all tests."""
+    model = possible(empty, Costs())
+    information = Knowledge(model.linear, [model.old]).information
+    for k, candidate in enumerate(model.candidates):
+        limit = empty.ladder.limits.get(candidate.key)
+        if limit is None or len(candidate.values) > 1 or candidate.key[0] == "temperature_bias":
+            continue
+        strength = Question(k, limit / candidate.typical[0], (), 1e9).strength(information)
+        assert np.sqrt(strength) == pytest.approx(5.3, rel=0.2), candidate.key
+
+
+def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(delayed):
+    first = instructions.instructions(delayed)["orders"][0]
+    assert first["specimens"] == [METAL] and first["temperature_C"] is None
+    assert 40.0 in first["frequencies_Hz"]
+    (why,) = [sentence for sentence in first["why"] if "metal" in sentence]
+    assert f"{np.degrees(1.5e-4 * 80 * np.pi):.1f} deg of phase at 40 Hz" in why
+    assert len(instructions.instructions(delayed)["orders"]) <= 5
+
+
+def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
+    free, dear = (
+        [
+            one["temperature_C"]
+            for one in instructions.instructions(delayed, costs)["orders"]
+            if one["temperature_C"]
+        ]
+        for costs in (Costs(room=(-50.0, 99.0)), Costs(conditioning=200.0))
+    )
+    assert not 15.0 <= free[0] <= 25.0 and 15.0 <= dear[0] <= 25.0
+    hours = Costs().hours("a", 4.0, [0.1, 10.0])
+    assert hours == pytest.approx(0.5 + 2.0 + (200.0 + 2.0) / 3600.0 + 2.0 / 60.0)
+
+
+def test_a_test_that_cannot_be_used_is_to_be_repeated():
+    observed = table(4)
+    row = int(
+        np.flatnonzero((observed.specimen == 1) & (observed.isotherm == 0) & (observed.frequency == 10))[0]
+    )
+    modulus = observed.modulus.copy()
+    modulus[row] *= np.exp(1j * np.radians(6.0))
+    found = diagnose(replace(observed, modulus=modulus), draws=1000)
+    assert [one.row for one in found.suspects if not one.used] == [row]
+    orders = instructions.instructions(found)["orders"]
+    repeated = [one for one in orders if any("b at 0 degC, 10 Hz contradicts" in why for why in one["why"])]
+    assert [(one["specimens"], one["temperature_C"]) for one in repeated] == [(["b"], 0.0)]
+    assert 10.0 in repeated[0]["frequencies_Hz"] and not repeated[0]["half_strain"]
+
+
+def test_a_sweep_that_was_asked_for_lowers_the_limit_as_promised(empty):
+    """A bias of one isotherm: the sweep that says most of it is added to the table, which is diagnosed again."""
+    found = empty
+    model = possible(found, Costs())
+    k = next(k for k, c in enumerate(model.candidates) if c.key == ("temperature_bias", 20.0))
+    known = Knowledge(model.linear, [model.old])
+    own = [one for one in model.sweeps if one.specimen in found.observed.names and not one.half_strain]
+    more = [known.gained(one.tested)[k, k] for one in own]
+    best, least = own[int(np.argmax(more))], own[int(np.argmin(more))]
+    before = found.ladder.limits["temperature_bias", 20.0]
+    after = {}
+    for one, gained in ((best, max(more)), (least, min(more))):
+        wider = diagnose(_with(found.observed, one.specimen, one.temperature, one.frequencies), draws=1000)
+        after[one.temperature] = wider.ladder.limits["temperature_bias", 20.0]
+        promised = before * np.sqrt(known.information[k, k] / (known.information[k, k] + gained))
+        assert after[one.temperature] == pytest.approx(promised, rel=0.2)
+    assert after[best.temperature] < 0.9 * after[least.temperature]
+
+
+def _with(observed: Observations, specimen: str, temperature: float, frequencies) -> Observations:
+    """The table and one more sweep, drawn about the same law."""
+    from test_diagnose import GAMMA, LAW
+
+    random = np.random.default_rng(9)
+    f = np.array(frequencies)
+    size = f.size
+    noise = SCATTER[0] * random.standard_normal(size) + 1j * SCATTER[1] * random.standard_normal(size)
+    more = LAW.complex_modulus(2 * np.pi * f, np.full(size, temperature)) * np.exp(noise)
+    own = np.full(size, observed.names.index(specimen))
+    return Observations(
+        np.concatenate([observed.specimen, own]), observed.names,
+        np.concatenate([observed.temperature, np.full(size, temperature)]), np.concatenate([observed.frequency, f]),
+        np.concatenate([observed.modulus, more]), np.full(observed.size + size, GAMMA), np.zeros(observed.size + size),
+    )  # fmt: skip
