@@ -14,6 +14,8 @@ from asphalt_nscd.measurements.twopoint import Geometry, form_factor
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
+pytestmark = pytest.mark.slow
+
 LAW = TwoS2P1D(1e6, 42.58e9, 0.199, 0.604, 1.644, 0.14, 28.5, WLF(11.69, 79.86, 15.0))
 GAMMA = form_factor(Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235))
 SCATTER = 0.01, np.radians(0.3), 0.03
