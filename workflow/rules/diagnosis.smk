@@ -56,6 +56,8 @@ rule diagnosis_page:
     input:
         diagnosis=DIAGNOSED[0],
         map="<results>/figures/fig_residual_map.png",
+        specimens="<results>/figures/fig_specimens.png",
+        causality="<results>/figures/fig_causality_map.png",
         table4="<results>/table4.csv",
         ladder="<results>/ladder.csv",
         code=code("diagnosis-page"),
