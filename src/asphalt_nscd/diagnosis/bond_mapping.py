@@ -41,7 +41,7 @@ def simulated(campaign: str | Path, observed: Observations) -> Logarithm:
     nearest = away.argmin(axis=1)
     norm, phase = (tests[name].to_numpy(float) for name in MODULUS)
     shown = np.log(1e6 * norm) + 1j * np.radians(phase)
-    return np.where(away.min(axis=1) <= 1.0, shown[nearest], np.nan)
+    return np.where(away.min(axis=1) <= 1.0, shown[nearest], complex(np.nan, np.nan))
 
 
 def over_law(campaign: str | Path) -> pd.Series:

@@ -119,9 +119,11 @@ def with_suspects(content: Content) -> str:
     other = [cause_words(rung) for rung in with_all["causes"]]
     if other == without:
         return "With these tests used the same causes are named."
-    named = joined([an(words) for words in other]) or "nothing"
-    own = joined([an(words) for words in without]) or "nothing"
-    return f"With these tests used the diagnosis would name {named} instead of {own}."
+    more = joined([an(words) for words in other if words not in without])
+    less = joined([an(words) for words in without if words not in other], "or")
+    changes = [f"also name {more}"] if more else []
+    changes += [f"not name {less}"] if less else []
+    return f"With these tests used the diagnosis would {joined(changes)}."
 
 
 def place_of_test(one: Content) -> str:
