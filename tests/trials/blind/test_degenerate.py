@@ -114,13 +114,13 @@ def test_an_outlier_without_replicates_is_not_named(full):
 
 WRONG = {
     "NaN": (lambda t: t.assign(E_MPa=t["E_MPa"].where(t.index != 3)), r"line 5: E_MPa is empty"),
-    "radians": (lambda t: t.assign(phase_deg=np.radians(t["phase_deg"])), "if radians, multiply it by 180/pi"),
+    "radians": (lambda t: t.assign(phase_deg=np.radians(t["phase_deg"])), "if radians, multiply them by 180/pi"),
     "GPa": (lambda t: t.assign(E_MPa=t["E_MPa"] / 1000.0), "E_MPa looks like GPa, multiply by 1000"),
     "Pa": (lambda t: t.assign(E_MPa=t["E_MPa"] * 1e6), "give a positive norm of E\\* in MPa"),
     "repeated rows": (lambda t: pd.concat([t, t]), "line 122: repeats the test of line 2"),
     "three tests": (lambda t: t.head(3), "at least 4 tests and 2 frequencies"),
     "one frequency": (lambda t: t[t["frequency_Hz"] == 10.0], "at least 4 tests and 2 frequencies"),
-    "the same everywhere": (lambda t: t.assign(E_MPa=1e4, phase_deg=10.0), "copies are no replicates"),
+    "the same everywhere": (lambda t: t.assign(E_MPa=1e4, phase_deg=10.0), "copies are not replicates"),
 }  # fmt: skip
 
 
