@@ -46,6 +46,15 @@ def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(dela
     assert len(instructions.instructions(delayed)["orders"]) <= 5
 
 
+def test_metal_is_ordered_once_and_each_order_says_why(delayed, monkeypatch):
+    """However little an order may tell: once several sweeps of metal came, and orders without a reason."""
+    monkeypatch.setattr(instructions, "LEAST", 1e-9)
+    monkeypatch.setattr(instructions, "MOST", 40)
+    orders = instructions.instructions(delayed)["orders"]
+    assert sum(one["specimens"] == [METAL] for one in orders) == 1
+    assert all(one["why"] for one in orders)
+
+
 def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
     free, dear = (
         [

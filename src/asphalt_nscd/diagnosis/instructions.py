@@ -76,6 +76,7 @@ def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, 
                 "frequencies_Hz": list(one.sweep.frequencies), "half_strain": one.sweep.half_strain,
             }
             for one in chosen
+            if _reasons(one, questions)
         ],
     }  # fmt: skip
 
@@ -97,14 +98,16 @@ def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
         before = inquiry.strengths()
         inquiry.take(sweep.tested)
         after = inquiry.strengths()
-        # The part of a sweep that a question profits from most is told.
-        helped = [int(k) for k in np.argsort(-gain)[:REASONS] if gain[k] >= max(0.1 * nats, 0.05)]
+        least = [0.05 if one.kind == "metal" else max(0.1 * nats, 0.05) for one in questions]
+        helped = [int(k) for k in np.argsort(-gain) if gain[k] >= least[k]]
         if alike is None:
             alike = Order(sweep, [], 0.0, 0.0, {})
             orders.append(alike)
         alike.specimens = [
             name for name in model.table.names if name in (*alike.specimens, sweep.specimen)
         ] or [METAL]
+        if sweep.specimen == METAL:  # once it is mounted, that sweep is all that metal has to say
+            waiting = [other for other in waiting if other.specimen != METAL]
         alike.hours, alike.nats = alike.hours + sweep.hours, alike.nats + nats
         for k in helped:
             alike.helps[k] = alike.helps.get(k, (before[k], 0.0))[0], after[k]
@@ -226,6 +229,8 @@ def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
 def _reason(one: Open, before: float, after: float) -> str:
     if one.kind == "kept":
         errors = [f"{np.sqrt(strength):.1f}" for strength in (before, after)]
+        if errors[0] == errors[1]:
+            return ""
         return (
             f"The {one.about} should then show without {one.other} too, by {errors[1]} standard errors "
             f"(now {errors[0]})."
