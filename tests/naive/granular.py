@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.nscd.spheres.gauss_seidel import ROUND
+from asphalt_nscd.nscd.spheres.gauss_seidel import RELAXATION, ROUND
 
 
 def all_pairs(position, radius, plane_point, plane_normal, reach):
@@ -28,10 +28,11 @@ def all_pairs(position, radius, plane_point, plane_normal, reach):
 def naive_step(
     position, radius, velocity, mass, plane_point, plane_normal, gravity, impulses, *, dt, friction,
     restitution, recovery_speed, allowed_overlap, margin, tolerance, most_sweeps,
-    penetration=np.inf, enough_sweeps=10**9, drive=(0.0, 0.0),
+    penetration=np.inf, enough_sweeps=10**9, drive=(0.0, 0.0), slabs,
 ):  # fmt: skip
     """Returns (position, velocity, impulses) after dt. impulses: {(i, j): (3,)} acts on body j.
 
+    slabs: {(i, j): number} of the slab of each pair in the order of visits, -1 where it is with the last body.
     velocity (n + p, 6): linear and angular velocity times radius; planes last, prescribed. A mass (n + 1,)
     is that of the last plane too, which its drive (speed, largest push) moves along z.
     """
@@ -82,26 +83,28 @@ def naive_step(
             target = -restitution * before
         contacts.append((i, j, frame, on_first, on_second, delassus, target))
 
+    contacts = in_order_of_visits(contacts, slabs)
     new = free
     local = [frame @ impulses.get((i, j), np.zeros(3)) for i, j, frame, *_ in contacts]
     for (i, j, _, on_first, on_second, *_), r in zip(contacts, local):
         new[i] += inverse[i] * (on_first.T @ r)
         new[j] += inverse[j] * (on_second.T @ r)
     lead()
-    lively, size = [], 0.0
+    lively, size = [], sum(r @ r for r in local)
     for sweep in range(most_sweeps):
-        round_, turn = divmod(sweep, ROUND)
+        turn = sweep % ROUND
         quiet = tolerance**2 * size / max(len(contacts), 1)
-        if turn == 0:  # all, up the list and down by turns
-            order = range(len(contacts))[:: -1 if round_ % 2 else 1]
+        if turn == 0:  # all
+            order = range(len(contacts))
             lively, changed, size, fastest = [], 0.0, 0.0, 0.0
         else:  # those whose impulse changed then
-            order = lively[:: -1 if turn % 2 else 1]
+            order = lively
         for c in order:
             i, j, _, on_first, on_second, delassus, target = contacts[c]
             opening = on_first @ new[i] + on_second @ new[j] - [target, 0, 0]
             excess = -opening[0]
-            r = coulomb(delassus, opening - delassus @ local[c], friction)
+            pace = delassus if turn in (0, ROUND - 1) else delassus / RELAXATION
+            r = coulomb(pace, opening - pace @ local[c], friction)
             delta, local[c] = r - local[c], r
             new[i] += inverse[i] * (on_first.T @ delta)
             new[j] += inverse[j] * (on_second.T @ delta)
@@ -116,6 +119,18 @@ def naive_step(
             break
     carried = {(i, j): frame.T @ r for (i, j, frame, *_), r in zip(contacts, local)}
     return position + dt * new[:n, :3], new, carried
+
+
+def in_order_of_visits(contacts, slabs):
+    """The last body, slabs of even number, slabs of odd number; last, those too far apart for the list."""
+    place = {pair: at for at, pair in enumerate(slabs)}
+
+    def order(contact):
+        pair = contact[:2]
+        number = slabs.get(pair, 0)
+        return pair not in slabs, number >= 0, number % 2, number, place.get(pair, 0)
+
+    return sorted(contacts, key=order)
 
 
 def coulomb(delassus, free, friction):

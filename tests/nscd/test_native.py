@@ -9,7 +9,7 @@ import pytest
 from numba import carray, cfunc, types
 
 from asphalt_nscd.nscd import native
-from asphalt_nscd.nscd.stepping.reduced_steps import advance_reduced
+from asphalt_nscd.nscd.stepping.reduced_steps import ReducedRun, advance_reduced
 
 
 @cfunc(types.float64(types.CPointer(types.float64), types.intp), error_model="numpy")
@@ -75,4 +75,4 @@ def test_arrays_of_another_kind_are_refused():
         (7, np.asfortranarray(np.eye(3)[:, :2])),
     ):
         with pytest.raises(TypeError, match="the kernel takes it for another"):
-            advance_reduced(*arguments[:place], wrong, *arguments[place + 1 :])
+            advance_reduced(ReducedRun(*arguments[:place], wrong, *arguments[place + 1 :]))

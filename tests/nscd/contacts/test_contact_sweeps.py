@@ -7,6 +7,7 @@ import pytest
 from naive.friction import naive_extrapolation, naive_natural_map, naive_sweep, nearest_in_cone, one_contact
 from scipy import sparse
 
+from asphalt_nscd.nscd.contacts import coulomb
 from asphalt_nscd.nscd.contacts import gauss_seidel as kernels
 from asphalt_nscd.nscd.contacts.problem import ContactProblem
 
@@ -27,7 +28,7 @@ def test_one_contact(friction):
         w = factor @ factor.T + 3.0 * np.eye(3)
         q = rng.normal(-0.5, 1.0, 3)
         expected = one_contact(w, q, friction)
-        found = np.array(kernels.one_contact(w, *q, friction))
+        found = np.array(coulomb.one_contact(w, *q, friction))
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13)
         slip = np.linalg.norm((w @ found + q)[1:]) > 1e-12
         seen.add("open" if found[0] == 0 else "slip" if slip else "stick")
@@ -36,8 +37,8 @@ def test_one_contact(friction):
 
 def test_one_contact_without_tangential_motion():
     """A sphere pressed head-on whose block is singular in the tangential plane."""
-    assert kernels.one_contact(np.diag([2.0, 0.0, 0.0]), -2.0, 0.0, 0.0, 0.3) == (1.0, 0.0, 0.0)
-    n, t, s = kernels.one_contact(np.diag([2.0, 0.0, 0.0]), -2.0, 3.0, 4.0, 0.5)  # slips
+    assert coulomb.one_contact(np.diag([2.0, 0.0, 0.0]), -2.0, 0.0, 0.0, 0.3) == (1.0, 0.0, 0.0)
+    n, t, s = coulomb.one_contact(np.diag([2.0, 0.0, 0.0]), -2.0, 3.0, 4.0, 0.5)  # slips
     np.testing.assert_allclose((n, t, s), (1.0, -0.3, -0.4), rtol=1e-9)
 
 
@@ -86,7 +87,7 @@ def test_natural_map_of_what_is_not_finite():
 @pytest.mark.parametrize("friction", [0.0, 0.4, 3.0])
 def test_projection(friction):
     for z in np.random.default_rng(2).normal(size=(40, 3)):
-        found = kernels.project_on_cone(*z, friction)
+        found = coulomb.project_on_cone(*z, friction)
         np.testing.assert_allclose(found, nearest_in_cone(z, friction), rtol=0, atol=1e-14)
 
 

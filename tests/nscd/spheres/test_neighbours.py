@@ -7,11 +7,13 @@ import pytest
 from naive.granular import all_pairs
 
 from asphalt_nscd.nscd.spheres.neighbours import (
+    Reach,
     carry_reactions,
     closing_speeds,
     find_pairs,
     find_pairs_within,
 )
+from asphalt_nscd.nscd.team import Team
 
 NO_PLANES = np.empty((0, 3))
 
@@ -70,7 +72,7 @@ def test_reactions_follow_their_pairs():
     kept = dict(zip(listed(start, other), reaction))
     moved = position + rng.normal(0, 5e-4, position.shape)
     new_start, new_other = find_pairs(moved, radius, point, normal, 1e-3)
-    carried = carry_reactions(start, other, reaction, new_start, new_other)
+    carried = carry_reactions(Team(), start, other, reaction, new_start, new_other)
     pairs = listed(new_start, new_other)
     for pair, value in zip(pairs, carried):
         np.testing.assert_array_equal(value, kept.get(pair, np.zeros(3)))
@@ -83,16 +85,42 @@ def test_spheres_that_join_start_without_reactions():
     position, radius = cloud(rng, 60, 1.2e-2, 3.0)
     planes = np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])
     reach = np.full(60, 1e-3)
-    few = find_pairs_within(position[:40], radius[:40], *planes, reach[:40], 0.0 * reach[:40], reach[:1], 60)
-    all_ = find_pairs_within(position, radius, *planes, reach, 0.0 * reach, reach[:1], 60)
+    few = find_pairs_within(
+        Team(), position[:40], radius[:40], *planes, Reach(reach[:40], 0.0 * reach[:40], reach[:1]), 60
+    )
+    all_ = find_pairs_within(Team(), position, radius, *planes, Reach(reach, 0.0 * reach, reach[:1]), 60)
     reaction = rng.normal(size=(few[1].size, 3))
     kept = dict(zip(listed(*few), reaction))
-    carried = carry_reactions(*few, reaction, *all_)
+    carried = carry_reactions(Team(), *few, reaction, *all_)
     for pair, value in zip(listed(*all_), carried):
         np.testing.assert_array_equal(value, kept.get(pair, np.zeros(3)))
     assert 50 < len(kept) < len(carried)
-    nobody = find_pairs_within(position[:0], radius[:0], *planes, reach[:0], reach[:0], reach[:1], 60)
+    nobody = find_pairs_within(
+        Team(), position[:0], radius[:0], *planes, Reach(reach[:0], reach[:0], reach[:1]), 60
+    )
     assert (nobody[0].tolist(), nobody[1].size) == ([0], 0)
+
+
+def test_a_team_finds_the_same_pairs_and_carries_the_same_reactions():
+    """More members than spheres among them: some find nothing."""
+    rng = np.random.default_rng(6)
+    for n in (2, 150):
+        position, radius = cloud(rng, n, 2e-2, 4.0)
+        planes, reach = (np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])), rng.uniform(0.0, 4e-3, n)
+        found = []
+        for members in (1, 2, 3):
+            with Team(members) as team:
+                few = find_pairs_within(
+                    team, position, radius, *planes, Reach(0.5 * reach, 0.0 * reach, reach[:1]), n
+                )
+                all_ = find_pairs_within(
+                    team, position, radius, *planes, Reach(reach, 0.0 * reach, reach[:1]), n
+                )
+                reaction = np.arange(3.0 * few[1].size).reshape(-1, 3)
+                found.append((*all_, carry_reactions(team, *few, reaction, *all_)))
+        for one, two, three in zip(*found):
+            np.testing.assert_array_equal(one, two)
+            np.testing.assert_array_equal(one, three)
 
 
 def test_each_sphere_with_a_reach_of_its_own():
@@ -102,8 +130,16 @@ def test_each_sphere_with_a_reach_of_its_own():
     point, normal = np.zeros((2, 3)), np.array([[0.0, 0.0, 1.0]] * 2)
     reach, plane_reach = rng.uniform(0.0, 4e-3, 150), np.array([1e-3, 3e-3])
     extra = np.where(rng.random(150) < 0.2, 1e-3, 0.0)
-    found = set(listed(*find_pairs_within(position, radius, point, normal, reach, extra, plane_reach, 150)))
-    later = set(listed(*find_pairs_within(position, radius, point, normal, reach, extra, plane_reach, 170)))
+    found = set(
+        listed(
+            *find_pairs_within(Team(), position, radius, point, normal, Reach(reach, extra, plane_reach), 150)
+        )
+    )
+    later = set(
+        listed(
+            *find_pairs_within(Team(), position, radius, point, normal, Reach(reach, extra, plane_reach), 170)
+        )
+    )
     assert later == {(i, j + 20 if j >= 150 else j) for i, j in found}
     far = all_pairs(position, radius, point, normal, 6e-3)
 

@@ -42,9 +42,13 @@ class PackedBonds:
         self._packed[:, 18:] = arm.reshape(-1, 6)
 
     def sweep_until_still(
-        self, explicit: np.ndarray, reaction: np.ndarray, velocity: np.ndarray, tolerance: float,
+        self,
+        explicit: np.ndarray,
+        reaction: np.ndarray,
+        velocity: np.ndarray,
+        tolerance: float,
         most_sweeps: int,
-    ) -> tuple[np.ndarray, np.ndarray, int, float]:  # fmt: skip
+    ) -> tuple[np.ndarray, np.ndarray, int, float]:
         """(reaction [N], velocity, sweeps, relative change of the last sweep) from those at the start.
 
         explicit b (3 b,) [m/s], reaction R (3 b,) [N], velocity (d,) [m/s, rad/s] that goes with it.

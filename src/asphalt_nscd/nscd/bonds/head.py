@@ -28,9 +28,11 @@ class HeadDevices:
     def of_head(self) -> tuple[float, float, float, float]:
         """(C, k, F_s, m), for the compiled functions."""
         return (
-            float(self.clamp_compliance), float(self.guide_stiffness), float(self.guide_friction),
+            float(self.clamp_compliance),
+            float(self.guide_stiffness),
+            float(self.guide_friction),
             float(self.head_mass),
-        )  # fmt: skip
+        )
 
 
 RIGID = HeadDevices()

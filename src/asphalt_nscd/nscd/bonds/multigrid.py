@@ -92,8 +92,14 @@ def _aggregated(matrix: sparse.bsr_matrix, modes: np.ndarray) -> Any:
     np.random.seed(0)
     try:
         return pyamg.smoothed_aggregation_solver(
-            matrix, B=modes, strength=("symmetric", {"theta": 0.0}), presmoother=SMOOTHER,
-            postsmoother=SMOOTHER, improve_candidates=None, max_coarse=60, coarse_solver="splu",
-        )  # fmt: skip
+            matrix,
+            B=modes,
+            strength=("symmetric", {"theta": 0.0}),
+            presmoother=SMOOTHER,
+            postsmoother=SMOOTHER,
+            improve_candidates=None,
+            max_coarse=60,
+            coarse_solver="splu",
+        )
     finally:
         np.random.set_state(random)

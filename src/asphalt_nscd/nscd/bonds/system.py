@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
+from asphalt_nscd.nscd.bonds.strength import utilisations
 from asphalt_nscd.nscd.compiled import compiled
 
 
@@ -59,9 +60,7 @@ class BondedSystem:
 
     def utilisation(self, reaction: np.ndarray) -> np.ndarray:
         """Yield measure (b,): tension or tangential force over strength; above one a bond breaks."""
-        reaction = reaction.reshape(-1, 3)
-        shear = np.hypot(reaction[:, 1], reaction[:, 2])
-        return np.maximum(-reaction[:, 0], shear) / self.strength
+        return utilisations(reaction, self.strength)
 
 
 def opening_operator(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled
+from asphalt_nscd.nscd.contacts.coulomb import one_contact, project_on_cone
 
 _DEPTH = 4  # sweeps that an extrapolation looks back on; more save nothing
 _CHECK = 10  # sweeps between two computations of the error
@@ -122,56 +123,6 @@ def sweep_once(start, other, block, q, friction, r):
 
 
 @compiled
-def one_contact(w, q0, q1, q2, mu):
-    """Reaction of one contact with full 3 x 3 block w and free velocity q.
-
-    Slip means r_T = -u_T / s with s > 0. With r_n eliminated by u_n = 0 there remains
-    (A + s) r_T = -g, and s follows from |r_T| = mu r_n: Newton's method on the difference of the
-    reciprocals, kept within bounds. s = 0 is sticking.
-    """
-    if q0 >= 0.0 or w[0, 0] <= 0.0:
-        return 0.0, 0.0, 0.0
-    stopping = -q0 / w[0, 0]
-    if mu == 0.0:
-        return stopping, 0.0, 0.0
-    b1, b2 = w[0, 1] / w[0, 0], w[0, 2] / w[0, 0]
-    a11, a12 = w[1, 1] - w[1, 0] * b1, w[1, 2] - w[1, 0] * b2
-    a21, a22 = w[2, 1] - w[2, 0] * b1, w[2, 2] - w[2, 0] * b2
-    g1, g2 = q1 + w[1, 0] * stopping, q2 + w[2, 0] * stopping
-    if g1 == 0.0 and g2 == 0.0:
-        return stopping, 0.0, 0.0
-    trace = a11 + a22
-    low, high = 0.0, np.inf
-    s = 0.0 if a11 * a22 - a12 * a21 > 1e-14 * trace * trace else 1e-12 * (trace + w[0, 0])
-    n = x = y = 0.0
-    for step in range(100):
-        determinant = (a11 + s) * (a22 + s) - a12 * a21
-        x = (a12 * g2 - (a22 + s) * g1) / determinant
-        y = (a21 * g1 - (a11 + s) * g2) / determinant
-        n = stopping - b1 * x - b2 * y
-        tangential = np.sqrt(x * x + y * y)
-        excess = tangential - mu * n
-        if (step == 0 and excess <= 0.0) or abs(excess) <= 1e-15 * tangential:
-            break
-        if excess > 0.0:
-            low = s
-        else:
-            high = s
-        if high < np.inf and high - low <= 4e-16 * high:
-            break
-        new = -1.0
-        if n > 0.0:
-            dx = (a12 * y - (a22 + s) * x) / determinant
-            dy = (a21 * x - (a11 + s) * y) / determinant
-            slope = (b1 * dx + b2 * dy) / (mu * n * n) + (x * dx + y * dy) / tangential**3
-            new = s + (1.0 / tangential - 1.0 / (mu * n)) / slope if slope != 0.0 else -1.0
-        if not low < new < high:
-            new = 0.5 * (low + high) if high < np.inf else 8.0 * max(s, 0.05 * (trace + w[0, 0]))
-        s = new
-    return n, x, y
-
-
-@compiled
 def natural_map(start, other, block, q, friction, length, part, r):
     """Two errors of reactions r (3 c,): as Siconos states it, and free of units; infinite where r is.
 
@@ -213,16 +164,3 @@ def natural_map(start, other, block, q, friction, length, part, r):
         missed = max(distance[k], _ROUNDING**2 * pressing[k])
         worst = max(worst, missed / max(available[k], faint))
     return np.sqrt(plain / max(frees, forces, speeds, tiny)), np.sqrt(worst)
-
-
-@compiled
-def project_on_cone(n, t, s, friction):
-    """Nearest point of the cone |(t, s)| <= friction n."""
-    tangential = np.sqrt(t * t + s * s)
-    if tangential <= friction * n:
-        return n, t, s
-    if friction * tangential <= -n:
-        return 0.0, 0.0, 0.0
-    height = (n + friction * tangential) / (1.0 + friction * friction)
-    scale = friction * height / tangential if tangential > 0.0 else 0.0
-    return height, scale * t, scale * s

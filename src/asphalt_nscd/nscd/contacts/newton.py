@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from asphalt_nscd.nscd.contacts.coulomb import projections
 from asphalt_nscd.nscd.contacts.problem import ContactProblem
 
 
@@ -50,31 +51,12 @@ def linearised(problem: ContactProblem, r: np.ndarray) -> tuple[np.ndarray, np.n
     slip = np.hypot(u[:, 1], u[:, 2])
     z = r.reshape(-1, 3) - rho[:, None] * u
     z[:, 0] -= rho * mu * slip
-    point, projection = _projection(z, mu)
+    point, projection = projections(z, mu)
     along = u[:, 1:] / np.where(slip > 0.0, slip, 1.0)[:, None]
     shift = np.tile(np.eye(3), (mu.size, 1, 1))
     shift[:, 0, 1:] = mu[:, None] * along
     by_velocity = rho[:, None, None] * (projection @ shift)
     return r - point.ravel(), np.eye(3) - projection, by_velocity
-
-
-def _projection(z: np.ndarray, mu: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Nearest points of the cones (c, 3), and the derivatives (c, 3, 3)."""
-    tangential = np.hypot(z[:, 1], z[:, 2])
-    inside = tangential <= mu * z[:, 0]
-    outside = mu * tangential <= -z[:, 0]
-    direction = z[:, 1:] / np.where(tangential > 0.0, tangential, 1.0)[:, None]
-    share = 1.0 / (1.0 + mu * mu)
-    height = share * (z[:, 0] + mu * tangential)
-    edge = np.column_stack([np.ones_like(mu), mu[:, None] * direction])
-    point = height[:, None] * edge
-    derivative = share[:, None, None] * edge[:, :, None] * edge[:, None, :]
-    across = np.eye(2) - direction[:, :, None] * direction[:, None, :]
-    round_cone = mu * height / np.where(tangential > 0.0, tangential, 1.0)
-    derivative[:, 1:, 1:] += round_cone[:, None, None] * across
-    point[inside], derivative[inside] = z[inside], np.eye(3)
-    point[outside & ~inside], derivative[outside & ~inside] = 0.0, 0.0
-    return point, derivative
 
 
 def _norm(problem: ContactProblem, weight: np.ndarray, r: np.ndarray) -> float:

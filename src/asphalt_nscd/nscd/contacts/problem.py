@@ -64,9 +64,17 @@ class ContactProblem:
         length = 3.0 / np.where(trace > 1e-14 * usual, trace, usual)
         coupled = sparse.csr_array((np.ones(row.size), blocks.indices, blocks.indptr), (contacts, contacts))
         return cls(
-            matrix, blocks.indptr.astype(np.int64), blocks.indices.astype(np.int64), row, own, blocks.data,
-            q, friction, length, connected_components(coupled, directed=False)[1].astype(np.int64),
-        )  # fmt: skip
+            matrix,
+            blocks.indptr.astype(np.int64),
+            blocks.indices.astype(np.int64),
+            row,
+            own,
+            blocks.data,
+            q,
+            friction,
+            length,
+            connected_components(coupled, directed=False)[1].astype(np.int64),
+        )
 
     def velocity(self, r: np.ndarray) -> np.ndarray:
         """u = W r + q."""
@@ -81,9 +89,17 @@ class ContactProblem:
     def sweeps(self, tolerance: float, most_sweeps: int, first: np.ndarray) -> tuple[np.ndarray, int]:
         """Reactions by accelerated sweeps from `first` (3 c,), and how many."""
         return accelerated_sweeps(
-            self.start, self.other, self.block, self.free_velocity, self.friction, self.length, self.part,
-            tolerance, most_sweeps, first,
-        )  # fmt: skip
+            self.start,
+            self.other,
+            self.block,
+            self.free_velocity,
+            self.friction,
+            self.length,
+            self.part,
+            tolerance,
+            most_sweeps,
+            first,
+        )
 
     def factor(self, block: np.ndarray, pressed: np.ndarray | None = None) -> SuperLU | None:
         """Factors of the matrix with other blocks in the places of W; None if it is singular.

@@ -60,6 +60,8 @@ def softened(problem: ContactProblem, damping: float, r: np.ndarray) -> ContactP
     block[problem.own] += added[:, None, None] * np.eye(3)
     each = np.repeat(added, 3)
     return replace(
-        problem, block=block, matrix=sparse.csr_array(problem.matrix + sparse.diags_array(each)),
+        problem,
+        block=block,
+        matrix=sparse.csr_array(problem.matrix + sparse.diags_array(each)),
         free_velocity=problem.free_velocity - each * r,
-    )  # fmt: skip
+    )

@@ -7,40 +7,78 @@ of each sphere as bodies N, N+1, ...
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
-from asphalt_nscd.nscd.compiled import compiled
+from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
+from asphalt_nscd.nscd.team import Team, share
 
 
-@compiled
+class Reach(NamedTuple):
+    """Gaps [m] below which a pair is listed."""
+
+    sphere: np.ndarray  # (n,) of the larger sphere of a pair
+    extra: np.ndarray  # (n,) on top of it, of both spheres, and of the sphere at a plane
+    plane: np.ndarray  # (p,)
+
+
 def find_pairs(position, radius, plane_point, plane_normal, reach):
     """Pairs whose gap is below `reach` [m]; see find_pairs_within."""
     n, planes = position.shape[0], plane_point.shape[0]
-    return find_pairs_within(
-        position, radius, plane_point, plane_normal, np.full(n, reach), np.zeros(n), np.full(planes, reach), n
-    )
+    everywhere = Reach(np.full(n, reach), np.zeros(n), np.full(planes, reach))
+    return find_pairs_within(Team(), position, radius, plane_point, plane_normal, everywhere, n)
 
 
-@compiled
-def find_pairs_within(position, radius, plane_point, plane_normal, reach, extra, plane_reach, first_plane):
-    """Pairs whose gap is below reach (n,) [m] of their larger sphere and extra (n,) [m] of both.
-
-    A plane's is below plane_reach (p,) [m] and the extra of the sphere.
+def find_pairs_within(team, position, radius, plane_point, plane_normal, reach, first_plane):
+    """Pairs whose gap is within their Reach, searched by a team.
 
     position (n, 3) [m], radius (n,) [m]; planes by point (p, 3) [m] and unit normal (p, 3) that
     points to the spheres. Returns (start, other): sphere i is paired with bodies
     other[start[i]:start[i + 1]], ascending; body first_plane + k is plane k. Each pair appears once, under
     its larger sphere (under the lower index when equal).
     """
-    n = position.shape[0]
-    if n == 0:
+    if position.shape[0] == 0:
         return np.zeros(1, np.int64), np.empty(0, np.int64)
-    cell, low, shape = _grid(position, radius, reach)
-    first, members, sorted_sphere = _fill_cells(position, radius, extra, cell, low, shape)
+    cells = _fill_cells(position, radius, reach.sphere, reach.extra)
+    work = ((2.0 * radius + reach.sphere + reach.extra.max()) ** 3).cumsum()  # volume that is looked through
+    parts = np.searchsorted(work, work[-1] / team.members * np.arange(1, team.members))
+    bounds = np.array([0, *parts, radius.size])
+    found = team.run(
+        _partners, bounds, position, radius, plane_point, plane_normal, *reach, first_plane, *cells
+    )
+    start = np.concatenate([[0], *(counts for counts, _ in found)]).cumsum()
+    return start, np.concatenate([other for _, other in found])
+
+
+@compiled_for_teams
+def _partners(
+    rank,
+    members,
+    barrier,
+    bounds,
+    position,
+    radius,
+    plane_point,
+    plane_normal,
+    reach,
+    extra,
+    plane_reach,
+    first_plane,
+    cell,
+    low,
+    shape,
+    first,
+    inside,
+    sphere,
+):
+    """How many bodies each sphere in the share of a member, from its bound to the next, is paired with, and which."""
+    begin, stop = bounds[rank], bounds[rank + 1]
     furthest = extra.max()
-    start = np.zeros(n + 1, np.int64)
-    other = np.empty(16 * n + 64, np.int64)
-    for i in range(n):
+    count = np.zeros(stop - begin, np.int64)
+    other = np.empty(16 * (stop - begin) + 64, np.int64)
+    end = 0
+    for i in range(begin, stop):
         while True:
             found = _candidates(
                 i,
@@ -52,16 +90,16 @@ def find_pairs_within(position, radius, plane_point, plane_normal, reach, extra,
                 low,
                 shape,
                 first,
-                members,
-                sorted_sphere,
+                inside,
+                sphere,
                 other,
-                start[i],
+                end,
             )
-            end = start[i] + found + plane_point.shape[0]
-            if end <= other.shape[0]:
+            needed = end + found + plane_point.shape[0]
+            if needed <= other.shape[0]:
                 break
-            other = np.concatenate((other, np.empty(max(end, other.shape[0]), np.int64)))
-        _sort(other, start[i], start[i] + found)
+            other = np.concatenate((other, np.empty(max(needed, other.shape[0]), np.int64)))
+        _sort(other, end, end + found)
         found += _planes_near(
             i,
             position,
@@ -71,10 +109,11 @@ def find_pairs_within(position, radius, plane_point, plane_normal, reach, extra,
             plane_reach + extra[i],
             first_plane,
             other,
-            start[i] + found,
+            end + found,
         )
-        start[i + 1] = start[i] + found
-    return start, other[: start[n]].copy()
+        count[i - begin] = found
+        end += found
+    return count, other[:end]
 
 
 @compiled
@@ -112,34 +151,40 @@ def closing_speeds(position, radius, velocity, reach):
     return bound
 
 
-@compiled
-def carry_reactions(old_start, old_other, old_reaction, start, other):
+def carry_reactions(team, old_start, old_other, old_reaction, start, other):
     """Reactions of the old pair list moved to the new one (zero where a pair is new); spheres may join."""
-    reaction = np.zeros((other.shape[0], 3))
-    for i in range(min(start.shape[0], old_start.shape[0]) - 1):
-        k = old_start[i]
-        for c in range(start[i], start[i + 1]):
-            while k < old_start[i + 1] and old_other[k] < other[c]:
-                k += 1
-            if k < old_start[i + 1] and old_other[k] == other[c]:
-                reaction[c] = old_reaction[k]
+    reaction = np.empty((other.shape[0], 3))
+    team.run(_carry, old_start, old_other, old_reaction, start, other, reaction)
     return reaction
 
 
-@compiled
-def _grid(position, radius, reach):
+@compiled_for_teams
+def _carry(rank, members, barrier, old_start, old_other, old_reaction, start, other, reaction):
+    begin, end = share(rank, members, start.shape[0] - 1)
+    for i in range(begin, end):
+        k, last = 0, 0
+        if i < old_start.shape[0] - 1:
+            k, last = old_start[i], old_start[i + 1]
+        for c in range(start[i], start[i + 1]):
+            while k < last and old_other[k] < other[c]:
+                k += 1
+            known = k < last and old_other[k] == other[c]
+            for d in range(3):
+                reaction[c, d] = old_reaction[k, d] if known else 0.0
+
+
+@compiled_for_teams
+def _fill_cells(position, radius, reach, extra):
+    """(cell, low, shape, first, members, sphere): width [m], origin and number of the cells.
+
+    Cell k holds members[first[k]:first[k + 1]], spheres x, y, z, radius, extra.
+    """
     cell = 2.0 * radius.min() + reach.min()
     low = np.empty(3)
     shape = np.empty(3, np.int64)
     for k in range(3):
         low[k] = position[:, k].min()
         shape[k] = int((position[:, k].max() - low[k]) / cell) + 1
-    return cell, low, shape
-
-
-@compiled
-def _fill_cells(position, radius, extra, cell, low, shape):
-    """(first, members, sphere): cell k holds members[first[k]:first[k + 1]], spheres x, y, z, radius, extra."""
     n = position.shape[0]
     index = np.empty(n, np.int64)
     first = np.zeros(shape[0] * shape[1] * shape[2] + 1, np.int64)
@@ -160,18 +205,16 @@ def _fill_cells(position, radius, extra, cell, low, shape):
         sphere[at, 3] = radius[i]
         sphere[at, 4] = extra[i]
         cursor[index[i]] += 1
-    return first, members, sphere
+    return cell, low, shape, first, members, sphere
 
 
-@compiled
+@compiled_for_teams
 def _cells_between(start, end, cell, cells):
     return max(0, int(np.floor(start / cell))), min(cells - 1, int(np.floor(end / cell)))
 
 
-@compiled
-def _candidates(
-    i, position, radius, reach, furthest, cell, low, shape, first, members, sphere, out, offset
-):  # fmt: skip
+@compiled_for_teams
+def _candidates(i, position, radius, reach, furthest, cell, low, shape, first, members, sphere, out, offset):
     """Count the partners of sphere i; write them from `offset` on as far as `out` has room."""
     x, y, z, size = position[i, 0], position[i, 1], position[i, 2], radius[i]
     spread = 2.0 * size + reach + furthest
@@ -194,7 +237,7 @@ def _candidates(
     return found
 
 
-@compiled
+@compiled_for_teams
 def _sort(numbers, begin, end):
     """By insertion, which is fastest for the few partners of a sphere."""
     for k in range(begin + 1, end):
@@ -206,7 +249,7 @@ def _sort(numbers, begin, end):
         numbers[m] = number
 
 
-@compiled
+@compiled_for_teams
 def _planes_near(i, position, radius, plane_point, plane_normal, reach, first_plane, out, offset):
     """Count the planes near sphere i and write them from `offset` on."""
     found = 0

@@ -100,9 +100,11 @@ class BondBounds:
         left = ~chosen
         travel = self.closed[left] * self.gap[left, None]
         rest = Rest(
-            self.utilised[left].max(axis=0, initial=0.0), self.closed[left].max(axis=0, initial=0.0),
-            travel.max(axis=0, initial=0.0), float(self.gap[left].min(initial=np.inf)),
-        )  # fmt: skip
+            self.utilised[left].max(axis=0, initial=0.0),
+            self.closed[left].max(axis=0, initial=0.0),
+            travel.max(axis=0, initial=0.0),
+            float(self.gap[left].min(initial=np.inf)),
+        )
         listed = BondBounds(
             self.number[chosen], self.utilised[chosen], self.closed[chosen], self.gap[chosen], rest
         )

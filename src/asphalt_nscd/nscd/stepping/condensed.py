@@ -51,9 +51,14 @@ class CondensedStepper:
     """
 
     def __init__(
-        self, system: BondedSystem, law: BondLaw, dt: float, state: CondensedState,
-        devices: HeadDevices = RIGID, actuator: float = 0.0,
-    ) -> None:  # fmt: skip
+        self,
+        system: BondedSystem,
+        law: BondLaw,
+        dt: float,
+        state: CondensedState,
+        devices: HeadDevices = RIGID,
+        actuator: float = 0.0,
+    ) -> None:
         """actuator: its displacement [m] at `state`."""
         self.system, self.step_law, self.dt, self.state = system, law.step(dt), dt, state
         self.devices, self.actuator = devices, actuator
@@ -96,9 +101,14 @@ class CondensedStepper:
         self.utilisation = float(utilisation[worst])
         head = system.driven
         force = actuator_force(
-            self.devices.of_head, dt, self.missing[head], friction, state.displacement[head],
-            state.velocity[head], velocity[head],
-        )  # fmt: skip
+            self.devices.of_head,
+            dt,
+            self.missing[head],
+            friction,
+            state.displacement[head],
+            state.velocity[head],
+            velocity[head],
+        )
         self.actuator += dt * driven_velocity
         state.displacement = state.displacement + dt * velocity
         state.velocity, state.sigma, state.kelvin = velocity, sigma, kelvin
@@ -150,9 +160,14 @@ class CondensedStepper:
         def follow(contact_force: np.ndarray) -> tuple[float, float]:
             free_force = -float(following @ (impulse / dt + contact_force))
             return follow_actuator(
-                self.devices.of_head, dt, free_force, impedance, self.actuator + dt * driven_velocity,
-                state.displacement[head], state.velocity[head],
-            )  # fmt: skip
+                self.devices.of_head,
+                dt,
+                free_force,
+                impedance,
+                self.actuator + dt * driven_velocity,
+                state.displacement[head],
+                state.velocity[head],
+            )
 
         def yields(head_velocity: float) -> float:
             """How much faster the head would go under the contact forces of this head velocity."""

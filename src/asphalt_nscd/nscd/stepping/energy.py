@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -72,20 +72,20 @@ class EnergyAccount:
         self, stepper: Any, dt: float, force: float, before: History, base: History, after: History
     ) -> None:
         """Add a step of length dt [s] that `stepper` made from `base` to `after`; force [N] of the actuator."""
-        strain, inertia, load, head = forms(stepper)
+        of = forms(stepper)
         sums, scale = self.sums, dt / stepper.dt
-        old = self._stores(stepper, strain, inertia, load, head, before, before)
+        old = self._stores(stepper, of, before, before)
         if len(stepper.state.broken) != self._broken:
             sums.fracture += sums.springs - old["springs"]
             self._broken = len(stepper.state.broken)
-        new = self._stores(stepper, strain, inertia, load, head, after, after)
-        taken = self._stores(stepper, strain, inertia, load, head, after, _difference(after, base), 1.0)
+        new = self._stores(stepper, of, after, after)
+        taken = self._stores(stepper, of, after, _difference(after, base), 1.0)
         for name in new:
             sums.numerical += scale * taken[name] - (new[name] - old[name])
             setattr(sums, name, new[name])
         sums.actuator += scale * force * (after.actuator - base.actuator)
         sigma = after.values["sigma"]
-        sums.dashpots += dt * strain(sigma, sigma) / self.law.dashpot
+        sums.dashpots += dt * of.strain(sigma, sigma) / self.law.dashpot
         for viscosity, now, then in zip(
             np.atleast_1d(self.law.kelvin_dashpots),
             after.values["kelvin"],
@@ -93,8 +93,8 @@ class EnergyAccount:
             strict=True,
         ):
             rate = (now - then) / stepper.dt
-            sums.dashpots += dt * viscosity * strain(rate, rate)
-        sums.friction += dt * stepper.devices.guide_friction * abs(after.values["velocity"][head])
+            sums.dashpots += dt * viscosity * of.strain(rate, rate)
+        sums.friction += dt * stepper.devices.guide_friction * abs(after.values["velocity"][of.head])
         contact = getattr(stepper, "contact", None)
         if contact is not None:
             reaction, opening = (part.reshape(-1, 3) for part in contact)
@@ -102,37 +102,45 @@ class EnergyAccount:
             sums.friction -= dt * float((reaction[:, 1:] * opening[:, 1:]).sum())
 
     def _stores(
-        self, stepper: Any, strain: Form, inertia: Form, load: np.ndarray, head: int,
-        x: History, y: History, factor: float = 0.5,
-    ) -> dict[str, float]:  # fmt: skip
+        self, stepper: Any, of: Forms, x: History, y: History, factor: float = 0.5
+    ) -> dict[str, float]:
         """factor times the bilinear form of each store at x and y; the linear one of the load at y."""
         clamp, spring, _, mass = stepper.devices.of_head
         one, other = x.values, y.values
-        springs = strain(one["sigma"], other["sigma"]) / self.law.spring
+        springs = of.strain(one["sigma"], other["sigma"]) / self.law.spring
         for modulus, a, b in zip(
             np.atleast_1d(self.law.kelvin_springs), one["kelvin"], other["kelvin"], strict=True
         ):
-            springs += modulus * strain(a, b)
-        places = [(h.values["displacement"][head], h.values["velocity"][head]) for h in (x, y)]
+            springs += modulus * of.strain(a, b)
+        places = [(h.values["displacement"][of.head], h.values["velocity"][of.head]) for h in (x, y)]
         (at, speed), (at_other, speed_other) = places
         devices = spring * at * at_other + mass * speed * speed_other
         if clamp:
             devices += (x.actuator - at) * (y.actuator - at_other) / clamp
         return {
-            "kinetic": factor * inertia(one["velocity"], other["velocity"]),
+            "kinetic": factor * of.inertia(one["velocity"], other["velocity"]),
             "springs": factor * springs,
-            "load": -float(load @ other["displacement"]),
+            "load": -float(of.load @ other["displacement"]),
             "devices": factor * devices,
         }
 
 
-def forms(stepper: Any) -> tuple[Form, Form, np.ndarray, int]:
-    """(<,> over the bonds, kinetic form, load, coordinate of the head) of a stepper, full or reduced."""
+class Forms(NamedTuple):
+    """What energies of a system are made of."""
+
+    strain: Form  # <,> over the bonds
+    inertia: Form  # kinetic form
+    load: np.ndarray  # (d,) or (k,) N
+    head: int  # its coordinate
+
+
+def forms(stepper: Any) -> Forms:
+    """Those of a stepper, full or reduced."""
     model = getattr(stepper, "model", None)
     if model is not None:
-        return _matrix_form(model.stiffness), _matrix_form(model.mass), model.load, 0
+        return Forms(_matrix_form(model.stiffness), _matrix_form(model.mass), model.load, 0)
     system = stepper.system
-    return _diagonal_form(stepper.weight), _diagonal_form(system.mass), system.load, system.driven
+    return Forms(_diagonal_form(stepper.weight), _diagonal_form(system.mass), system.load, system.driven)
 
 
 def _matrix_form(matrix: np.ndarray) -> Form:

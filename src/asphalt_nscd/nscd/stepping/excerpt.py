@@ -57,9 +57,12 @@ class Excerpt:
         """Of a model without broken bonds."""
         bounds, chosen = model.bounds.excerpt()
         return cls(
-            **{name: getattr(model, name) for name in (*SMALL, *NUMBERS)}, bounds=bounds,
-            reaction=model.reaction_of(chosen), closing=model.closing_of(chosen), whole=whole,
-        )  # fmt: skip
+            **{name: getattr(model, name) for name in (*SMALL, *NUMBERS)},
+            bounds=bounds,
+            reaction=model.reaction_of(chosen),
+            closing=model.closing_of(chosen),
+            whole=whole,
+        )
 
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray], whole: Callable[[], Any]) -> Excerpt:
@@ -68,11 +71,18 @@ class Excerpt:
         reaction, closing = arrays["reaction"], arrays["closing"]
         utilised = np.sqrt(reaction[:, 0] ** 2 + reaction[:, 1] ** 2 + reaction[:, 2] ** 2)
         bounds = BondBounds(
-            arrays["number"], utilised, np.abs(closing), arrays["gap"], Rest(**rest, gap=arrays["rest/gap"].item())
-        )  # fmt: skip
+            arrays["number"],
+            utilised,
+            np.abs(closing),
+            arrays["gap"],
+            Rest(**rest, gap=arrays["rest/gap"].item()),
+        )
         small: dict[str, Any] = {name: arrays[name] for name in SMALL}
         small |= {name: arrays[name].item() for name in NUMBERS}
         return cls(
             **small,
-            bounds=bounds, reaction=reaction, closing=closing, whole=whole,
-        )  # fmt: skip
+            bounds=bounds,
+            reaction=reaction,
+            closing=closing,
+            whole=whole,
+        )

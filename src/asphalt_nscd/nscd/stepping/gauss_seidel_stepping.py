@@ -18,9 +18,14 @@ class SweepingStepper:
     """Steps the full system by Gauss-Seidel; bonds do not break and gaps are not watched."""
 
     def __init__(
-        self, system: BondedSystem, law: BondLaw, dt: float, state: CondensedState,
-        tolerance: float, most_sweeps: int,
-    ) -> None:  # fmt: skip
+        self,
+        system: BondedSystem,
+        law: BondLaw,
+        dt: float,
+        state: CondensedState,
+        tolerance: float,
+        most_sweeps: int,
+    ) -> None:
         self.system, self.law, self.dt, self.state = system, law.step(dt), dt, state
         self.tolerance, self.most_sweeps = tolerance, most_sweeps
         self._inverse_mass = 1.0 / system.mass

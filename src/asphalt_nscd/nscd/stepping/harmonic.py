@@ -26,9 +26,11 @@ def driving_force(
     motion = np.zeros(system.mass.size, complex)
     motion[system.driven] = 1.0
     motion[free] = splu(
-        dynamic[free][:, free], permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
+        dynamic[free][:, free],
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
         options={"SymmetricMode": True},
-    ).solve(-coupling)  # fmt: skip
+    ).solve(-coupling)
     return complex(dynamic[[system.driven]].dot(motion)[0])
 
 

@@ -46,9 +46,11 @@ class Projection:
         weighted = weight[:, None] * opening
         head = operator.T @ (system.weight * operator[:, [system.driven]].toarray()[:, 0])
         columns = [
-            system.mass[:, None] * basis, -(operator.T @ weighted), -system.load[:, None],
+            system.mass[:, None] * basis,
+            -(operator.T @ weighted),
+            -system.load[:, None],
             operator[rows].T.toarray(),
-        ]  # fmt: skip
+        ]
         return cls(
             mass=basis.T @ columns[0],
             stiffness=opening.T @ weighted,

@@ -6,6 +6,7 @@ import numpy as np
 from numba import carray, cfunc, types
 
 from asphalt_nscd.nscd.bonds.head_kernels import actuator_force, follow_actuator
+from asphalt_nscd.nscd.bonds.strength import utilisation
 from asphalt_nscd.nscd.compiled import compiled
 from asphalt_nscd.nscd.stepping.reduced_steps import (
     ARRAYS,
@@ -19,12 +20,43 @@ from asphalt_nscd.nscd.stepping.reduced_steps import (
 
 @compiled
 def take_steps(
-    driven, devices, impedance, head_inertia, head_strain, head_load, mass, stiffness, load, inverse,
-    dt, compliance, memory, recall, keep, gain,
-    residual_factor, head_norm, load_norm, tolerance, reaction, beyond_head, closing, sigma_envelope,
-    motion_envelope, reached_sigma, reached_motion, maxima, q, v, s, kelvin, trial, force, velocity,
+    driven,
+    devices,
+    impedance,
+    head_inertia,
+    head_strain,
+    head_load,
+    mass,
+    stiffness,
+    load,
+    inverse,
+    dt,
+    compliance,
+    memory,
+    recall,
+    keep,
+    gain,
+    residual_factor,
+    head_norm,
+    load_norm,
+    tolerance,
+    reaction,
+    beyond_head,
+    closing,
+    sigma_envelope,
+    motion_envelope,
+    reached_sigma,
+    reached_motion,
+    maxima,
+    q,
+    v,
+    s,
+    kelvin,
+    trial,
+    force,
+    velocity,
     scratch,
-):  # fmt: skip
+):
     """Steps until the end or the first violation: (steps taken, code, index into the watched bonds).
 
     State arrays change in place, step by step; `trial` receives v+, s+, q+ of the refused step; scratch (4 k + 1,).
@@ -107,7 +139,7 @@ def _utilisation(reaction, s):
         normal += reaction[0, a] * s[a]
         tangent += reaction[1, a] * s[a]
         other += reaction[2, a] * s[a]
-    return max(-normal, np.sqrt(tangent * tangent + other * other))
+    return utilisation(normal, tangent, other)
 
 
 @compiled
@@ -126,28 +158,97 @@ _INTEGERS, _DOUBLES = types.CPointer(types.intp), types.CPointer(types.float64)
 
 @cfunc(types.void(_INTEGERS, *[_DOUBLES] * ARRAYS, _INTEGERS), error_model="numpy")
 def native_steps(
-    sizes, numbers, devices, driven, head_inertia, head_strain, mass, stiffness, load, inverse,
-    recall, keep, gain, residual_factor, reaction, beyond_head, closing, sigma_envelope, motion_envelope,
-    reached_sigma, reached_motion, maxima, q, v, s, kelvin, trial, force, velocity, scratch, taken,
-):  # fmt: skip
+    sizes,
+    numbers,
+    devices,
+    driven,
+    head_inertia,
+    head_strain,
+    mass,
+    stiffness,
+    load,
+    inverse,
+    recall,
+    keep,
+    gain,
+    residual_factor,
+    reaction,
+    beyond_head,
+    closing,
+    sigma_envelope,
+    motion_envelope,
+    reached_sigma,
+    reached_motion,
+    maxima,
+    q,
+    v,
+    s,
+    kelvin,
+    trial,
+    force,
+    velocity,
+    scratch,
+    taken,
+):
     """`take_steps` over pointers to contiguous arrays."""
     size, number, device = carray(sizes, 8), carray(numbers, 8), carray(devices, 4)
     n, k, elements, rows, columns, watched, closed, kept = (
-        size[0], size[1], size[2], size[3], size[4], size[5], size[6], size[7],
-    )  # fmt: skip
+        size[0],
+        size[1],
+        size[2],
+        size[3],
+        size[4],
+        size[5],
+        size[6],
+        size[7],
+    )
     impedance, head_load, dt, compliance, memory, head_norm, load_norm, tolerance = (
-        number[0], number[1], number[2], number[3], number[4], number[5], number[6], number[7],
-    )  # fmt: skip
+        number[0],
+        number[1],
+        number[2],
+        number[3],
+        number[4],
+        number[5],
+        number[6],
+        number[7],
+    )
     found = take_steps(
-        carray(driven, n), (device[0], device[1], device[2], device[3]), impedance,
-        carray(head_inertia, k), carray(head_strain, k), head_load,
-        carray(mass, (k, k)), carray(stiffness, (k, k)), carray(load, k), carray(inverse, (k - 1, k - 1)),
-        dt, compliance, memory, carray(recall, elements), carray(keep, elements), carray(gain, elements),
-        carray(residual_factor, (rows, columns)), head_norm, load_norm, tolerance,
-        carray(reaction, (watched, 3, k)), carray(beyond_head, (watched, 2)), carray(closing, (closed, k)),
-        carray(sigma_envelope, k), carray(motion_envelope, k), carray(reached_sigma, k), carray(reached_motion, k),
-        carray(maxima, 3), carray(q, k), carray(v, k), carray(s, k), carray(kelvin, (elements, k)),
-        carray(trial, (3, k)), carray(force, n), carray(velocity, (n, kept)), carray(scratch, 4 * k + 1),
-    )  # fmt: skip
+        carray(driven, n),
+        (device[0], device[1], device[2], device[3]),
+        impedance,
+        carray(head_inertia, k),
+        carray(head_strain, k),
+        head_load,
+        carray(mass, (k, k)),
+        carray(stiffness, (k, k)),
+        carray(load, k),
+        carray(inverse, (k - 1, k - 1)),
+        dt,
+        compliance,
+        memory,
+        carray(recall, elements),
+        carray(keep, elements),
+        carray(gain, elements),
+        carray(residual_factor, (rows, columns)),
+        head_norm,
+        load_norm,
+        tolerance,
+        carray(reaction, (watched, 3, k)),
+        carray(beyond_head, (watched, 2)),
+        carray(closing, (closed, k)),
+        carray(sigma_envelope, k),
+        carray(motion_envelope, k),
+        carray(reached_sigma, k),
+        carray(reached_motion, k),
+        carray(maxima, 3),
+        carray(q, k),
+        carray(v, k),
+        carray(s, k),
+        carray(kelvin, (elements, k)),
+        carray(trial, (3, k)),
+        carray(force, n),
+        carray(velocity, (n, kept)),
+        carray(scratch, 4 * k + 1),
+    )
     for place in range(3):
         carray(taken, 3)[place] = found[place]

@@ -16,6 +16,7 @@ from scipy.sparse.linalg import LinearOperator, SuperLU, cg
 
 from asphalt_nscd.nscd.bonds.implicit_operator import factorise
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
+from asphalt_nscd.nscd.bonds.strength import bound
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.compiled import compiled
 from asphalt_nscd.nscd.stepping.bond_bounds import BondBounds
@@ -64,45 +65,81 @@ def ritz_basis(
     basis = np.zeros((system.mass.size, 1))
     basis[system.driven, 0] = 1.0
     basis[free, 0] = static(-coupling)
-    basis = append_columns(system, basis, embed(static(system.load[free])[:, None]))
+    columns = Columns(system, basis)
+    columns.append(embed(static(system.load[free])[:, None]))
+    basis = columns.basis
     block = np.column_stack([mass * basis[free, 0], system.load[free]])
     for _ in range(iterations):
-        known = basis.shape[1]
-        basis = append_columns(system, basis, embed(shifted.solve(block)))
-        block = mass[:, None] * basis[free, known:]  # of the orthonormal ones: they do not align
-    return basis
+        new = columns.append(embed(shifted.solve(block)))
+        block = mass[:, None] * new[free]  # of the orthonormal ones: they do not align
+    return columns.basis
+
+
+class Columns:
+    """A basis that grows by columns orthonormal in the stiffness of the unbroken system."""
+
+    def __init__(self, system: BondedSystem, basis: np.ndarray) -> None:
+        """basis (d, k): column 0 moves the driven degree of freedom, the others are orthonormal."""
+        self._system, self._root = system, np.sqrt(system.weight)[:, None]
+        self._parts, self._stretched = [basis], [self._stretch(basis[:, 1:])]
+
+    @property
+    def basis(self) -> np.ndarray:
+        """All columns (d, k)."""
+        return np.column_stack(self._parts)
+
+    def _stretch(self, motion: np.ndarray) -> np.ndarray:
+        """Columns whose inner products are those of the motions (d, n) in the stiffness."""
+        return np.asarray(self._root * (self._system.operator @ motion))
+
+    def append(self, extra: np.ndarray) -> np.ndarray:
+        """Take in what is new in `extra`; the columns (d, n) it becomes."""
+        new = self.new_in(extra)
+        self._parts.append(new)
+        self._stretched.append(self._stretch(new))
+        return new
+
+    def new_in(self, extra: np.ndarray) -> np.ndarray:
+        """The part (d, n) of `extra` (d, m) that the basis lacks.
+
+        Directions of which no more than the part DEPENDENT is new are left out: normalised, they would
+        be rounding errors, and the projection would lose its condition.
+        """
+        extra = extra[:, extra.any(axis=0)]
+        parts = [self._parts[0][:, 1:], *self._parts[1:]]
+        for _ in range(4):  # each pass removes what rounding left of the one before
+            if not extra.size:
+                break
+            stretched = self._stretch(extra)
+            length = np.linalg.norm(stretched, axis=0)
+            for part, known in zip(parts, self._stretched, strict=True):
+                share = known.T @ stretched
+                extra, stretched = extra - part @ share, stretched - known @ share
+            stretched /= length
+            extra = extra / length
+            _, size, directions = np.linalg.svd(np.linalg.qr(stretched, mode="r"), full_matrices=False)
+            kept = size > DEPENDENT
+            extra = extra @ (directions[kept].T / size[kept])
+        return extra
 
 
 def append_columns(system: BondedSystem, basis: np.ndarray, extra: np.ndarray) -> np.ndarray:
-    """Columns added after orthonormalising them in the stiffness of the unbroken system.
-
-    Directions of which no more than the part DEPENDENT is new are left out: normalised, they would
-    be rounding errors, and the projection would lose its condition.
-    """
-    root = np.sqrt(system.weight)[:, None]
-    known = root * (system.operator @ basis[:, 1:])
-    extra = extra[:, extra.any(axis=0)]
-    for _ in range(4):  # each pass removes what rounding left of the one before
-        if not extra.size:
-            break
-        stretched = root * (system.operator @ extra)
-        length = np.linalg.norm(stretched, axis=0)
-        share = known.T @ stretched
-        extra = (extra - basis[:, 1:] @ share) / length
-        stretched = (stretched - known @ share) / length
-        _, size, directions = np.linalg.svd(np.linalg.qr(stretched, mode="r"), full_matrices=False)
-        kept = size > DEPENDENT
-        extra = extra @ (directions[kept].T / size[kept])
-    return np.column_stack([basis, extra])
+    """The basis (d, k) and, orthonormal, what `extra` (d, m) adds to it; see `Columns`."""
+    columns = Columns(system, basis)
+    columns.append(extra)
+    return columns.basis
 
 
 class ReducedModel:
     """A bonded system projected on a basis, with some bonds removed."""
 
     def __init__(
-        self, system: BondedSystem, basis: np.ndarray, broken: Sequence[int] = (),
+        self,
+        system: BondedSystem,
+        basis: np.ndarray,
+        broken: Sequence[int] = (),
         projection: Projection | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """basis (d, k): column 0 moves the driven degree of freedom by one, the others leave it.
 
         projection: that of the system without `broken` on this basis, where it is known already.
@@ -153,9 +190,10 @@ def _contributions(opening, share_of_strength, gap):
     utilised, closed = np.empty((bonds, k)), np.empty((bonds, k))
     for b in range(bonds):
         for a in range(k):
-            square = 0.0
-            for c in range(3):
-                square += (share_of_strength[b, c] * opening[3 * b + c, a]) ** 2
-            utilised[b, a] = np.sqrt(square)
+            utilised[b, a] = bound(
+                share_of_strength[b, 0] * opening[3 * b, a],
+                share_of_strength[b, 1] * opening[3 * b + 1, a],
+                share_of_strength[b, 2] * opening[3 * b + 2, a],
+            )
             closed[b, a] = abs(opening[3 * b, a]) / gap[b]
     return utilised, closed

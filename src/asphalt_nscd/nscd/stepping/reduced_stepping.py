@@ -22,6 +22,7 @@ from asphalt_nscd.nscd.stepping.reduced_steps import (
     DONE,
     OUTSIDE_ENVELOPE,
     YIELD,
+    ReducedRun,
     advance_reduced,
 )
 
@@ -45,8 +46,14 @@ FAR = 16.0
 
 _PROJECTED = ("mass", "stiffness", "load", "residual_factor", "head_norm", "load_norm")
 _REACHED = (
-    "maxima", "may_yield", "may_close", "reached_sigma", "reached_motion", "sigma_envelope", "motion_envelope",
-)  # fmt: skip
+    "maxima",
+    "may_yield",
+    "may_close",
+    "reached_sigma",
+    "reached_motion",
+    "sigma_envelope",
+    "motion_envelope",
+)
 
 
 @dataclass
@@ -84,10 +91,15 @@ class ReducedStepper:
     """Steps a reduced model at constant dt and law; `state` starts at rest."""
 
     def __init__(
-        self, model: ReducedModel | Excerpt, law: BondLaw, dt: float, tolerance: float,
-        most_enrichments: int = MOST_ENRICHMENTS, devices: HeadDevices = RIGID,
+        self,
+        model: ReducedModel | Excerpt,
+        law: BondLaw,
+        dt: float,
+        tolerance: float,
+        most_enrichments: int = MOST_ENRICHMENTS,
+        devices: HeadDevices = RIGID,
         stand_by: StandBy | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """stand_by: directions for breaks, on the basis of `model`; an excerpt brings its own."""
         k = model.size
         elements = np.size(law.kelvin_springs)
@@ -154,9 +166,12 @@ class ReducedStepper:
 
         state, basis, opening = self.state, self.model.basis, self.model.opening
         return CondensedState(
-            displacement=basis @ state.displacement, velocity=basis @ state.velocity,
-            sigma=opening @ state.sigma, kelvin=state.kelvin @ opening.T, broken=list(state.broken),
-        )  # fmt: skip
+            displacement=basis @ state.displacement,
+            velocity=basis @ state.velocity,
+            sigma=opening @ state.sigma,
+            kelvin=state.kelvin @ opening.T,
+            broken=list(state.broken),
+        )
 
     def arrays(self) -> dict[str, np.ndarray]:
         """All that it has become since it was made, by name, for a checkpoint."""
@@ -215,15 +230,41 @@ class ReducedStepper:
         model, state, law = self._part, self.state, self.law
         self._trial = np.zeros((3, model.size))
         inverse = self._step_inverse()
-        taken, code, watched = advance_reduced(
-            driven, self.devices.of_head, *self._seen_from_head(inverse), model.mass, model.stiffness,
-            model.load, inverse, law.dt, law.compliance, law.memory, law.recall, law.keep, law.gain,
-            model.residual_factor, model.head_norm, model.load_norm, self.tolerance,
-            self._reaction, self._beyond_head, self._closing,
-            self._sigma_envelope, self._motion_envelope, self._reached_sigma, self._reached_motion,
-            self._maxima, state.displacement, state.velocity, state.sigma, state.kelvin, self._trial,
-            force, velocity,
-        )  # fmt: skip
+        run = ReducedRun(
+            driven,
+            self.devices.of_head,
+            *self._seen_from_head(inverse),
+            model.mass,
+            model.stiffness,
+            model.load,
+            inverse,
+            law.dt,
+            law.compliance,
+            law.memory,
+            law.recall,
+            law.keep,
+            law.gain,
+            model.residual_factor,
+            model.head_norm,
+            model.load_norm,
+            self.tolerance,
+            self._reaction,
+            self._beyond_head,
+            self._closing,
+            self._sigma_envelope,
+            self._motion_envelope,
+            self._reached_sigma,
+            self._reached_motion,
+            self._maxima,
+            state.displacement,
+            state.velocity,
+            state.sigma,
+            state.kelvin,
+            self._trial,
+            force,
+            velocity,
+        )
+        taken, code, watched = advance_reduced(run)
         return taken, code, int(self._may_yield[watched]) if code == YIELD else -1
 
     def _step_inverse(self) -> np.ndarray:
@@ -236,9 +277,11 @@ class ReducedStepper:
         step = model.mass / dt + model.stiffness / compliance
         following = np.concatenate([[1.0], -dt * (inverse @ step[1:, 0])])  # motion for v+ = 1
         return (
-            float(following @ step[:, 0]), model.mass @ following / dt,
-            model.stiffness @ following / compliance, float(following @ model.load),
-        )  # fmt: skip
+            float(following @ step[:, 0]),
+            model.mass @ following / dt,
+            model.stiffness @ following / compliance,
+            float(following @ model.load),
+        )
 
     def _widen_envelope(self, sigma: np.ndarray, motion: np.ndarray) -> None:
         """Far beyond |s| and |q| (k,) if no bond could yield or close there, else to their double."""

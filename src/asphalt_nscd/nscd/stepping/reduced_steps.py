@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,24 +15,103 @@ DONE, OUTSIDE_ENVELOPE, YIELD, CLOSED_GAP, RESIDUAL = range(5)
 ARRAYS = 29  # of doubles that `reduced_kernel.native_steps` takes, between two of integers
 
 
-def advance_reduced(
-    driven, devices, impedance, head_inertia, head_strain, head_load, mass, stiffness, load, inverse,
-    dt, compliance, memory, recall, keep, gain,
-    residual_factor, head_norm, load_norm, tolerance, reaction, beyond_head, closing, sigma_envelope,
-    motion_envelope, reached_sigma, reached_motion, maxima, q, v, s, kelvin, trial, force, velocity,
-) -> tuple[int, int, int]:  # fmt: skip
+class ReducedRun(NamedTuple):
+    """What `reduced_kernel.take_steps` takes, in its order: n steps, k coordinates, e Kelvin elements, c bonds."""
+
+    driven: np.ndarray  # (n,) m, of the actuator
+    devices: tuple[float, float, float, float]  # `HeadDevices.of_head`
+    impedance: float  # Z: the head takes the force Z v+ - a v - b explicit - c
+    head_inertia: np.ndarray  # a (k,)
+    head_strain: np.ndarray  # b (k,)
+    head_load: float  # c, N
+    mass: np.ndarray  # (k, k)
+    stiffness: np.ndarray  # (k, k)
+    load: np.ndarray  # (k,)
+    inverse: np.ndarray  # (k - 1, k - 1) of the step matrix without the head
+    dt: float  # s
+    compliance: float  # of the law, as those that follow
+    memory: float
+    recall: np.ndarray  # (e,)
+    keep: np.ndarray  # (e,)
+    gain: np.ndarray  # (e,)
+    residual_factor: np.ndarray  # upper triangle, with 2 k + 1 columns
+    head_norm: float
+    load_norm: float
+    tolerance: float  # of the residual, relative
+    reaction: np.ndarray  # (c, 3, k) of bonds watched for yield, over their strength
+    beyond_head: np.ndarray  # (c, 2)
+    closing: np.ndarray  # (d, k) of d bonds watched for a closing gap, share of it
+    sigma_envelope: np.ndarray  # (k,)
+    motion_envelope: np.ndarray  # (k,)
+    reached_sigma: np.ndarray  # (k,), written, as all that follow
+    reached_motion: np.ndarray  # (k,)
+    maxima: np.ndarray  # (3,)
+    q: np.ndarray  # (k,)
+    v: np.ndarray  # (k,)
+    s: np.ndarray  # (k,)
+    kelvin: np.ndarray  # (e, k)
+    trial: np.ndarray  # (3, k)
+    force: np.ndarray  # (n,) N
+    velocity: np.ndarray  # (n, at most k)
+
+
+def advance_reduced(run: ReducedRun) -> tuple[int, int, int]:
     """`reduced_kernel.take_steps` on these arrays."""
+    watched, closed = len(run.reaction), len(run.closing)
     sizes = np.array(
-        [driven.size, q.size, recall.size, *residual_factor.shape, len(reaction), len(closing), velocity.shape[1]],
+        [
+            run.driven.size,
+            run.q.size,
+            run.recall.size,
+            *run.residual_factor.shape,
+            watched,
+            closed,
+            run.velocity.shape[1],
+        ],
         np.intp,
-    )  # fmt: skip
-    numbers = [impedance, head_load, dt, compliance, memory, head_norm, load_norm, tolerance]
+    )
+    numbers = [
+        run.impedance,
+        run.head_load,
+        run.dt,
+        run.compliance,
+        run.memory,
+        run.head_norm,
+        run.load_norm,
+        run.tolerance,
+    ]
     taken = np.empty(3, np.intp)
     arrays = (
-        np.array(numbers), np.array(devices), driven, head_inertia, head_strain, mass, stiffness, load, inverse,
-        recall, keep, gain, residual_factor, reaction, beyond_head, closing, sigma_envelope, motion_envelope,
-        reached_sigma, reached_motion, maxima, q, v, s, kelvin, trial, force, velocity, np.empty(4 * q.size + 1),
-    )  # fmt: skip
+        np.array(numbers),
+        np.array(run.devices),
+        run.driven,
+        run.head_inertia,
+        run.head_strain,
+        run.mass,
+        run.stiffness,
+        run.load,
+        run.inverse,
+        run.recall,
+        run.keep,
+        run.gain,
+        run.residual_factor,
+        run.reaction,
+        run.beyond_head,
+        run.closing,
+        run.sigma_envelope,
+        run.motion_envelope,
+        run.reached_sigma,
+        run.reached_motion,
+        run.maxima,
+        run.q,
+        run.v,
+        run.s,
+        run.kelvin,
+        run.trial,
+        run.force,
+        run.velocity,
+        np.empty(4 * run.q.size + 1),
+    )
     _kernel()(
         _address(sizes, np.intp), *(_address(array, float) for array in arrays), _address(taken, np.intp)
     )

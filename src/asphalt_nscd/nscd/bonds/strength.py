@@ -1,0 +1,31 @@
+"""When a bond breaks: tension or the tangential force reaches its strength. All solvers take the measure from here.
+
+A reaction has a normal part, negative in tension, and two tangential parts. Another criterion changes these
+functions alone, as long as `bound` is no less than `utilisation` and is homogeneous and convex: the reduced model adds
+the bounds of its coordinates.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asphalt_nscd.nscd.compiled import compiled
+
+
+def utilisations(reaction: np.ndarray, strength: np.ndarray) -> np.ndarray:
+    """Measure (b,) of the reactions (3 b,) [N] on bonds of strength (b,) [N]; above one a bond breaks."""
+    reaction = reaction.reshape(-1, 3)
+    shear = np.hypot(reaction[:, 1], reaction[:, 2])
+    return np.maximum(-reaction[:, 0], shear) / strength
+
+
+@compiled
+def utilisation(normal, tangent, other):
+    """The same of one bond, from its reaction over its strength."""
+    return max(-normal, np.sqrt(tangent * tangent + other * other))
+
+
+@compiled
+def bound(normal, tangent, other):
+    """What `utilisation` does not exceed, whatever the signs."""
+    return np.sqrt(normal**2 + tangent**2 + other**2)

@@ -1,0 +1,142 @@
+"""Slabs: every pair once, no sphere in two slabs of one kind, and motion that no number of threads changes."""
+
+from __future__ import annotations
+
+import hashlib
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.nscd.spheres.neighbours import find_pairs
+from asphalt_nscd.nscd.spheres.slabs import FAIR, LAYER, MOST_SLABS, Slabs, first_and_end, slabs_of
+from asphalt_nscd.nscd.team import Team
+from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
+from asphalt_nscd.specimen.lattice import random_lattice
+
+WALLS = np.zeros((2, 3)), np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]])
+
+
+def dealt(position, radius, reach):
+    """Slabs of all pairs, the second plane the last body; the pairs themselves."""
+    start, other = find_pairs(position, radius, *WALLS, reach)
+    first = np.repeat(np.arange(radius.size), np.diff(start))
+    return Slabs(*slabs_of(position, start, other, radius.size + 1)), first, other
+
+
+@pytest.mark.parametrize("size", [(0.2, 0.03, 0.03), (0.03, 0.2, 0.03), (0.03, 0.03, 0.2), (3e-3, 2e-3, 0.1)])
+def test_slabs_of_one_kind_share_no_sphere(size):
+    """Along x or y, whichever is longer; upright boxes have few slabs."""
+    rng = np.random.default_rng(1)
+    n = 800
+    position, radius = rng.uniform(-1.0, 1.0, (n, 3)) * size, 1e-3 * rng.uniform(1.0, 3.0, n)
+    slabs, first, other = dealt(position, radius, 1e-3)
+    last = slabs.begin.size - 2
+    np.testing.assert_array_equal(np.sort(slabs.pair), np.arange(other.size))
+    np.testing.assert_array_equal(slabs.first, first[slabs.pair])
+    np.testing.assert_array_equal(slabs.second, other[slabs.pair])
+    number = np.repeat(np.arange(last + 1), np.diff(slabs.begin))
+    np.testing.assert_array_equal(number == last, slabs.second == n + 1)
+    for kind in range(2):
+        owner = {}
+        for s, i, j in zip(number, slabs.first, slabs.second):
+            if s < last and s % 2 == kind:
+                assert owner.setdefault(i, s) == s
+                assert j >= n or owner.setdefault(j, s) == s
+    height = position[:, 2]
+    middle = np.where(
+        slabs.second < n, height[slabs.first] + height[slabs.second % n], 2.0 * height[slabs.first]
+    )
+    layer = ((height.max() - 0.5 * middle) / LAYER).astype(int)
+    for s in range(last + 1):  # from the top down, and within a layer in the order of the list
+        inside = slice(slabs.begin[s], slabs.begin[s + 1])
+        order = np.lexsort([slabs.pair[inside], layer[inside]])
+        np.testing.assert_array_equal(order, np.arange(order.size))
+    assert last < FAIR or last % FAIR == 0
+    assert (last > 20) == (max(size[:2]) == 0.2)
+    if last > 20:
+        axis = int(np.argmax(size[:2]))
+        middle = [position[slabs.first[number == s], axis].mean() for s in np.unique(number)[:-1]]
+        assert (np.diff(middle) > 0).all()
+
+
+def test_pairs_across_one_whole_slab():
+    """A row of spheres, each as far from the next as a slab is wide: rounding must not skip a slab."""
+    for step in np.linspace(1.9e-3, 2.1e-3, 41):
+        position = np.zeros((9, 3))
+        position[:, 0] = step * np.arange(9)
+        slabs, _, _ = dealt(position, np.full(9, 1e-3), 2e-4)
+        last = slabs.begin.size - 2
+        number = np.repeat(np.arange(last + 1), np.diff(slabs.begin))
+        for kind in range(2):
+            spheres = [
+                set(slabs.first[number == s]) | set(slabs.second[number == s][slabs.second[number == s] < 9])
+                for s in range(kind, last, 2)
+            ]
+            assert sum(map(len, spheres)) == len(set().union(*spheres))
+
+
+def test_no_more_slabs_than_there_is_room_for():
+    position = np.zeros((2, 3))
+    position[1, :2] = 10.0, 1e-3
+    both = np.concatenate([position, position + [1e-4, 1.5e-3, 0.0]])
+    slabs, _, _ = dealt(both, np.full(4, 1e-3), 1e-5)
+    assert slabs.begin.size - 2 == MOST_SLABS
+
+
+@pytest.mark.parametrize("members", [1, 2, 3, 7])
+@pytest.mark.parametrize("slabs", [1, 2, 3, 4, 20])
+def test_each_slab_has_one_member(members, slabs):
+    mine = [
+        s
+        for rank in range(members)
+        for kind in range(3)
+        for s in range(*first_and_end(rank, members, slabs, kind), 2)
+    ]
+    assert sorted(mine) == list(range(slabs + 1))
+
+
+def states(members: int) -> str:
+    """Digest of spheres thrown into a long box under a driven lid, step by step."""
+    rng = np.random.default_rng(3)
+    box = (0.09, 0.014, 0.03)
+    position, radius = random_lattice(np.array([2e-3, 4e-3]), np.array([500, 40]), box, rng)
+    pile = Granulate.in_box(position, radius, box, 2600.0, 0.2)
+    pile.velocity[: radius.size] = rng.normal(0.0, 0.3, (radius.size, 6))
+    numerics, told, slabs, pressed = PouringNumerics.of(radius, 4e-4), [], 0, 0
+    with Team(members) as pile.team:
+        for step in range(120):
+            if step == 60:
+                pile.hang_wall(pile.top(), 0.01 * pile.weight() / 9.81)
+                pile.drive[:] = -0.3, 3.0 * pile.weight() * 4e-4
+            pile.advance(numerics)
+            pressed += pile.touching_wall().size
+            slabs = max(slabs, pile._slabs.begin.size - 2)
+            told += [pile.position.copy(), pile.velocity.copy(), pile.impulse.copy()]
+    assert slabs >= 12
+    assert pressed > 60
+    assert pile.sweeps > 2000
+    return hashlib.sha256(b"".join(array.tobytes() for array in told)).hexdigest()
+
+
+def test_no_number_of_threads_changes_a_bit():
+    """Positions, velocities and impulses of every step on one thread, two and three."""
+    one = states(1)
+    assert states(2) == one
+    assert states(3) == one
+
+
+def test_what_earlier_steps_left_in_the_room_does_not_count():
+    """The slab of the lid, which no sphere touches, is not swept."""
+    found = []
+    for left in (0.0, 1e9):
+        position, radius = random_lattice(
+            np.array([2e-3, 4e-3]), np.array([80, 10]), (0.04, 0.014, 0.03), np.random.default_rng(3)
+        )
+        pile = Granulate.in_box(position, radius, (0.04, 0.014, 0.03), 2600.0, 0.2)
+        for _ in range(60):
+            pile.advance(PouringNumerics())
+            for array in pile._room:
+                if array is not pile._room.everyone:
+                    array[:] = left
+        found.append((pile.sweeps, pile.overlap, pile.position.tobytes()))
+    assert found[0] == found[1]

@@ -1,0 +1,66 @@
+"""Threads that meet within a kernel; one that fails keeps none of them waiting."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.nscd.compiled import compiled_for_teams
+from asphalt_nscd.nscd.team import Team, meet, share
+
+
+@compiled_for_teams
+def pass_round(rank, members, barrier, rounds, seen):
+    """In each round a member reads what its neighbour wrote in the round before; returns how often it was not there."""
+    missed = 0
+    for k in range(rounds):
+        missed += seen[k % 2, (rank + 1) % members, 0] != k
+        seen[(k + 1) % 2, rank, 0] = k + 1
+        meet(barrier, members)
+    return missed
+
+
+@pytest.mark.parametrize("members", [1, 2, 3])
+def test_members_see_what_all_wrote_before_they_met(members):
+    with Team(members) as team:
+        for _ in range(3):
+            assert team.run(pass_round, 5000, np.zeros((2, members, 8), np.int64)) == members * [0]
+
+
+@pytest.mark.parametrize("who", [0, 1])
+def test_one_that_fails_keeps_none_waiting(who):
+    def kernel(rank, members, barrier):
+        if rank == who:
+            raise MemoryError
+        meet(barrier, members)
+
+    with Team(2) as team:
+        with pytest.raises(MemoryError):
+            team.run(kernel)
+        assert team.run(pass_round, 10, np.zeros((2, 2, 8), np.int64)) == [0, 0]
+
+
+def test_interruption_between_two_members_ends_the_meeting(monkeypatch):
+    """Control-C comes when one member waits already and the caller has not begun."""
+    with Team(3) as team:
+        submit, submitted = team._others.submit, []
+
+        def interrupted(*arguments):
+            if submitted:
+                raise KeyboardInterrupt
+            submitted.append(submit(*arguments))
+            return submitted[-1]
+
+        monkeypatch.setattr(team._others, "submit", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            team.run(pass_round, 10, np.zeros((2, 3, 8), np.int64))
+        submitted[0].result(timeout=10)
+
+
+@pytest.mark.parametrize("members", [1, 2, 3, 8])
+def test_shares_join_up(members):
+    parts = [share(rank, members, 13) for rank in range(members)]
+    assert parts[0][0] == 0 and parts[-1][1] == 13
+    assert [end for _, end in parts[:-1]] == [begin for begin, _ in parts[1:]]
+    sizes = [end - begin for begin, end in parts]
+    assert max(sizes) - min(sizes) <= 1
