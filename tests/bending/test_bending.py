@@ -11,7 +11,7 @@ import pytest
 from asphalt_nscd.bending.bending_test import TestFiles, bond_law, run_test, simulate
 from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
 from asphalt_nscd.bending.layers import LAYERS
-from asphalt_nscd.bending.model import Model, condense, read_model
+from asphalt_nscd.bending.model import Bonds, Model, condense, read_model
 from asphalt_nscd.cli import group
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save
@@ -38,7 +38,7 @@ def folder(tmp_path_factory, beam):
     attributes = {name: float(value) for name, value in asdict(beam.geometry).items()}
     save(folder / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
     for head in ("free", "blocked"):
-        condense(folder / "beam.h5", head, 0.35, 2.7e6, 0.7, folder / f"{head}.h5")
+        condense(folder / "beam.h5", Bonds(head), folder / f"{head}.h5")
     write_law(folder / "law.json", LAW, source="fitted", temperature=15.0)
     return folder
 
@@ -64,7 +64,7 @@ def files(folder, output, **others):
 def test_a_specimen_too_large_for_factors(folder, model, monkeypatch, tmp_path):
     """No directions are kept for breaks; the test is the same, broken bonds included."""
     monkeypatch.setattr(shifted, "LARGEST_FACTORED", 100)
-    condense(folder / "beam.h5", "free", 0.35, 2.7e6, 0.7, tmp_path / "large.h5")
+    condense(folder / "beam.h5", Bonds(), tmp_path / "large.h5")
     large = read_model(tmp_path / "large.h5")
     assert model.stand_by is not None and large.stand_by is None
     for amplitude, breaks in ((1e-6, False), (4e-5, True)):
@@ -367,3 +367,56 @@ def test_tests_of_one_command_are_those_made_one_by_one(folder):
             group.main(wrong, standalone_mode=False)
     with pytest.raises(click.UsageError, match="--checkpoint keeps one test"):
         group.main([*command(frequencies, laws, together), "--checkpoint", "c.h5"], standalone_mode=False)
+
+
+def test_frames_are_the_same_by_the_reduced_and_by_the_full_equations(model):
+    small, full = (run(model, method, frames=4).frames for method in ("reduced", "condensed"))
+    assert len(small) == len(full) == 4
+    for one, other in zip(small, full, strict=True):
+        for name in ("displacement", "velocity", "reaction"):
+            expected = getattr(other, name)
+            assert np.allclose(getattr(one, name), expected, atol=1e-5 * np.abs(expected).max())
+
+
+def test_broken_bonds_carry_nothing_in_a_frame(model):
+    record = run(model, amplitude=3e-4, cycles=1.0, frames=3)
+    assert record.broken
+    assert not record.frames[-1].reaction.reshape(-1, 3)[record.broken].any()
+    assert record.frames[-1].reaction.any()
+
+
+def test_frames_of_methods_that_keep_none_are_refused(model):
+    with pytest.raises(InputError, match="frames: kept of the methods reduced and condensed"):
+        run(model, "harmonic", frames=2)
+
+
+def test_the_command_scales_the_amplitude_and_says_what_came_of_it(folder, capsys):
+    """Without --amplitude-m the strain is the paper's, as in Python; a test that breaks bonds warns."""
+    fixed = ["simulate", str(folder / "free.h5"), "--law", str(folder / "law.json"), "--temperature-c", "15"]
+    fixed += [
+        "--frequency-hz",
+        f"{FREQUENCY:g}",
+        "--cycles",
+        "1",
+        "--time-step-s",
+        str(DT),
+        "--rest-steps",
+        "10",
+    ]
+    geometry = read_model(folder / "free.h5").geometry
+    group.main([*fixed, "--output", str(folder / "usual.h5")], standalone_mode=False)
+    said = load(folder / "usual.h5", "test").attributes
+    assert said["amplitude_m"] == pytest.approx(
+        63e-6 * (geometry.h**2 / geometry.B) / (0.25**2 / 0.056), rel=1e-12
+    )
+    out, _ = capsys.readouterr()
+    assert (
+        f"15 degC, {FREQUENCY:g} Hz: |E*| = {said['E_MPa']:.4g} MPa, phase {said['phase_deg']:.2f} deg; law "
+        in out
+    )
+    assert "broke" not in out
+    group.main([*fixed, "--amplitude-m", "1e-3", "--output", str(folder / "torn.h5")], standalone_mode=False)
+    broken = load(folder / "torn.h5", "test").attributes["broken_bonds"]
+    out, err = capsys.readouterr()
+    assert broken and f"{broken} of " in out
+    assert "warning: " in err and "E* is that of a damaged specimen; lower the amplitude" in err

@@ -9,7 +9,7 @@ import pytest
 
 from asphalt_nscd.bending.bending_test import TestFiles, run_test, simulate
 from asphalt_nscd.bending.case import LoadCase, Numerics
-from asphalt_nscd.bending.model import condense, read_model
+from asphalt_nscd.bending.model import Bonds, condense, read_model
 from asphalt_nscd.bending.rig import Rig, write_rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save
@@ -33,7 +33,7 @@ def folder(tmp_path_factory, beam):
     arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
     attributes = {name: float(value) for name, value in asdict(beam.geometry).items()}
     save(folder / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
-    condense(folder / "beam.h5", "free", 0.35, 2.7e6, 0.7, folder / "model.h5")
+    condense(folder / "beam.h5", Bonds(), folder / "model.h5")
     write_chain(folder / "law.json", CHAIN, source="", temperature=15, error=0.0, lowest_hz=3, highest_hz=40)
     return folder
 
@@ -148,8 +148,8 @@ def test_before_the_channel_catches_up_it_shows_rest(model):
 @pytest.mark.parametrize(
     ("method", "rig", "words"),
     [
-        ("harmonic", Rig(guide_friction=1.0), "no steady harmonic oscillation"),
-        ("sweeps", Rig(head_mass=1.0), "has no devices at the head"),
+        ("harmonic", Rig(guide_friction=1.0), "the oscillation is not harmonic"),
+        ("sweeps", Rig(head_mass=1.0), "cannot simulate devices at the head"),
     ],
 )
 def test_methods_that_cannot_take_a_rig(folder, method, rig, words):

@@ -52,6 +52,8 @@ def test_bonds_follow_a_burgers_law_too(tmp_path):
         ({"Ek_Pa": [1e9, "x"]}, "key 'Ek_Pa' is missing or no list of numbers"),
         ({"E_Pa": "stiff"}, "key 'E_Pa' is missing or not a number"),
         ({"E_Pa": -1.0}, "not positive"),
+        ({"E_Pa": math.nan}, "key 'E_Pa' is missing or not a number"),
+        ({"Ek_Pa": [1e9, math.inf]}, "key 'Ek_Pa' is missing or no list of numbers"),
     ],
 )
 def test_bad_chains_are_refused_by_name(tmp_path, changes, words):
@@ -64,10 +66,30 @@ def test_bad_chains_are_refused_by_name(tmp_path, changes, words):
 
 
 @pytest.mark.parametrize(
+    ("temperature", "frequency", "words"),
+    [
+        (15.0, 3.0, ""),
+        (15.0, 40.0, ""),
+        (35.0, 10.0, "holds at 15 degC only, not at 35; ask for 15 degC"),
+        (15.0, 100.0, "a Kelvin chain for 3 to 40 Hz, which says nothing at 100 Hz"),
+        (15.0, 0.5, "says nothing at 0.5 Hz"),
+    ],
+)
+def test_a_law_is_used_where_it_holds(tmp_path, temperature, frequency, words):
+    path = tmp_path / "chain.json"
+    write_chain(path, CHAIN, source="", temperature=15, error=0, lowest_hz=3, highest_hz=40)
+    if not words:
+        assert read_bond_law(path, temperature, [frequency]) == CHAIN
+        return
+    with pytest.raises(InputError, match=words):
+        read_bond_law(path, temperature, [10.0, frequency])
+
+
+@pytest.mark.parametrize(
     ("content", "words"),
     [
         ('{"law": "2s2p1d"}', "holds law '2s2p1d', not 'burgers'"),
-        ("[1, 2]", "holds law None"),
+        ("[1, 2]", "no key 'law'; give the right file"),
         ("{", "not valid JSON"),
         ('{"law": "burgers", "Em_Pa": 1.0}', "'eta_m_Pa_s' is missing"),
         ('{"law": "burgers", "Em_Pa": "stiff"}', "'Em_Pa' is missing or not a number"),

@@ -10,7 +10,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.measurements.reduction import reduce_table
 from asphalt_nscd.rheology.published_laws import read_published
-from asphalt_nscd.rheology.reconstruct import fit_published, reconstruct_table
+from asphalt_nscd.rheology.reconstruct import Sampling, fit_published, reconstruct_table
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
 PAPER = Path(__file__).parents[2] / "data" / "paper"
@@ -24,8 +24,10 @@ def smooth():
     return fit_published(TABLE3)[1].law
 
 
-def draw(tmp_path, geometry=GEOMETRY, **options):
-    frame = reconstruct_table(TABLE3, geometry, tmp_path / "measurements.csv", **options)
+def draw(tmp_path, geometry=GEOMETRY, law_output=None, **options):
+    frame = reconstruct_table(
+        TABLE3, geometry, tmp_path / "measurements.csv", Sampling(**options), law_output
+    )
     return frame, reduce_table(tmp_path / "measurements.csv", geometry, tmp_path / "measured.csv")
 
 
@@ -128,5 +130,5 @@ def test_smooth_law_can_be_kept_and_the_grid_chosen(smooth, tmp_path):
 )
 def test_impossible_options_are_refused(tmp_path, options, words):
     with pytest.raises(InputError, match=words):
-        reconstruct_table(TABLE3, GEOMETRY, tmp_path / "out.csv", **({"seed": 1} | options))
+        reconstruct_table(TABLE3, GEOMETRY, tmp_path / "out.csv", Sampling(**({"seed": 1} | options)))
     assert not (tmp_path / "out.csv").exists()

@@ -9,7 +9,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE, USUAL
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
 from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D, parameters
-from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
+from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 
 FREQUENCIES = 2 * np.pi * np.array([3.0, 6, 10, 25, 40])
 TEMPERATURES = [-10.0, 5, 20, 40, 60]
@@ -27,7 +27,7 @@ KINDS = {
 @pytest.mark.parametrize("kind", KINDS)
 def test_each_law_is_found_from_a_grid_of_tests(kind):
     truth, (law, shift) = KINDS[kind], kind.rsplit("-", 1)
-    fit = fit_spectrum(OMEGA, TEMPERATURE, truth.complex_modulus(OMEGA, TEMPERATURE), 15.0, law, shift)
+    fit = fit_spectrum(OMEGA, TEMPERATURE, truth.complex_modulus(OMEGA, TEMPERATURE), 15.0, Form(law, shift))
     assert type(fit.law) is type(truth) and type(fit.law.shift) is type(truth.shift)
     assert parameters(fit.law) == pytest.approx(parameters(truth), rel=1e-4)
     assert fit.unseen == () and fit.freedom == 50 - len(parameters(truth))
@@ -48,7 +48,11 @@ def test_standard_errors_are_those_of_linear_regression():
     random = np.random.default_rng(4)
     scatter = noise * (random.standard_normal(omega.size) + 1j * random.standard_normal(omega.size))
     fit = fit_spectrum(
-        omega, temperature, HUET.complex_modulus(omega, temperature) * np.exp(scatter), 15.0, "huet-sayegh"
+        omega,
+        temperature,
+        HUET.complex_modulus(omega, temperature) * np.exp(scatter),
+        15.0,
+        Form("huet-sayegh"),
     )
 
     def changed(name, factor):
@@ -77,7 +81,7 @@ def test_a_parameter_at_its_bound_is_unseen():
     scatter = 0.01 * np.random.default_rng(6).standard_normal((2, OMEGA.size))
     modulus = truth.complex_modulus(OMEGA, TEMPERATURE) * np.exp(scatter[0] + 1j * scatter[1])
     modulus[-5:] *= np.exp(0.05j)  # the hottest tests flow more freely than the law: static modulus to zero
-    fit = fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0, "huet-sayegh")
+    fit = fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0, Form("huet-sayegh"))
     assert fit.unseen == ("static_modulus",)
     assert set(fit.std_error) == set(parameters(truth)) - {"static_modulus"}
     assert all(0 < fit.std_error[name] < 0.5 * parameters(fit.law)[name] for name in fit.std_error)
@@ -99,7 +103,11 @@ def test_of_a_straight_shift_the_slope_is_found_and_neither_c1_nor_c2():
 def test_too_few_points_give_no_standard_errors():
     few = [0, 7, 13, 24]
     fit = fit_spectrum(
-        OMEGA[few], TEMPERATURE[few], HUET.complex_modulus(OMEGA[few], TEMPERATURE[few]), 15.0, "huet-sayegh"
+        OMEGA[few],
+        TEMPERATURE[few],
+        HUET.complex_modulus(OMEGA[few], TEMPERATURE[few]),
+        15.0,
+        Form("huet-sayegh"),
     )
     assert fit.std_error is None
 
@@ -109,7 +117,11 @@ def test_too_few_temperatures_for_a_shift_are_refused(shift, least):
     temperature = np.arange(FREQUENCIES.size) % (least - 1) * 10.0
     with pytest.raises(InputError, match=f"kind '{shift}' needs at least {least} temperatures"):
         fit_spectrum(
-            FREQUENCIES, temperature, SPECTRUM.complex_modulus(FREQUENCIES, temperature), 15.0, shift=shift
+            FREQUENCIES,
+            temperature,
+            SPECTRUM.complex_modulus(FREQUENCIES, temperature),
+            15.0,
+            Form(shift=shift),
         )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +18,7 @@ from asphalt_nscd.bending.layers import LayerHeights
 from asphalt_nscd.bending.rig import Rig, read_rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save
+from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.signals import Response, harmonic_response, peak_response, require_steps
 from asphalt_nscd.measurements.twopoint import Geometry, complex_modulus, norm_and_phase
 from asphalt_nscd.nscd.bonds.law import BondLaw
@@ -28,6 +30,7 @@ if TYPE_CHECKING:  # sparse matrices, which take as long to import as most tests
     from asphalt_nscd.bending.model import Model
 
 REDUCED_CYCLES = 2  # the last ones, for the harmonic fit; the paper's peaks are those of the last cycle
+FRAMES = "frames"  # group of the file with what all spheres and bonds do
 PROFILE_SAMPLES = 200  # of the mean velocity against height over the last cycle, Fig. 8
 
 
@@ -50,12 +53,16 @@ class Record:
     residual: float  # of the full equations; relative change of the last sweep; NaN where nothing is checked
     details: dict[str, float | int]
     velocity: np.ndarray | None = None  # (s, l) m/s, means over the model's layers
+    frames: Sequence[runs.Frame] = ()  # at the times of `Numerics.framed`
 
 
 def run_test(
-    model: Model | ModelExcerpt, law: BondLaw, case: LoadCase,
-    numerics: Numerics = Numerics(), options: RunOptions = RunOptions(),
-) -> Record:  # fmt: skip
+    model: Model | ModelExcerpt,
+    law: BondLaw,
+    case: LoadCase,
+    numerics: Numerics = Numerics(),
+    options: RunOptions = RunOptions(),
+) -> Record:
     """Gravity for the steps at rest, then the load case at the actuator.
 
     The actuator is the head itself but for the rig; the record is that of the rig's channel.
@@ -71,7 +78,7 @@ def run_test(
         full = runs.sweeps if numerics.method == "sweeps" else runs.condensed
         run = full(model.whole, law, case, numerics, options)
     force, velocity = run.force[rest:], run.velocity[rest:]
-    return Record(times, displacement, force, run.broken, run.residual, run.details, velocity)
+    return Record(times, displacement, force, run.broken, run.residual, run.details, velocity, run.frames)
 
 
 def _steady_force(model: Model, law: BondLaw, case: LoadCase, times: np.ndarray) -> np.ndarray:
@@ -112,61 +119,103 @@ class TestFiles:
         if self.checkpoint is None:
             return None
         run: dict[str, float | int | str] = {
-            "model": digest(self.model), "law": digest(self.law), "frequency_Hz": case.frequency,
-            "amplitude_m": case.amplitude, "cycles": case.cycles, "time_step_s": numerics.time_step,
-            "rest_steps": numerics.rest_steps, "method": numerics.method, "scheme": numerics.scheme,
+            "model": digest(self.model),
+            "law": digest(self.law),
+            "frequency_Hz": case.frequency,
+            "amplitude_m": case.amplitude,
+            "cycles": case.cycles,
+            "time_step_s": numerics.time_step,
+            "rest_steps": numerics.rest_steps,
+            "method": numerics.method,
+            "scheme": numerics.scheme,
             "rig": "" if self.rig is None else digest(self.rig),
-        }  # fmt: skip
+        }
         return Checkpoint(Path(self.checkpoint), self.checkpoint_every, run)
 
 
 def simulate(
-    files: TestFiles, temperature: float, case: LoadCase, numerics: Numerics = Numerics(),
-    options: RunOptions = RunOptions(), model: Model | ModelExcerpt | None = None,
-) -> None:  # fmt: skip
-    """One test from files to a file. |E*| and phase by harmonic fit and by the paper's peak picking.
+    files: TestFiles,
+    temperature: float,
+    case: LoadCase,
+    numerics: Numerics = Numerics(),
+    options: RunOptions = RunOptions(),
+    model: Model | ModelExcerpt | None = None,
+) -> dict[str, Any]:
+    """One test from files to a file; what `collect` says of it.
+
+    |E*| and phase by harmonic fit and by the paper's peak picking.
 
     temperature [degC] of the law, kept with the result. The rig and the checkpoint are those of `files`.
     model: what `files.model` holds, or its excerpt, where that has been read already.
     """
-    law = read_bond_law(files.law)
+    law = read_bond_law(files.law, temperature, [case.frequency])
     case = replace(case, rig=Rig() if files.rig is None else read_rig(files.rig))
     model = read_subject(files.model) if model is None else model
     options = replace(options, checkpoint=files.checkpoint_of(case, numerics))
-    try:
-        arrays, columns = outcome(model, law, temperature, case, numerics, options)
-    except ArithmeticError as error:
-        raise InputError(
-            f"{files.model} at {case.frequency:g} Hz: {error}; lower the amplitude or choose another method."
-        ) from None
+    arrays, columns = outcome(model, law, temperature, case, numerics, options)
     columns["law_source"] = files.law_source
     if files.rig is not None:
         columns |= case.rig.columns()
     save(files.output, "test", arrays, columns)
     if options.checkpoint is not None:
         options.checkpoint.drop()
+    return columns
+
+
+def told(columns: Mapping[str, Any]) -> str:
+    """A test in one line."""
+    words = (
+        f"{columns['temperature_C']:g} degC, {columns['frequency_Hz']:g} Hz: |E*| = {columns['E_MPa']:.4g} MPa, "
+        f"phase {columns['phase_deg']:.2f} deg; law {columns['E_law_MPa']:.4g} MPa, "
+        f"{columns['phase_law_deg']:.2f} deg"
+    )
+    if columns["broken_bonds"]:
+        words += f", {columns['broken_bonds']} of {counted(columns['bonds'], 'bond')} broke"
+    return words
+
+
+def damage(columns: Mapping[str, Any]) -> str:
+    """What to make of a test that broke bonds."""
+    return (
+        f"{columns['broken_bonds']} of {counted(columns['bonds'], 'bond')} broke at an amplitude of "
+        f"{1e6 * columns['amplitude_m']:.3g} um: E* is that of a damaged specimen; lower the amplitude, or raise the "
+        "strength of the bonds."
+    )
 
 
 def outcome(
-    model: Model | ModelExcerpt, law: Burgers | KelvinChain, temperature: float, case: LoadCase,
-    numerics: Numerics = Numerics(), options: RunOptions = RunOptions(),
-) -> tuple[dict[str, np.ndarray], dict[str, Any]]:  # fmt: skip
+    model: Model | ModelExcerpt,
+    law: Burgers | KelvinChain,
+    temperature: float,
+    case: LoadCase,
+    numerics: Numerics = Numerics(),
+    options: RunOptions = RunOptions(),
+) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """Arrays and attributes of the file of one test; see `simulate`."""
     cycles, time_step, frequency = case.cycles, numerics.time_step, case.frequency
     if cycles < 1.0:
         raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
     require_steps(time_step, frequency)
     began = time.process_time()
-    record = run_test(model, bond_law(law), case, numerics, options)
+    try:
+        record = run_test(model, bond_law(law), case, numerics, options)
+    except ArithmeticError as error:
+        raise InputError(
+            f"{model.name} at {frequency:g} Hz: {error}; lower the amplitude or choose another method."
+        ) from None
     cpu = time.process_time() - began
     history = record.time, record.force, record.displacement, frequency
     steady = harmonic_response(*history, cycles=min(REDUCED_CYCLES, int(cycles)))
     peak = peak_response(*history, cycles=1)
     columns: dict[str, Any] = {
-        "specimen": model.name, "temperature_C": temperature, "frequency_Hz": frequency,
-        "spheres": model.spheres, "bonds": model.bonds,
-        "broken_bonds": len(record.broken), "steps": record.time.size,
-    }  # fmt: skip
+        "specimen": model.name,
+        "temperature_C": temperature,
+        "frequency_Hz": frequency,
+        "spheres": model.spheres,
+        "bonds": model.bonds,
+        "broken_bonds": len(record.broken),
+        "steps": record.time.size,
+    }
     moduli = {
         "": _modulus(model.geometry, frequency, steady),
         "_peak": _modulus(model.geometry, frequency, peak),
@@ -176,14 +225,28 @@ def outcome(
         norm, phase = norm_and_phase(modulus)
         columns |= {f"E{suffix}_MPa": float(norm) / 1e6, f"phase{suffix}_deg": float(np.degrees(phase))}
     columns |= {
-        "residual": record.residual, "cpu_s": cpu, "method": numerics.method, "head": model.head,
-        "law_source": "", "time_step_s": time_step, "amplitude_m": case.amplitude, **record.details,
+        "residual": record.residual,
+        "cpu_s": cpu,
+        "method": numerics.method,
+        "head": model.head,
+        "law_source": "",
+        "time_step_s": time_step,
+        "amplitude_m": case.amplitude,
+        **record.details,
         **({} if numerics.scheme == "euler" else {"scheme": numerics.scheme}),
-    }  # fmt: skip
+    }
     arrays = {
-        "time_s": record.time, "displacement_m": record.displacement, "force_N": record.force,
-        "broken": np.asarray(record.broken, np.int64), **_velocity_profile(model.layers, record, frequency),
-    }  # fmt: skip
+        "time_s": record.time,
+        "displacement_m": record.displacement,
+        "force_N": record.force,
+        "broken": np.asarray(record.broken, np.int64),
+        **_velocity_profile(model.layers, record, frequency),
+    }
+    if record.frames:
+        times = record.time[numerics.framed(case, options.frames)]
+        arrays |= {
+            f"{FRAMES}/{name}": values for name, values in _framed(model.whole, times, record.frames).items()
+        }
     return arrays, columns
 
 
@@ -193,6 +256,29 @@ def _modulus(geometry: Geometry, frequency: float, response: Response) -> comple
             geometry, frequency, response.force_amplitude, response.displacement_amplitude, response.phase
         )
     )
+
+
+def _framed(model: Model, times: np.ndarray, frames: Sequence[runs.Frame]) -> dict[str, np.ndarray]:
+    """Spheres and bonds as they stand, and in single precision what they do at each time (f,) [s]."""
+    if "area_m2" not in model.shape:
+        raise InputError(
+            f"model of {model.name}: of an older version, without all of its bonds; run `condense` again."
+        )
+    n = model.spheres
+
+    def of_spheres(motion: np.ndarray) -> np.ndarray:
+        return np.asarray(motion[: 6 * n].reshape(n, 6)[:, :3], np.float32)
+
+    return model.shape | {
+        "strength_N": model.system.strength,
+        "time_s": times,
+        "displacement_m": np.array([of_spheres(frame.displacement) for frame in frames]),
+        "velocity_m_s": np.array([of_spheres(frame.velocity) for frame in frames]),
+        # Tension is positive; the other two are the shear in the frame of the bond.
+        "bond_force_N": np.array(
+            [np.float32(frame.reaction.reshape(-1, 3) * [-1.0, 1.0, 1.0]) for frame in frames]
+        ),
+    }
 
 
 def _velocity_profile(layers: LayerHeights, record: Record, frequency: float) -> dict[str, np.ndarray]:

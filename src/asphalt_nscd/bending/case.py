@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 from asphalt_nscd.bending.checkpoint import Checkpoint
 from asphalt_nscd.bending.rig import Rig
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.twopoint import Geometry
 
 Vector = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
+PAPER_AMPLITUDE = 63e-6  # m, of a head 250 mm above a foot 56 mm wide
 METHODS = ("reduced", "condensed", "sweeps", "harmonic")
 
 
@@ -24,7 +26,7 @@ class LoadCase:
     """The actuator follows z = A sin(2 pi f t) from t = 0; the rig stands between it, the head and the record."""
 
     frequency: float  # f, Hz
-    amplitude: float = 63e-6  # A, m
+    amplitude: float = PAPER_AMPLITUDE  # A, m
     cycles: float = 5.0
     rig: Rig = Rig()
 
@@ -50,6 +52,9 @@ class Numerics:
     method: one of METHODS; "harmonic" gives the steady oscillation of the unbroken system, without gravity or
     transient. scheme: one of nscd.stepping.scheme.SCHEMES, for "reduced" and "condensed". tolerance and
     most_sweeps stop the Gauss-Seidel iterations of "sweeps".
+
+    >>> Numerics(time_step=1e-3).times(LoadCase(frequency=100.0, cycles=0.3)).round(6).tolist()
+    [0.001, 0.002, 0.003]
     """
 
     time_step: float = 5e-5  # s
@@ -64,6 +69,12 @@ class Numerics:
         steps = round(case.cycles / case.frequency / self.time_step)
         return self.time_step * np.arange(1.0, steps + 1.0)
 
+    def framed(self, case: LoadCase, count: int) -> NDArray[np.int64]:
+        """`count` (f,) of the steps of `times`, evenly over the last cycle, its end included."""
+        times = self.times(case)
+        last = np.flatnonzero(times > times[-1] - (1.0 - 1e-9) / case.frequency)
+        return np.unique(last[-1] - np.round(np.arange(count) * last.size / max(count, 1)).astype(int))
+
     def driven(self, case: LoadCase) -> Vector:
         """Displacement of the actuator [m] in every step, those at rest included."""
         return np.concatenate([np.zeros(self.rest_steps), case.actuator(self.times(case))])
@@ -74,12 +85,44 @@ class RunOptions:
     """What a run tells and keeps.
 
     energy: keep the energy account of a reduced run too; it then makes its steps one by one. checkpoint: where the
-    run is kept, and from where it goes on; "reduced" and "condensed".
+    run is kept, and from where it goes on; "reduced" and "condensed". frames: how many instants of the last cycle
+    to keep with the motion of all spheres and the force of all bonds; the run then makes its steps one by one.
     """
 
     progress: Progress = lambda done, total: None
     energy: bool = False
     checkpoint: Checkpoint | None = None
+    frames: int = 0
+
+
+@dataclass(frozen=True)
+class Load:
+    """What the actuator does, what stands between it, the head and the record, and what is kept of it.
+
+    amplitude_m: without it the strain is that of the paper's 63 um on its own specimen. rig: devices at the head,
+    and errors of the measuring channel. frames: how many instants of the last cycle to keep with the motion of all
+    spheres and the forces of all bonds, for a series of ParaView.
+
+    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    >>> print(f"{Load(frames=24).at(10.0, paper).amplitude:.2g} m")
+    6.3e-05 m
+    """
+
+    amplitude_m: float | None = None
+    cycles: float = 5.0
+    rig: Rig = Rig()
+    frames: int = 0
+
+    def at(self, frequency_Hz: float, geometry: Geometry) -> LoadCase:
+        """The case of one frequency [Hz] on specimens of a geometry."""
+        amplitude_m = usual_amplitude(geometry) if self.amplitude_m is None else self.amplitude_m
+        if not frequency_Hz > 0.0:
+            raise InputError(f"frequency_Hz = {frequency_Hz:g}: give a frequency greater than zero.")
+        if not amplitude_m > 0.0:
+            raise InputError(f"amplitude_m = {amplitude_m:g}: give an amplitude greater than zero.")
+        if self.frames < 0:
+            raise InputError(f"frames = {self.frames}: give how many instants to keep, zero or more.")
+        return LoadCase(frequency_Hz, amplitude_m, self.cycles, self.rig)
 
 
 def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) -> None:
@@ -87,10 +130,23 @@ def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) ->
     method, scheme = numerics.method, numerics.scheme
     steps = method in ("reduced", "condensed")
     if method == "harmonic" and case.rig.guide_friction:
-        raise InputError("rig: a slider has no steady harmonic oscillation; choose the method reduced.")
+        raise InputError(
+            "rig: with guide friction the oscillation is not harmonic; choose the method reduced."
+        )
     if scheme != "euler" and not steps:
         raise InputError(f"method {method} has no scheme {scheme!r}; choose the method reduced or condensed.")
     if options.checkpoint is not None and not steps:
         raise InputError(f"method {method} keeps no checkpoint; choose the method reduced or condensed.")
+    if options.frames and (not steps or options.checkpoint is not None):
+        raise InputError(
+            "frames: kept of the methods reduced and condensed, without a checkpoint; leave one out."
+        )
     if method == "sweeps" and not case.rig.is_rigid:
-        raise InputError("rig: the method sweeps has no devices at the head; choose the method reduced.")
+        raise InputError(
+            "rig: the method sweeps cannot simulate devices at the head; choose the method reduced."
+        )
+
+
+def usual_amplitude(geometry: Geometry) -> float:
+    """Amplitude [m] of the head that strains a cantilever as the paper's 63 um strain its specimen: as h^2 / B."""
+    return PAPER_AMPLITUDE * (geometry.h**2 / geometry.B) / (0.25**2 / 0.056)

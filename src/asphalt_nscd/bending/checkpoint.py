@@ -34,10 +34,7 @@ class Checkpoint:
                     f"{self.path}: belongs to another run ({name} is {kept} there, {value} here); "
                     "delete it or give another file."
                 )
-        return {
-            name: value.T if name in transposed else value
-            for name, value in record.arrays.items()
-        }  # fmt: skip
+        return {name: value.T if name in transposed else value for name, value in record.arrays.items()}
 
     def is_due(self, done: int, steps: int) -> bool:
         """After `done` of all `steps`."""

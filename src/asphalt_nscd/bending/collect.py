@@ -11,9 +11,22 @@ from asphalt_nscd.files.errors import DamagedFile, InputError
 from asphalt_nscd.files.store import load
 
 COLUMNS = [
-    "specimen", "temperature_C", "frequency_Hz", "spheres", "bonds", "broken_bonds", "steps",
-    "E_MPa", "phase_deg", "E_peak_MPa", "phase_peak_deg", "E_law_MPa", "phase_law_deg", "residual", "cpu_s",
-]  # fmt: skip
+    "specimen",
+    "temperature_C",
+    "frequency_Hz",
+    "spheres",
+    "bonds",
+    "broken_bonds",
+    "steps",
+    "E_MPa",
+    "phase_deg",
+    "E_peak_MPa",
+    "phase_peak_deg",
+    "E_law_MPa",
+    "phase_law_deg",
+    "residual",
+    "cpu_s",
+]
 SCALED = ["parameter", "factor"]
 
 

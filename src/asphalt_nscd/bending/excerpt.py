@@ -48,14 +48,19 @@ def write_excerpt(path: str | Path, model: Model, digest: str) -> None:
     reduced, _ = model.reduced_form
     excerpt = Excerpt.of(reduced, lambda: model.reduced_form)
     arrays = {
-        "layer_height": model.layers.height, "layer_spheres": model.layers.spheres, "along": model.along.T,
+        "layer_height": model.layers.height,
+        "layer_spheres": model.layers.spheres,
+        "along": model.along.T,
         **{REDUCED + name: value for name, value in excerpt.arrays().items()},
-    }  # fmt: skip
+    }
     attributes = {
-        "name": model.name, "head": model.head, "spheres": model.spheres, "bonds": model.bonds,
+        "name": model.name,
+        "head": model.head,
+        "spheres": model.spheres,
+        "bonds": model.bonds,
         "model_digest": digest,
         **{name: getattr(model.geometry, name) for name in Geometry.__dataclass_fields__},
-    }  # fmt: skip
+    }
     save(path, KIND, arrays, attributes)
 
 

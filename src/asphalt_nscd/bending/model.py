@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -21,7 +21,26 @@ from asphalt_nscd.specimen.preparation import Content, read_specimen
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen
 
+SHAPE = "shape/"
 KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
+
+
+@dataclass(frozen=True)
+class Bonds:
+    """What bonds are beside their law, and whether the head rotates.
+
+    head: "free" or "blocked". poisson: nu of Eqs. (8)-(11), for bonds by area "paper"; kt_over_kn: tangential over
+    normal stiffness, for "facets". yield_Pa: stress at which a bond breaks. friction: where its gap then closes.
+
+    >>> Bonds(head="blocked", yield_Pa=5e6).kt_over_kn
+    1.0
+    """
+
+    head: str = "free"
+    poisson: float = 0.35
+    kt_over_kn: float = 1.0
+    yield_Pa: float = 2.7e6
+    friction: float = 0.7
 
 
 @dataclass(frozen=True)
@@ -36,6 +55,9 @@ class Model:
     head: str
     stand_by: StandBy | None = None  # directions for breaks
     digest: str = ""  # of its file
+    shape: dict[str, np.ndarray] = field(
+        default_factory=dict
+    )  # spheres and bonds of the specimen, see `_shape`
 
     @property
     def whole(self) -> Model:
@@ -73,49 +95,64 @@ class Model:
 
 
 def condense(
-    specimen_file: str | Path, head: str, poisson: float, yield_stress: float, friction: float,
-    output: str | Path, excerpt_output: str | Path | None = None, kt_over_kn: float = 1.0,
-) -> None:  # fmt: skip
-    """Assemble the system of a specimen, find its basis and directions for breaks, and save all.
+    specimen_file: str | Path, bonds: Bonds, output: str | Path, excerpt_output: str | Path | None = None
+) -> int:
+    """Assemble the system of a specimen, find its basis and directions for breaks, and save all; its unknowns.
 
     excerpt_output: for what most tests need of it.
     """
-    arrays, attributes = condensed(
-        read_specimen(specimen_file),
-        Path(specimen_file).stem,
-        head,
-        poisson,
-        yield_stress,
-        friction,
-        kt_over_kn,
-    )
+    arrays, attributes = condensed(read_specimen(specimen_file), Path(specimen_file).stem, bonds)
     digest = save(output, "model", arrays, attributes)
     if excerpt_output is not None:
         write_excerpt(excerpt_output, model_of(Record(arrays, attributes, digest)), digest)
+    return int(arrays["mass"].size)
 
 
-def condensed(
-    specimen: Specimen, name: str, head: str, poisson: float, yield_stress: float, friction: float,
-    kt_over_kn: float,
-) -> Content:  # fmt: skip
+def condensed(specimen: Specimen, name: str, bonds: Bonds) -> Content:
     """Arrays and attributes of a model file; see `condense`."""
-    system = bending_system(specimen, poisson, yield_stress, friction, head, kt_over_kn=kt_over_kn)
+    system = bending_system(
+        specimen, bonds.poisson, bonds.yield_Pa, bonds.friction, bonds.head, kt_over_kn=bonds.kt_over_kn
+    )
     g, shifted = system.operator, shifted_factor(system)
     basis = ritz_basis(system, KRYLOV_STEPS, shifted)
     arrays = {
-        "basis": basis, "operator/indptr": g.indptr, "operator/indices": g.indices,
-        "operator/data": g.data, "weight": system.weight, "mass": system.mass, "load": system.load,
-        "gap": system.gap, "strength": system.strength, "position": system.position,
+        "basis": basis,
+        "operator/indptr": g.indptr,
+        "operator/indices": g.indices,
+        "operator/data": g.data,
+        "weight": system.weight,
+        "mass": system.mass,
+        "load": system.load,
+        "gap": system.gap,
+        "strength": system.strength,
+        "position": system.position,
         "sphere_height": specimen.position[:, 2],
-    }  # fmt: skip
+        **{f"{SHAPE}{name}": values for name, values in _shape(specimen).items()},
+    }
     if not isinstance(shifted, Multigrid):  # by which they cost more than the few breaks they may save
         stand_by = StandBy.of(system, basis, shifted).arrays()
         arrays |= {f"stand_by/{name}": value for name, value in stand_by.items()}
     attributes = {
-        "name": name, "head": head, "driven": system.driven, "friction": friction,
+        "name": name,
+        "head": bonds.head,
+        "driven": system.driven,
+        "friction": bonds.friction,
         **{name: getattr(specimen.geometry, name) for name in Geometry.__dataclass_fields__},
-    }  # fmt: skip
+    }
     return arrays, attributes
+
+
+def _shape(specimen: Specimen) -> dict[str, np.ndarray]:
+    """position_m (n, 3), radius_m (n,); of bonds: bodies joined (b,) (n: head, n + 1: foot), point_m (b, 3), area."""
+    network = specimen.network
+    return {
+        "position_m": specimen.position,
+        "radius_m": specimen.radius,
+        "first": network.first,
+        "second": network.second,
+        "point_m": network.point,
+        "area_m2": network.area,
+    }
 
 
 def read_model(path: str | Path) -> Model:
@@ -131,14 +168,28 @@ def model_of(record: Record) -> Model:
             (arrays["operator/data"], arrays["operator/indices"], arrays["operator/indptr"]),
             shape=(arrays["weight"].size, arrays["mass"].size),
         ),
-        weight=arrays["weight"], mass=arrays["mass"], load=arrays["load"], driven=attributes["driven"],
-        gap=arrays["gap"], strength=arrays["strength"], friction=attributes["friction"],
+        weight=arrays["weight"],
+        mass=arrays["mass"],
+        load=arrays["load"],
+        driven=attributes["driven"],
+        gap=arrays["gap"],
+        strength=arrays["strength"],
+        friction=attributes["friction"],
         position=arrays["position"],
-    )  # fmt: skip
+    )
     geometry = Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__})
-    prefix = "stand_by/"
-    own = {name.removeprefix(prefix): value for name, value in arrays.items() if name.startswith(prefix)}
+    own, shape = (
+        {name.removeprefix(prefix): value for name, value in arrays.items() if name.startswith(prefix)}
+        for prefix in ("stand_by/", SHAPE)
+    )
     return Model(
-        system, arrays["basis"], geometry, arrays["sphere_height"], attributes["name"], attributes["head"],
-        StandBy.from_arrays(own) if own else None, record.digest,
-    )  # fmt: skip
+        system,
+        arrays["basis"],
+        geometry,
+        arrays["sphere_height"],
+        attributes["name"],
+        attributes["head"],
+        StandBy.from_arrays(own) if own else None,
+        record.digest,
+        shape,
+    )

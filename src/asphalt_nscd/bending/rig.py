@@ -31,6 +31,9 @@ class Rig(HeadDevices):
     taken too large, which a compliant clamp does not allow; channel_delay [s]:
     of the displacement behind the force; phase_offset [rad]: the same as a constant angle. Both of
     the channel, of either sign, add to the phase: E_apparent = E exp(i (omega delay + offset)).
+
+    >>> Rig(clamp_compliance=1e-8, channel_delay=0.8e-3).is_rigid, Rig(channel_delay=0.8e-3).is_rigid
+    (False, True)
     """
 
     channel_delay: float = 0.0

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from asphalt_nscd.bending.checkpoint import Checkpoint
     from asphalt_nscd.bending.excerpt import ModelExcerpt
     from asphalt_nscd.bending.model import Model
-    from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
+    from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
     from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
     from asphalt_nscd.nscd.stepping.integrator import March
 
@@ -30,6 +30,22 @@ Vector = NDArray[np.float64]
 Arrays = dict[str, NDArray[Any]]
 Details = dict[str, float | int]
 RESIDUAL_TOLERANCE = 1e-6  # of the full equations, relative to the load of the head
+
+
+@dataclass(frozen=True)
+class Frame:
+    """What moves and pulls at one instant; motion from where the specimen stands free of weight."""
+
+    displacement: Vector  # (d,) m or rad
+    velocity: Vector  # (d,) m/s or rad/s
+    reaction: Vector  # (3 b,) N of the bonds, negative where they pull; zero of the broken ones
+
+    @classmethod
+    def of(cls, model: Model, state: CondensedState) -> Frame:
+        """Of the full system's state."""
+        reaction = model.system.weight * state.sigma
+        reaction.reshape(-1, 3)[state.broken] = 0.0
+        return cls(state.displacement, state.velocity, reaction)
 
 
 @dataclass
@@ -43,6 +59,7 @@ class Histories:
     details: Details = field(default_factory=dict)
     full_steps: int = 0  # made by the full system
     done: int = 0  # steps
+    frames: list[Frame] = field(default_factory=list)
 
 
 def reduced(
@@ -50,10 +67,10 @@ def reduced(
 ) -> Histories:
     """By the reduced system, and by the full one from where it is needed.
 
-    The compiled kernel makes all steps in one call; where an account, a checkpoint or another scheme than implicit
-    Euler is wanted, they are made one by one.
+    The compiled kernel makes all steps in one call; where an account, frames, a checkpoint or another scheme than
+    implicit Euler is wanted, they are made one by one.
     """
-    if numerics.scheme == "euler" and not options.energy and options.checkpoint is None:
+    if numerics.scheme == "euler" and not (options.energy or options.frames) and options.checkpoint is None:
         stepper = _reduced_stepper(model, law, numerics.time_step, case)
         run = _in_one_call(stepper, model, law, numerics.driven(case), options)
     else:
@@ -132,9 +149,12 @@ def _in_one_call(
 
 
 def _follow(
-    stepper: CondensedStepper | SweepingStepper, path: Vector, layers: Layers, options: RunOptions,
+    stepper: CondensedStepper | SweepingStepper,
+    path: Vector,
+    layers: Layers,
+    options: RunOptions,
     check: Callable[[], None] = lambda: None,
-) -> Histories:  # fmt: skip
+) -> Histories:
     """Steps of the full system along the actuator's displacements (n + 1,) [m]; `check` is called after each."""
     steps = path.size - 1
     run = _empty(steps, layers)
@@ -149,9 +169,12 @@ def _follow(
 
 
 def _one_by_one(
-    stepper: ReducedStepper | CondensedStepper, model: Model, law: BondLaw, what: tuple[LoadCase, Numerics],
+    stepper: ReducedStepper | CondensedStepper,
+    model: Model,
+    law: BondLaw,
+    what: tuple[LoadCase, Numerics],
     options: RunOptions,
-) -> Histories:  # fmt: skip
+) -> Histories:
     """Steps of any scheme with their energy account, from rest or from the checkpoint."""
     from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
     from asphalt_nscd.nscd.stepping.integrator import March
@@ -171,6 +194,7 @@ def _one_by_one(
         march.put(_below("march/", kept))
         run.done, run.full_steps = kept["force"].size, kept["full_steps"].item()
         run.force[: run.done], run.velocity[: run.done] = kept["force"], kept["velocity"]
+    framed = set((numerics.rest_steps + numerics.framed(case, options.frames)).tolist())
     along = np.empty((0, 0)) if small is None else layers.mean @ small.model.basis
     for n in range(run.done, driven.size):
         try:
@@ -192,6 +216,10 @@ def _one_by_one(
             run.velocity[n] = layers.mean @ full.state.velocity
             run.full_steps += 1
         run.done += 1
+        if n in framed:
+            moving = march.stepper
+            state = moving.full_state() if isinstance(moving, ReducedStepper) else moving.state
+            run.frames.append(Frame.of(model, state))
         if options.checkpoint and options.checkpoint.is_due(run.done, driven.size):
             _keep(options.checkpoint, run, march, small)
         options.progress(n + 1, driven.size)

@@ -24,6 +24,8 @@ def warm_up() -> None:
     granulate = Granulate.in_box(position, radius, (4.2e-3,) * 3, 2600.0, 0.2)
     for _ in range(200):
         granulate.advance(PouringNumerics())
+    granulate.velocity[:8, 2] = -2.0  # a rain has kernels of its own
+    granulate.advance(PouringNumerics())
     granulate.contacts(1e-6)
     solve_contacts(np.eye(3), [-1.0, 0.5, 0.0], 0.5)
     geometry = Geometry(b=4.2e-3, B=4.2e-3, e=4.2e-3, h=4.2e-3, mass=1e-3, mobile_mass=1e-3)

@@ -40,7 +40,7 @@ class KelvinChain:
                 "Kelvin chain: a value is not positive; give moduli in Pa and viscosities in Pa s."
             )
         if np.isinf(self.spring) and np.isinf(self.dashpot) and not elements:
-            raise InputError("Kelvin chain: nothing in it yields; give a spring, a dashpot or an element.")
+            raise InputError("Kelvin chain: it is empty; give a spring, a dashpot or an element.")
 
     def complex_compliance(self, omega: ArrayLike) -> NDArray[np.complex128]:
         """D* = D' - i D'' [1/Pa] at angular frequencies omega [rad/s]:

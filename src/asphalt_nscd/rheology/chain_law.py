@@ -16,9 +16,14 @@ from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
 
 def chain_law(
-    spectrum: str | Path, temperature: float, lowest_hz: float, highest_hz: float, tolerance: float,
-    factor: float, output: str | Path,
-) -> dict[str, Any]:  # fmt: skip
+    spectrum: str | Path,
+    temperature: float,
+    lowest_hz: float,
+    highest_hz: float,
+    tolerance: float,
+    factor: float,
+    output: str | Path,
+) -> dict[str, Any]:
     """Write the Kelvin chain of a continuous law at temperature [degC], its moduli times factor.
 
     It follows the law within `tolerance`, |ln(E_chain / E)|, from lowest_hz to highest_hz [Hz].
@@ -31,19 +36,29 @@ def chain_law(
 
 
 def chain_at(
-    law: Spectrum, name: str, temperature: float, band: tuple[float, float], tolerance: float,
+    law: Spectrum,
+    name: str,
+    temperature: float,
+    band: tuple[float, float],
+    tolerance: float,
     factor: float = 1.0,
-) -> dict[str, Any]:  # fmt: skip
+) -> dict[str, Any]:
     """The chain of a law called `name`, as its file has it; band: lowest and highest frequency [Hz]."""
     lowest_hz, highest_hz = band
     try:
         chain, error = kelvin_chain(
             lambda omega: law.complex_modulus(omega, temperature),
-            2.0 * np.pi * lowest_hz, 2.0 * np.pi * highest_hz, tolerance,
-        )  # fmt: skip
+            2.0 * np.pi * lowest_hz,
+            2.0 * np.pi * highest_hz,
+            tolerance,
+        )
     except InputError as refusal:
         raise InputError(f"{name} at {temperature:g} degC: {refusal}") from None
     return chain_content(
-        chain.scaled(factor), source=name, temperature=temperature, error=error,
-        lowest_hz=lowest_hz, highest_hz=highest_hz,
-    )  # fmt: skip
+        chain.scaled(factor),
+        source=name,
+        temperature=temperature,
+        error=error,
+        lowest_hz=lowest_hz,
+        highest_hz=highest_hz,
+    )

@@ -35,6 +35,9 @@ def burgers_at(frame: pd.DataFrame, temperature: float, name: str) -> dict[str, 
     except InputError as error:
         raise InputError(f"{name}, {temperature:g} degC: {error}") from None
     return law_content(
-        fit.law, source="fitted", temperature=temperature, std_error=fit.std_error,
+        fit.law,
+        source="fitted",
+        temperature=temperature,
+        std_error=fit.std_error,
         rms_log_residual=fit.rms_log_residual,
-    )  # fmt: skip
+    )

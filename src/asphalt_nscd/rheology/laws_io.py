@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,8 @@ from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 
+SAME_TEMPERATURE = 1e-6  # K
+IN_BAND = 1e-9  # of a frequency: rounding
 _BURGERS_KEYS = {
     "modulus_m": "Em_Pa",
     "viscosity_m": "eta_m_Pa_s",
@@ -90,22 +93,49 @@ def write_chain(path: str | Path, chain: KelvinChain, **said: Any) -> dict[str, 
     return content
 
 
-def read_bond_law(path: str | Path) -> Burgers | KelvinChain:
-    """Read a law that bonds can follow: Burgers or Kelvin chain."""
-    return bond_law_of(path, content_of(path, ["burgers", "kelvin_chain"]))
+def read_bond_law(
+    path: str | Path, temperature: float | None = None, frequencies: Sequence[float] = ()
+) -> Burgers | KelvinChain:
+    """Read a law that bonds can follow, Burgers or Kelvin chain, for tests at temperature [degC], frequencies [Hz]."""
+    content = content_of(path, ["burgers", "kelvin_chain"])
+    require_holds(path, content, temperature, frequencies)
+    return bond_law_of(path, content)
+
+
+def require_holds(
+    path: str | Path, content: dict[str, Any], temperature: float | None, frequencies: Sequence[float]
+) -> None:
+    """Refuse a law of one temperature at another [degC] (None: any), and a Kelvin chain beyond its band [Hz]."""
+    own = numbers_of(path, content, {"temperature": "temperature_C"})["temperature"]
+    if temperature is not None and abs(temperature - own) > SAME_TEMPERATURE:
+        raise InputError(
+            f"{path}: holds at {own:g} degC only, not at {temperature:g}; ask for {own:g} degC, or give a law of all "
+            "temperatures."
+        )
+    if content["law"] != "kelvin_chain" or not frequencies:
+        return
+    band = numbers_of(path, content, {"low": "lowest_Hz", "high": "highest_Hz"})
+    low, high = min(frequencies), max(frequencies)
+    if low < band["low"] * (1.0 - IN_BAND) or high > band["high"] * (1.0 + IN_BAND):
+        beyond = high if high > band["high"] else low
+        raise InputError(
+            f"{path}: a Kelvin chain for {band['low']:g} to {band['high']:g} Hz, which says nothing at {beyond:g} Hz; "
+            "make one for that frequency by asphalt-nscd chain-law, or stay in its band."
+        )
 
 
 def bond_law_of(path: str | Path, content: dict[str, Any]) -> Burgers | KelvinChain:
     """The law that bonds can follow in the content of a file."""
     if content["law"] == "burgers":
         return _burgers_of(path, content)
-    absent = {key: math.inf for key in _CHAIN_KEYS.values() if key in content and content[key] is None}
-    values: dict[str, Any] = numbers_of(path, content | absent, _CHAIN_KEYS)
+    absent = {name for name, key in _CHAIN_KEYS.items() if key in content and content[key] is None}
+    present = {name: key for name, key in _CHAIN_KEYS.items() if name not in absent}
+    values: dict[str, Any] = {**numbers_of(path, content, present), **dict.fromkeys(absent, math.inf)}
     for name, key in _ELEMENT_KEYS.items():
         elements = content.get(key)
         if not isinstance(elements, list) or not all(_is_number(value) for value in elements):
             raise InputError(
-                f"{path}: key {key!r} is missing or no list of numbers; delete the file and make it again."
+                f"{path}: key {key!r} is missing or no list of numbers; correct it, or make the file again."
             )
         values[name] = tuple(float(value) for value in elements)
     return _built(path, KelvinChain, values)
@@ -121,16 +151,18 @@ def _or_none(value: float) -> float | None:
 
 
 def _is_number(value: Any) -> bool:
-    """Whether it is one that a float can hold; JSON knows whole numbers without end."""
+    """Whether it is finite and one that a float can hold; JSON knows whole numbers without end."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
-    return isinstance(value, float) or abs(value) <= sys.float_info.max
+    return abs(value) <= sys.float_info.max
 
 
 def content_of(path: str | Path, laws: list[str]) -> dict[str, Any]:
     """Content of a file that holds one of `laws`."""
     content = read_json(path)
     found = content.get("law") if isinstance(content, dict) else None
+    if found is None:
+        raise InputError(f"{path}: no law file, for it has no key 'law'; give the right file.")
     if found not in laws:
         wanted = " or ".join(repr(law) for law in laws)
         mend = " or make the chain of this one by asphalt-nscd chain-law" if "kelvin_chain" in laws else ""
@@ -143,7 +175,7 @@ def numbers_of(path: str | Path, content: dict[str, Any], keys: dict[str, str]) 
     for key in keys.values():
         if not _is_number(content.get(key)):
             raise InputError(
-                f"{path}: key {key!r} is missing or not a number; delete the file and make it again."
+                f"{path}: key {key!r} is missing or not a number; correct it, or make the file again."
             )
     return {name: float(content[key]) for name, key in keys.items()}
 

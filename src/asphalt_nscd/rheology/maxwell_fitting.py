@@ -152,9 +152,11 @@ def _refined(
     for _ in range(ROUNDS):
         root = np.sqrt(weight)
         x = least_squares(
-            lambda x, root=root: root * residual(x), x, jac=lambda x, root=root: root[:, None] * slope(x),
+            lambda x, root=root: root * residual(x),
+            x,
+            jac=lambda x, root=root: root[:, None] * slope(x),
             max_nfev=100,
-        ).x  # fmt: skip
+        ).x
         left = np.abs(residual(x))
         best = min(best, (float(left.max()), x), key=lambda pair: pair[0])
         weight *= left / left.max()

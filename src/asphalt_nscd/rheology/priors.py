@@ -37,7 +37,9 @@ _SHRP = "Christensen & Anderson (1992), SHRP binders: C1 = 19, C2 = 92 K at the 
 
 USUAL: Mapping[str, Usual] = {
     "glassy_modulus": Usual(
-        31e9, 0.25, "Pa",
+        31e9,
+        0.25,
+        "Pa",
         f"19-51 GPa; 21-26 GPa in {_SOME}; 42 GPa in {_QUEZADA}; 22-24 GPa at VMA 13-18 % by the limiting modulus of "
         "AASHTO R 84",
     ),
@@ -47,19 +49,25 @@ USUAL: Mapping[str, Usual] = {
     "delta": Usual(2.2, 0.35, "1", f"1.1-4.4; 2.4-2.7 in {_SOME}; 1.65 in {_QUEZADA}"),
     "beta": Usual(120.0, 1.6, "1", f"5-2900; 9.5-900 in {_SOME}; 26 in {_QUEZADA}"),
     "wlf_slope": Usual(
-        0.14, 0.3, "decades/K",
+        0.14,
+        0.3,
+        "decades/K",
         f"C1/C2 at 15 degC, 0.08-0.25; 0.146 in {_QUEZADA}; 0.11-0.15 in {_SHRP}, of -20 to 0 degC",
     ),
     "c2": Usual(
-        130.0, 0.4, "K",
+        130.0,
+        0.4,
+        "K",
         f"at 15 degC, 60-285 K; 81 K in {_QUEZADA}; 107-127 K in {_SHRP}, of -20 to 0 degC",
     ),
     "activation_energy": Usual(
-        200e3, 0.2, "J/mol",
+        200e3,
+        0.2,
+        "J/mol",
         f"135-300 kJ/mol; 261 kJ/mol below the defining temperature (Christensen & Anderson 1992); 0.146 decades/K at "
         f"15 degC ({_QUEZADA}) is 232 kJ/mol",
     ),
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)

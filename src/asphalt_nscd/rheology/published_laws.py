@@ -11,11 +11,10 @@ from asphalt_nscd.files.csvinput import Limits, Table, read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.limits import LIMITS
 from asphalt_nscd.rheology.burgers import Burgers
-from asphalt_nscd.rheology.laws_io import write_law
+from asphalt_nscd.rheology.laws_io import SAME_TEMPERATURE, write_law
 
 PUBLISHED_COLUMNS = ("Em_kPa", "eta_m_kPa_s", "Ek_kPa", "eta_k_kPa_s")
 UNITS = {"kPa": 1e3, "Pa": 1.0}  # readings of Table 3; the table prints Pa, kPa is what fits
-SAME_TEMPERATURE = 1e-6  # K
 
 
 def published_law(table: str | Path, temperature: float, unit: str, output: str | Path) -> dict[str, Any]:

@@ -10,6 +10,7 @@ distance between these data and the Burgers laws is a prediction of it. The rows
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -31,56 +32,70 @@ AMPLITUDE = 63e-6  # m, section 2.1
 REFERENCE_TEMPERATURE = 15.0  # degC; any choice gives the same law
 
 
+@dataclass(frozen=True)
+class Sampling:
+    """What is drawn. A scatter is a standard deviation."""
+
+    seed: int
+    specimens: int = 4
+    frequencies: Sequence[float] = FREQUENCIES  # Hz
+    amplitude: float = AMPLITUDE  # z0, m
+    specimen_scatter: float = 0.03  # of ln|E*| of a whole specimen
+    modulus_scatter: float = 0.01  # of ln|E*| of a point
+    phase_scatter_deg: float = 0.3  # of the phase of a point
+
+    def __post_init__(self) -> None:
+        frequencies = list(self.frequencies)
+        if self.specimens < 1:
+            raise InputError(f"specimens = {self.specimens}; reconstruct at least one.")
+        if not frequencies or not all(0 < value < np.inf for value in frequencies):
+            raise InputError(f"frequencies {frequencies} must be positive; give them in Hz.")
+        if len(set(frequencies)) < len(frequencies):
+            raise InputError(f"frequencies {frequencies}: one is given twice; give each once.")
+        scatters = self.specimen_scatter, self.modulus_scatter, self.phase_scatter_deg
+        if not 0 < self.amplitude < np.inf or not all(0 <= value < np.inf for value in scatters):
+            raise InputError("amplitude must be positive and scatter not negative; mend the options.")
+        if self.seed < 0:
+            raise InputError(f"seed = {self.seed}; give a whole number from zero.")
+
+
 def reconstruct_table(
     table3: str | Path,
     geometry: str | Path | Mapping[str, Any],
     output: str | Path,
-    *,
-    seed: int,
-    specimens: int = 4,
-    frequencies: Sequence[float] = FREQUENCIES,
-    amplitude: float = AMPLITUDE,
-    specimen_scatter: float = 0.03,
-    modulus_scatter: float = 0.01,
-    phase_scatter_deg: float = 0.3,
+    sampling: Sampling,
     law_output: str | Path | None = None,
 ) -> pd.DataFrame:
     """Draw peaks (F0, z0, Psi) of specimens "1".."N" at all temperatures of Table 3; write the table.
 
-    Standard deviations: specimen_scatter of ln|E*| for a whole specimen, modulus_scatter of ln|E*|
-    and phase_scatter_deg for each point. amplitude: z0 [m]. law_output: where to write the smooth law.
+    law_output: where to write the smooth law.
     """
-    if specimens < 1:
-        raise InputError(f"specimens = {specimens}; reconstruct at least one.")
-    if not frequencies or not all(0 < value < np.inf for value in frequencies):
-        raise InputError(f"frequencies {list(frequencies)} must be positive; give them in Hz.")
-    if len(set(frequencies)) < len(frequencies):
-        raise InputError(f"frequencies {list(frequencies)} repeat one; give each once.")
-    scatters = specimen_scatter, modulus_scatter, phase_scatter_deg
-    if not 0 < amplitude < np.inf or not all(0 <= value < np.inf for value in scatters):
-        raise InputError("amplitude must be positive and scatter not negative; mend the options.")
-    if seed < 0:
-        raise InputError(f"seed = {seed}; give a whole number from zero.")
-    names = [str(number + 1) for number in range(specimens)]
+    names = [str(number + 1) for number in range(sampling.specimens)]
     geometries = read_geometry(geometry, names)
     temperatures, fit = fit_published(table3)
     if law_output is not None:
         write_spectrum(
-            law_output, fit.law, source="reconstructed", rms_log_residual=fit.rms_log_residual,
-            std_error=fit.std_error, unseen=fit.unseen,
-        )  # fmt: skip
+            law_output,
+            fit.law,
+            source="reconstructed",
+            rms_log_residual=fit.rms_log_residual,
+            std_error=fit.std_error,
+            unseen=fit.unseen,
+        )
 
-    temperature, frequency = (grid.ravel() for grid in np.meshgrid(temperatures, frequencies, indexing="ij"))
+    temperature, frequency = (
+        grid.ravel() for grid in np.meshgrid(temperatures, sampling.frequencies, indexing="ij")
+    )
     modulus = fit.law.complex_modulus(2.0 * np.pi * frequency, temperature)
     parts = []
     for number, name in enumerate(names):
         # A stream of its own for each specimen: specimen 2 is the same among two or among ten.
-        random = np.random.default_rng([seed, number])
-        scale = specimen_scatter * random.standard_normal()
-        log_norm = scale + modulus_scatter * random.standard_normal(modulus.size)
-        phase = np.radians(phase_scatter_deg) * random.standard_normal(modulus.size)
+        random = np.random.default_rng([sampling.seed, number])
+        scale = sampling.specimen_scatter * random.standard_normal()
+        log_norm = scale + sampling.modulus_scatter * random.standard_normal(modulus.size)
+        phase = np.radians(sampling.phase_scatter_deg) * random.standard_normal(modulus.size)
         drawn = modulus * np.exp(log_norm + 1j * phase)
-        force, psi = twopoint.head_response(geometries[name], frequency, drawn, amplitude)
+        force, psi = twopoint.head_response(geometries[name], frequency, drawn, sampling.amplitude)
         parts.append(
             pd.DataFrame(
                 {
@@ -88,7 +103,7 @@ def reconstruct_table(
                     "temperature_C": temperature,
                     "frequency_Hz": frequency,
                     "F0_N": force,
-                    "z0_m": amplitude,
+                    "z0_m": sampling.amplitude,
                     "psi_deg": np.degrees(psi),
                     "origin": "reconstructed",
                 }

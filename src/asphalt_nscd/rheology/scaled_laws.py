@@ -15,7 +15,7 @@ LEAST_FACTOR, LARGEST_FACTOR = 1e-6, 1e6
 def scale_law(law: str | Path, parameter: str, factor: float, output: str | Path) -> dict[str, Any]:
     """Write the law with one parameter times factor; it says which, and drops what held for the fit."""
     if parameter not in PARAMETERS:
-        raise InputError(f"{parameter!r} is no parameter of the law; give one of {', '.join(PARAMETERS)}.")
+        raise InputError(f"the law has no parameter {parameter!r}; give one of {', '.join(PARAMETERS)}.")
     if not LEAST_FACTOR <= factor <= LARGEST_FACTOR:
         raise InputError(
             f"factor {factor:g} is out of range; give a number from {LEAST_FACTOR:g} to {LARGEST_FACTOR:g}."

@@ -6,8 +6,9 @@ a dashpot in series makes it the 2S2P1D law (Olard & Di Benedetto 2003).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +18,12 @@ from asphalt_nscd.rheology.shift import WLF, Arrhenius
 
 class Spectrum(Protocol):
     """A law of all temperatures and frequencies."""
+
+    @staticmethod
+    def refusal(values: Mapping[str, float]) -> str:
+        """What its own parameters must satisfy, if these do not: "needs 0 < k < 1". Else nothing."""
+
+    title: ClassVar[str]  # as a reader knows it
 
     @property
     def shift(self) -> WLF | Arrhenius:
@@ -41,6 +48,8 @@ class HuetSayegh:
     reference temperature of the shift.
     """
 
+    title: ClassVar[str] = "Huet-Sayegh"
+
     static_modulus: float
     glassy_modulus: float
     k: float
@@ -48,6 +57,11 @@ class HuetSayegh:
     delta: float
     tau: float
     shift: WLF | Arrhenius
+
+    @staticmethod
+    def refusal(values: Mapping[str, float]) -> str:
+        """What its own parameters must satisfy, if these do not."""
+        return _refusal(values)
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
         """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
@@ -71,6 +85,8 @@ class TwoS2P1D:
     [23504.0, 11931.0, 3032.0]
     """
 
+    title: ClassVar[str] = "2S2P1D"
+
     static_modulus: float
     glassy_modulus: float
     k: float
@@ -79,6 +95,11 @@ class TwoS2P1D:
     tau: float
     beta: float
     shift: WLF | Arrhenius
+
+    @staticmethod
+    def refusal(values: Mapping[str, float]) -> str:
+        """What its own parameters must satisfy, if these do not."""
+        return _refusal(values)
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
         """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
@@ -89,6 +110,14 @@ class TwoS2P1D:
     def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
         """Derivatives (n, p) of ln E* with respect to the logarithm of each of its `parameters`."""
         return _log_slopes(self, omega, temperature)
+
+
+def _refusal(values: Mapping[str, float]) -> str:
+    positive = all(values[name] > 0.0 for name in ("delta", "tau", "beta") if name in values)
+    ordered = 0.0 <= values["static_modulus"] < values["glassy_modulus"]
+    if positive and ordered and 0.0 < values["k"] <= values["h"] < 1.0:
+        return ""
+    return "needs 0 < k <= h < 1, 0 <= E_static_Pa < E_glassy_Pa, and delta, tau_s and beta above zero"
 
 
 def _log_slopes(law: HuetSayegh | TwoS2P1D, omega: ArrayLike, temperature: ArrayLike) -> NDArray:
@@ -103,17 +132,20 @@ def _log_slopes(law: HuetSayegh | TwoS2P1D, omega: ArrayLike, temperature: Array
     by_retarded = -(glassy - static) / retarded**2
     by_reduced = -by_retarded * (law.k * slow + law.h * fast + flow)
     columns = [
-        static * (1.0 - 1.0 / retarded), glassy / retarded,
-        -by_retarded * slow * log_reduced * law.k, -by_retarded * fast * log_reduced * law.h,
-        by_retarded * slow, by_reduced,
-    ]  # fmt: skip
+        static * (1.0 - 1.0 / retarded),
+        glassy / retarded,
+        -by_retarded * slow * log_reduced * law.k,
+        -by_retarded * fast * log_reduced * law.h,
+        by_retarded * slow,
+        by_reduced,
+    ]
     if isinstance(law, TwoS2P1D):
         columns.append(-by_retarded * flow)
     columns += list(by_reduced * law.shift.log_slopes(temperature).T)
     return np.column_stack(columns) / modulus[:, None]
 
 
-LAWS = {"2s2p1d": TwoS2P1D, "huet-sayegh": HuetSayegh}
+LAWS: dict[str, Any] = {"2s2p1d": TwoS2P1D, "huet-sayegh": HuetSayegh}
 
 
 def parameter_names(kind: type) -> list[str]:

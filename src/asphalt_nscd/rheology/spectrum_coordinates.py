@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import expit, logit
 
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.priors import REFERENCE_TEMPERATURE, USUAL
 from asphalt_nscd.rheology.shift import SHIFTS
 from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameter_names
@@ -41,9 +42,15 @@ class Coordinates:
     """Coordinates x (p,) of a law of LAWS with a shift of SHIFTS for given tests."""
 
     def __init__(
-        self, law: str, shift: str, omega: Vector, temperature: Vector, largest: float, reference: float,
+        self,
+        law: str,
+        shift: str,
+        omega: Vector,
+        temperature: Vector,
+        largest: float,
+        reference: float,
         largest_glassy: float = 0.0,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """omega (n,) [rad/s], temperature (n,) [degC]; largest: norm of E* [Pa]; reference: of the shift [degC].
 
         largest_glassy [Pa]: up to which a glassy modulus is sought at least.
@@ -51,10 +58,17 @@ class Coordinates:
         self.law, self.shift, self.reference = LAWS[law], SHIFTS[shift], float(reference)
         self.own, self.of_shift = parameter_names(self.law), parameter_names(self.shift)
         self.names = self.own + self.of_shift
+        missing = [name for name in ("glassy_modulus", "tau") if name not in self.own]
+        missing += [f"a range for {name}" for name in self.names if name not in RANGES]
+        if missing:
+            raise InputError(f"law {law!r} cannot be fitted without {', '.join(missing)}; fit another law.")
         rate = float(np.sqrt(omega.min() * omega.max()))
         self.scales = {
-            "static_modulus": largest, "glassy_modulus": largest, "tau": 1.0 / rate, "activation_energy": 1e5,
-        }  # fmt: skip
+            "static_modulus": largest,
+            "glassy_modulus": largest,
+            "tau": 1.0 / rate,
+            "activation_energy": 1e5,
+        }
         # The shift is singular at c2 below the coldest test; 5 K keeps the steps of the fit off it.
         coldest = min(float(temperature.min()), REFERENCE_TEMPERATURE)
         self.least_c2 = max(0.0, self.reference - coldest) + 5.0
@@ -67,8 +81,9 @@ class Coordinates:
         """The law at x."""
         given = dict(zip(self.names, x.tolist(), strict=True))
         values = {name: self.scales.get(name, 1.0) * float(np.exp(value)) for name, value in given.items()}
-        values["h"] = float(expit(given["h"]))
-        values["k"] = values["h"] * float(expit(given["k"]))
+        if "h" in values:
+            values["h"] = float(expit(given["h"]))
+            values["k"] = values["h"] * float(expit(given["k"]))
         if "c2" in values:
             values["c2"] = self.least_c2 / given["c2"]
             values["c1"] *= values["c2"]
@@ -80,9 +95,10 @@ class Coordinates:
     def log_slopes(self, x: Vector) -> NDArray[np.float64]:
         """Derivatives (p, p) of the logarithms of the parameters (rows) with respect to x (columns)."""
         slope = np.eye(x.size)
-        k, h = self.names.index("k"), self.names.index("h")
-        slope[h, h] = slope[k, h] = expit(-x[h])
-        slope[k, k] = expit(-x[k])
+        if "h" in self.names:
+            k, h = self.names.index("k"), self.names.index("h")
+            slope[h, h] = slope[k, h] = expit(-x[h])
+            slope[k, k] = expit(-x[k])
         if "c2" in self.names:
             c1, c2 = self.names.index("c1"), self.names.index("c2")
             slope[c1, c2] = slope[c2, c2] = -1.0 / x[c2]
@@ -100,9 +116,10 @@ class Coordinates:
         """Groups (t, p) of usual laws that differ by tau; the best of a group is a start."""
         for guess in (*GUESSES, USUAL["glassy_modulus"].median / self.scales["glassy_modulus"]):
             for slope in SLOPES:
-                x = np.zeros(self.low.size)
+                x = 0.5 * (self.first + self.last)
                 for name, value in self._usual(guess, slope).items():
-                    x[self.names.index(name)] = value
+                    if name in self.names:
+                        x[self.names.index(name)] = value
                 group = np.tile(np.clip(x, self.low + 2.0 * MARGIN, self.high - 2.0 * MARGIN), (TAUS.size, 1))
                 group[:, self.names.index("tau")] = TAUS
                 yield group
@@ -110,11 +127,13 @@ class Coordinates:
     def _usual(self, guess: float, slope: float) -> dict[str, float]:
         k, h = USUAL["k"].median, USUAL["h"].median
         out = {
-            "static_modulus": -6.0, "glassy_modulus": np.log(guess), "k": logit(k / h), "h": logit(h),
+            "static_modulus": -6.0,
+            "glassy_modulus": np.log(guess),
+            "k": logit(k / h),
+            "h": logit(h),
             "delta": np.log(USUAL["delta"].median),
-        }  # fmt: skip
-        if "beta" in self.names:
-            out["beta"] = np.log(USUAL["beta"].median)
+            "beta": np.log(USUAL["beta"].median),
+        }
         if "c2" in self.names:
             c2 = max(USUAL["c2"].median + self.reference - REFERENCE_TEMPERATURE, 1.5 * self.least_c2)
             out |= {"c1": np.log(slope), "c2": self.least_c2 / c2}

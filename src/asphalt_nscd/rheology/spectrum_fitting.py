@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import OptimizeResult, least_squares
@@ -24,12 +26,25 @@ SCATTER = 0.01, 2.0  # of a test beside a prior, relative and in rad; how many r
 SETTLED, ROUNDS = 1e-4, 30  # relative change of the scatter that ends its search, and rounds at most
 
 
+@dataclass(frozen=True)
+class Form:
+    """Which law is fitted."""
+
+    law: str = "2s2p1d"  # of LAWS
+    shift: str = "wlf"  # of SHIFTS
+
+
 def fit_spectrum(
-    omega: ArrayLike, temperature: ArrayLike, modulus: ArrayLike, reference_temperature: float,
-    law: str = "2s2p1d", shift: str = "wlf", *,
-    prior: Prior | None = None, weights: tuple[ArrayLike, ArrayLike] | None = None,
-) -> Fit[Spectrum]:  # fmt: skip
-    """A law of LAWS with a shift of SHIFTS, all parameters jointly, from E* [Pa] of all temperatures.
+    omega: ArrayLike,
+    temperature: ArrayLike,
+    modulus: ArrayLike,
+    reference_temperature: float,
+    form: Form = Form(),
+    *,  # noqa: B008  frozen
+    prior: Prior | None = None,
+    weights: tuple[ArrayLike, ArrayLike] | None = None,
+) -> Fit[Spectrum]:
+    """A law of this form, all parameters jointly, from E* [Pa] of all temperatures.
 
     omega [rad/s], temperature [degC], modulus [Pa]: vectors (n,). prior: what the parameters usually are;
     without it only the tests count. weights: standard deviations of ln|E*| and of the phase [rad] of each test,
@@ -38,6 +53,7 @@ def fit_spectrum(
     `spectrum.parameters`.
     """
     omega, modulus = require_points(omega, modulus)
+    law, shift = form.law, form.shift
     temperature = np.asarray(temperature, dtype=float)
     least = LEAST_TEMPERATURES[shift]
     if np.unique(temperature).size < least:
@@ -72,9 +88,14 @@ class _Problem:
     """Residuals of the tests in their deviations, over a common scatter, and of the prior, with derivatives."""
 
     def __init__(
-        self, at: Coordinates, omega: Vector, temperature: Vector, modulus: NDArray[np.complex128],
-        deviations: Vector, prior: Prior | None,
-    ) -> None:  # fmt: skip
+        self,
+        at: Coordinates,
+        omega: Vector,
+        temperature: Vector,
+        modulus: NDArray[np.complex128],
+        deviations: Vector,
+        prior: Prior | None,
+    ) -> None:
         self.at, self.omega, self.temperature, self.modulus = at, omega, temperature, modulus
         self.deviations, self.prior = deviations, prior
         self.scatter = 1.0
@@ -101,9 +122,14 @@ class _Problem:
     def solve(self, start: Vector, tolerance: float = ROUGH) -> OptimizeResult:
         # The coordinates are of order one. Scaled by the Jacobian instead, ten times the steps in a flat valley.
         return least_squares(
-            self.residual, start, self.jacobian, bounds=(self.at.low, self.at.high),
-            xtol=tolerance, ftol=tolerance, gtol=tolerance,
-        )  # fmt: skip
+            self.residual,
+            start,
+            self.jacobian,
+            bounds=(self.at.low, self.at.high),
+            xtol=tolerance,
+            ftol=tolerance,
+            gtol=tolerance,
+        )
 
     def starts(self) -> list[Vector]:
         """Usual laws at the tau that suits the tests best, then random ones; the best of each kind first."""
@@ -194,7 +220,10 @@ class _Problem:
                 from_prior = self.prior.not_determined(values, covariance, at.reference)
         ratio = log_residual(self.modulus, law.complex_modulus(self.omega, self.temperature))
         return Fit(
-            law, std_error, float(np.sqrt(ratio @ ratio / self.modulus.size)), round(freedom),
+            law,
+            std_error,
+            float(np.sqrt(ratio @ ratio / self.modulus.size)),
+            round(freedom),
             unseen=tuple(name for name in at.names if name in unseen or name in from_prior),
             from_prior=from_prior,
-        )  # fmt: skip
+        )

@@ -12,14 +12,11 @@ from asphalt_nscd.rheology.laws_io import content_of, numbers_of, renamed
 from asphalt_nscd.rheology.shift import SHIFTS
 from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameter_names, parameters
 
+# Keys of parameters with a unit; others have the name of the parameter.
 _KEYS = {
     "static_modulus": "E_static_Pa",
     "glassy_modulus": "E_glassy_Pa",
-    "k": "k",
-    "h": "h",
-    "delta": "delta",
     "tau": "tau_s",
-    "beta": "beta",
     "c1": "wlf_C1",
     "c2": "wlf_C2_K",
     "activation_energy": "activation_energy_J_mol",
@@ -41,18 +38,19 @@ def spectrum_content(
     unseen: parameters that the tests do not determine; from_prior: those of them that have the value of a prior,
     None where none was used. See `fitting.Fit`.
     """
+    keys = _keys_of(type(law)) | _keys_of(type(law.shift))
     content = {
         "law": next(name for name, kind in LAWS.items() if type(law) is kind),
         "shift": next(name for name, kind in SHIFTS.items() if type(law.shift) is kind),
         "source": source,
-        **renamed(parameters(law), _KEYS),
+        **renamed(parameters(law), keys),
         **renamed({"reference_temperature": law.shift.reference_temperature}, _REFERENCE),
-        "std_error": None if std_error is None else renamed(std_error, _KEYS),
-        "unseen": [_KEYS[name] for name in unseen],
+        "std_error": None if std_error is None else renamed(std_error, keys),
+        "unseen": [keys[name] for name in unseen],
         "rms_log_residual": rms_log_residual,
     }
     if from_prior is not None:
-        content["from_prior"] = [_KEYS[name] for name in from_prior]
+        content["from_prior"] = [keys[name] for name in from_prior]
     return content
 
 
@@ -73,19 +71,22 @@ def spectrum_of(path: str | Path, content: dict[str, Any]) -> Spectrum:
     if content.get("shift") not in SHIFTS:
         raise InputError(
             f"{path}: key 'shift' is {content.get('shift')!r}; give one of {', '.join(SHIFTS)} "
-            "or delete the file and make it again."
+            "or make the file again."
         )
     kind, shift = LAWS[content["law"]], SHIFTS[content["shift"]]
     values = numbers_of(path, content, _keys_of(kind))
-    if (
-        not 0.0 < values["k"] <= values["h"] < 1.0
-        or not 0.0 <= values["static_modulus"] < values["glassy_modulus"]
-    ):
-        raise InputError(
-            f"{path}: needs 0 < k <= h < 1 and 0 <= E_static_Pa < E_glassy_Pa; correct it or make it again."
-        )
-    return kind(**values, shift=shift(**numbers_of(path, content, _keys_of(shift) | _REFERENCE)))
+    refusal = kind.refusal(values)
+    if refusal:
+        raise InputError(f"{path}: {refusal}; correct it or make it again.")
+    of_shift = _keys_of(shift)
+    shifted = numbers_of(path, content, of_shift | _REFERENCE)
+    for name, key in of_shift.items():
+        if shifted[name] <= 0.0:
+            raise InputError(
+                f"{path}: {key} = {shifted[name]:g}; give one above zero, with which a warmer mix is softer."
+            )
+    return kind(**values, shift=shift(**shifted))
 
 
 def _keys_of(kind: type) -> dict[str, str]:
-    return {name: _KEYS[name] for name in parameter_names(kind)}
+    return {name: _KEYS.get(name, name) for name in parameter_names(kind)}
