@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import sys
+from xml.etree import ElementTree
+
 import numpy as np
 import pandas as pd
 import pytest
 
 import asphalt_nscd as an
 from asphalt_nscd import cli
+from asphalt_nscd.bending.model import model_of
+from asphalt_nscd.files.store import load
 
 vtk = pytest.importorskip("vtk")
 from vtk.util.numpy_support import vtk_to_numpy  # noqa: E402
@@ -81,14 +86,128 @@ def test_tables_of_a_specimen_and_a_test(beam, tmp_path):
     assert np.allclose(pd.read_csv(tmp_path / "s.csv")["radius_m"], beam.radius_m)
     assert len(pd.read_csv(tmp_path / "s-bonds.csv")) == len(beam.bonds)
     assert np.allclose(pd.read_csv(tmp_path / "t.csv"), test.history, rtol=1e-8)
-    with pytest.raises(an.InputError, match="no motion of spheres; give --format csv"):
-        an.export(test, tmp_path / "t.vtp", "vtk")
+    with pytest.raises(an.InputError, match=r"keeps no motion of spheres.*Load\(frames=24\)"):
+        an.export(test, tmp_path / "t.pvd", "vtk")
+
+
+def run(*words):
+    with pytest.raises(SystemExit) as done:
+        cli.main(list(map(str, words)))
+    assert done.value.code == 0, words
+
+
+@pytest.fixture(scope="module")
+def cycle(beam, tmp_path_factory):
+    """A test with frames, its model, and its export as a series."""
+    folder = tmp_path_factory.mktemp("cycle")
+    beam.write(folder / "beam.h5")
+    law = an.Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
+    law.write(folder / "law.json")
+    run(
+        "condense", folder / "beam.h5", "--head", "free", "--output", folder / "model.h5",
+        "--excerpt-output", folder / "model.excerpt.h5",
+    )  # fmt: skip
+    test = [
+        "simulate", folder / "model.h5", "--excerpt", folder / "model.excerpt.h5", "--law", folder / "law.json",
+        "--temperature-c", 15, "--frequency-hz", 20, "--amplitude-m", 1e-6, "--cycles", 2, "--time-step-s", 1e-4,
+    ]  # fmt: skip
+    run(*test, "--output", folder / "plain.h5")
+    run(*test, "--frames", 10, "--output", folder / "test.h5")
+    run("export", folder / "test.h5", "--format", "vtk", "--output", folder / "test.pvd")
+    return folder
+
+
+def test_a_cycle_in_paraview(cycle, beam):
+    series = ElementTree.parse(cycle / "test.pvd").getroot()
+    sets = list(series.iter("DataSet"))
+    times = sorted({float(one.get("timestep")) for one in sets})
+    test = load(cycle / "test.h5", "test")
+    assert series.get("type") == "Collection" and len(sets) == 20
+    assert np.allclose(np.diff(times), 1.0 / 20.0 / 10) and times[-1] == pytest.approx(
+        test.arrays["time_s"][-1]
+    )
+    for one in sets:
+        data = read(cycle / one.get("file"))
+        k = times.index(float(one.get("timestep")))
+        if one.get("part") == "0":
+            assert np.allclose(vtk_to_numpy(data.GetPoints().GetData()), beam.position_m)
+            assert np.array_equal(
+                array(data.GetPointData(), "displacement_m"), test.arrays["frames/displacement_m"][k]
+            )
+            assert array(data.GetPointData(), "velocity_m_s").shape == (len(beam.radius_m), 3)
+        else:
+            assert data.GetNumberOfLines() == len(beam.bonds)
+            assert np.array_equal(
+                array(data.GetCellData(), "tension_N"), test.arrays["frames/bond_force_N"][k, :, 0]
+            )
+            assert np.allclose(array(data.GetCellData(), "area_m2"), beam.bonds["area_m2"])
+
+
+def test_utilisation_is_stress_over_strength(cycle):
+    """By hand from force and area: the larger of tension and shear over 2.7 MPa; none of bonds to the plates."""
+    largest = 0.0
+    for one in ElementTree.parse(cycle / "test.pvd").getroot().iter("DataSet"):
+        if one.get("part") == "0":
+            continue
+        data = read(cycle / one.get("file")).GetCellData()
+        tension, shear, area, used = (
+            array(data, name) for name in ("tension_N", "shear_N", "area_m2", "utilisation")
+        )
+        inside = array(data, "plate") == 0
+        stress = np.maximum(tension, shear)[inside] / area[inside]
+        assert np.allclose(used[inside], stress / 2.7e6, rtol=1e-5) and not used[~inside].any()
+        largest = max(largest, used.max())
+    said = load(cycle / "test.h5", "test").attributes["largest_utilisation"]
+    assert 0.7 * said < largest <= said * (1.0 + 1e-6)  # which is of all cycles
+
+
+def test_python_asks_for_instants_as_the_command_line_does(cycle, beam, tmp_path):
+    law, load_ = an.read(cycle / "law.json"), an.Load(amplitude_m=1e-6, cycles=2.0, frames=10)
+    test = an.bend(beam, law, 20.0, 15.0, load=load_, numerics=an.Numerics(time_step=1e-4))
+    an.export(test, tmp_path / "test.pvd", "vtk")
+    theirs = an.read(cycle / "test.h5")
+    for name in ("frames/time_s", "frames/strength_N", "frames/displacement_m", "frames/bond_force_N"):
+        ours, other = test.arrays[name], theirs.arrays[name]
+        assert np.allclose(ours, other, atol=1e-6 * np.abs(other[np.isfinite(other)]).max()), name
+    assert len(list((tmp_path / "test").glob("bonds-*.vtp"))) == 10
+    with pytest.raises(an.InputError, match="frames = -1: give how many instants to keep"):
+        an.bend(beam, law, 20.0, 15.0, load=an.Load(frames=-1))
+
+
+def test_forces_of_the_bonds_are_those_that_the_head_feels(cycle):
+    """At each instant the head's bonds balance the actuator; one cycle closes, and velocity is the slope."""
+    test, model = load(cycle / "test.h5", "test").arrays, load(cycle / "model.h5", "model")
+    system = model_of(model).system
+    at = np.searchsorted(test["time_s"], test["frames/time_s"] - 1e-9)
+    reaction = test["frames/bond_force_N"].astype(float) * [-1.0, 1.0, 1.0]
+    pulled = np.array([(system.operator.T @ one.ravel())[system.driven] for one in reaction])
+    omega, z = 2.0 * np.pi * 20.0, test["displacement_m"][at]
+    inertia = -system.mass[system.driven] * omega**2 * z
+    largest = np.abs(test["force_N"]).max()
+    assert np.abs(inertia).max() < 0.1 * largest
+    assert np.allclose(inertia - pulled, test["force_N"][at], atol=0.01 * largest)
+    top = np.argmax(test["frames/position_m"][:, 2])
+    moved = test["frames/displacement_m"][:, top, 0]
+    assert np.corrcoef(moved, z)[0, 1] > 0.99 and moved.max() < 1.1e-6
+    rest = load(cycle / "plain.h5", "test").arrays
+    assert np.allclose(rest["force_N"], test["force_N"], atol=1e-9 * largest)
+    assert not any(name.startswith("frames/") for name in rest)
 
 
 @pytest.mark.parametrize(
     ("form", "name", "sentence"),
-    [("vtk", "d.csv", "ends in .vtp"), ("abaqus", "d.inp", "is one of laws; give one of vtk, csv")],
+    [
+        ("vtk", "d.csv", "ends in .vtp"),
+        ("abaqus", "d.inp", "is not for spheres or tests; give one of vtk, csv"),
+    ],
 )
 def test_what_cannot_be_is_refused(packing, tmp_path, form, name, sentence):
     with pytest.raises(an.InputError, match=sentence):
         an.export(packing, tmp_path / name, form)
+
+
+def test_without_vtk_no_empty_folder_is_left(cycle, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "vtk", None)
+    with pytest.raises(an.InputError, match=r"pip install 'asphalt-nscd\[vtk\]'"):
+        an.export(cycle / "test.h5", tmp_path / "t.pvd", "vtk")
+    assert not list(tmp_path.iterdir())

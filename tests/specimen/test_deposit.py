@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from naive.granular import all_pairs
 
-from asphalt_nscd.nscd.spheres.granular import active_contacts
+from asphalt_nscd.nscd.spheres.granular import near_pairs
+from asphalt_nscd.specimen import granulate as granulate_module
 from asphalt_nscd.specimen.deposit import REST_SPEED, Course, Shaking, balance, settle, vibrate
 from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
@@ -39,7 +40,8 @@ def copy(of: Granulate) -> Granulate:
     other = granulate()
     for name in ("position", "velocity", "impulse", "plane_point"):
         setattr(other, name, getattr(of, name).copy())
-    other._start, other._other, other._reach = of._start, of._other, of._reach
+    other._list(of._start, of._other)
+    other._reach = of._reach
     other._plane_reach, other._extra = of._plane_reach, of._extra
     other._searched_at, other._planes_at = of._searched_at.copy(), of._planes_at.copy()
     return other
@@ -83,10 +85,10 @@ def test_every_pair_that_may_meet_is_on_the_list(time_step, rain):
 def test_grains_that_rain_at_5_m_s_do_not_enter_each_other():
     """2 mm a step, as far as the smallest grain is wide: none goes through another, and no pair that meets,
     by brute force, was left out. An impact on a grain at rest drives it on within the step."""
-    flock = granulate(4)
+    flock = granulate(5)
     n, numerics, deepest = flock.radius.size, PouringNumerics.of(flock.radius, 4e-4), 0.0
     settle(flock, numerics, REST_SPEED, 1.0, silent, "pouring")
-    high = granulate(5)
+    high = granulate(6)
     flock = Granulate.in_box(
         np.concatenate([flock.position, high.position + [0.0, 0.0, 0.02]]),
         np.concatenate([flock.radius, high.radius]), (BOX[0], BOX[1], 0.1), 2600.0, 0.2,
@@ -96,11 +98,15 @@ def test_grains_that_rain_at_5_m_s_do_not_enter_each_other():
         before = flock.position.copy()
         flock.advance(numerics)
         gap = flock.contacts(0.0)[1].min(initial=0.0)
-        still = np.zeros_like(flock.velocity)
-        listed = active_contacts(
-            flock.position, flock.radius, still, flock.plane_point, flock.plane_normal, flock._start,
-            flock._other, 1.0, 0.0,
-        )[4].min(initial=0.0)  # fmt: skip
+        listed = near_pairs(
+            flock.position,
+            flock.radius,
+            flock.plane_point,
+            flock.plane_normal,
+            flock._start,
+            flock._other,
+            0.0,
+        )[2].min(initial=0.0)
         assert gap == pytest.approx(listed, abs=1e-9)
         deepest = max(deepest, -gap)
         for i in range(2 * n):  # nor did two change sides
@@ -175,15 +181,28 @@ def test_vibration_follows_the_layer_and_forces_no_grain_through_another(layer, 
     np.testing.assert_allclose(walls[:, 9], tenth, atol=1e-9)  # it kept up
     assert (walls.min(axis=1) < tops[:, 0]).all()  # and came down on the layer
     assert (np.array([height for height in course.wall]) >= walls.min()).all()
-    # all it can give: its drive, and its momentum of a step
+    # all it can give: its drive, and its momentum of a step; a little faster where it catches up with its drive
     mass = 0.01 * shaken.weight() / 9.81
-    most = strong * shaken.weight() + mass * 2 * np.pi * 50.0 * 0.5e-3 / 2e-4
+    most = 1.02 * strong * shaken.weight() + mass * 2 * np.pi * 50.0 * 0.5e-3 / 2e-4
     assert 0.2 * strong * shaken.weight() < np.abs(pushes).max() < most
     assert 0.0 < shaken.overlap < 0.1 * shaken.radius.min()
     assert not shaken.velocity[-1].any() and shaken.inverse_mass[-1] == 0.0
     assert shaken.plane_point[5, 2] == shaken.top() + 0.5e-3
     np.testing.assert_array_equal(shaken.plane_point[:5], layer.plane_point[:5])
-    assert strong > 1.0 or shaken.layer_height() < layer.layer_height()  # it has sunk
+
+
+def test_vibrated_layers_sink():
+    """By 0.1 mm on average of four; where one lies dense already, it rises by 1 % of the smallest radius at most."""
+    sunk = []
+    for seed in range(1, 5):
+        shaken = granulate(seed)
+        settle(shaken, PouringNumerics.of(shaken.radius, 4e-4), REST_SPEED, 2.0, silent, "pouring")
+        poured = shaken.layer_height()
+        shaking = Shaking(1e-3, 50.0, 0.2, shaken.weight() / (BOX[0] * BOX[1]))
+        vibrate(shaken, PouringNumerics.of(shaken.radius, 2e-4), shaking, Course(), silent)
+        sunk.append(poured - shaken.layer_height())
+    assert min(sunk) > -1e-5
+    assert 2e-5 < np.mean(sunk) < 1e-3
 
 
 def test_at_rest_forces_balance(layer):
@@ -236,7 +255,17 @@ def test_the_same_motion_twice():
     assert results[0] == results[1] != results[2]
 
 
-def test_numerics_act(layer):
+def one_slab(position, start, other, last_body):
+    """In place of slabs_of: the order of visits does not hang on how long the list is."""
+    first, pair = (
+        np.repeat(np.arange(start.size - 1), np.diff(start)),
+        np.argsort(other == last_body, kind="stable"),
+    )
+    begin = np.array([0, (other != last_body).sum(), other.size])
+    return begin, *(array.astype(np.int32) for array in (pair, first[pair], other[pair]))
+
+
+def test_numerics_act(layer, monkeypatch):
     """A tighter tolerance takes more sweeps; the margin and skin change the lists, not the physics."""
     sweeps = []
     for numerics in (PouringNumerics(), PouringNumerics(tolerance=1e-6, most_sweeps=600)):
@@ -246,6 +275,7 @@ def test_numerics_act(layer):
         sweeps.append(shaken.sweeps)
     assert sweeps[1] > 2 * sweeps[0]
     positions = []
+    monkeypatch.setattr(granulate_module, "slabs_of", one_slab)
     for skin in (4e-4, 2e-3):
         shaken = copy(layer)
         shaken._start = None
@@ -257,7 +287,7 @@ def test_numerics_act(layer):
 
 def test_a_layer_of_more_than_its_sweeps_can_carry_comes_to_rest():
     """Overlaps undone at once, however small, would keep it in motion."""
-    few = PouringNumerics(most_sweeps=6)
+    few = PouringNumerics(most_sweeps=3)
     lenient = replace(few, allowed_overlap=PouringNumerics.of(granulate().radius, 4e-4).allowed_overlap)
     speed = []
     for numerics in few, lenient:

@@ -7,39 +7,45 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, kind_of, load, write_table
-from asphalt_nscd.packings.vtk_files import write_poly_data
+from asphalt_nscd.files.words import counted
+from asphalt_nscd.nscd.bonds.strength import utilisations
+from asphalt_nscd.packings.vtk_files import require_vtk, write_poly_data, write_series
 from asphalt_nscd.specimen.preparation import DEPOSIT, SPECIMEN
 
 TEST = "test"
-FORMS = {"vtk": (".vtp",), "csv": (".csv",)}
+FRAMES = "frames/"  # what a test keeps of all spheres and bonds, on request
+FORMS = {"vtk": ".vtp", "csv": ".csv"}
+SERIES = ".pvd"  # for a test as vtk
 BONDS = "-bonds"  # behind the name of the file of spheres
 
 
 def export_result(source: str | Path, form: str, output: str | Path) -> str:
     """Write a result file in another form; one line that says what was written.
 
-    A deposit or specimen is its spheres, in m; a specimen also its bonds, in a file beside; a test its history (csv).
+    A deposit or specimen is its spheres, in m; a specimen also its bonds, in a file beside; a test its history (csv)
+    or, of its last cycle, what all spheres and bonds do (vtk).
     """
     output = Path(output)
-    endings = FORMS.get(form)
-    if endings is None:
-        raise InputError(f"{source}: format {form!r} is one of laws; give one of {', '.join(FORMS)}.")
-    if output.suffix.lower() not in endings:
+    if form not in FORMS:
         raise InputError(
-            f"{output}: a file of format {form} ends in {' or '.join(endings)}; rename the output."
+            f"{source}: format {form!r} is not for spheres or tests; give one of {', '.join(FORMS)}."
         )
     kind = kind_of(source)
     if kind not in _WRITERS:
         raise InputError(f"{source}: holds {kind!r}; give a file with one of {', '.join(_WRITERS)}.")
+    ending = SERIES if (kind, form) == (TEST, "vtk") else FORMS[form]
+    if output.suffix.lower() != ending:
+        raise InputError(f"{output}: a {kind} of format {form} ends in {ending}; rename the output.")
     return _WRITERS[kind](load(source, kind), form, output)
 
 
 def _deposit(record: Record, form: str, output: Path) -> str:
     _spheres(record, form, output)
-    return f"{output}: {record.arrays['radius'].size} spheres, lengths in m."
+    return f"{output}: {counted(record.arrays['radius'].size, 'sphere')}, lengths in m."
 
 
 def _specimen(record: Record, form: str, output: Path) -> str:
@@ -51,18 +57,20 @@ def _specimen(record: Record, form: str, output: Path) -> str:
     if form == "csv":
         write_table(beside, pd.DataFrame({"first": ends[:, 0], "second": ends[:, 1], **own}))
     else:
-        # A bond to a plate, body n or n + 1, ends where it acts.
-        place, plate = np.concatenate([arrays["position"], arrays["network/point"]]), ends >= n
-        ends = np.where(plate, n + np.arange(len(ends))[:, None], ends)
-        used, lines = np.unique(ends, return_inverse=True)
-        write_poly_data(
-            beside,
-            place[used],
-            {},
-            lines.reshape(ends.shape),
-            own | {"plate": np.asarray(plate.any(axis=1), np.int8)},
-        )
-    return f"{output}: {n} spheres; {beside.name}: {len(ends)} bonds; lengths in m, areas in m2."
+        place, lines, plate = _lines(arrays["position"], ends, arrays["network/point"])
+        write_poly_data(beside, place, {}, lines, own | {"plate": plate})
+    return f"{output}: {counted(n, 'sphere')}; {beside.name}: {counted(len(ends), 'bond')}; lengths in m, areas in m2."
+
+
+def _lines(
+    position: NDArray[np.float64], ends: NDArray[np.int64], point: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int8]]:
+    """Places (p, 3) [m], lines between them (b, 2), and which lead to a plate (b,), of bonds that act at (b, 3)."""
+    n = len(position)
+    # A bond to a plate, body n or n + 1, ends where it acts.
+    place, plate = np.concatenate([position, point]), ends >= n
+    used, lines = np.unique(np.where(plate, n + np.arange(len(ends))[:, None], ends), return_inverse=True)
+    return place[used], lines.reshape(ends.shape), np.asarray(plate.any(axis=1), np.int8)
 
 
 _OF_BONDS = {"area_m2": "area", "gap_m": "gap", "length_m": "length"}
@@ -79,11 +87,61 @@ def _spheres(record: Record, form: str, output: Path) -> None:
 
 
 def _test(record: Record, form: str, output: Path) -> str:
-    if form != "csv":
-        raise InputError(f"{output}: a test holds a history and no motion of spheres; give --format csv.")
+    if form == "vtk":
+        return _series(record, output)
     history = {name: record.arrays[name] for name in ("time_s", "displacement_m", "force_N")}
     write_table(output, pd.DataFrame(history))
-    return f"{output}: {record.arrays['time_s'].size} steps of time, displacement and force of the head."
+    return f"{output}: {counted(record.arrays['time_s'].size, 'step')} of time, displacement and force of the head."
+
+
+def _series(record: Record, output: Path) -> str:
+    """A file of spheres and one of bonds for each instant that the test keeps, in a folder named as the series."""
+    kept = {name.removeprefix(FRAMES): a for name, a in record.arrays.items() if name.startswith(FRAMES)}
+    if "strength_N" not in kept:
+        raise InputError(
+            f"{output}: the test keeps no motion of spheres, or is of an older version; simulate it again with "
+            "--frames 24 (in Python Load(frames=24)), or give --format csv."
+        )
+    position, times = kept["position_m"], kept["time_s"]
+    ends = np.column_stack([kept["first"], kept["second"]])
+    place, lines, plate = _lines(position, ends, kept["point_m"])
+    require_vtk()
+    folder = output.with_suffix("")
+    folder.mkdir(parents=True, exist_ok=True)
+    steps = []
+    for k, time in enumerate(times):
+        files = [folder / f"spheres-{k:03d}.vtp", folder / f"bonds-{k:03d}.vtp"]
+        force = kept["bond_force_N"][k]
+        write_poly_data(
+            files[0],
+            position,
+            {
+                "radius_m": kept["radius_m"],
+                "displacement_m": kept["displacement_m"][k],
+                "velocity_m_s": kept["velocity_m_s"][k],
+            },
+        )
+        write_poly_data(
+            files[1],
+            place,
+            {},
+            lines,
+            {
+                "area_m2": kept["area_m2"],
+                "tension_N": force[:, 0],
+                "shear_N": np.hypot(force[:, 1], force[:, 2]),
+                # 1 where a bond would break; 0 of bonds to the plates, which do not, and of broken ones
+                "utilisation": utilisations(force * [-1.0, 1.0, 1.0], kept["strength_N"]),
+                "plate": plate,
+            },
+        )
+        steps.append((float(time), files))
+    write_series(output, steps)
+    size = sum(file.stat().st_size for _, files in steps for file in files)
+    return (
+        f"{output}: {counted(len(times), 'instant')} of {counted(len(position), 'sphere')} and "
+        f"{counted(len(ends), 'bond')}, {size / 1e6:.3g} MB in {folder.name}/; displacements in m, forces in N."
+    )
 
 
 _WRITERS: dict[str, Callable[[Record, str, Path], str]] = {

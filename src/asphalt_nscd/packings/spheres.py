@@ -13,6 +13,7 @@ from asphalt_nscd.files.errors import InputError
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
 GUESSED = ("m", "mm")
 RADII = (1e-4, 5e-2)  # m: of aggregate from 0.2 to 100 mm; no number is one of them in m and in mm
+SURE = (1e-3, 2e-2)  # m: of what a mix holds most; lengths that give such radii in cm may be meant so
 MOST = 10_000_000
 
 
@@ -52,9 +53,14 @@ class Spheres:
             if not fits:
                 raise InputError(
                     f"{self.path}: radii from {low:g} to {high:g} are those of aggregate neither in m nor in mm; "
-                    f"state the unit with --unit, one of {', '.join(UNITS)}."
+                    f"state the unit with --unit (packing_unit in a study), one of {', '.join(UNITS)}."
                 )
             unit = fits[0]
+            if unit == "mm" and SURE[0] <= low * UNITS["cm"] and high * UNITS["cm"] <= SURE[1]:
+                raise InputError(
+                    f"{self.path}: radii from {low:g} to {high:g} are those of sand in mm and of gravel in cm; state "
+                    "the unit with --unit (packing_unit in a study), mm or cm."
+                )
             said = f"lengths taken as {unit}, because radii from {low:g} to {high:g} are those of aggregate in {unit}"
         else:
             said = f"lengths in {unit}, as {'stated' if stated else 'the file says'}"

@@ -23,11 +23,16 @@ def read_text(path: Path) -> Spheres:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
-        raise InputError(
-            f"{path}: neither text nor HDF5 nor VTK; give CSV, a dump, YADE's text or VTK."
-        ) from None
+        mend = "a deposit of this program goes straight to `asphalt-nscd trim`"
+        if not path.read_bytes().startswith(b"\x89HDF"):
+            mend = "give CSV, a dump, YADE's text or VTK"
+        raise InputError(f"{path}: neither text nor VTK; {mend}.") from None
     if not text.strip():
         raise InputError(f"{path}: the file is empty; give one line for each sphere.")
+    if text.lstrip()[0] in "{[<":
+        raise InputError(
+            f"{path}: no table of spheres, but JSON or XML; give CSV, a dump, YADE's text or VTK."
+        )
     if text.startswith("ITEM:"):
         return _dump(path, text)
     return _table(path, text)
@@ -66,7 +71,7 @@ def _table(path: Path, text: str) -> Spheres:
     yade = re.search(r"^#\s*format\s+(\S+)", text, re.MULTILINE)
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if not lines:
-        raise InputError(f"{path}: no line with a sphere; give one for each.")
+        raise InputError(f"{path}: holds no spheres; give one line for each sphere.")
     if yade:
         return _spheres(path, _frame(path, "\n".join(lines), yade[1].split("_")), ["text of YADE"])
     names = re.split(r"[,;\t]\s*" if re.search("[,;\t]", lines[0]) else r"\s+", lines[0].strip())
@@ -76,6 +81,8 @@ def _table(path: Path, text: str) -> Spheres:
                 path, _frame(path, "\n".join(lines), [*AXES, "radius"]), ["no header: taken as x y z radius"]
             )
         raise InputError(f"{path}: {len(names)} columns without a header; name them x, y, z, radius.")
+    if len(lines) == 1:
+        raise InputError(f"{path}: a header without spheres; give one line for each sphere.")
     return _spheres(path, _frame(path, "\n".join(lines[1:]), names), [])
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ RADII = {"radius": 1.0, "radii": 1.0, "r": 1.0, "radius_m": 1.0, "diameter": 0.5
 
 def read_points(path: Path) -> Spheres:
     """Points with an array of radii or diameters."""
-    vtk = _vtk()
+    vtk = require_vtk()
     kinds = {
         ".vtp": vtk.vtkXMLPolyDataReader,
         ".vtu": vtk.vtkXMLUnstructuredGridReader,
@@ -55,11 +56,14 @@ def read_points(path: Path) -> Spheres:
 
 
 def write_poly_data(
-    path: Path, position: NDArray[np.float64], of_points: Mapping[str, NDArray[Any]],
-    lines: NDArray[np.int64] | None = None, of_lines: Mapping[str, NDArray[Any]] | None = None,
-) -> None:  # fmt: skip
+    path: Path,
+    position: NDArray[np.float64],
+    of_points: Mapping[str, NDArray[Any]],
+    lines: NDArray[np.int64] | None = None,
+    of_lines: Mapping[str, NDArray[Any]] | None = None,
+) -> None:
     """Points (n, 3) with arrays (n,), or lines between them (l, 2) with arrays (l,), as .vtp."""
-    vtk = _vtk()
+    vtk = require_vtk()
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
     def cells(ends: NDArray[np.int64]) -> Any:
@@ -92,7 +96,23 @@ def write_poly_data(
             raise OSError(None, "VTK could not write the file", str(path))
 
 
-def _vtk() -> Any:
+def write_series(path: Path, steps: Sequence[tuple[float, Sequence[Path]]]) -> None:
+    """The parts of each time [s] as one series, .pvd of ParaView; parts are named from the folder of the file."""
+    rows = "".join(
+        f'<DataSet timestep="{time:.9g}" part="{part}" file="{escape(file.relative_to(path.parent).as_posix())}"/>\n'
+        for time, files in steps
+        for part, file in enumerate(files)
+    )
+    with atomic_path(path) as temporary:
+        temporary.write_text(
+            '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n'
+            f"<Collection>\n{rows}</Collection>\n</VTKFile>\n",
+            encoding="utf-8",
+        )
+
+
+def require_vtk() -> Any:
+    """The library, or InputError."""
     try:
         import vtk
     except ImportError:

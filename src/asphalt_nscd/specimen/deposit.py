@@ -46,15 +46,21 @@ class Course:
 
     def arrays(self) -> dict[str, np.ndarray]:
         return {
-            "course/time": np.array(self.time), "course/height": np.array(self.height),
-            "course/wall": np.array(self.wall), "course/touched": np.array(self.touched, int),
-        }  # fmt: skip
+            "course/time": np.array(self.time),
+            "course/height": np.array(self.height),
+            "course/wall": np.array(self.wall),
+            "course/touched": np.array(self.touched, int),
+        }
 
 
 def settle(
-    granulate: Granulate, numerics: PouringNumerics, rest_speed: float, longest: float,
-    progress: Progress, stage: str,
-) -> None:  # fmt: skip
+    granulate: Granulate,
+    numerics: PouringNumerics,
+    rest_speed: float,
+    longest: float,
+    progress: Progress,
+    stage: str,
+) -> None:
     """Advance until the root mean square speed stays under rest_speed [m/s], at most `longest` [s]."""
     n = granulate.radius.size
     began = granulate.time

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from asphalt_nscd.nscd.spheres import granular, neighbours
+from asphalt_nscd.nscd.spheres.slabs import Room, Slabs, room_for, slabs_of
+from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.trimming import layer_height
 
 WALL = 5
@@ -16,7 +18,7 @@ SEARCH_EVERY = 25  # steps, for which the motion of each sphere is allowed for
 FALLING = 0.01  # m/s, mean speed
 FALLING_SWEEPS = 20
 MOST_SWEEPS = 300
-TOLERANCE = 3e-3
+TOLERANCE = 2e-3
 PENETRATION = 0.02  # of the smallest radius
 ALLOWED_OVERLAP = 0.005  # of the smallest radius
 
@@ -49,10 +51,13 @@ class PouringNumerics:
         """
         smallest = float(radius.min())
         return cls(
-            time_step=time_step, tolerance=TOLERANCE, most_sweeps=MOST_SWEEPS,
-            falling_sweeps=FALLING_SWEEPS, penetration=PENETRATION * smallest,
+            time_step=time_step,
+            tolerance=TOLERANCE,
+            most_sweeps=MOST_SWEEPS,
+            falling_sweeps=FALLING_SWEEPS,
+            penetration=PENETRATION * smallest,
             allowed_overlap=ALLOWED_OVERLAP * smallest,
-        )  # fmt: skip
+        )
 
 
 @dataclass
@@ -71,11 +76,14 @@ class Granulate:
     time: float = 0.0
     steps: int = 0
     sweeps: int = 0
+    team: Team = field(default_factory=Team)  # any number of threads gives the same numbers
 
     def __post_init__(self) -> None:
         self._start: np.ndarray | None = None
         self._other = np.empty(0, np.int64)
         self.impulse = np.zeros((0, 3))
+        self._slabs: Slabs | None = None
+        self._room: Room | None = None
         self.drive = np.zeros(2)  # of the top wall: speed [m/s], largest impulse of a step [N s]
         self.overlap = 0.0  # m, the largest of all steps since it was last set to zero
         self._lowest: np.ndarray | None = None  # m, of each sphere and all after it, when they began to fall
@@ -88,20 +96,29 @@ class Granulate:
 
     @classmethod
     def in_box(
-        cls, position: np.ndarray, radius: np.ndarray, box: tuple[float, float, float],
-        density: float, friction: float, restitution: float = 0.0,
-    ) -> Granulate:  # fmt: skip
+        cls,
+        position: np.ndarray,
+        radius: np.ndarray,
+        box: tuple[float, float, float],
+        density: float,
+        friction: float,
+        restitution: float = 0.0,
+    ) -> Granulate:
         """Spheres at rest in a box [0, length] x [0, width] x [0, height]; plane 5 is its top."""
         size = np.asarray(box, float)
         normal = np.concatenate([np.eye(3), -np.eye(3)])
         point = np.concatenate([np.zeros((3, 3)), np.diag(size)])
         mass = density * 4.0 / 3.0 * np.pi * radius**3
         return cls(
-            position=position.copy(), radius=radius.copy(),
+            position=position.copy(),
+            radius=radius.copy(),
             velocity=np.zeros((radius.size + 6, 6)),
             inverse_mass=np.concatenate([1.0 / mass, np.zeros(6)]),
-            plane_point=point, plane_normal=normal, friction=friction, restitution=restitution,
-        )  # fmt: skip
+            plane_point=point,
+            plane_normal=normal,
+            friction=friction,
+            restitution=restitution,
+        )
 
     def let_fall(self) -> None:
         """The spheres are at rest, apart from each other and ordered by height; now they rain.
@@ -124,12 +141,30 @@ class Granulate:
         speed = np.sqrt((self.velocity[:n, :3] ** 2).sum(axis=1))
         enough = numerics.falling_sweeps if speed.mean() > FALLING else numerics.most_sweeps
         meeting = self._search(numerics, speed)
-        sweeps, change, overlap = granular.step(
-            self.position, self.radius, self.velocity, self.inverse_mass, self.plane_point,
-            self.plane_normal, self.gravity, self._start, self._other, self.impulse, self.drive, dt,
-            self.friction, self.restitution, numerics.recovery_speed, numerics.allowed_overlap, meeting,
-            numerics.tolerance, numerics.penetration, enough, numerics.most_sweeps,
-        )  # fmt: skip
+        sweeps, change, overlap = self.team.run(
+            granular.step,
+            self.position,
+            self.radius,
+            self.velocity,
+            self.inverse_mass,
+            self.plane_point,
+            self.plane_normal,
+            self.gravity,
+            self.impulse,
+            self._slabs,
+            self._room,
+            self.drive,
+            dt,
+            self.friction,
+            self.restitution,
+            numerics.recovery_speed,
+            numerics.allowed_overlap,
+            meeting,
+            numerics.tolerance,
+            numerics.penetration,
+            enough,
+            numerics.most_sweeps,
+        )[0]
         self.plane_point = self.plane_point + dt * self.velocity[n:, :3]
         self.overlap = max(self.overlap, overlap)
         self.time += dt
@@ -185,16 +220,27 @@ class Granulate:
             self._reach = numerics.skin + furthest
             reach = np.full(m, self._reach)
             self._plane_reach = numerics.skin + nearing + np.where(plane_speed > 0.0, WALL_REACH, 0.0)
+        within = neighbours.Reach(reach, self._extra, self._plane_reach)
         start, other = neighbours.find_pairs_within(
-            position, radius, self.plane_point, self.plane_normal, reach, self._extra, self._plane_reach, n
+            self.team, position, radius, self.plane_point, self.plane_normal, within, n
         )
         if self._start is None:
             self.impulse = np.zeros((other.size, 3))
         else:
-            self.impulse = neighbours.carry_reactions(self._start, self._other, self.impulse, start, other)
-        self._start, self._other = start, other
+            self.impulse = neighbours.carry_reactions(
+                self.team, self._start, self._other, self.impulse, start, other
+            )
+        self._list(start, other)
         self._searched_at, self._planes_at = position.copy(), self.plane_point.copy()
         return meeting
+
+    def _list(self, start: np.ndarray, other: np.ndarray) -> None:
+        """Take these pairs, and room to work on them."""
+        self._start, self._other = start, other
+        bodies = self.inverse_mass.size
+        self._slabs = Slabs(*slabs_of(self.position[: start.size - 1], start, other, bodies - 1))
+        if self._room is None or self._room.active.size < other.size:
+            self._room = room_for(other.size + other.size // 4, bodies)
 
     def kinetic_energy(self) -> float:
         """Of the spheres [J]; spin counts with 2/5 of its surface velocity squared."""
@@ -207,9 +253,8 @@ class Granulate:
         start, other = neighbours.find_pairs(
             self.position, self.radius, self.plane_point, self.plane_normal, below
         )
-        still = np.zeros_like(self.velocity)
-        _, first, second, _, gap = granular.active_contacts(
-            self.position, self.radius, still, self.plane_point, self.plane_normal, start, other, 1.0, below
+        first, second, gap = granular.near_pairs(
+            self.position, self.radius, self.plane_point, self.plane_normal, start, other, below
         )
         return np.stack([first, second], axis=1), gap
 

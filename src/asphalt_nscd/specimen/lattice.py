@@ -52,9 +52,14 @@ def random_lattice(
 
 
 def _place(
-    cells: np.ndarray, shape: np.ndarray, cell: float, radii: np.ndarray, parts: int, corner: np.ndarray,
+    cells: np.ndarray,
+    shape: np.ndarray,
+    cell: float,
+    radii: np.ndarray,
+    parts: int,
+    corner: np.ndarray,
     rng: np.random.Generator,
-) -> np.ndarray:  # fmt: skip
+) -> np.ndarray:
     index = np.stack([cells % shape[0], cells // shape[0] % shape[1], cells // (shape[0] * shape[1])], axis=1)
     part = cell / parts
     slack = part - 2.0 * radii[:, None]

@@ -71,7 +71,7 @@ def power_diagram(position: np.ndarray, radius: np.ndarray, region: Region) -> F
         if abs(facets.volume / volume - 1.0) < FILLED:
             return Facets(*(value[kept] for value in vars(facets).values()))
         if within > distance.max():
-            raise ArithmeticError(f"cells fill {facets.volume / volume:.9f} of their region")
+            raise ArithmeticError(f"its cells fill {facets.volume / volume:.9f} of the region, not all")
         within *= 2.0
 
 
@@ -104,15 +104,23 @@ def _diagram(
     reach = (length**2 + weight[i] - weight[j]) / (2.0 * length)
     foot = centre[i] + frame[:, 0] * reach[:, None]
     count = np.diff(np.append(start, len(at)))
-    area, middle, spread = _polygons(start, np.einsum("cka,ca->ck", np.repeat(frame[:, 1:], count, axis=0),
-                                                      vertex[at] - np.repeat(foot, count, axis=0)))  # fmt: skip
+    area, middle, spread = _polygons(
+        start,
+        np.einsum(
+            "cka,ca->ck", np.repeat(frame[:, 1:], count, axis=0), vertex[at] - np.repeat(foot, count, axis=0)
+        ),
+    )
     own = j < n
     image = np.where(own, 0, j - n)
     facets = Facets(
-        first=i, second=np.where(own, j, n + face[image]), frame=frame, area=area,
-        length=np.where(own, length, length / 2.0), centroid=foot + np.einsum("fk,fka->fa", middle, frame[:, 1:]),
+        first=i,
+        second=np.where(own, j, n + face[image]),
+        frame=frame,
+        area=area,
+        length=np.where(own, length, length / 2.0),
+        centroid=foot + np.einsum("fk,fka->fa", middle, frame[:, 1:]),
         spread=spread,
-    )  # fmt: skip
+    )
     return facets, area > NEGLIGIBLE * np.pi * np.minimum(weight[i], weight[j])
 
 
@@ -147,10 +155,13 @@ def _polygons(start: np.ndarray, point: np.ndarray) -> tuple[np.ndarray, np.ndar
     area = total(np.ones_like(u)) / 2.0
     scale = np.divide(1.0, area, out=np.zeros_like(area), where=area > 0.0)[:, None]
     centroid = np.column_stack([total(u + p), total(v + q)]) * scale / 6.0
-    spread = np.column_stack([
-        total(u * u + u * p + p * p) / 12.0, total(v * v + v * q + q * q) / 12.0,
-        total(2.0 * (u * v + p * q) + u * q + p * v) / 24.0,
-    ])  # fmt: skip
+    spread = np.column_stack(
+        [
+            total(u * u + u * p + p * p) / 12.0,
+            total(v * v + v * q + q * q) / 12.0,
+            total(2.0 * (u * v + p * q) + u * q + p * v) / 24.0,
+        ]
+    )
     cu, cv = centroid.T
     spread = spread * scale - np.column_stack([cu**2, cv**2, cu * cv])
     return area, mean + centroid, spread

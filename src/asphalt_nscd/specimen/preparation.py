@@ -10,9 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.measurements.geometry import read_geometry, require_within
 from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.nscd.cores import cores
+from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.counts import read_counts
 from asphalt_nscd.specimen.deposit import REST_SPEED, Course, Progress, Shaking, balance, settle, vibrate
 from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
@@ -24,6 +27,7 @@ DEPOSIT, SPECIMEN = "deposit", "specimen"  # kinds of files
 Content = tuple[dict[str, np.ndarray], dict[str, Any]]
 """Arrays and attributes, as a file has them."""
 
+LARGEST_BOX = 10.0  # m
 KEPT = (
     "seed",
     "source",
@@ -38,67 +42,104 @@ TOUCHING = 1e-6  # m, gap below which two spheres count as touching
 
 @dataclass(frozen=True)
 class Vibration:
-    """Of the top wall, after pouring."""
+    """Of the top wall, after pouring.
+
+    >>> Vibration(duration=0.0).stroke  # pour without; the stroke of the paper
+    0.006
+    """
 
     stroke: float = 6e-3  # m, crest to crest
     frequency: float = 30.0  # Hz
     duration: float = 1.0  # s; zero for none
 
 
-def deposit(
-    counts_table: str | Path, box: tuple[float, float, float], seed: int, friction: float, stroke: float,
-    vibration_frequency: float, vibration_time: float, time_step: float, output: str | Path,
-    progress: Progress = lambda stage, done, total: None,
-) -> None:  # fmt: skip
-    """Pour the spheres of counts_table into box (length, width, height) [m], vibrate, and save.
+@dataclass(frozen=True)
+class Pouring:
+    """Where spheres fall, and how."""
 
-    stroke [m] crest to crest at vibration_frequency [Hz] for vibration_time [s] (zero: none).
-    """
-    vibration = Vibration(stroke, vibration_frequency, vibration_time)
-    save(
-        output, DEPOSIT, *pour(read_counts(counts_table), box, seed, friction, vibration, time_step, progress)
-    )
+    box: tuple[float, float, float]  # length, width, height, m
+    seed: int = 0  # of the random lattice
+    friction: float = 0.2  # of spheres and walls
+    vibration: Vibration = Vibration()
+    time_step: float = 4e-4  # s
+    threads: int = 1  # changes no number
+
+
+def deposit(
+    counts_table: str | Path,
+    pouring: Pouring,
+    output: str | Path,
+    progress: Progress = lambda stage, done, total: None,
+) -> None:
+    """Pour the spheres of counts_table, vibrate them, and save."""
+    save(output, DEPOSIT, *pour(read_counts(counts_table), pouring, progress))
 
 
 def pour(
-    spheres: tuple[np.ndarray, np.ndarray], box: tuple[float, float, float], seed: int, friction: float,
-    vibration: Vibration, time_step: float, progress: Progress = lambda stage, done, total: None,
-) -> Content:  # fmt: skip
-    """Pour spheres, diameters [m] and their counts, into box (length, width, height) [m] and vibrate them.
+    spheres: tuple[np.ndarray, np.ndarray],
+    pouring: Pouring,
+    progress: Progress = lambda stage, done, total: None,
+) -> Content:
+    """Pour spheres, diameters [m] and their counts, and vibrate them.
 
     Arrays and attributes of a deposit file.
     """
     began = time.process_time()
+    box, seed, friction, time_step = pouring.box, pouring.seed, pouring.friction, pouring.time_step
+    if max(box) > LARGEST_BOX:
+        raise InputError(
+            f"a box of {box[0]:g} x {box[1]:g} x {box[2]:g} m is longer than {LARGEST_BOX:g} m; give its sides in m, "
+            "not in mm."
+        )
+    if not 1 <= pouring.threads <= cores():
+        raise InputError(
+            f"threads = {pouring.threads}: give a whole number from 1 to {cores()}, the cores that this machine grants."
+        )
+    vibration = pouring.vibration
     stroke, vibration_frequency, vibration_time = vibration.stroke, vibration.frequency, vibration.duration
     diameters, counts = spheres
     position, radius = random_lattice(diameters, counts, box, np.random.default_rng(seed))
     numerics = PouringNumerics.of(radius, time_step)
     granulate = Granulate.in_box(position, radius, box, DENSITY, friction)
     granulate.let_fall()
-    settle(granulate, numerics, REST_SPEED, LONGEST_POURING, progress, "pouring")
-    stages = {"poured": _stage(granulate, numerics, Course(), progress, "settling")}
-    poured, course, pressure = granulate.position.copy(), Course(), 0.0
-    if vibration_time > 0.0:
-        course.note(granulate)
-        pressure = granulate.weight() / (box[0] * box[1])
-        shaking = Shaking(stroke, vibration_frequency, vibration_time, pressure)
-        vibrate(granulate, numerics, shaking, course, progress)
-        settle(granulate, numerics, REST_SPEED, LONGEST_REST, progress, "coming to rest")
-        stages["vibrated"] = _stage(granulate, numerics, course, progress, "coming to rest")
-        course.note(granulate)
+    course, pressure = Course(), granulate.weight() / (box[0] * box[1]) if vibration_time > 0.0 else 0.0
+    with Team(pouring.threads) as granulate.team:
+        settle(granulate, numerics, REST_SPEED, LONGEST_POURING, progress, "pouring")
+        stages = {"poured": _stage(granulate, numerics, Course(), progress, "settling")}
+        poured = granulate.position.copy()
+        if vibration_time > 0.0:
+            course.note(granulate)
+            shaking = Shaking(stroke, vibration_frequency, vibration_time, pressure)
+            vibrate(granulate, numerics, shaking, course, progress)
+            settle(granulate, numerics, REST_SPEED, LONGEST_REST, progress, "coming to rest")
+            stages["vibrated"] = _stage(granulate, numerics, course, progress, "coming to rest")
+            course.note(granulate)
     last = stages["vibrated" if vibration_time > 0.0 else "poured"]
     attributes = {
-        "seed": seed, "friction": friction, "stroke_m": stroke, "vibration_Hz": vibration_frequency,
-        "vibration_s": vibration_time, "wall_pressure_Pa": pressure, "spheres": radius.size,
-        "highest_point_m": granulate.top(), "steps": granulate.steps, "sweeps": granulate.sweeps,
-        **last, **{f"poured_{name}": value for name, value in stages["poured"].items()},
+        "seed": seed,
+        "friction": friction,
+        "stroke_m": stroke,
+        "vibration_Hz": vibration_frequency,
+        "vibration_s": vibration_time,
+        "wall_pressure_Pa": pressure,
+        "spheres": radius.size,
+        "highest_point_m": granulate.top(),
+        "steps": granulate.steps,
+        "sweeps": granulate.sweeps,
+        **last,
+        **{f"poured_{name}": value for name, value in stages["poured"].items()},
         "kinetic_energy_J": granulate.kinetic_energy(),
-        **asdict(numerics), "cpu_s": time.process_time() - began,
-    }  # fmt: skip
+        **asdict(numerics),
+        "cpu_s": time.process_time() - began,
+    }
     arrays = {
-        "initial_position": position, "poured_position": poured, "position": granulate.position,
-        "radius": radius, "box": np.asarray(box, float), **course.arrays(),
-    }  # fmt: skip
+        "initial_position": position,
+        "poured_position": poured,
+        "position": granulate.position,
+        "radius": radius,
+        "box": np.asarray(box, float),
+        **course.arrays(),
+    }
     return arrays, attributes
 
 
@@ -114,11 +155,13 @@ def _stage(
     return {
         **layer_statistics(granulate.position, granulate.radius, box, contacts),
         "largest_overlap_m": float(max(0.0, -gap.min(initial=0.0))),
-        "weight_balance": weight_balance, "unbalanced_force": unbalanced,
-        "periods": touched.size, "periods_with_contact": int((touched > 0).sum()),
+        "weight_balance": weight_balance,
+        "unbalanced_force": unbalanced,
+        "periods": touched.size,
+        "periods_with_contact": int((touched > 0).sum()),
         "grains_touched_per_period": float(touched.mean()) if touched.size else 0.0,
         "largest_overlap_moving_m": moving,
-    }  # fmt: skip
+    }
 
 
 def layer_statistics(
@@ -141,15 +184,19 @@ def layer_statistics(
 
 
 def trim_deposit(
-    deposit_file: str | Path, geometry: Mapping[str, float] | str | Path, volume_reduction: float,
-    gap_max: float, output: str | Path, area: str = "paper",
-) -> None:  # fmt: skip
-    """Cut a specimen from a deposit, bond its spheres (`trim`; gap_max [m] is its reach), and save."""
+    deposit_file: str | Path,
+    geometry: Mapping[str, float] | str | Path,
+    volume_reduction: float,
+    gap_max: float,
+    output: str | Path,
+    area: str = "paper",
+) -> Mapping[str, float | int | str]:
+    """Cut a specimen from a deposit, bond its spheres (`trim`; gap_max [m] is its reach), and save; what it holds."""
     record = load(deposit_file, DEPOSIT)
     shape = read_geometry(geometry, ["specimen"])["specimen"]
-    save(
-        output, SPECIMEN, *bonded((record.arrays, record.attributes), shape, volume_reduction, gap_max, area)
-    )
+    arrays, said = bonded((record.arrays, record.attributes), shape, volume_reduction, gap_max, area)
+    save(output, SPECIMEN, arrays, said)
+    return said
 
 
 def bonded(
@@ -163,10 +210,15 @@ def bonded(
     said: dict[str, float | int | str] = {
         **{name: attributes[name] for name in KEPT if name in attributes},
         **asdict(specimen.geometry),
-        "spheres": specimen.radius.size, "bonds": network.first.size, "density": specimen.density,
-        "volume_reduction": volume_reduction, "gap_max_m": gap_max, "area": area,
-        "loose_grains": specimen.loose_grains, "smallest_gap_m": float(network.gap.min()),
-    }  # fmt: skip
+        "spheres": specimen.radius.size,
+        "bonds": network.first.size,
+        "density": specimen.density,
+        "volume_reduction": volume_reduction,
+        "gap_max_m": gap_max,
+        "area": area,
+        "loose_grains": specimen.loose_grains,
+        "smallest_gap_m": float(network.gap.min()),
+    }
     bodies = {"position": specimen.position, "radius": specimen.radius}
     return bodies | {f"network/{name}": value for name, value in network.arrays().items()}, said
 
@@ -182,7 +234,10 @@ def specimen_of(content: Content) -> Specimen:
     arrays, attributes = content
     return Specimen(
         geometry=Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__}),
-        position=arrays["position"], radius=arrays["radius"], density=attributes["density"],
+        position=arrays["position"],
+        radius=arrays["radius"],
+        density=attributes["density"],
         network=Network(**{name: arrays[f"network/{name}"] for name in Network.__dataclass_fields__}),
-        loose_grains=attributes["loose_grains"], area=attributes.get("area", "paper"),
-    )  # fmt: skip
+        loose_grains=attributes["loose_grains"],
+        area=attributes.get("area", "paper"),
+    )

@@ -16,9 +16,12 @@ MEASURED = 1.0 / 3.0  # of the length, in the middle: where strain is measured
 
 
 def cut_prism(
-    position: np.ndarray, radius: np.ndarray, corner: np.ndarray, geometry: Geometry,
+    position: np.ndarray,
+    radius: np.ndarray,
+    corner: np.ndarray,
+    geometry: Geometry,
     bond: Callable[[np.ndarray, np.ndarray], Network],
-) -> Specimen:  # fmt: skip
+) -> Specimen:
     """Spheres of a layer whose centres lie in a prism b x e x h; its length h along x of the layer, b along z.
 
     corner (3,) [m]: least x, y, z of the prism in the layer. Spheres that hang on no chain of bonds
@@ -52,10 +55,16 @@ def pull(prism: Specimen, share: np.ndarray) -> tuple[float, float]:
     kept = np.append(np.arange(6 * n), 6 * n + 2)  # the head moves along z alone
     bonds, ones = network.first.size, np.ones(6 * n + 1)
     system = BondedSystem(
-        operator=operator[:, kept], weight=(network.form[:, None] * share).ravel(), mass=1e-9 * ones,
-        load=0.0 * ones, driven=6 * n, gap=network.gap, strength=np.full(bonds, np.inf), friction=0.0,
+        operator=operator[:, kept],
+        weight=(network.form[:, None] * share).ravel(),
+        mass=1e-9 * ones,
+        load=0.0 * ones,
+        driven=6 * n,
+        gap=network.gap,
+        strength=np.full(bonds, np.inf),
+        friction=0.0,
         position=position,
-    )  # fmt: skip
+    )
     motion = ritz_basis(system, 0)[:, 0]
     middle = np.abs(prism.position[:, 2] - geometry.h / 2) < MEASURED * geometry.h / 2
     along = motion[: 6 * n].reshape(n, 6)[middle, :3]

@@ -32,9 +32,14 @@ def facet_share(geometry: Geometry, kt_over_kn: float) -> np.ndarray:
 
 
 def bending_system(
-    specimen: Specimen, poisson: float, yield_stress: float, friction: float, head: str = "free",
-    gravity: float = 9.81, kt_over_kn: float = 1.0,
-) -> BondedSystem:  # fmt: skip
+    specimen: Specimen,
+    poisson: float,
+    yield_stress: float,
+    friction: float,
+    head: str = "free",
+    gravity: float = 9.81,
+    kt_over_kn: float = 1.0,
+) -> BondedSystem:
     """Foot fixed, head driven along x; the head's rotation is "free" or "blocked".
 
     The head is a plate of the mobile mass with the inertia of a thin rectangle b x e; its other two
@@ -64,7 +69,13 @@ def bending_system(
     strength = yield_stress * network.area
     strength[np.maximum(network.first, network.second) >= n] = np.inf
     return BondedSystem(
-        operator=operator[:, kept], weight=(network.form[:, None] * share).ravel(),
-        mass=mass.ravel()[kept], load=load.ravel()[kept], driven=6 * n,
-        gap=network.gap, strength=strength, friction=friction, position=position,
-    )  # fmt: skip
+        operator=operator[:, kept],
+        weight=(network.form[:, None] * share).ravel(),
+        mass=mass.ravel()[kept],
+        load=load.ravel()[kept],
+        driven=6 * n,
+        gap=network.gap,
+        strength=strength,
+        friction=friction,
+        position=position,
+    )

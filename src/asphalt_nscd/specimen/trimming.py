@@ -38,9 +38,13 @@ def layer_height(position: np.ndarray, radius: np.ndarray) -> float:
 
 
 def trim(
-    position: np.ndarray, radius: np.ndarray, geometry: Geometry, volume_reduction: float, reach: float,
+    position: np.ndarray,
+    radius: np.ndarray,
+    geometry: Geometry,
+    volume_reduction: float,
+    reach: float,
     area: str = "paper",
-) -> Specimen:  # fmt: skip
+) -> Specimen:
     """Cut the specimen from the middle of a layer (length along x, width along y, height along z).
 
     Grains whose barycentre lies outside the trapezoid are removed. The volume of each sphere is

@@ -1,0 +1,49 @@
+"""What the level of a specimen would be under other readings of the paper's words on its bonds."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import spsolve
+from scipy.spatial import cKDTree
+
+from asphalt_nscd.measurements.twopoint import form_factor
+from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.specimen.trimming import Specimen
+
+
+def ratio_without_moments(specimen: Specimen, poisson: float) -> float:
+    """|E*| over the modulus of the bonds if forces act at the barycentres, so that no body is turned.
+
+    Then a tangential force resists the turning of a whole specimen as it resists shear.
+    """
+    system = bending_system(specimen, poisson, np.inf, 0.0)
+    translations = np.arange(system.mass.size) % 6 < 3
+    driven = np.flatnonzero(translations) == system.driven
+    operator = system.operator[:, translations]
+    stiffness = (operator.T @ sparse.diags_array(system.weight) @ operator).tocsc()
+    of_head = stiffness[:, driven].toarray()[:, 0]
+    displacement = np.ones(driven.size)
+    displacement[~driven] = spsolve(stiffness[~driven][:, ~driven], -of_head[~driven])
+    return float(form_factor(specimen.geometry) * of_head @ displacement)
+
+
+def crossing(specimen: Specimen) -> np.ndarray:
+    """(c,) whether the line of a bond between two spheres passes through a third; those to the plates left out."""
+    n, network = specimen.radius.size, specimen.network
+    between = np.maximum(network.first, network.second) < n
+    first, second, length = network.first[between], network.second[between], network.length[between]
+    start = specimen.position[first]
+    direction = (specimen.position[second] - start) / length[:, None]
+    reach = 0.5 * length + specimen.radius.max()
+    near = cKDTree(specimen.position).query_ball_point(start + 0.5 * length[:, None] * direction, reach)
+    bond = np.repeat(np.arange(first.size), [len(spheres) for spheres in near])
+    third = np.concatenate([np.empty(0, int), *near]).astype(int)
+    other = (third != first[bond]) & (third != second[bond])
+    bond, third = bond[other], third[other]
+    apart = specimen.position[third] - start[bond]
+    along = np.einsum("ij,ij->i", apart, direction[bond]).clip(0.0, length[bond])
+    distance = np.linalg.norm(apart - along[:, None] * direction[bond], axis=1)
+    crossed = np.zeros(first.size, bool)
+    crossed[bond[distance < specimen.radius[third]]] = True
+    return crossed
