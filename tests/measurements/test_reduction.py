@@ -176,7 +176,7 @@ BAD_TABLES = {
     "Pa under MPa": ([M, "A,15,10,2e10,14"], "line 2: E_MPa = 2e+10 is outside"),
     "radians": (
         [M, "A,15,10,12000,.3", "A,30,10,3000,.7"],
-        "no phase_deg exceeds 0.7, so the values look like rad",
+        "no phase_deg exceeds 0.7: the values look like radians; multiply them by 180",
     ),
     "radians, cold": ([M, "A,-10,10,39000,.026"], "look like radians"),
     "psi in radians": ([P, "A,15,10,30,63e-6,.25"], "no psi_deg exceeds"),

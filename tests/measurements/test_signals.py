@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.signals import harmonic_response, peak_response
+from asphalt_nscd.measurements.signals import harmonic_response, peak_response, require_steps
 
 FREQUENCY, FORCE, DISPLACEMENT, PHASE = 10.0, 80.0, 63e-6, np.radians(14.2)
 
@@ -123,3 +123,10 @@ def test_records_that_cannot_be_reduced_are_refused(arguments, words):
     with pytest.raises(InputError, match=words) as caught:
         harmonic_response(*arguments)
     assert "\n" not in str(caught.value)
+
+
+def test_the_largest_time_step_is_said_at_any_frequency():
+    for frequency, most in ((40.0, "0.00125"), (3.0, "0.0166"), (1e5, "5e-07")):
+        with pytest.raises(InputError, match=f"give at most {most} s"):
+            require_steps(1.0, frequency)
+        require_steps(float(most), frequency)

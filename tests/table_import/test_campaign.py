@@ -143,7 +143,8 @@ def test_repeated_test_is_taken_instead_of_the_first_and_said(tmp_path, first):
 def test_two_files_of_one_test_are_refused(tmp_path):
     save(tmp_path, a=export("A", 4), b=export("A", 4, 1.2))
     with pytest.raises(
-        InputError, match=r"a\.csv and b\.csv both hold specimen Mix-A at 4 degC, 25 Hz; give one"
+        InputError,
+        match=r"a\.csv and b\.csv both hold specimen Mix-A at 4 degC, 25 Hz, and no date in both tells",
     ):
         read_campaign([tmp_path])
 
@@ -175,3 +176,8 @@ def test_what_reduce_wrote_is_taken_as_it_is(tmp_path):
     # Every digit of a plain table stays, too.
     plain, _ = read_campaign([tmp_path / "m.csv"])
     assert plain.table.columns["E_MPa"] == read_csv(tmp_path / "m.csv").columns["E_MPa"]
+
+
+def test_one_specimen_is_one(tmp_path):
+    (tmp_path / "t.csv").write_text("specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\nA,20,10,9000,20\n")
+    assert "1 specimen: A" in read_campaign([tmp_path / "t.csv"])[0].notes

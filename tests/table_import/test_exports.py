@@ -79,6 +79,19 @@ def test_test_type_that_the_user_states_is_taken(tmp_path):
     assert campaign.test_type == "bending" and "tension" not in " ".join(campaign.notes)
 
 
+def test_of_a_table_it_is_said_that_bending_is_assumed(tmp_path):
+    (tmp_path / "t.csv").write_text(
+        "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\n1,15,1,9000,20\n1,15,3,11000,18\n"
+    )
+    assumed, _ = read_campaign([tmp_path / "t.csv"])
+    assert (
+        "a table is taken as two-point bending; say --measured-in tension-compression if it is not"
+        in assumed.notes
+    )
+    stated, _ = read_campaign([tmp_path / "t.csv"], test_type="tension-compression")
+    assert not any("is taken as" in note for note in stated.notes)
+
+
 @pytest.mark.parametrize("codec", ["utf-8", "utf-8-sig", "utf-16"])
 def test_encodings(tmp_path, codec):
     campaign = read(tmp_path, EXPORT, codec=codec)
@@ -195,7 +208,7 @@ def test_frequency_without_a_result_is_left_out_and_said(tmp_path):
     text = EXPORT.replace("9100,8000,5000", "9100,8000").replace("12.5,13.25,19", "12.5,13.25")
     campaign = read(tmp_path, text)
     assert campaign.table.columns["frequency_Hz"] == ["25", "10"]
-    assert "1 frequencies without a modulus left out" in campaign.notes
+    assert "frequencies without a modulus left out: 1" in campaign.notes
 
 
 def test_temperature_of_the_name_where_no_other_is_given(tmp_path):
@@ -229,7 +242,7 @@ def test_synthetic_exports_say_so(tmp_path):
     [
         (",25 Hz,10 Hz,0.5 Hz\n", "", "a machine export without its line of frequencies"),
         ("modulus (MPa)", "modulus", "'Dynamic modulus' does not say its unit; write it after the name"),
-        ("modulus (MPa)", "modulus (m)", "'m' is no unit of it; give one of Pa, kPa, MPa"),
+        ("modulus (MPa)", "modulus (m)", "'m' is not a unit of E_MPa; give one of Pa, kPa, MPa"),
         (" Phase angle (Degrees),12.5,13.25,19\n", "", "no column for phase_deg"),
         (" Load drift", " E* (MPa),9,8,7\n Load drift", "'Dynamic modulus (MPa)' and 'E* (MPa)' may each be E_MPa"),
         ("9100,8000,5000", "9100,8000,5000,4000", "4 values below 3 frequencies"),
@@ -264,7 +277,7 @@ def test_no_temperature_at_all_is_refused(tmp_path):
         ("Mix-10-21C- (4G16A)", 21, "Mix-10", False),
         ("Mix-11-37C-Repeated (4G16A)", 37, "Mix-11", True),
         ("Mix-11-Repeat-37C", 37, "Mix-11", False),
-        ("Mix 11 40F rerun", 40, "Mix 11", True),
+        ("Mix 11 40F rerun", 4.4, "Mix 11", True),
         ("Mix-11--10C", -10, "Mix-11", False),
         ("Mix-11-10C", -10, "Mix-11", False),
         ("Mix_11_4.4 °C", 4.4, "Mix_11", False),

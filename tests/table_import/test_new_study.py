@@ -197,3 +197,9 @@ def test_file_names_cannot_write_into_the_configuration():
 def test_duration_grows_with_slow_tests_and_is_the_paper_studys_for_the_paper():
     assert duration(14160, 4, 6, [3, 6, 10, 25, 40], 5e-5) in {f"about {n} minutes" for n in range(12, 31)}
     assert duration(14160, 4, 6, [0.001, 40], 5e-5).endswith("hours")
+
+
+def test_an_installed_package_has_no_studies(monkeypatch):
+    monkeypatch.setattr("asphalt_nscd.table_import.write.SCHEMA", Path("nowhere/study.schema.yaml"))
+    with pytest.raises(InputError, match="a study runs in a clone of the repository"):
+        new_study("mine", german(rows()), Wishes())

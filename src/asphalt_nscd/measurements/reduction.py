@@ -25,9 +25,18 @@ KEYS = ("temperature_C", "frequency_Hz")
 FORMS = {"peaks": ("F0_N", "z0_m", "psi_deg"), "moduli": ("E_MPa", "phase_deg"), "records": ("record",)}
 RECORD_COLUMNS = ("time_s", "force_N", "displacement_m")
 REDUCED_COLUMNS = (
-    "specimen", "temperature_C", "frequency_Hz", "origin", "F0_N", "z0_m", "psi_deg",
-    "E_MPa", "phase_deg", "E_peak_MPa", "phase_peak_deg",
-)  # fmt: skip
+    "specimen",
+    "temperature_C",
+    "frequency_Hz",
+    "origin",
+    "F0_N",
+    "z0_m",
+    "psi_deg",
+    "E_MPa",
+    "phase_deg",
+    "E_peak_MPa",
+    "phase_peak_deg",
+)
 
 SHARE_LEFT_BY_MASS = 0.3  # of |E*|: in quadrature to the mass term stands its sine, of soft mixes above this
 # No mix below 15 GPa has all its phases under 90/57.3 deg, and none is glassy enough for less than 0.3 deg.
@@ -55,9 +64,12 @@ def reduce_table(
 
 
 def reduced_frame(
-    table: Table, geometry: str | Path | Mapping[str, Any], *, cycles: int | None = None,
+    table: Table,
+    geometry: str | Path | Mapping[str, Any],
+    *,
+    cycles: int | None = None,
     tests: Sequence[str] = KEYS,
-) -> pd.DataFrame:  # fmt: skip
+) -> pd.DataFrame:
     """The rows of a measurement table with E_MPa and phase_deg, as `reduce_table` describes them.
 
     tests: columns which, with the specimen, tell one test from another.
@@ -243,6 +255,6 @@ def _check_whole_table(table: Table, frame: pd.DataFrame, form: str) -> None:
     expected = LARGEST_PHASE_AT_LEAST["soft" if frame["E_MPa"].min() < GLASSY else "glassy"]
     if form != "records" and largest <= expected:
         raise InputError(
-            f"{table.path}: no {FORMS[form][-1]} exceeds {largest:.3g}, so the values look like radians, or like "
-            "those of an elastic beam, which say nothing about a mix; if radians, multiply them by 180/pi."
+            f"{table.path}: no {FORMS[form][-1]} exceeds {largest:.3g}: the values look like radians; multiply them by "
+            "180/pi. If they are degrees, the beam is elastic and says nothing about a mix."
         )

@@ -21,9 +21,11 @@ Vector = NDArray[np.float64]
 def require_steps(time_step: float, frequency: float) -> None:
     """Refuse a time step [s] too coarse to simulate a test at this frequency [Hz]."""
     if STEPS_PER_CYCLE * time_step * frequency > 1.0:
+        most = 1.0 / (STEPS_PER_CYCLE * frequency)
+        digit = 10.0 ** (np.floor(np.log10(most)) - 2.0)  # the third one, down
         raise InputError(
             f"time step {time_step:g} s: fewer than {STEPS_PER_CYCLE} steps per cycle at {frequency:g} Hz; "
-            f"give at most {int(1e6 / (STEPS_PER_CYCLE * frequency)) * 1e-6:g} s."
+            f"give at most {np.floor(most / digit * (1.0 + 1e-9)) * digit:.3g} s."
         )
 
 

@@ -18,12 +18,23 @@ MOST_UNPACKED = 50_000_000  # bytes of XML in an XLSX file
 MOST_ROWS, MOST_COLUMNS = 20_000, 300
 
 _FREQUENCY = r"\d\s*Hz\b"
+# Not `#`, the name of a column of numbers, `#1`, that of a specimen, nor `#N/A`.
+_REMARK = re.compile(r"\s*#(?![\dA-Z]|\s*(?:[,;\t\"]|$))")
 
 Row = tuple[int, list[str]]  # line in the file, from 1, and its fields
 
 
 class NotTests(InputError):
     """A file that holds no tests at all; in a folder it is passed over and named."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """Rows of one sheet of a workbook, or of a text file, which has no name; `notes` say how they were read."""
+
+    name: str | None
+    rows: list[Row]
+    notes: list[str]
 
 
 @dataclass(frozen=True)
@@ -42,9 +53,18 @@ def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
 
 
 def read_rows(path: str | Path, sheet: str | None = None) -> tuple[list[Row], list[str]]:
-    """Rows of a CSV, TSV or XLSX file, and how they were read; blank rows and those that begin with # are left out.
+    """Rows of a file with one table, and how they were read; see `read_sheets`."""
+    sheets = read_sheets(path, sheet)
+    if len(sheets) > 1:
+        names = ", ".join(str(one.name) for one in sheets)
+        raise InputError(f"{path}: sheets {names} all hold something; name one with --sheet.")
+    return sheets[0].rows, sheets[0].notes
 
-    sheet: name of the XLSX sheet, needed where several hold something.
+
+def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
+    """Each sheet of a CSV, TSV or XLSX file with its rows; blank rows and those that begin with # are left out.
+
+    sheet: name of the XLSX sheet, if only one is wanted.
     """
     path = Path(path)
     if not path.is_file():
@@ -53,22 +73,30 @@ def read_rows(path: str | Path, sheet: str | None = None) -> tuple[list[Row], li
         raise InputError(f"{path}: larger than {MOST_BYTES // 10**6} MB; give the table of results alone.")
     start = path.read_bytes()[:8]
     if start.startswith(b"PK"):
-        rows, notes = _workbook(path, sheet)
+        sheets = _workbook(path, sheet)
     elif start.startswith(b"\xd0\xcf\x11\xe0"):
         raise InputError(
             f"{path}: an old or encrypted Excel file; save it as XLSX or CSV without a password."
         )
     else:
-        rows, notes = _text(path)
-    rows = [(line, _trimmed(cells)) for line, cells in rows]
-    rows = [(line, cells) for line, cells in rows if cells and not _first(cells).startswith("#")]
-    if len(rows) < 2:
+        sheets = [Sheet(None, *_text(path))]
+    sheets = [Sheet(one.name, _held(one.rows), one.notes) for one in sheets]
+    sheets = [one for one in sheets if len(one.rows) > 1]
+    if not sheets:
         raise NotTests(f"{path}: holds no table; give one line of column names and a line for each test.")
-    if len(rows) > MOST_ROWS or max(len(cells) for _, cells in rows) > MOST_COLUMNS:
+    if any(
+        len(one.rows) > MOST_ROWS or max(len(cells) for _, cells in one.rows) > MOST_COLUMNS for one in sheets
+    ):
         raise InputError(
             f"{path}: more than {MOST_ROWS} rows or {MOST_COLUMNS} columns; give the table of results alone."
         )
-    return rows, notes
+    return sheets
+
+
+def _held(rows: list[Row]) -> list[Row]:
+    """Rows that hold something, and are no remark."""
+    rows = [(line, _trimmed(cells)) for line, cells in rows]
+    return [(line, cells) for line, cells in rows if cells and not _REMARK.match(_first(cells))]
 
 
 def as_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
@@ -83,8 +111,8 @@ def as_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
 
 
 def _trimmed(cells: list[str]) -> list[str]:
-    """Cells without needless blanks, up to the last that holds something."""
-    cells = [" ".join(cell.split()) for cell in cells]
+    """Cells without needless blanks, up to the last that holds something, and with one kind of minus."""
+    cells = [re.sub(r"^[−–](?=[\d.,])", "-", " ".join(cell.split())) for cell in cells]
     filled = [place for place, cell in enumerate(cells) if cell]
     return cells[: filled[-1] + 1] if filled else []
 
@@ -108,7 +136,7 @@ def _text(path: Path) -> tuple[list[Row], list[str]]:
     text, notes = _decoded(path)
     lines = io.StringIO(text, newline="").readlines()
     # Comments and Excel's `sep=;` become blank lines, so that line numbers stay those of the file.
-    lines = ["\n" if re.match(r"\s*#|sep=.\s*$", line, re.IGNORECASE) else line for line in lines]
+    lines = ["\n" if _REMARK.match(line) or re.match(r"sep=.\s*$", line, re.I) else line for line in lines]
     unquoted = [re.sub(r'"[^"]*"', "", line) for line in lines if line.strip()]
     # Above the names there may be a title, in which anything stands.
     # A machine's export begins with lines that hold no separator; its line of frequencies shows it.
@@ -152,10 +180,11 @@ def _decoded(path: Path) -> tuple[str, list[str]]:
     return text, notes
 
 
-def _workbook(path: Path, sheet: str | None) -> tuple[list[Row], list[str]]:
-    """Cells of one sheet. Formulas give the value that the spreadsheet stored, and are not computed.
+def _workbook(path: Path, sheet: str | None) -> list[Sheet]:
+    """Sheets that are shown and hold something, or the one wanted.
 
-    Straight from openpyxl: pandas would read a sheet of 16 384 columns to its end before a bound holds.
+    Formulas give the value that the spreadsheet stored, and are not computed. Straight from openpyxl: pandas
+    would read a sheet of 16 384 columns to its end before a bound holds.
     """
     import openpyxl
 
@@ -169,20 +198,22 @@ def _workbook(path: Path, sheet: str | None) -> tuple[list[Row], list[str]]:
             book = openpyxl.load_workbook(path, read_only=True, data_only=True, keep_links=False)
             found = {name: _sheet_rows(book[name]) for name in book.sheetnames if sheet in (None, name)}
             names = list(book.sheetnames)
+            hidden = {name for name in names if book[name].sheet_state != "visible"}
             book.close()
     except InputError:
         raise
     except Exception as error:  # a damaged file raises nearly anything
         raise InputError(f"{path}: cannot be read as XLSX ({type(error).__name__}); save it anew.") from None
-    filled = {name: rows for name, rows in found.items() if any(any(cells) for _, cells in rows)}
     if sheet is not None and sheet not in names:
         raise InputError(f"{path}: no sheet {sheet!r}; give one of {', '.join(names)}.")
-    if len(filled) > 1:
-        raise InputError(f"{path}: sheets {', '.join(filled)} all hold something; name one with --sheet.")
-    if not filled:
-        raise NotTests(f"{path}: holds no table; give one line of column names and a line for each test.")
-    name, rows = filled.popitem()
-    return rows, [f"sheet {name}"]
+    filled = {name: rows for name, rows in found.items() if any(any(cells) for _, cells in rows)}
+    shown = [name for name in filled if name not in hidden] if sheet is None else [sheet]
+    left_out = [f"hidden sheet {name} not read" for name in filled if name not in shown]
+    return [
+        Sheet(name, rows, [f"sheet {name}", *left_out])
+        for name, rows in filled.items()
+        if name in (shown or filled)
+    ]
 
 
 def _sheet_rows(sheet: object) -> list[Row]:

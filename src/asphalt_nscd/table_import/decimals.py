@@ -18,7 +18,7 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
     first: dict[str, tuple[int, str]] = {}
     for line, text in numbers:
         marks = sum(text.count(mark) for mark in "., '\u00a0\u202f")
-        if marks > 1 and _GROUPED.fullmatch(text):
+        if (marks > 1 or re.search(r"[ '\u00a0\u202f]", text)) and _GROUPED.fullmatch(text):
             raise InputError(
                 f"{where}, line {line}: {text!r} seems to group its digits in thousands; write it without separators."
             )
@@ -29,9 +29,18 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
         (comma_line, comma), (point_line, point) = first[","], first["."]
         raise InputError(
             f"{where}: {comma!r} (line {comma_line}) and {point!r} (line {point_line}) have different decimal "
-            "marks; write all numbers with the same."
+            f"marks{_or_groups(comma, point)}; write all numbers with the same{_ungrouped(comma, point)}."
         )
     return "," if "," in first else "."
+
+
+def _or_groups(*texts: str) -> str:
+    grouped = next((text for text in texts if _GROUPED.fullmatch(text)), None)
+    return f", or {grouped!r} groups its digits in thousands" if grouped else ""
+
+
+def _ungrouped(*texts: str) -> str:
+    return " and without separators" if _or_groups(*texts) else ""
 
 
 def number(text: str, mark: str) -> float | None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-_TEMPERATURE = re.compile(r"[-_ ,]+([-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\s*)?[CF](?![A-Za-z0-9])")
+_TEMPERATURE = re.compile(r"[-_ ,]+([-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\s*)?([CF])(?![A-Za-z0-9])")
 _REPEATED = re.compile(
     r"[-_ ]*\b(?:repeat(?:ed)?|rerun|re-?test(?:ed)?|redo(?:ne)?)\b[-_ \d]*$", re.IGNORECASE
 )
-_SAME = 1.0  # K (or degF) between a temperature in a name and the target it means
+_SAME = 1.0  # K between a temperature in a name and the target it means
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Name:
 def specimen_of(text: str, target: float | None) -> Name:
     """Name of the specimen, without temperature, remarks and the bracket at the end.
 
-    target: temperature of the test as the header has it, in the unit of the name; None if it has none.
+    target: temperature of the test as the header has it [degC]; None if it has none.
     """
     plain = re.sub(r"\s*[(\[][^)\]]*[)\]]\s*$", "", text).strip()
     found = list(_TEMPERATURE.finditer(plain))
@@ -44,5 +44,11 @@ def specimen_of(text: str, target: float | None) -> Name:
 
 
 def _is(match: re.Match[str], target: float) -> bool:
-    value = float(match[1].replace("−", "-").replace(",", "."))
+    value = celsius(match[1].replace("−", "-").replace(",", "."), match[2])
     return min(abs(value - target), abs(abs(value) - abs(target))) <= _SAME
+
+
+def celsius(text: str, unit: str) -> float:
+    """A temperature in C, F or K [degC]."""
+    value = float(text.replace(",", "."))
+    return {"C": value, "F": (value - 32.0) / 1.8, "K": value - 273.15}[unit]

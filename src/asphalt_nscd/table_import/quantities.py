@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 from asphalt_nscd.files.errors import InputError
 
@@ -14,9 +16,16 @@ _CELSIUS = {"C": (1.0, 0.0), "K": (1.0, -273.15), "F": (5 / 9, -160 / 9)}
 _HERTZ = {"Hz": (1.0, 0.0), "rad/s": (0.5 / math.pi, 0.0)}
 _PSI = 6.894757293e-3
 _MEGAPASCAL = {
-    "Pa": (1e-6, 0.0), "kPa": (1e-3, 0.0), "MPa": (1.0, 0.0), "GPa": (1e3, 0.0), "N/mm2": (1.0, 0.0),
-    "psi": (_PSI, 0.0), "ksi": (1e3 * _PSI, 0.0),
-}  # fmt: skip
+    "Pa": (1e-6, 0.0),
+    "kPa": (1e-3, 0.0),
+    "MPa": (1.0, 0.0),
+    "GPa": (1e3, 0.0),
+    "N/mm2": (1.0, 0.0),
+    "MN/m2": (1.0, 0.0),
+    "kgf/cm2": (0.0980665, 0.0),
+    "psi": (_PSI, 0.0),
+    "ksi": (1e3 * _PSI, 0.0),
+}
 _DEGREE = {"deg": (1.0, 0.0), "rad": (180 / math.pi, 0.0), "mrad": (0.18 / math.pi, 0.0)}
 _NEWTON = {"N": (1.0, 0.0), "kN": (1e3, 0.0)}
 _METRE = {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "um": (1e-6, 0.0)}
@@ -27,26 +36,41 @@ _NUMBER = {"": (1.0, 0.0)}
 # Column of our tables: names that people give it, and units. Names of one letter differ by case.
 MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
     "specimen": (
-        "specimen sample specimenid sampleid specimenno sampleno eprouvette éprouvette prüfkörper probekörper probe",
+        "specimen sample specimenid sampleid specimenno sampleno éprouvette prüfkörper probekörper probe "
+        "proben core beam cylinder puck carotte bohrkern probeta muestra provino",
         {},
     ),
     "replicate": ("replicate rep repeat", {}),
+    "mix": (
+        "mix mixture mixtype mixdesign jobmix enrobé mélange mischgut mischgutsorte asphaltsorte mezcla miscela",
+        {},
+    ),
     "origin": ("origin", {}),
     "nominal_temperature_C": (
         "targettemperature targettesttemperature settemperature nominaltemperature solltemperatur",
         _CELSIUS,
     ),
     "temperature_C": (
-        "T temp temperature testtemperature testtemp averagetemperature température temperatur prüftemperatur θ",
+        "T temp temperature averagetemperature temperatur prüftemperatur temperatura temperatuur θ",
         _CELSIUS,
     ),
-    "frequency_Hz": ("f freq frequency loadingfrequency testfrequency fréquence frequenz prüffrequenz omega ω", _HERTZ),
+    "frequency_Hz": (
+        "f freq frequency loadingfrequency fréquence frequenz prüffrequenz belastungsfrequenz frecuencia frequenza "
+        "omega ω angularfrequency kreisfrequenz pulsation",
+        _HERTZ,
+    ),
     "E_MPa": (
-        "E Estar modulus dynamicmodulus complexmodulus stiffness stiffnessmodulus norm module modulecomplexe "
-        "steifigkeit steifigkeitsmodul modul emodul komplexermodul dynamischermodul",
+        "E Estar modulus dynamicmodulus dynmodulus complexmodulus stiffness stiffnessmodulus norm norme magnitude "
+        "absolutevalue module modulecomplexe modulerigidité rigidité steifigkeit steifigkeitsmodul modul emodul "
+        "komplexermodul komplexeremodul dynamischermodul dynamischeremodul betrag absolutwert módulodinámico "
+        "módulocomplejo rigidez modulocomplesso modulodinamico rigidezza stijfheid",
         _MEGAPASCAL,
     ),
-    "phase_deg": ("phi φ ϕ delta δ phase phaseangle phaselag angledephase déphasage phasenwinkel", _DEGREE),
+    "phase_deg": (
+        "phi φ ϕ delta δ phase phaseangle phaselag phaseshift phangle lossangle anglephase déphasage phasenwinkel "
+        "phasenverschiebung verlustwinkel ángulofase angolofase",
+        _DEGREE,
+    ),
     "F0_N": ("F F0 force forceamplitude", _NEWTON),
     "z0_m": ("z z0 displacement displacementamplitude deflection amplitude", _METRE),
     "psi_deg": ("psi ψ", _DEGREE),
@@ -59,11 +83,12 @@ MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
     "load_standard_error_percent": ("loadstandarderror", _PERCENT),
     "deformation_drift_percent": ("deformationdrift averagedeformationdrift", _PERCENT),
     "deformation_standard_error_percent": (
-        "deformationstandarderror averagedeformationstandarderror", _PERCENT,
+        "deformationstandarderror averagedeformationstandarderror",
+        _PERCENT,
     ),
     "deformation_uniformity_percent": ("deformationuniformity", _PERCENT),
     "phase_uniformity_deg": ("phaseuniformity phaseangleuniformity", _DEGREE),
-}  # fmt: skip
+}
 SIEVES = {
     "diameter_mm": (
         "d D diameter sieve sievesize size sieveopening opening siebweite maschenweite tamis",
@@ -72,10 +97,35 @@ SIEVES = {
     "passing_percent": ("passing percentpassing masspassing passant durchgang siebdurchgang", _PERCENT),
 }
 QUALITY = (
-    "load_drift_percent", "load_standard_error_percent", "deformation_drift_percent",
-    "deformation_standard_error_percent", "deformation_uniformity_percent", "phase_uniformity_deg",
-)  # fmt: skip
-ABSENT = ("", "-", "--", "na", "n/a", "nan", "none")  # cells without a value, in small letters
+    "load_drift_percent",
+    "load_standard_error_percent",
+    "deformation_drift_percent",
+    "deformation_standard_error_percent",
+    "deformation_uniformity_percent",
+    "phase_uniformity_deg",
+)
+# Cells without a value, in small letters; those with # are what spreadsheets write for an error.
+ABSENT = (
+    *("", "-", "--", "---", "–", "—", "na", "n/a", "n.a.", "nan", "none", "null", "k.a.", "n.b."),
+    *(
+        "#n/a",
+        "#na",
+        "#nv",
+        "#div/0!",
+        "#value!",
+        "#valeur!",
+        "#wert!",
+        "#ref!",
+        "#bezug!",
+        "#num!",
+        "#zahl!",
+    ),
+)
+# Words that a name may carry beside that of its quantity.
+_BESIDE = frozenset(
+    "of the du de des d la le l der di del test testing tested sollicitation essai mesuré measured "
+    "gemessen no nr n # id name nom number nummer num label code".split()
+)
 _UNITS = {name for _, units in (MEASURED | SIEVES).values() for name in units}
 
 
@@ -113,7 +163,7 @@ def recognise(header: str, known: dict = MEASURED) -> Column | None:
     if foreign:
         quantity, unit = foreign
         allowed = ", ".join(known[quantity][1])
-        raise InputError(f"column {header!r}: {unit!r} is no unit of it; give one of {allowed}.")
+        raise InputError(f"column {header!r}: {unit!r} is not a unit of {quantity}; give one of {allowed}.")
     return None
 
 
@@ -123,6 +173,11 @@ def spellings(known: dict = MEASURED) -> str:
         f"{quantity}: {', '.join(names.split() or [quantity])}" + (f" [{', '.join(units)}]" if units else "")
         for quantity, (names, units) in known.items()
     )
+
+
+def unit_in(header: str) -> str | None:
+    """The unit that a name carries, whatever it names; None if it carries none that is known."""
+    return next((unit for _, unit in _splits(header) if unit and unit in _UNITS), None)
 
 
 def is_unit(cell: str) -> bool:
@@ -138,6 +193,7 @@ def _splits(header: str) -> Iterator[tuple[str, str]]:
         return
     parted = re.fullmatch(r"(.*\S)\s*/\s*(\S+)", header)
     for match in (
+        re.fullmatch(r"(.+?)\s*,\s*([^,]+)", header),
         re.fullmatch(r"(.+?)\s+in\s+(\S+)", header),
         re.fullmatch(r"(.+?)\s*[\s_]\s*(\S+)", header),
         re.fullmatch(r"(.*\S)\s*([°º]\s*[CF])", header),
@@ -153,32 +209,66 @@ def _splits(header: str) -> Iterator[tuple[str, str]]:
 def _spelled(unit: str) -> str:
     """A unit in one of the spellings that stand in the tables above."""
     unit = re.sub(r"\s+", "", unit).replace("µ", "u").replace("μ", "u").replace("²", "2").replace("^", "")
-    unit = re.sub(r"^(?:[°º]|deg|Grad)(?=[CF]$)", "", unit)
+    unit = unit.rstrip(".")
+    unit = re.sub(
+        r"^(?:[°º]|deg\.?|degrees?|degrés?|grad)(?=(?:[CKF]|celsius|fahrenheit)$)", "", unit, flags=re.I
+    )
     words = {
-        "°": "deg", "º": "deg", "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad",
-        "celsius": "C", "kelvin": "K", "fahrenheit": "F", "micron": "um", "microns": "um", "hz": "Hz",
-        "kpa": "kPa", "mpa": "MPa", "gpa": "GPa", "Grad": "deg", "M-%": "%", "m.-%": "%",
-    }  # fmt: skip
-    key = unit.lower() if unit.islower() or len(unit) > 3 else unit  # mPa stays what it is
-    return words.get(unit, words.get(key, unit))
+        "°": "deg",
+        "º": "deg",
+        "degree": "deg",
+        "degrees": "deg",
+        "degré": "deg",
+        "degrés": "deg",
+        "radian": "rad",
+        "radians": "rad",
+        "celsius": "C",
+        "kelvin": "K",
+        "fahrenheit": "F",
+        "micron": "um",
+        "microns": "um",
+        "hertz": "Hz",
+        "newton": "N",
+        "Grad": "deg",
+        "m-%": "%",
+        "m.-%": "%",
+    }
+    if unit in words:
+        return words[unit]
+    if len(unit) < 2 or re.match("m[A-Z]", unit):  # mPa and mN stay what they are
+        return unit
+    return words.get(unit.lower()) or next((one for one in _UNITS if one.lower() == unit.lower()), unit)
 
 
 def _quantity(stem: str, known: dict, qualified: bool) -> str | None:
     """qualified: a temperature may carry a further word, as in `T set` beside `T core`."""
-    name, _, symbol = stem.strip().rpartition(" ")
     alone = _named(stem, known, qualified)
-    if alone or not name:
+    if alone:
         return alone
-    both = {_named(part, known, qualified) for part in (name, symbol)}  # as in `Dynamic modulus |E*|`
-    return both.pop() if len(both) == 1 else None
+    words = [word for word in re.split(r"[\s_-]+|(?<=\bd)['’]|(?<=\bl)['’]", stem) if word]
+    words = [word for word in words if _folded(word.strip(".:°º")) not in _BESIDE]
+    # As in `Dynamic modulus |E*|` or `Norme du module complexe`, where both parts name it.
+    for place in range(len(words)):
+        parts = {_named(" ".join(part), known, qualified) for part in (words[:place], words[place:]) if part}
+        if len(parts) == 1 and None not in parts:
+            return parts.pop()
+    return None
 
 
 def _named(stem: str, known: dict, qualified: bool) -> str | None:
-    plain = re.sub(r"[|*.\s_-]", "", stem)
-    words = re.split(r"[\s_.-]+", stem)
+    plain = re.sub(r"[|*.\s_()\[\]-]", "", stem)
+    words = [_folded(word) if len(word) > 1 else word for word in re.split(r"[\s_.-]+", stem)]
     for quantity, (names, _) in known.items():
         for name in names.split():
-            same = plain == name if len(name) == 1 else plain.casefold() == name.casefold()
-            if same or (qualified and quantity == "temperature_C" and name in words):
+            alike = name if len(name) == 1 else _folded(name)
+            same = plain == name if len(name) == 1 else _folded(plain) == alike
+            if same or (qualified and quantity == "temperature_C" and alike in words):
                 return quantity
     return None
+
+
+@lru_cache(maxsize=4096)
+def _folded(text: str) -> str:
+    """Small letters without accents; an umlaut may be written with an e."""
+    plain = "".join(c for c in unicodedata.normalize("NFKD", text.casefold()) if not unicodedata.combining(c))
+    return re.sub("(?<=[aou])e", "", plain)

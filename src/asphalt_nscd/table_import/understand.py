@@ -11,8 +11,11 @@ from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, REDUCED_COLUMNS
 from asphalt_nscd.table_import.cells import Cells, NotTests
+from asphalt_nscd.table_import.columns import Place, as_written, chosen_columns, one_of
 from asphalt_nscd.table_import.decimals import decimal_mark, number
-from asphalt_nscd.table_import.quantities import ABSENT, MEASURED, QUALITY, Column, is_unit, recognise
+from asphalt_nscd.table_import.headings import with_units
+from asphalt_nscd.table_import.quantities import ABSENT, QUALITY, Column, recognise
+from asphalt_nscd.table_import.rows import CARRIED, tests_in
 from asphalt_nscd.table_import.wide import melted, without_condition
 
 TEXTS = ("specimen", "replicate", "origin")
@@ -24,20 +27,20 @@ _ANGLES = (
     ("moduli", "phase_deg", "psi_deg", "E*"),
     ("peaks", "psi_deg", "phase_deg", "force over displacement"),
 )
-Place = tuple[int, Column]  # of a column, and what it holds
 
 
 @dataclass(frozen=True)
 class Understood:
     """A table in our columns and units, its form (a key of FORMS), and sentences on how it was read.
 
-    sources: for each of our columns the user's, and the unit it was converted from.
+    sources: for each of our columns the user's, and the unit it was converted from. mix: its name, if a column says it.
     """
 
     table: Table
     form: str
     notes: list[str]
     sources: dict[str, str] = field(default_factory=dict)
+    mix: str = ""
 
 
 def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Understood:
@@ -47,15 +50,20 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
     """
     if not chosen and (ours := _own(cells)):
         return ours
-    cells, notes = melted(_with_units(cells))
-    notes = [*cells.notes, *notes]
+    cells, notes = melted(with_units(cells))
     columns = _columns(cells, chosen or {})
     form = _form(cells, columns)
-    kept = {
-        name: _single(cells, name, places)
-        for name, places in columns.items()
-        if name in (*TEXTS, *KEYS, *FORMS[form])
-    } | _further(columns, form)
+    places = {name: columns[name][0][0] for name in (*CARRIED, *KEYS, *FORMS[form]) if name in columns}
+    cells = tests_in(cells, places, FORMS[form])
+    notes = [*cells.notes, *notes]
+    kept, copies = {}, set()
+    for name, several in columns.items():
+        if name in (*TEXTS, "mix", *KEYS, *FORMS[form]):
+            kept[name], said, same = one_of(cells, name, several)
+            notes += said
+            copies |= same
+    kept |= _further(columns, form)
+    mix = _the_mix(cells, kept)
     values, mark = _values(cells, kept)
     notes.append("decimals written with a " + ("comma" if mark == "," else "point"))
     note = _specimens(cells, values)
@@ -65,13 +73,13 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
     }
     if note:
         notes.append(note)
-    read = {place for place, _ in kept.values()}
+    read = {place for place, _ in kept.values()} | copies
     if ignored := [name for place, name in enumerate(cells.header) if place not in read]:
         notes.append(f"ignored: {', '.join(map(repr, ignored))}")
     order = ["specimen", "replicate", *KEYS, *FORMS[form], "origin", *FURTHER, *MAY_BE_ABSENT]
     wanted = [name for name in order if name in values]
     table = Table(cells.path, {name: values[name] for name in wanted}, [line for line, _ in cells.rows])
-    return Understood(table, form, notes, sources)
+    return Understood(table, form, notes, sources, mix)
 
 
 def _converts(column: Column) -> bool:
@@ -103,33 +111,9 @@ def _further(columns: dict[str, list[Place]], form: str) -> dict[str, Place]:
     return found
 
 
-def _with_units(cells: Cells) -> Cells:
-    """Units in a line of their own below the names are put behind these."""
-    line, units = cells.rows[0]
-    if not all(is_unit(unit) for unit in units if unit) or not any(units):
-        return cells
-    header = [
-        f"{name} ({unit.strip('()[]')})" if unit else name
-        for name, unit in zip(cells.header, units, strict=True)
-    ]
-    if len(cells.rows) == 1:
-        raise InputError(f"{cells.path}: no line with numbers; add a line for each test.")
-    return Cells(cells.path, header, cells.rows[1:], [*cells.notes, f"units from line {line}"])
-
-
 def _columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
     """Columns by what they hold; several, where names do not tell them apart."""
-    found: dict[str, list[Place]] = {}
-    for wanted, name in chosen.items():
-        column = recognise(wanted)
-        if column is None or column.unit is None:
-            names = ", ".join(MEASURED)
-            raise InputError(
-                f"--column {wanted}: not known; give one of {names}, with the unit of your column."
-            )
-        if cells.header.count(name) != 1:
-            raise InputError(f"{cells.path}: no column {name!r}; its columns are {', '.join(cells.header)}.")
-        found[column.quantity] = [(cells.header.index(name), column)]
+    found: dict[str, list[Place]] = chosen_columns(cells, chosen)
     settled, taken = set(found), {place for ((place, _),) in found.values()}
     for place, name in enumerate(cells.header):
         try:
@@ -152,30 +136,20 @@ def names_force_or_modulus(cell: str) -> bool:
     return column is not None and column.quantity in ("E_MPa", "F0_N") and column.unit is not None
 
 
-def _single(cells: Cells, name: str, places: list[Place]) -> Place:
-    """The one column of a quantity, with its unit."""
-    (place, column), *others = places
-    if others:
-        names = [cells.header[place] for place, _ in places]
-        if len(set(names)) < len(names):
-            raise InputError(f"{cells.path}: column {names[0]!r} appears twice; remove one or rename it.")
-        both = " and ".join(map(repr, names))
+def _the_mix(cells: Cells, kept: Mapping[str, Place]) -> str:
+    """The name of the only mix in the table."""
+    if "mix" not in kept:
+        return ""
+    place, _ = kept["mix"]
+    mixes = list(dict.fromkeys(row[place] for _, row in cells.rows))
+    if len(mixes) > 1:
+        named = ", ".join(mixes[:5]) + (", ..." if len(mixes) > 5 else "")
         raise InputError(
-            f"{cells.path}: columns {both} may each be {name}; say which with "
-            f'--column {_as_written(name, column)}="{cells.header[place]}", or remove the others.'
+            f"{cells.path}: column {cells.header[place]!r} holds {len(mixes)} mixes ({named}), and a diagnosis is of "
+            "one mix: save the rows of each mix as a file of its own and give one of them. If these are specimens of "
+            f'one mix, say so with --column specimen="{cells.header[place]}".'
         )
-    if column.unit is None:
-        stem, _, unit = name.rpartition("_")
-        raise InputError(
-            f"{cells.path}: column {cells.header[place]!r} does not say its unit; write it after the name, "
-            f"as in {stem} ({unit})."
-        )
-    return place, column
-
-
-def _as_written(name: str, column: Column) -> str:
-    """Our name of a quantity with the unit that a column has: E_GPa."""
-    return f"{name.rpartition('_')[0]}_{column.unit}" if column.unit else name
+    return mixes[0]
 
 
 def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> str:
@@ -191,19 +165,29 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> str:
             place, column = columns[angle][0]
             raise InputError(
                 f"{cells.path}: column {cells.header[place]!r} does not say whose phase it is; if it is that of "
-                f'{of}, say so with --column {_as_written(wanted, column)}="{cells.header[place]}".'
+                f'{of}, say so with --column {as_written(wanted, column)}="{cells.header[place]}".'
             )
     form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant
     nothing = {"E_MPa", "F0_N", "z0_m"}.isdisjoint(columns)
     raise (NotTests if nothing else InputError)(
-        f"{cells.path}: no column for {' and '.join(missing[form])} (found: {', '.join(cells.header)}); write names "
-        f'with units, or name a column of yours with --column {missing[form][0]}="its name".'
+        f"{cells.path}: no column for {' and '.join(missing[form])} (found: {', '.join(cells.header)}); "
+        + (_instead_of_parts(cells) or "write names with units")
+        + f', or name a column of yours with --column {missing[form][0]}="its name".'
     )
+
+
+def _instead_of_parts(cells: Cells) -> str:
+    """What to give in place of the parts of E* or of a tangent."""
+    if any(re.match(r"\W*(?:E(?:['′’\"]|[12]\b)|storage|loss mod)", name, re.I) for name in cells.header):
+        return "give |E*| = sqrt(E'^2 + E''^2) and the phase atan(E''/E') in place of E' and E''"
+    if any(re.match(r"\W*tan\b", name, re.I) for name in cells.header):
+        return "give the phase itself in place of its tangent"
+    return ""
 
 
 def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[str, list[str]], str]:
     """Columns as text in our units, and the decimal mark of the table."""
-    numeric = [place for name, (place, _) in columns.items() if name not in TEXTS]
+    numeric = [place for name, (place, _) in columns.items() if name not in (*TEXTS, "mix")]
     mark = decimal_mark(
         str(cells.path),
         chain.from_iterable(((line, row[place]) for place in numeric) for line, row in cells.rows),
@@ -211,7 +195,7 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
     values: dict[str, list[str]] = {name: [] for name in columns}
     for line, row in cells.rows:
         for name, (place, column) in columns.items():
-            if name in TEXTS:
+            if name in (*TEXTS, "mix"):
                 values[name].append(_word(cells, line, name, row[place]))
                 continue
             value = number(row[place], mark)
@@ -227,7 +211,8 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
                 raise InputError(
                     f"{cells.path}, line {line}: {cells.header[place]}: {problem}; write a number or remove the line."
                 )
-            converted = f"{value * column.factor + column.offset:.10g}"
+            in_ours = value * column.factor + column.offset
+            converted = f"{round(in_ours, 2) if column.offset else in_ours:.10g}"  # 0.01 K of degF
             values[name].append(converted if _converts(column) else row[place].replace(",", "."))
     return values, mark
 
@@ -259,6 +244,6 @@ def _specimens(cells: Cells, values: dict[str, list[str]]) -> str:
         if earlier != line:
             raise InputError(
                 f"{cells.path}, line {line}: repeats the test of line {earlier}, and no column tells specimens "
-                "apart; add a column specimen or replicate."
+                'apart; add a column specimen or replicate, or say which is one, with --column specimen="its name".'
             )
     return "no column of specimens, so all tests are taken as of one specimen"

@@ -33,18 +33,28 @@ def without_condition(name: str) -> str:
     return found[0] if found else name
 
 
+def held_by_names(name: str) -> set[str]:
+    """Which of temperature and frequency the name of a column holds."""
+    return {quantity for quantity, _, pattern, _ in _SPREAD if pattern.fullmatch(name)}
+
+
 def _melted(
     cells: Cells, quantity: str, column: str, pattern: re.Pattern[str], plural: str
 ) -> tuple[Cells, list[str]]:
     found = {place: match for place, name in enumerate(cells.header) if (match := pattern.fullmatch(name))}
     if not found:
         return cells, []
-    spread: dict[str, dict[str, int]] = {}
+    spread: dict[float, dict[str, int]] = {}
+    written: dict[float, str] = {}
     for place, match in found.items():
-        at = match["at"].replace("−", "-")
-        if spread.setdefault(at, {}).setdefault(match["name"], place) != place:
+        text = match["at"].replace("−", "-")
+        at = float(text.replace(",", "."))  # 10 and 10.0 are one
+        written.setdefault(at, text)
+        other = spread.setdefault(at, {}).setdefault(match["name"], place)
+        if other != place:
             raise InputError(
-                f"{cells.path}: column {cells.header[place]!r} appears twice; keep one of the two."
+                f"{cells.path}: columns {cells.header[other]!r} and {cells.header[place]!r} hold one quantity at one "
+                "condition; keep one of the two, or write the other into rows of another specimen."
             )
     names = list(next(iter(spread.values())))
     shared = [place for place in range(len(cells.header)) if place not in found]
@@ -56,7 +66,7 @@ def _melted(
         )
     header = [*(cells.header[place] for place in shared), column, *names]
     rows = [
-        (line, [*(row[place] for place in shared), at, *measured])
+        (line, [*(row[place] for place in shared), written[at], *measured])
         for at, columns in spread.items()
         for line, row in cells.rows
         # What was not tested there is left empty.

@@ -17,6 +17,7 @@ import yaml
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path, write_table
+from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes, nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.limits import LIMITS
@@ -83,17 +84,30 @@ def new_study(name: str, measurements: Sequence[Path], wishes: Wishes) -> tuple[
     step = float(f"{min(COARSEST_STEP, 1.0 / (STEPS_PER_CYCLE * max(frequencies))):.2g}")
     table, counts = folder / "measurements.csv", folder / "counts.csv"
     text = _render(
-        name=name, source=json.dumps(source, ensure_ascii=False), config=config, table=table.as_posix(),
-        counts_table=counts.as_posix(), notes=[" ".join(note.split()) for note in notes],
-        form=form, direct=direct, small=wishes.small, seeds=seeds, temperatures=temperatures,
-        geometry=_flow(geometry if isinstance(geometry, Mapping) else str(geometry)), frequencies=frequencies,
-        spheres=_words(spheres, wishes), box=list(spheres.box), amplitude=f"{amplitude:.3e}", amplitude_why=why,
+        name=name,
+        source=json.dumps(source, ensure_ascii=False),
+        config=config,
+        table=table.as_posix(),
+        counts_table=counts.as_posix(),
+        notes=[" ".join(note.split()) for note in notes],
+        form=form,
+        direct=direct,
+        small=wishes.small,
+        seeds=seeds,
+        temperatures=temperatures,
+        geometry=_flow(geometry if isinstance(geometry, Mapping) else str(geometry)),
+        frequencies=frequencies,
+        spheres=_words(spheres, wishes),
+        box=list(spheres.box),
+        amplitude=f"{amplitude:.3e}",
+        amplitude_why=why,
         simulated=_flow(_as_mapping(simulated)) if wishes.small or not isinstance(geometry, Mapping) else "",
         simulated_why="Smaller than measured" if wishes.small else "That of the first specimen in the table",
-        time_step=f"{step:.2e}", steps_per_cycle=round(1.0 / (step * max(frequencies))),
+        time_step=f"{step:.2e}",
+        steps_per_cycle=round(1.0 / (step * max(frequencies))),
         middle=temperatures[len(temperatures) // 2],
         duration=duration(int(spheres.counts.sum()), len(seeds), len(temperatures), frequencies, step),
-    )  # fmt: skip
+    )
     try:
         write_table(table, pd.DataFrame(read.columns))
         write_table(counts, spheres.counts.rename_axis("diameter_mm").rename("count").reset_index())
@@ -108,6 +122,11 @@ def new_study(name: str, measurements: Sequence[Path], wishes: Wishes) -> tuple[
 
 
 def _require_free(name: str, config: Path, folder: Path) -> None:
+    if not SCHEMA.is_file():
+        raise InputError(
+            "new-study: a study runs in a clone of the repository, not from an installed package; clone it, and run "
+            "the command there."
+        )
     pattern = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))["properties"]["study"]["pattern"]
     if not re.fullmatch(pattern.strip("^$"), name) or name in TAKEN or yaml.safe_load(name) != name:
         raise InputError(
@@ -182,7 +201,7 @@ def _words(spheres: Spheres, wishes: Wishes) -> str:
         origin = "a few, of sizes that fit into the small specimen"
     elif wishes.grading is not None:
         origin = f"from the sieve table {json.dumps(str(wishes.grading))}, down to 2 mm as in the paper"
-    return f"{spheres.counts.sum()} spheres: {origin}."
+    return f"{counted(spheres.counts.sum(), 'sphere')}: {origin}."
 
 
 def _amplitude(measured: list[str] | None, simulated: Geometry, small: bool) -> tuple[float, str]:
@@ -207,7 +226,9 @@ def _render(**values: Any) -> str:
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
-        loader=PackageLoader("asphalt_nscd", "table_import"), undefined=StrictUndefined, keep_trailing_newline=True,
+        loader=PackageLoader("asphalt_nscd", "table_import"),
+        undefined=StrictUndefined,
+        keep_trailing_newline=True,
         autoescape=False,  # YAML, no HTML
-    )  # fmt: skip
+    )
     return environment.get_template("study.yaml.j2").render(**values)

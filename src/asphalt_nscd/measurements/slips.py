@@ -1,0 +1,192 @@
+"""Slips of a unit or a label that tests show beside each other, though each value alone could be true.
+
+A table has columns specimen, temperature_C (of the isotherm), frequency_Hz, E_MPa and phase_deg.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+# What |E*| in another unit is of |E*| in MPa.
+FACTORS = {"psi": 145.038, "ksi": 0.145038, "GPa": 1e-3, "kPa": 1e3, "kgf/cm2": 10.1972}
+NEAR = 0.25  # of ln |E*|: a specimen is within a quarter of the others
+ALIKE = 0.35  # of ln |E*|: how far that ratio may vary over conditions
+STIFFER = np.log(1.8)  # by which no mix grows stiffer as it warms, whatever else is wrong with a test
+LEAST_STEP = 3.0  # K between two isotherms that are compared
+LEAST = 3  # shared conditions
+LEAST_SLOPE = 0.05  # of ln |E*| over ln f that is no scatter: a phase of 4.5 deg
+FULL_CIRCLE = 2.0 * np.pi
+# On the cold side |E*| is the glassy modulus x exp(-0.062 phase), within 30 %, in 2S2P1D, Huet-Sayegh, Havriliak-Negami
+# and Maxwell laws of mixes. Glassy moduli are 19 to 51 GPa (rheology/priors), and 8 GPa of cold recycled mixes.
+FALL = 0.062  # of ln |E*| by a degree of phase
+PHASE_SEEN = 27.0  # deg
+GLASSY_OF_MIXES = (7e3, 1e5)  # MPa; no mix is beyond these
+USUAL_GLASSY = (14e3, 60e3)  # MPa, which a table in another unit must come to
+SMOOTH = 0.15  # of ln |E*|
+COLD = 25.0  # degC; at warmer ones the phase falls again as a mix grows softer
+
+
+def slips(table: pd.DataFrame) -> Iterator[str]:
+    """A sentence with the mend for each slip; most tables have none."""
+    yield from _units_of_labels(table)
+    yield from _order_of_frequencies(table)
+    yield from _radians(table)
+    moduli = list(_units_of_moduli(table))
+    yield from moduli
+    if not moduli:
+        yield from _order_of_isotherms(table)
+        yield from _unit_of_all_moduli(table)
+
+
+def _units_of_labels(table: pd.DataFrame) -> Iterator[str]:
+    temperature = np.sort(table["temperature_C"].unique())
+    celsius = (temperature - 32.0) / 1.8
+    if temperature.size >= LEAST and _whole(celsius).all() and (~_whole(temperature)).sum() >= 2:
+        yield (
+            f"the temperatures {_listed(temperature)} are {_listed(np.round(celsius))} degC in degrees "
+            "Fahrenheit; write the unit F into the name of the column."
+        )
+    frequency = np.sort(table["frequency_Hz"].unique())
+    if frequency.size > LEAST and _short(frequency / FULL_CIRCLE).all() and not _short(frequency).any():
+        yield (
+            f"the frequencies {_listed(frequency)} are 2 pi times {_listed(frequency / FULL_CIRCLE)}: they look like "
+            "rad/s; divide them by 2 pi, or name the column 'omega (rad/s)'."
+        )
+
+
+def _order_of_frequencies(table: pd.DataFrame) -> Iterator[str]:
+    sweeps = [(slope, phase) for _, _, slope, phase in _sweeps(table)]
+    if not sweeps:
+        return
+    slope, phase = np.array(sweeps).T
+    if np.mean(slope < -LEAST_SLOPE) >= 0.8 and np.median(phase) > 90.0 * LEAST_SLOPE:
+        yield (
+            "|E*| falls as the frequency rises, while the phases say that it rises: the frequencies look listed in "
+            "reverse order; correct them."
+        )
+
+
+def _radians(table: pd.DataFrame) -> Iterator[str]:
+    for specimen, temperature, slope, phase in _sweeps(table):
+        required = 90.0 * slope  # deg, by Kramers and Kronig to first order
+        if slope > LEAST_SLOPE and phase < 0.2 * required and 0.5 < np.degrees(phase) / required < 2.0:
+            yield (
+                f"the phases of specimen {specimen} at {temperature:g} degC (median {phase:.3g}) look like radians: "
+                f"its moduli require about {required:.0f} deg; multiply them by 180/pi."
+            )
+
+
+def _units_of_moduli(table: pd.DataFrame) -> Iterator[str]:
+    logarithm = _by_condition(table)
+    if logarithm.shape[1] < 2:
+        return
+    others = pd.DataFrame({name: logarithm.drop(columns=name).median(axis=1) for name in logarithm})
+    apart = logarithm - others
+    for specimen in apart:
+        whole = _unit(apart[specimen].dropna())
+        parts = {} if whole else {t: _unit(x.dropna()) for t, x in apart[specimen].groupby(level=0)}
+        for where, unit in ({"every condition": whole} if whole else parts).items():
+            if not unit:
+                continue
+            place = where if isinstance(where, str) else f"{where:g} degC"
+            yield (
+                f"at {place} |E*| of specimen {specimen} is {FACTORS[unit]:.3g} times that of the others, as it "
+                f"would be in {unit}; give it in MPa."
+            )
+        if whole and logarithm.shape[1] == 2:
+            return  # the other one is as far from it, and one sentence says so
+
+
+def _order_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
+    for specimen, logarithm in _by_condition(table).items():
+        rows = logarithm.dropna().unstack(level=0)
+        for cold in rows:
+            for warm in rows.columns[rows.columns >= cold + LEAST_STEP]:
+                gain = (rows[warm] - rows[cold]).dropna()
+                if len(gain) >= LEAST and (gain > STIFFER).all():
+                    yield (
+                        f"specimen {specimen} is {np.exp(gain.median()):.3g} times as stiff at {warm:g} degC as at "
+                        f"{cold:g} degC: a temperature or a unit is wrong, or the two are exchanged; correct it."
+                    )
+
+
+def _unit_of_all_moduli(table: pd.DataFrame) -> Iterator[str]:
+    """A table whose specimens, each on its coldest isotherm, are too soft or too stiff for their own phase."""
+    coldest = table.groupby("specimen")["temperature_C"].transform("min")
+    glassy, told = [], ""
+    for specimen, temperature, slope, phase in _sweeps(table[table["temperature_C"] == coldest]):
+        tests = table[(table["specimen"] == specimen) & (table["temperature_C"] == temperature)]
+        required = 90.0 * slope  # deg, by Kramers and Kronig: it knows no unit, and no offset of the phase
+        seen = max(phase, required)
+        agree = slope > LEAST_SLOPE and 0.6 < phase / required < 1.6
+        if temperature > COLD or seen > PHASE_SEEN or not agree or not _on_cold_side(tests):
+            continue
+        modulus = float(tests["E_MPa"].median())
+        glassy.append(modulus * np.exp(FALL * seen))
+        told = told or (
+            f"at {temperature:g} degC |E*| of specimen {specimen} is {float(f'{modulus:.3g}'):g} MPa at a phase of "
+            f"{phase:.2g} deg"
+        )
+    low, high = GLASSY_OF_MIXES
+    if 2 * len(glassy) < table["specimen"].nunique() or not (max(glassy) < low or min(glassy) > high):
+        return
+    middle, (least, most) = float(np.median(glassy)), USUAL_GLASSY
+    units = [unit for unit, factor in FACTORS.items() if least < middle / factor < most]
+    likely = f"is the unit {' or '.join(units)}?" if units else "is the unit another, such as ksi or GPa?"
+    yield (
+        f"{told}, {'less' if middle < low else 'more'} than any asphalt has at such a phase: {likely} Write the unit "
+        f"into the name of the column, as in E ({units[0] if units else 'ksi'})."
+    )
+
+
+def _on_cold_side(tests: pd.DataFrame) -> bool:
+    """Whether a sweep is smooth and the phase falls as the frequency rises; |E*| bends as much if a delay hides it."""
+    logarithm, modulus = np.log(tests["frequency_Hz"]), np.log(tests["E_MPa"])
+    parabola = np.polyfit(logarithm, modulus, 2)
+    smooth = np.std(modulus - np.polyval(parabola, logarithm)) < SMOOTH
+    falls = np.polyfit(logarithm, tests["phase_deg"], 1)[0] < 0.0
+    return bool(smooth and (falls or parabola[0] < 0.0))
+
+
+def _sweeps(table: pd.DataFrame) -> Iterator[tuple[str, float, float, float]]:
+    """Specimen, isotherm, slope of ln |E*| over ln f, and median phase [deg] of each sweep over frequencies."""
+    for (specimen, temperature), tests in table.groupby(["specimen", "temperature_C"]):
+        if tests["frequency_Hz"].nunique() >= LEAST:
+            slope = np.polyfit(np.log(tests["frequency_Hz"]), np.log(tests["E_MPa"]), 1)[0]
+            yield str(specimen), float(temperature), float(slope), float(tests["phase_deg"].median())
+
+
+def _by_condition(table: pd.DataFrame) -> pd.DataFrame:
+    """ln |E*|: a row for each temperature and frequency, a column for each specimen."""
+    logarithm = table.assign(logarithm=np.log(table["E_MPa"]))
+    return logarithm.pivot_table(
+        index=["temperature_C", "frequency_Hz"], columns="specimen", values="logarithm", aggfunc="mean"
+    )
+
+
+def _unit(apart: pd.Series) -> str | None:
+    """The unit whose factor these differences of ln |E*| are, if they are one."""
+    if len(apart) < LEAST or apart.max() - apart.min() > 2.0 * ALIKE:
+        return None
+    near = {unit: abs(apart.median() - np.log(factor)) for unit, factor in FACTORS.items()}
+    unit = min(near, key=lambda name: near[name])
+    return unit if near[unit] < NEAR else None
+
+
+def _whole(values: NDArray[np.float64]) -> NDArray[np.bool_]:
+    return np.abs(values - np.round(values)) < 0.03
+
+
+def _short(values: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether values are numbers of two digits, to a thousandth."""
+    rounded = np.array([float(f"{value:.2g}") for value in values])
+    return np.abs(values / rounded - 1.0) < 1e-3
+
+
+def _listed(values: NDArray[np.float64]) -> str:
+    words = [f"{value:.4g}" for value in values]
+    return f"{', '.join(words[:-1])} and {words[-1]}" if len(words) > 1 else words[0]

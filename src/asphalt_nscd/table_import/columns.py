@@ -1,0 +1,165 @@
+"""The one column of a quantity: as the user named it, of several that agree, and with its unit."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+import numpy as np
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.cells import Cells
+from asphalt_nscd.table_import.decimals import number
+from asphalt_nscd.table_import.quantities import MEASURED, Column, recognise, unit_in
+from asphalt_nscd.table_import.wide import without_condition
+
+Place = tuple[int, Column]  # of a column, and what it holds
+_ANGULAR = re.compile(r"omega|ω|angular|kreis|pulsation", re.IGNORECASE)
+_LARGEST_RADIAN = 1.6  # of a phase; a larger one is in degrees
+_WARMEST = 60.0  # degC; three temperatures up to 60 F are 15 degC at most, and nobody's campaign
+_LEAST_TEMPERATURES = 3
+
+
+def as_written(name: str, column: Column) -> str:
+    """Our name of a quantity with the unit that a column has: E_GPa."""
+    return f"{name.rpartition('_')[0]}_{column.unit}" if column.unit else name
+
+
+def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
+    """The columns that the user named with --column."""
+    found: dict[str, list[Place]] = {}
+    for wanted, name in chosen.items():
+        column = recognise(wanted)
+        if column is None or column.unit is None:
+            names = ", ".join(MEASURED)
+            raise InputError(
+                f"--column {wanted}: not known; give one of {names}, with the unit of your column."
+            )
+        # A line of units below the names was put behind them.
+        places = [n for n, header in enumerate(cells.header) if header == name] or [
+            n
+            for n, header in enumerate(cells.header)
+            if re.fullmatch(re.escape(name) + r" \([^)]*\)", header)
+        ]
+        if len(places) != 1:
+            raise InputError(f"{cells.path}: no column {name!r}; its columns are {', '.join(cells.header)}.")
+        _require_unit(cells, places[0], wanted, column)
+        found[column.quantity] = [(places[0], column)]
+    return found
+
+
+def _require_unit(cells: Cells, place: int, wanted: str, column: Column) -> None:
+    """Refuse a unit that the name of the column contradicts."""
+    name, units = cells.header[place], MEASURED[column.quantity][1]
+    told = unit_in(without_condition(name))
+    bracketed = re.search(r"[(\[{][^)\]}]*[)\]}]\s*$", name)
+    if not told or not units or told == column.unit or (told not in units and not bracketed):
+        return
+    if told not in units:
+        raise InputError(
+            f"{cells.path}: --column {wanted}: column {name!r} is in {told}, which is no unit of {column.quantity}; "
+            "name another column, or correct its name."
+        )
+    if units[told] != (column.factor, column.offset):
+        own = f"{column.quantity.rpartition('_')[0]}_{told}"
+        raise InputError(
+            f'{cells.path}: --column {wanted}: column {name!r} says {told}; write --column {own}="{name}", which is '
+            "then converted, or correct the name of the column."
+        )
+
+
+def one_of(cells: Cells, name: str, places: list[Place]) -> tuple[Place, list[str], set[int]]:
+    """The column of a quantity, notes on how it was found, and the columns that hold the same."""
+    place, notes, copies = places[0], [], set()
+    if len(places) > 1:
+        place = _agreeing(cells, name, places)
+        others = [other for other, _ in places if other != place[0]]
+        copies = set(others)
+        same = ", ".join(repr(cells.header[other]) for other in others)
+        twice = all(cells.header[other] == cells.header[place[0]] for other in others)
+        notes.append(
+            f"column {cells.header[place[0]]!r} stands there twice with the same values"
+            if twice
+            else f"column {cells.header[place[0]]!r} is read; the same stands in {same}"
+        )
+    called = cells.header[place[0]]
+    if name == "frequency_Hz" and place[1].unit == "Hz" and _ANGULAR.search(called):
+        raise InputError(
+            f"{cells.path}: column {called!r}: an angular frequency is in rad/s; name it f (Hz) or omega (rad/s)."
+        )
+    if place[1].unit is None:
+        column, why = _assumed(cells, place)
+        notes.append(f"{called!r} does not say its unit: {column.unit} taken, {why}")
+        place = place[0], column
+    return place, notes, copies
+
+
+def _agreeing(cells: Cells, name: str, places: list[Place]) -> Place:
+    """The best of several columns that hold the same in each row, to the digits written; refused if they do not."""
+    known = [place for place in places if place[1].unit is not None]
+
+    def coarseness(place: Place) -> tuple[bool, float]:
+        """The least has our own unit, or else the most digits."""
+        halves = [_value(row[place[0]], place[1])[1] for _, row in cells.rows]
+        return (place[1].factor, place[1].offset) != (1.0, 0.0), sum(halves)
+
+    best = min(known or places, key=coarseness) if MEASURED[name][1] else places[0]
+    for other in places:
+        for line, row in cells.rows:
+            if row[best[0]] == row[other[0]] and (other[1].unit in (None, best[1].unit)):
+                continue
+            if MEASURED[name][1] and (best[1].unit is None) == (other[1].unit is None):
+                (a, half_a), (b, half_b) = _value(row[best[0]], best[1]), _value(row[other[0]], other[1])
+                rounding = half_a + half_b if best[1].unit != other[1].unit else 0.0
+                if abs(a - b) <= rounding + 1e-9 * abs(a):
+                    continue
+            raise _contradiction(cells, name, (best, other), line, (row[best[0]], row[other[0]]))
+    return best
+
+
+def _value(text: str, column: Column) -> tuple[float, float]:
+    """Number of a cell in our unit, and half of its last digit; NaN for none, which agrees with nothing."""
+    plain = text.replace(",", ".").replace("−", "-")
+    value = number(plain, ".")
+    if value is None:
+        return float("nan"), 0.0
+    mantissa, _, exponent = plain.casefold().partition("e")
+    digits = len(mantissa.partition(".")[2]) - int(np.clip(int(exponent or 0), -200, 200))
+    return value * column.factor + column.offset, 0.5 * 10.0**-digits * column.factor
+
+
+def _contradiction(
+    cells: Cells, name: str, places: tuple[Place, Place], line: int, texts: tuple[str, str]
+) -> InputError:
+    (first, column), (second, _) = sorted(places)
+    a, b = texts if places[0][0] == first else texts[::-1]
+    differ = f"in line {line} they hold {a or 'nothing'} and {b or 'nothing'}"
+    one, other = cells.header[first], cells.header[second]
+    if one == other:
+        return InputError(
+            f"{cells.path}: column {one!r} appears twice; remove one or rename it, or write two specimens below each "
+            f"other with a column specimen ({differ})."
+        )
+    return InputError(
+        f"{cells.path}: columns {one!r} and {other!r} may each be {name}; say which with "
+        f'--column {as_written(name, column)}="{one}", or remove the others ({differ}).'
+    )
+
+
+def _assumed(cells: Cells, place: Place) -> tuple[Column, str]:
+    """Unit of a column that does not say it, where its values leave one only; a modulus never does."""
+    at, column = place
+    name, quantity = cells.header[at], column.quantity
+    read = [number(row[at].replace(",", ".").replace("−", "-"), ".") for _, row in cells.rows]
+    values = {value for value in read if value is not None}
+    if quantity == "frequency_Hz" and not _ANGULAR.search(name):
+        return Column(quantity, "Hz"), "as a frequency has"
+    if quantity == "phase_deg" and max(map(abs, values), default=0.0) > _LARGEST_RADIAN:
+        return Column(quantity, "deg"), "because no phase in rad is that large"
+    warmest = max(values, default=_WARMEST + 1.0)
+    if quantity == "temperature_C" and len(values) >= _LEAST_TEMPERATURES and warmest <= _WARMEST:
+        return Column(quantity, "C"), f"because {warmest:g} degF would be too cold for the warmest test"
+    stem, _, unit = quantity.rpartition("_")
+    raise InputError(
+        f"{cells.path}: column {name!r} does not say its unit; write it after the name, as in {stem} ({unit})."
+    )

@@ -1,0 +1,128 @@
+"""Tests of several files or sheets: which hold the same tests, and which of two is the later one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from asphalt_nscd.files.csvinput import Table
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.dates import later
+from asphalt_nscd.table_import.understand import Understood
+
+_FIGURES = 4  # digits in which two files that hold the same tests agree
+
+
+@dataclass(frozen=True)
+class Part:
+    """Tests of one file or sheet, or of one block of an export.
+
+    tested: when, as the header has it. repeated: whether it was marked as a repetition.
+    """
+
+    path: Path
+    read: Understood
+    exported: bool
+    repeated: bool = False
+    tested: str = ""
+
+    @property
+    def source(self) -> str:
+        """What sentences call the file or the sheet."""
+        return self.read.table.path.name
+
+    @property
+    def values(self) -> set[tuple[str, ...]]:
+        """Frequency, modulus and phase of each test, by which two files with the same tests are known."""
+        columns = self.read.table.columns
+        names = [name for name in ("frequency_Hz", "E_MPa", "phase_deg", "record", "F0_N") if name in columns]
+        return {tuple(map(_short, test)) for test in zip(*(columns[name] for name in names), strict=True)}
+
+
+def without_copies(parts: list[Part], notes: list[str]) -> list[Part]:
+    """Parts without those whose every test another file holds already, whatever it calls the specimens."""
+    kept: list[Part] = []
+    for part in parts:
+        others = [one for one in kept if one.source != part.source or one.path != part.path]
+        holders = [one for one in others if part.values & one.values]
+        if holders and part.values <= set().union(*(one.values for one in holders)):
+            names = ", ".join(sorted({one.source for one in holders})[:3])
+            more = "" if len({one.source for one in holders}) <= 3 else " and others"
+            notes.append(f"skipped {part.source} (holds the same tests as {names}{more})")
+        else:
+            kept.append(part)
+    return kept
+
+
+def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
+    """Parts in which no two files or sheets give one test: that of the later date, or marked as repeated, is kept."""
+    taken: dict[tuple[str, ...], int] = {}
+    dropped: dict[tuple[int, int], list[tuple[str, ...]]] = {}  # by the part that lost and the one that won
+    for place, part in enumerate(parts):
+        for test in _tests(part):
+            other = taken.setdefault(test, place)
+            if parts[other].source == part.source and parts[other].path == part.path:
+                continue
+            worse, better = (other, place) if _is_later(parts[other], part, test) else (place, other)
+            dropped.setdefault((worse, better), []).append(test)
+            taken[test] = better
+    for (worse, better), tests in dropped.items():
+        notes.append(_said_of_repeated(parts[worse], parts[better], tests))
+    kept = []
+    for place, part in enumerate(parts):
+        lost = {test for (worse, _), tests in dropped.items() if worse == place for test in tests}
+        rows = [n for n, test in enumerate(_tests(part)) if test not in lost]
+        if rows:
+            kept.append(part if not lost else replace(part, read=_only(part.read, rows)))
+    return kept
+
+
+def _is_later(first: Part, second: Part, test: tuple[str, ...]) -> bool:
+    """Whether of two parts with one test the second is to be used: by its date, else by the operator's mark."""
+    after = later(first.tested, second.tested)
+    if after is not None:
+        return after
+    if first.repeated == second.repeated:
+        specimen, temperature, frequency, *_ = test
+        dates = "their dates do not tell" if first.tested and second.tested else "no date in both tells"
+        raise InputError(
+            f"{first.source} and {second.source} both hold specimen {specimen} at {temperature} degC, {frequency} Hz, "
+            f"and {dates} which was tested later. The choice is yours: leave one of them out, end the specimen's name "
+            "in the later one with 'Repeated', or, if they are two specimens, rename one."
+        )
+    return second.repeated
+
+
+def _said_of_repeated(worse: Part, better: Part, tests: list[tuple[str, ...]]) -> str:
+    specimen, temperature, *_ = tests[0]
+    share = "" if len(tests) == len(_tests(worse)) else f" for {len(tests)} of its {len(_tests(worse))} tests"
+    said = f"{better.source} is taken instead of {worse.source}{share}: "
+    if later(worse.tested, better.tested) is None:
+        return f"{said}the test was repeated"
+    marked = f", although {worse.source} is marked as repeated" if worse.repeated > better.repeated else ""
+    return (
+        f"{said}{specimen} at {temperature} degC was tested again later, {better.tested} and not {worse.tested}{marked}"
+        f"; leave {better.source} out to use the other"
+    )
+
+
+def _only(read: Understood, rows: list[int]) -> Understood:
+    table = read.table
+    columns = {name: [values[row] for row in rows] for name, values in table.columns.items()}
+    return replace(read, table=Table(table.path, columns, [table.lines[row] for row in rows]))
+
+
+def _tests(part: Part) -> list[tuple[str, ...]]:
+    columns = part.read.table.columns
+    temperature = "nominal_temperature_C" if "nominal_temperature_C" in columns else "temperature_C"
+    names = ["specimen", temperature, "frequency_Hz", "replicate", "amplitude_m", "order", "cycles"]
+    present = [name for name in names if name in columns]
+    return list(zip(*([_short(text, 9) for text in columns[name]] for name in present), strict=True))
+
+
+def _short(text: str, figures: int = _FIGURES) -> str:
+    """A number to so many digits; other text as it is."""
+    try:
+        return f"{float(text):.{figures}g}"
+    except ValueError:
+        return text

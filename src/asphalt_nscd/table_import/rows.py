@@ -1,0 +1,103 @@
+"""Which rows of a table are tests: not names that are repeated, remarks, means, nor what was not measured."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import counted
+from asphalt_nscd.table_import.cells import Cells, Row
+from asphalt_nscd.table_import.quantities import ABSENT
+
+# Columns in which merged cells leave all but the first cell empty.
+CARRIED = ("mix", "specimen", "replicate", "nominal_temperature_C", "temperature_C")
+_STATISTIC = re.compile(
+    r"\W*(?:mean|average|avg|moyenne|mittel\w*|media|std\w*|st\.?\s*dev\w*|standard\w*|cv|cov|[ée]cart\w*)\b.*",
+    re.IGNORECASE,
+)
+# What stands in place of a specimen; no more than that, for `Standard 1` may be one.
+_OF_SPECIMENS = re.compile(
+    r"(?:mean|average|avg\.?|moyenne|mittel|mittelwert|durchschnitt|media|promedio|std|st\.?\s*dev\.?|std\.?\s*dev\.?|"
+    r"standard deviation|standardabweichung|[ée]cart[- ]type|cv|cov|coefficient of variation)"
+    r"\s*(?:(?:of|de|von)\s*\d+|[(\[]?%[)\]]?)?",
+    re.IGNORECASE,
+)
+_BEGINS_NUMBER = re.compile(r"[-−+]?[.,]?\d")
+_NAMES, _REMARK, _MEAN, _NOT_MEASURED = (
+    "names of columns repeated",
+    "no number of a test",
+    "means and deviations of other lines",
+    "neither modulus nor phase",
+)
+
+
+def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -> Cells:
+    """The rows that are tests; what merged cells hold is written into each row. The notes say what was left out.
+
+    places: columns by what they hold. measured: which of these are the results of a test.
+    """
+    keys = [places[name] for name in ("temperature_C", "frequency_Hz")]
+    results = [places[name] for name in measured]
+    labels = [places[name] for name in ("specimen", "replicate") if name in places]
+    of_others = [any(_OF_SPECIMENS.fullmatch(row[place]) for place in labels) for _, row in cells.rows]
+    means = not all(of_others)  # of a table of means alone, these are the tests
+    kept: list[Row] = []
+    left: dict[str, list[Row]] = {}
+    for (line, row), of_other in zip(cells.rows, of_others, strict=True):
+        why = _NAMES if row == cells.header else _no_test(row, keys, results)
+        why = why or (_MEAN if means and of_other else None)
+        (kept if why is None else left.setdefault(why, [])).append((line, row))
+    if not kept:
+        names = " and ".join(repr(cells.header[place]) for place in results)
+        raise InputError(
+            f"{cells.path}: no line has a number in {names} (formulas that were not computed?); save the table with "
+            "its values."
+        )
+    notes = [*cells.notes, *(f"left out, {why}: {_quoted(why, rows)}" for why, rows in left.items())]
+    return _carried(replace(cells, rows=kept, notes=notes), places)
+
+
+def _no_test(row: list[str], keys: list[int], results: list[int]) -> str | None:
+    """Why a row is no test; None if it is one, or should be."""
+    if not any(_BEGINS_NUMBER.match(row[place]) for place in (*keys, *results)):
+        return _NOT_MEASURED if any(row[place] for place in results) and len(_filled(row)) > 2 else _REMARK
+    if not all(row[place] for place in keys) and _STATISTIC.fullmatch(_filled(row)[0]):
+        return _MEAN
+    if all(row[place].casefold() in ABSENT for place in results):
+        return _NOT_MEASURED
+    return None
+
+
+def _filled(row: list[str]) -> list[str]:
+    return [cell for cell in row if cell]
+
+
+def _quoted(why: str, rows: list[Row]) -> str:
+    lines = ", ".join(str(line) for line, _ in rows[:8]) + (", ..." if len(rows) > 8 else "")
+    said = f"{'line' if len(rows) == 1 else 'lines'} {lines}"
+    return f"{said} ({' '.join(_filled(rows[0][1]))[:60]!r})" if why == _REMARK else said
+
+
+def _carried(cells: Cells, places: Mapping[str, int]) -> Cells:
+    """Each empty cell of a column in CARRIED with the value above it, where this is the only way to read it."""
+    rows = [(line, list(row)) for line, row in cells.rows]
+    notes = list(cells.notes)
+    for place in (places[name] for name in CARRIED if name in places):
+        given = [row[place] for _, row in rows]
+        if all(given) or not given[0]:
+            continue
+        # Merged cells give a value once; a column that repeats it has gaps.
+        merged = not any(a and a == b for a, b in zip(given, given[1:], strict=False))
+        for n, (line, row) in enumerate(rows):
+            below = next((value for value in given[n:] if value), None)
+            if not merged and not row[place] and below != rows[n - 1][1][place]:
+                follows = f"between {rows[n - 1][1][place]} and {below}" if below else "at the end"
+                raise InputError(
+                    f"{cells.path}, line {line}: {cells.header[place]} is empty {follows}; fill it in."
+                )
+            row[place] = row[place] or rows[n - 1][1][place]
+        empty = counted(sum(not value for value in given), "empty cell")
+        notes.append(f"{cells.header[place]!r}: {empty} with the value above, as in merged cells")
+    return replace(cells, rows=rows, notes=notes)

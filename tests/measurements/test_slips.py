@@ -1,0 +1,134 @@
+"""Slips of unit and label in tables that are right but for them, and none in tables that are right or merely bad."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from asphalt_nscd.measurements.slips import slips
+
+FREQUENCIES = np.array([0.1, 0.5, 1.0, 5.0, 10.0, 25.0])
+
+
+def campaign(specimens=3):
+    """|E*| = 9 GPa (f a_T)^0.2 and the phase that belongs to it, with scatter; isotherms as AASHTO has them."""
+    rng = np.random.default_rng(3)
+    rows = [
+        (name, t, f, 9e3 * (f * 10 ** (-0.12 * t)) ** 0.2, 18.0)
+        for name in "ABCDE"[:specimens]
+        for t in (-10.0, 4.0, 21.0, 37.0)
+        for f in FREQUENCIES
+    ]
+    table = pd.DataFrame(rows, columns=["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"])
+    table["E_MPa"] *= np.exp(0.05 * rng.standard_normal(len(table)))
+    table["phase_deg"] += rng.standard_normal(len(table))
+    return table
+
+
+def test_a_right_table_has_none():
+    assert not list(slips(campaign())) and not list(slips(campaign(1)))
+
+
+def changed(rows, column, factor):
+    table = campaign()
+    table.loc[table.eval(rows), column] *= factor
+    return table
+
+
+@pytest.mark.parametrize(
+    "table, said",
+    [
+        (changed("specimen == 'B'", "E_MPa", 0.145), "at every condition |E*| of specimen B is 0.145"),
+        (changed("specimen == 'C' and temperature_C == 21", "E_MPa", 0.145), "at 21 degC |E*| of specimen C"),
+        (changed("specimen == 'A'", "E_MPa", 145.0), "as it would be in psi"),
+        (changed("temperature_C == 37", "E_MPa", 1e3), "as stiff at 37 degC as at -10 degC"),
+        (
+            changed("specimen == 'A' and temperature_C == 4", "phase_deg", np.pi / 180),
+            "of specimen A at 4 degC",
+        ),
+        (campaign().assign(frequency_Hz=lambda t: 2.0 * np.pi * t["frequency_Hz"]), "look like rad/s"),
+        (
+            campaign().assign(temperature_C=lambda t: 32.0 + 1.8 * t["temperature_C"]),
+            "14, 39.2, 69.8 and 98.6 are",
+        ),
+        (
+            campaign().assign(frequency_Hz=np.tile(FREQUENCIES[::-1], 12)),
+            "the frequencies look listed in reverse order",
+        ),
+    ],
+)
+def test_each_slip_is_the_first_thing_said(table, said):
+    assert said in next(slips(table))
+
+
+def test_exchanged_isotherms_of_one_specimen():
+    table = campaign()
+    table.loc[table["specimen"] == "B", "temperature_C"] = table["temperature_C"].replace(
+        {21.0: 37.0, 37.0: 21.0}
+    )
+    (said,) = slips(table)
+    assert said.startswith("specimen B is ") and "at 37 degC as at 21 degC" in said
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        changed("specimen == 'B'", "E_MPa", 0.5),  # dimensions
+        changed("temperature_C == 21", "E_MPa", 0.6),  # gain of a channel
+        changed("phase_deg > 0", "phase_deg", 0.5),
+        campaign().assign(phase_deg=lambda t: t["phase_deg"] - 15.0),  # an offset of the channel
+        campaign().assign(E_MPa=70e3, phase_deg=0.1),  # metal
+        campaign().assign(temperature_C=lambda t: t["temperature_C"].replace({4.0: 4.1, 21.0: 20.9})),
+        campaign().query("temperature_C == 4"),
+        campaign().query("frequency_Hz == 1"),
+    ],
+)
+def test_what_is_bad_but_no_slip_goes_on_to_the_diagnosis(table):
+    assert not list(slips(table))
+
+
+def cold(unit=1.0, glassy=30e3, fall=0.062):
+    """Isotherms at 4 and 20 degC whose phases grow as they warm, of a mix that is stiff as its phase says."""
+    rng = np.random.default_rng(5)
+    rows = []
+    for name in "ABC":
+        for t in (4.0, 20.0):
+            phase = 12.0 + 0.5 * (t - 4.0) - 1.5 * np.log(FREQUENCIES)
+            # d ln|E*| / d ln f is the phase over 90 deg, by Kramers and Kronig.
+            rise = (np.log(FREQUENCIES) * (12.0 + 0.5 * (t - 4.0)) - 0.75 * np.log(FREQUENCIES) ** 2) / 90.0
+            modulus = glassy * np.exp(-fall * (12.0 + 0.5 * (t - 4.0)) + rise + 0.03 * rng.standard_normal(6))
+            rows += [(name, t, f, unit * e, p) for f, e, p in zip(FREQUENCIES, modulus, phase, strict=True)]
+    return pd.DataFrame(rows, columns=["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"])
+
+
+@pytest.mark.parametrize(
+    "unit, name", [(0.145038, "ksi"), (1e-3, "GPa"), (145.038, "psi"), (10.1972, "kgf/cm2")]
+)
+def test_a_whole_table_in_another_unit_is_asked_for_it(unit, name):
+    (said,) = slips(cold(unit))
+    assert f"is the unit {name}?" in said and f"as in E ({name})" in said
+    assert said.startswith("at 4 degC |E*| of specimen A is ") and "MPa at a phase of 11 deg, " in said
+    # A delay of 2 ms hides that the phase falls with the frequency.
+    late = cold(unit)
+    late["phase_deg"] += 360.0 * 0.7e-3 * late["frequency_Hz"]
+    assert f"is the unit {name}?" in next(slips(late))
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        cold(),
+        cold(glassy=9e3),  # cold recycled
+        cold(glassy=60e3),
+        cold(0.145038).assign(temperature_C=lambda t: t["temperature_C"] + 30.0),  # warm: the phase says nothing
+        cold(0.145038).assign(phase_deg=lambda t: t["phase_deg"] - 9.0),  # phase and slope disagree
+        cold(0.145038).assign(
+            frequency_Hz=lambda t: t["frequency_Hz"], phase_deg=lambda t: 24.0 - t["phase_deg"] + 2.0,
+            E_MPa=lambda t: t["E_MPa"] * np.exp(0.05 * np.log(t["frequency_Hz"]) ** 2),
+        ),  # the warm side, where a softer mix has a smaller phase
+        cold(0.145038).query("frequency_Hz == 1 or frequency_Hz == 10"),
+    ],
+)  # fmt: skip
+def test_a_soft_table_that_may_be_true_goes_on(table):
+    assert not list(slips(table))
