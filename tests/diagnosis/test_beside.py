@@ -7,6 +7,7 @@ import pytest
 
 from asphalt_nscd.diagnosis import beside, discrepancy, scatter, start
 from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import HuetSayegh
@@ -59,6 +60,26 @@ def test_an_effect_of_all_tests_is_found_beside_broken_isotherms(hidden):
     value, error = beside.estimates(state, survey)[candidate.key]
     assert abs(value - size) < 3.0 * error and error < 0.1 * abs(size)
     assert beside.hangs_on(state, candidate) == []
+
+
+def test_a_cause_of_an_isotherm_is_no_hindrance_where_that_isotherm_is_left_out():
+    """Its parameter is then spoken of by no test: the sizes of the other causes stay finite."""
+    observed = table(offset=3.0)
+    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+    begun = beside.begin(*start.fit_spectrum(observed, noise))
+    by_name = {cause.name: cause for cause in CATALOGUE}
+    active = (
+        Candidate(by_name["phase_offset"], None, (2.0,)),
+        Candidate(by_name["temperature_bias"], 21.0, (0.5,)),
+    )
+    state = beside._settle(begun.plain, begun.model.processes, begun.fitted, active, begun.variances)
+    rows = np.flatnonzero(observed.isotherm != 21.0)
+    part = Joint(observed.subset(rows), state.plain.base, state.plain.noise.subset(rows))
+    linear = part.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
+    assert np.linalg.eigvalsh(linear.precision).min() > 1e-6
+    found = beside.of_taken(state, state.fitted.active[0], rows)
+    size, error = (x * active[0].typical[0] for x in (found.amplitude, found.std_error))
+    assert error < 0.2 and abs(size - 3.0) < 4.0 * error
 
 
 def test_broken_isotherms_alone_get_no_established_name():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.bending.rig import KEYS
+from asphalt_nscd.diagnosis import sentences
 from asphalt_nscd.diagnosis.bases import BurgersAtEach, FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.observations import Observations
@@ -70,7 +71,12 @@ def test_temperature_causes():
     assert np.allclose(rise, 2.0 * power / power.max())
     part = TABLE.subset(np.arange(3))
     assert np.allclose(CAUSES["self_heating"].temperature_rise([2.0], part), rise[:3])
-    assert set(EXPECTED) | {"temperature_bias", "self_heating"} == set(CAUSES)
+
+
+def test_every_cause_has_an_effect_to_be_held_against():
+    """Named in CONTRIBUTING: a new cause is entered in EXPECTED, with its effect written down independently."""
+    of_temperature = {"temperature_bias", "self_heating"}
+    assert set(EXPECTED) | of_temperature == set(CAUSES)
 
 
 @pytest.mark.parametrize("cause", CATALOGUE, ids=lambda cause: cause.name)
@@ -128,3 +134,31 @@ def test_derivatives_of_the_laws(base):
         step = np.eye(x.size)[k] * 1e-5
         above, below = (base.modulus(x + s * step, OMEGA, TABLE.temperature)[0] for s in (1, -1))
         assert np.allclose((above - below) / 2e-5, slope[:, k], rtol=1e-5, atol=1e-7 * np.abs(modulus))
+
+
+@pytest.mark.parametrize(
+    "name, amplitude, meant",
+    [
+        ("channel_delay", 1e-3, "recorded after"),
+        ("channel_delay", -1e-3, "recorded before"),
+        ("phase_offset", 0.5, "too large"),
+        ("phase_offset", -0.5, "too small"),
+        ("moving_mass", 0.2, "More mass"),
+        ("moving_mass", -0.2, "Less mass"),
+        ("temperature_bias", 1.0, "warmer"),
+        ("temperature_bias", -1.0, "colder"),
+        ("specimen_geometry", 0.1, "too high"),
+        ("specimen_geometry", -0.1, "too low"),
+    ],
+)
+def test_sign_of_an_amplitude_is_said(name, amplitude, meant):
+    rung = {
+        "cause": name,
+        "where": None,
+        "parameters": {"amplitude": {"value": amplitude, "unit": "1", "std_error": None}},
+        "as_good": [],
+        "p_value": 1e-9,
+    }
+    ((_, said),) = sentences.causes({"ladder": [rung]})
+    assert meant in said.split(".")[0] and said.endswith("Established: by chance this happens in fewer than one of "
+        "a million tables.")  # fmt: skip

@@ -10,7 +10,7 @@ import pytest
 from asphalt_nscd.diagnosis import scatter, start
 from asphalt_nscd.diagnosis.bases import BurgersAtEach
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.diagnose import _doubts, diagnose
 from asphalt_nscd.diagnosis.doubts import find_doubts
 from asphalt_nscd.diagnosis.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -112,6 +112,33 @@ def test_a_fault_of_most_specimens_is_no_fault_of_one():
     assert all("2 of 3 specimens" in reasons[0] for reasons in found.values()) and len(found) == 2
 
 
+def test_one_isotherm_after_another_is_no_error_of_one_bath():
+    def bent(omega, temperature):  # what a shift off WLF does to ln a_T
+        return 0.35 * np.interp(temperature, [-10.0, 4.0, 21.0, 37.0, 54.0], [2.5, 1.0, 0.0, 1.0, -2.0]) + 0j
+
+    bias = CAUSES["temperature_bias"]
+    named = [Candidate(bias, place, (0.0,)) for place in (-10.0, 4.0, 37.0)]
+    found = doubts_of(table(bent), *named)
+    reason = "It is named at 3 isotherms: a shift with temperature that is not of WLF's form looks the same"
+    assert len(found) == 3 and all(reason in reasons for reasons in found.values())
+    assert not any(
+        "isotherms: a shift" in r for rs in doubts_of(table(bent), *named[:2]).values() for r in rs
+    )
+
+
+@pytest.mark.parametrize("mass,doubted", [(-0.4, True), (-0.2, False), (0.4, False)])
+def test_no_less_than_nothing_moves(mass, doubted):
+    observed = table()
+    counted = 0.316
+    observed = replace(
+        observed,
+        inertia=counted * observed.form_factor,
+        modulus=observed.modulus - observed.form_factor * mass * observed.omega**2,
+    )
+    reasons = doubts_of(observed, "moving_mass").get(("moving_mass", None), [])
+    assert ("Less than no mass would move: the reduction counts 316 g" in reasons) == doubted
+
+
 def test_names_against_burgers_laws_are_not_judged():
     observed = table(turned)
     joint = Joint(observed, BurgersAtEach(observed.isotherms), scatter.stated(observed, *SCATTER, 0.03))
@@ -138,3 +165,38 @@ def test_without_the_cause_in_the_catalogue_no_name_is_established():
     found = diagnose(table(late), catalogue=without, draws=500)
     assert found.verdict == "unexplained_structure"
     assert not any(found.established(rung) for rung in found.ladder.rungs)
+
+
+def test_a_size_whose_interval_holds_zero_is_in_doubt():
+    named = diagnose(table(late), draws=500)
+    (rung,) = named.ladder.rungs
+    delay = named.ladder.fitted.active[0].values[0]
+    for error, doubted in ((0.6 * delay, True), (0.4 * delay, False)):
+        named.ladder.estimates = {rung.candidate.key: (delay, error)}
+        reasons = _doubts(named.ladder, named.noise).get(rung.candidate.key, [])
+        assert ("Its 95 % interval holds zero" in reasons) == doubted
+
+
+@pytest.mark.parametrize(
+    "name,wrong,reason",
+    [
+        (
+            "phase_offset",
+            lambda e: np.abs(e) * np.exp(0.9j * np.angle(e)),
+            "It may be a phase read on a wrong scale instead",
+        ),
+        (
+            "phase_offset",
+            lambda e: e / (1.0 + np.abs(e) / 100e9),
+            "It may be a machine's compliance taken off |E*| alone instead",
+        ),
+    ],
+)
+def test_an_error_of_a_known_shape_puts_its_look_alike_in_doubt(name, wrong, reason):
+    observed = table()
+    assert reason in doubts_of(replace(observed, modulus=wrong(observed.modulus)), name)[name, None]
+
+
+@pytest.mark.parametrize("effect,name", [(late, "channel_delay"), (turned, "phase_offset")])
+def test_the_cause_itself_is_not_taken_for_such_an_error(effect, name):
+    assert doubts_of(table(effect), name) == {}

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.bending.rig import read_rig
-from asphalt_nscd.diagnosis.extension import extend, prior_notes
+from asphalt_nscd.diagnosis.extension import Sample, extend, prior_notes
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor
@@ -43,8 +43,8 @@ def extended(folder, ladder, number=0):
     (folder / "diagnosis.json").write_text(json.dumps({"ladder": ladder}))
     tests = [(15.0, f, folder / f"f{f:g}.json") for f in (3.0, 10.0, 40.0)]
     extend(
-        folder / "diagnosis.json", folder / "law.json", folder / "measured.csv", PAPER_GEOMETRY, number,
-        63e-6, tests, folder / "rig.json",
+        folder / "diagnosis.json", folder / "law.json", folder / "measured.csv", PAPER_GEOMETRY,
+        Sample(number, 63e-6, tests), folder / "rig.json",
     )  # fmt: skip
     moduli = [read_bond_law(path).complex_modulus(2 * np.pi * f) for _, f, path in tests]
     return np.array(moduli), read_rig(folder / "rig.json")
@@ -88,10 +88,10 @@ def test_what_the_tests_do_not_determine_is_said():
     fit = Fit(LAW, None, 0.0, 10)
     assert prior_notes(fit) == []
     assert prior_notes(replace(fit, from_prior=("glassy_modulus",))) == [
-        "The tests do not determine the glassy modulus (42 GPa) of the law in law.json: they follow from what asphalt "
-        "concrete usually has and are not a finding."
+        "The tests do not determine the glassy modulus (42 GPa) in law.json: usual values of asphalt concrete stand "
+        "there, which are no finding."
     ]
     (said,) = prior_notes(replace(fit, from_prior=("static_modulus", "c1", "c2")))
-    assert "the static modulus (1 MPa), C1 (12) and C2 (80 K) of the law" in said
+    assert "the static modulus (1 MPa), C1 (12) and C2 (80 K) in law.json" in said
     long = replace(fit, law=replace(LAW, beta=506.0), from_prior=("beta",))
-    assert "beta (510) of" in prior_notes(long)[0]
+    assert "beta (510) in law.json" in prior_notes(long)[0]

@@ -60,7 +60,7 @@ def test_information_of_old_and_new_tests_adds_up_to_that_of_all():
     old = Sweep(np.arange(5), np.eye(10))
     known = Knowledge(linear, [old])
     at_once = known.after(new).information
-    assert known.information + known.gained(new) == pytest.approx(at_once, rel=1e-9)
+    assert known.information + known.gained([new])[0] == pytest.approx(at_once, rel=1e-9)
     # And by generalised least squares over everything at once.
     h, d = (
         np.concatenate([part.real[r], part.imag[r]]) for part in (nuisance, effects) for r in (slice(0, 9),)
@@ -71,6 +71,19 @@ def test_information_of_old_and_new_tests_adds_up_to_that_of_all():
     scatter[:10, :10], scatter[10:, 10:] = np.eye(10), new.scatter
     wide = scatter + h @ np.linalg.inv(linear.precision) @ h.T
     assert at_once == pytest.approx(d.T @ np.linalg.solve(wide, d), rel=1e-6)
+
+
+def test_knowledge_grows_test_by_test_as_from_all_at_once():
+    """What is left to learn too: of a third set of tests the gain is the same either way."""
+    rng = np.random.default_rng(2)
+    nuisance, effects = (rng.standard_normal((12, k)) + 1j * rng.standard_normal((12, k)) for k in (5, 2))
+    linear = Linear(nuisance, np.diag(rng.uniform(0.1, 2.0, 5)), effects)
+    first, second, third = (Sweep(np.arange(k, k + 4), (1.0 + k) * np.eye(8)) for k in (0, 4, 8))
+    step_by_step = Knowledge(linear, [first]).after(second).after(single(2))
+    at_once = Knowledge(linear, [first, second, single(2)])
+    assert step_by_step.information == pytest.approx(at_once.information, rel=1e-9)
+    wanted = at_once.gained([third, single(9), first])
+    assert step_by_step.gained([third, single(9), first]) == pytest.approx(wanted, rel=1e-7)
 
 
 def test_following_the_advice_raises_the_power_as_promised():

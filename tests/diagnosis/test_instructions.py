@@ -55,6 +55,22 @@ def test_metal_is_ordered_once_and_each_order_says_why(delayed, monkeypatch):
     assert all(one["why"] for one in orders)
 
 
+@pytest.mark.parametrize("column", ["order", "cycles"])
+def test_a_specimen_that_was_worn_is_asked_for_further_tests(column):
+    """A cause that follows the course of the tests; a new specimen has borne none."""
+    worn = table(3)
+    course = 1.0 + np.random.default_rng(5).permutation(worn.size)
+    worn = replace(worn, **{column: course})
+    loss = 0.3 * (course - 1.0) / (worn.size - 1.0)
+    found = diagnose(replace(worn, modulus=worn.modulus * (1.0 - loss)), draws=1000)
+    assert [rung.candidate.cause.name for rung in found.ladder.rungs] == ["damage"]
+    asked = possible(found, Costs()).table
+    course = getattr(asked, column)[found.observed.size :]
+    new = asked.specimen[found.observed.size :] == len(found.observed.names)
+    assert (course[new] == 1.0).all() and (course[~new] > 1.0).all()
+    assert instructions.instructions(found)["orders"]
+
+
 def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
     free, dear = (
         [
@@ -67,6 +83,21 @@ def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
     assert not 15.0 <= free[0] <= 25.0 and 15.0 <= dear[0] <= 25.0
     hours = Costs().hours("a", 4.0, [0.1, 10.0])
     assert hours == pytest.approx(0.5 + 2.0 + (200.0 + 2.0) / 3600.0 + 2.0 / 60.0)
+
+
+@pytest.mark.parametrize(
+    "before,alike,said",
+    [
+        (4.0, False, "expected odds more than 1000 to 1 (now 7.4 to 1)."),
+        (13.0, False, "expected odds more than 1000 to 1 (now 670 to 1)."),
+        (14.0, True, "expected odds more than 1000 to 1 (now both fit)."),
+        (14.0, False, ""),
+    ],
+)
+def test_odds_are_told_where_a_test_would_change_them(before, alike, said):
+    asked = instructions.Open("apart", None, "channel delay", "phase offset", alike)
+    assert instructions._reason(asked, before, 30.0).endswith(said)
+    assert bool(instructions._reason(asked, before, 30.0)) == bool(said)
 
 
 def test_a_test_that_cannot_be_used_is_to_be_repeated():
@@ -91,7 +122,7 @@ def test_a_sweep_that_was_asked_for_lowers_the_limit_as_promised(empty):
     k = next(k for k, c in enumerate(model.candidates) if c.key == ("temperature_bias", 20.0))
     known = Knowledge(model.linear, [model.old])
     own = [one for one in model.sweeps if one.specimen in found.observed.names and not one.half_strain]
-    more = [known.gained(one.tested)[k, k] for one in own]
+    more = known.gained([one.tested for one in own])[:, k, k]
     best, least = own[int(np.argmax(more))], own[int(np.argmin(more))]
     before = found.ladder.limits["temperature_bias", 20.0]
     after = {}

@@ -3,19 +3,24 @@
 import json
 from hashlib import sha256
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
+from test_diagnose import table
 
-from asphalt_nscd.diagnosis import run
+from asphalt_nscd.diagnosis import report, run
+from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.suspects import Suspect
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.table_import.campaign import read_campaign
 
 PUBLISHED = Path(__file__).parents[2] / "results/published/paper"
 EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
+FEW = run.Draws(500)
 
 
 def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
@@ -38,11 +43,45 @@ def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
     )
 
 
+def test_estimates_that_spread_further_than_their_errors_widen_the_limits():
+    """Named causes do not count; of a cause with places the mean square."""
+    rung = SimpleNamespace(candidate=SimpleNamespace(cause=SimpleNamespace(name="damage")))
+    estimates = {
+        ("damage", None): (40.0, 1.0),
+        ("phase_offset", None): (3.0, 1.0),
+        ("temperature_bias", 4.0): (0.0, 1.0),
+        ("temperature_bias", 20.0): (-2.0, 1.0),
+        ("channel_delay", None): (0.0, np.inf),
+    }
+    found = SimpleNamespace(ladder=SimpleNamespace(rungs=[rung], estimates=estimates))
+    assert report.estimates_spread(found) == pytest.approx(np.sqrt((9.0 + 2.0) / 2.0))
+    estimates["phase_offset", None] = (0.1, 1.0)
+    assert report.estimates_spread(found) == pytest.approx(np.sqrt((0.01 + 2.0) / 2.0))
+    estimates["temperature_bias", 20.0] = (0.2, 1.0)
+    assert report.estimates_spread(found) == 1.0
+    estimates.clear()
+    assert report.estimates_spread(found) == 1.0
+
+
+def test_what_is_named_without_the_doubtful_tests():
+    found = diagnose(table(3, lambda e, s, t, w: e * np.exp(1.5e-4j * w)), draws=500)
+    assert run.without_doubtful(found, None, 0) is None  # none is doubtful
+    least = int(np.ceil(run.MATTERING * found.observed.size))
+    found.suspects = tuple(Suspect(row, ("a reason",), True) for row in range(least))
+    then = run.without_doubtful(found, None, 0)
+    assert then is not None
+    assert [one["cause"] for one in then["causes"]] == ["relaxation_spectrum", "channel_delay"]
+    found.suspects = found.suspects[1:]  # too few to matter
+    assert run.without_doubtful(found, None, 0) is None
+    found.suspects = tuple(Suspect(row, ("a reason",), True) for row in range(found.observed.size - 1))
+    assert run.without_doubtful(found, None, 0) is None  # nothing is left to diagnose
+
+
 @pytest.mark.parametrize("several", [True, False])
 def test_files_of_a_campaign_stand_in_the_diagnosis_with_their_checksums(tmp_path, several):
     paths = sorted(EXPORTS.glob("Mix-A-*" if several else "Mix-A-20C*"))
     campaign, _ = read_campaign(paths)
-    run.run(campaign, tmp_path, PAPER_GEOMETRY, scatter=(0.01, 0.003), draws=500)
+    run.conclude(campaign, PAPER_GEOMETRY, scatter=(0.01, 0.003), draws=FEW).write(tmp_path)
     content = read_diagnosis([tmp_path / "diagnosis.json"])
     sums = [sha256(path.read_bytes()).hexdigest() for path in paths]
     if several:
@@ -50,6 +89,7 @@ def test_files_of_a_campaign_stand_in_the_diagnosis_with_their_checksums(tmp_pat
         assert [(one["name"], one["sha256"]) for one in named] == list(
             zip([p.name for p in paths], sums, strict=True)
         )
+        assert [*content["baseline"]["mre_E_percent"]] == ["4", "20", "35", "50"]  # not 3.9, 4, 4.1, ...
     else:
         assert content["provenance"]["sha256"] == sums[0] and "files" not in content["provenance"]
     assert json.loads((tmp_path / "diagnosis.json").read_text())["origin"] == "synthetic"
@@ -69,7 +109,7 @@ def campaigns(tmp_path_factory):
 def test_the_ladder_begins_with_what_was_simulated(campaigns):
     folder, paper, facets = campaigns
     measured = PUBLISHED / "measured.csv"
-    run.run(measured, folder, PAPER_GEOMETRY, draws=500, simulations=paper, facets=facets)
+    run.conclude(measured, PAPER_GEOMETRY, draws=FEW, simulated=run.Simulated(paper, facets)).write(folder)
     content = read_diagnosis([folder / "diagnosis.json"])
     bonds, law = content["ladder"][:2]
     assert (bonds["cause"], law["cause"]) == ("bond_mapping", "relaxation_spectrum")
@@ -95,7 +135,8 @@ def test_the_ladder_begins_with_what_was_simulated(campaigns):
 
 def test_one_mapping_alone_makes_no_rung(campaigns):
     folder, _, facets = campaigns
-    run.run(PUBLISHED / "measured.csv", folder, PAPER_GEOMETRY, draws=500, simulations=facets)
+    simulated = run.Simulated(facets)
+    run.conclude(PUBLISHED / "measured.csv", PAPER_GEOMETRY, draws=FEW, simulated=simulated).write(folder)
     content = read_diagnosis([folder / "diagnosis.json"])
     assert content["ladder"][0]["cause"] == "relaxation_spectrum"
     assert any("No rung bond_mapping" in note and "1.002 of the law" in note for note in content["notes"])

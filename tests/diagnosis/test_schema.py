@@ -108,7 +108,7 @@ def diagnosed(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("diagnosed")
     frame = pd.read_csv(ROOT / "results/published/paper/measured.csv", dtype={"specimen": str})[COLUMNS]
     request.param(frame).assign(origin="synthetic").to_csv(folder / "measured.csv", index=False)
-    run.run(folder / "measured.csv", folder, GEOMETRY, draws=500)
+    run.conclude(folder / "measured.csv", GEOMETRY, draws=run.Draws(500)).write(folder)
     return request.param, folder
 
 
@@ -134,7 +134,7 @@ def test_each_table_reaches_its_part_of_the_schema(diagnosed):
 def test_a_law_for_all_temperatures_is_written_and_told_of_where_it_is_far_off(diagnosed):
     change, folder = diagnosed
     assert (folder / "law.json").exists() == (change is not few)
-    told = [note for note in content_of(folder)["notes"] if "2S2P1D with one shift for all" in note]
+    told = [note for note in content_of(folder)["notes"] if "it is 2S2P1D with" in note]
     assert bool(told) == (change is shift_bent_the_other_way)
 
 

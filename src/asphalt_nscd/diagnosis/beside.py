@@ -7,8 +7,9 @@ cause: each is left out in turn.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -111,7 +112,7 @@ def _settle(
     """Law, causes and discrepancy fitted in turn from where they stand."""
     law, scales = at.law, at.scales
     for _ in range(SETTLED):
-        noise = replace(plain.noise, discrepancy=found.covariance(variances))
+        noise = replace(plain.noise, discrepancy=found.beside(variances))
         wide = Joint(plain.observed, plain.base, noise)
         fitted = wide.fit(law, scales, active, CONVERGED)
         law, scales, active = fitted.law, fitted.scales, fitted.active
@@ -145,10 +146,11 @@ def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     # large table the sizes are well determined, and each start takes a second.
     several = state.plain.observed.size <= SEVERAL_STARTS
     estimates = [
-        _likeliest(state.model, state.variances, pointing.column(k)) if several and len(candidate.values) == 1
+        _likeliest(state.model, state.variances, pointing.column(k))
+        if several and len(candidate.values) == 1
         else discrepancy.estimate(state.model, pointing.column(k), state.variances)
         for k, candidate in enumerate(candidates)
-    ]  # fmt: skip
+    ]
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     return Survey(candidates, pointing, estimates, one_sided)
 
@@ -185,9 +187,10 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         return None
     # A cause with shapes of its own follows almost any structure: it must be carried by the whole table.
     refits = [
-        refit for refit in refits
+        refit
+        for refit in refits
         if len(candidates[refit[1]].values) == 1 or not hangs_on(refit[2], refit[2].fitted.active[-1])
-    ]  # fmt: skip
+    ]
     if not refits:
         return None
     most = max(gain for gain, _, _ in refits)
@@ -239,10 +242,11 @@ def of_taken(
         linear = plain.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
     d = linear.jacobian[:, [first]]
     rest = replace(
-        linear, jacobian=np.delete(linear.jacobian, first, axis=1),
+        linear,
+        jacobian=np.delete(linear.jacobian, first, axis=1),
         precision=np.delete(np.delete(linear.precision, first, axis=0), first, axis=1),
         gradient=np.delete(linear.gradient, first),
-    )  # fmt: skip
+    )
     found, start = model.processes, state.variances
     if rows is not None:
         found, start = _of_rows(found, plain, rows, start)
@@ -280,7 +284,7 @@ def hangs_on(state: State, candidate: Candidate) -> list[str]:
     return carried
 
 
-def _parts(observed: Observations):
+def _parts(observed: Observations) -> Iterator[tuple[str, NDArray, Callable[[Any], str]]]:
     yield "isotherm", observed.isotherm, lambda t: f"{t:g} degC"
     yield "frequency", observed.frequency, lambda f: f"{f:g} Hz"
     yield "specimen", observed.specimen, lambda s: f"specimen {observed.names[s]}"
@@ -348,7 +352,7 @@ def detection_limits(
         # A cause with shapes of its own must be carried by the whole table, which no single size says.
         simple = np.array([len(candidate.values) == 1 for candidate in surveyed.candidates])
         for k in np.flatnonzero(simple):
-            needed = _named_from(state, surveyed, k, threshold) / (threshold + chance.POWER)
+            needed = _named_from(state, surveyed, int(k), threshold) / (threshold + chance.POWER)
             errors[k] = max(surveyed.estimates[k].std_error, needed)
         found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)
         sizes, unseen = limits.detection_limits(

@@ -69,14 +69,21 @@ def bond_mapping(
         f"paper, {after} with facets"
     )
     return {
-        "cause": NAME, "where": None,
+        "cause": NAME,
+        "where": None,
         "parameters": {
-            "modulus_over_law": _estimate(ratio), "modulus_over_law_with_facets": _estimate(by_facets),
+            "modulus_over_law": _estimate(ratio),
+            "modulus_over_law_with_facets": _estimate(by_facets),
         },
-        "p_value": None, "gain": {"in_sample": {"averages_by_temperature": averages}, "held_out": {}},
-        "as_good": [], "established": True, "hangs_on": [], "sentence": SENTENCE, "evidence": evidence,
+        "p_value": None,
+        "gain": {"in_sample": {"averages_by_temperature": averages}, "held_out": {}},
+        "as_good": [],
+        "established": True,
+        "hangs_on": [],
+        "sentence": SENTENCE,
+        "evidence": evidence,
         "confirmed_by": CONFIRMED_BY,
-    }, f"bond_mapping: {evidence}."  # fmt: skip
+    }, f"bond_mapping: {evidence}."
 
 
 def void(campaign: str | Path) -> str:

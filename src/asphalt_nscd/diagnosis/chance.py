@@ -9,12 +9,14 @@ a parametric bootstrap of the linearised model, studentised as the scatter itsel
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr
 
+from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 
@@ -86,7 +88,7 @@ def effective(found: Scores, one_sided: NDArray[np.bool_]) -> Vector:
     return np.where(one_sided, np.maximum(found.z, 0.0), np.abs(found.z))
 
 
-def catalogue_candidates(observed: Observations, catalogue) -> list[Candidate]:
+def catalogue_candidates(observed: Observations, catalogue: Sequence[Cause]) -> list[Candidate]:
     """Every cause at every place with every starting shape, absent (amplitude zero)."""
     return [
         Candidate(cause, place, (0.0, *shape))
@@ -152,7 +154,7 @@ def specimen_structures(observed: Observations) -> list[Structure]:
 def _both(patterns: dict[str, NDArray]) -> list[Structure]:
     """Each pattern in the modulus and in the phase."""
     return [
-        Structure(f"{name}, {part}", unit * pattern.astype(complex))
+        Structure(f"{name}, {part}", np.asarray(unit * pattern, complex))
         for name, pattern in patterns.items()
         if np.any(pattern)
         for part, unit in (("modulus", 1.0), ("phase", 1j))

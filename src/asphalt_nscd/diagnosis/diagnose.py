@@ -17,6 +17,7 @@ from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.suspects import Suspect
+from asphalt_nscd.diagnosis.written import CONFIDENCE, shown
 from asphalt_nscd.measurements.reduction import require_enough
 
 DRAWS = 4000
@@ -57,9 +58,13 @@ class Diagnosis:
 
 
 def diagnose(
-    observed: Observations, scatter_stated: tuple[float, float] | None = None,
-    catalogue: tuple[Cause, ...] = CATALOGUE, draws: int = DRAWS, seed: int = 0, use_suspects: bool = False,
-) -> Diagnosis:  # fmt: skip
+    observed: Observations,
+    scatter_stated: tuple[float, float] | None = None,
+    catalogue: tuple[Cause, ...] = CATALOGUE,
+    draws: int = DRAWS,
+    seed: int = 0,
+    use_suspects: bool = False,
+) -> Diagnosis:
     """Diagnose a table. scatter_stated: of |E*| (relative) and phase [rad], where replicates do not tell.
 
     use_suspects: whether tests that contradict their own isotherm are used all the same.
@@ -97,9 +102,18 @@ def diagnose(
     ladder = climb(joint, fitted, catalogue, draws, seed)
     law_p = misfit_p_value(_by_scatter(ladder, noise), noise)
     diagnosis = Diagnosis(
-        observed, whole.subset(aside), noise, replicated, baseline, baseline_joint, baseline_p, law_p,
-        joint is not baseline_joint and baseline_p <= CHANCE and spectrum_better, ladder, notes=notes,
-    )  # fmt: skip
+        observed,
+        whole.subset(aside),
+        noise,
+        replicated,
+        baseline,
+        baseline_joint,
+        baseline_p,
+        law_p,
+        joint is not baseline_joint and baseline_p <= CHANCE and spectrum_better,
+        ladder,
+        notes=notes,
+    )
     diagnosis.whole, diagnosis.suspects = whole, tuple(doubtful)
     diagnosis.doubts = _doubts(ladder, noise)
     diagnosis.verdict = _verdict(diagnosis)
@@ -144,7 +158,11 @@ def _doubts(ladder: Ladder, noise: Noise) -> dict[Key, list[str]]:
     """Of the names on the ladder, beside its discrepancy."""
     plain = Joint(ladder.joint.observed, ladder.joint.base, noise)
     named = [rung.candidate for rung in ladder.rungs]
-    return find_doubts(plain, ladder.fitted, named, tuple(ladder.discrepancy.values()))
+    found = find_doubts(plain, ladder.fitted, named, tuple(ladder.discrepancy.values()))
+    for one in ladder.fitted.active:
+        if abs(one.values[0]) < CONFIDENCE * ladder.estimates.get(one.key, (0.0, 0.0))[1]:
+            found.setdefault(one.key, []).append("Its 95 % interval holds zero")
+    return found
 
 
 def _at_bounds(ladder: Ladder) -> list[str]:
@@ -152,12 +170,18 @@ def _at_bounds(ladder: Ladder) -> list[str]:
     if not ladder.rungs:
         return []
     return [
-        f"{candidate.cause.name}: {parameter.name} stands at its bound of {value:g} {parameter.unit}, so that its "
-        "standard error means nothing; the true one may lie beyond, or the cause be another."
+        f"{candidate.cause.name.replace('_', ' ')}: {parameter.name.replace('_', ' ')} stands at its bound of "
+        f"{_in_unit(value, parameter.unit)}, so that its standard error means nothing; the true one may lie beyond, "
+        "or the cause be another."
         for candidate in ladder.rungs[-1].after.active
         for parameter, value in zip(candidate.cause.parameters, candidate.values, strict=True)
         if np.isclose(value, [parameter.low, parameter.high], rtol=1e-6, atol=0.0).any() and value
     ]
+
+
+def _in_unit(value: float, unit: str) -> str:
+    size, name = shown(value, unit)
+    return f"{size:g} {name}".rstrip()
 
 
 def misfit_p_value(fitted: Fitted, noise: Noise) -> float:
@@ -179,10 +203,16 @@ def _information(fitted: Fitted) -> float:
     return float(fitted.residual @ fitted.residual + used * np.log(fitted.residual.size))
 
 
-def _noise(observed, scatter_stated, catalogue, notes) -> tuple[Noise, bool]:
+def _noise(
+    observed: Observations,
+    scatter_stated: tuple[float, float] | None,
+    catalogue: tuple[Cause, ...],
+    notes: list[str],
+) -> tuple[Noise, bool]:
     if scatter_stated is not None:
         notes.append("The scatter is the one stated, not estimated from replicates.")
-        return scatter.stated(observed, *scatter_stated, scatter.SPECIMEN_SCALE), True
+        modulus, phase = scatter_stated
+        return scatter.stated(observed, modulus, phase, scatter.SPECIMEN_SCALE), True
     logarithm = observed.logarithm.real - scatter.median_by(observed.logarithm.real, observed.cell)
     scales = np.array([np.median(logarithm[observed.specimen == k]) for k in range(len(observed.names))])
     membership = np.eye(len(observed.names), dtype=complex)[observed.specimen]
@@ -209,7 +239,7 @@ def _noise(observed, scatter_stated, catalogue, notes) -> tuple[Noise, bool]:
     return noise, False
 
 
-def _residual_scatter(fitted: Fitted, sizes) -> tuple[tuple[float, float], int]:
+def _residual_scatter(fitted: Fitted, sizes: tuple[float, float]) -> tuple[tuple[float, float], int]:
     hat = np.einsum("ij,ji->i", fitted.jacobian, np.linalg.solve(fitted.precision, fitted.jacobian.T))
     n = fitted.residual.size // 2
     new, freedom = [], 0.0

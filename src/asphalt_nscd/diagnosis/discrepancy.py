@@ -14,17 +14,19 @@ estimate for one more cause costs milliseconds.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
-from scipy.linalg.lapack import dpotrf, dpotri, dpotrs
+from scipy.linalg.lapack import dpotrf, dpotrs, dtrtri
 
 from asphalt_nscd.diagnosis.joint import Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
+Kernel = Callable[[NDArray], NDArray]
 LENGTH = 1.5  # of ln f, over which the discrepancy of an isotherm changes
 LEVEL, SMOOTH, ROUGH = (
     0.25,
@@ -38,7 +40,6 @@ LEFT_OUT = {"isotherm": 1e-3, "all": 1e-3, "specimen": 0.05}  # share of the var
 # isotherms is rarer than what breaks one: it must come from the machine.
 USUAL = {"isotherm": 0.5, "all": 0.1, "specimen": 0.3, "spectrum": 1.0}
 OF_TIMES = 4.0  # of ln(relaxation time), over which the spectrum of a specimen departs from that of the mix
-STEP = 0.5  # of ln v, over which its curvature is taken
 UNKNOWN = 2.0  # standard deviation of the ln v that a table tells nothing of
 ITERATIONS = 25
 CONVERGED = 0.05  # change of -2 ln likelihood
@@ -59,17 +60,15 @@ class Processes:
     block: NDArray[np.int64]
     usual: Vector
 
-    def covariance(self, variances: Vector) -> NDArray:
-        """Covariance (2n, 2n) of ln|E*| and of the phase."""
+    def beside(self, variances: Vector) -> NDArray:
+        """Factor (2n, r) of the covariance of ln|E*| and of the phase."""
         kept = [
             np.sqrt(variance) * root
-            for root, variance in zip(self.roots, variances, strict=True) if variance > LEAST
-        ]  # fmt: skip
-        n = self.roots[0].shape[0]
-        if not kept:
-            return np.zeros((2 * n, 2 * n))
-        stacked = np.hstack([np.concatenate([root.real, root.imag]) for root in kept])
-        return stacked @ stacked.T
+            for root, variance in zip(self.roots, variances, strict=True)
+            if variance > LEAST
+        ]
+        stacked = np.hstack(kept) if kept else np.zeros((self.roots[0].shape[0], 0), complex)
+        return np.concatenate([stacked.real, stacked.imag])
 
 
 def processes(joint: Joint, fitted: Fitted) -> Processes:
@@ -82,8 +81,8 @@ def processes(joint: Joint, fitted: Fitted) -> Processes:
             names.append(f"specimen {name}, spectrum")
             roots.append(spectra * (observed.specimen == k)[:, None])
             usual.append(USUAL["spectrum"])
-    for kind, name, kernel in _kernels(observed):
-        root = factor_of(kernel, LEFT_OUT[kind])
+    for kind, name, points, kernel in _kernels(observed):
+        root = factor_of(points, kernel, LEFT_OUT[kind])
         for part, unit in (("modulus", noise.sigma[0]), ("phase", 1j * noise.sigma[1])):
             names.append(f"{name}, {part}")
             roots.append(unit * root)
@@ -95,41 +94,51 @@ def processes(joint: Joint, fitted: Fitted) -> Processes:
 
 def _of_spectrum(joint: Joint, fitted: Fitted) -> NDArray[np.complex128]:
     """What a smooth relative change of the spectrum by one does to ln E*, a factor (n, rank)."""
-    times = joint.base.times
+    log_times = np.log(joint.spectrum.times)[:, None]
     modulus, slope = joint.base.modulus(fitted.law, joint.observed.omega, joint.observed.temperature)
-    apart = np.log(times)[:, None] - np.log(times)
-    return (slope[:, : times.size] / modulus[:, None]) @ factor_of(
-        np.exp(-0.5 * (apart / OF_TIMES) ** 2), 1e-2
+    return (slope[:, : log_times.size] / modulus[:, None]) @ factor_of(
+        log_times, lambda apart: np.exp(-0.5 * (apart[0] / OF_TIMES) ** 2), 1e-2
     )
 
 
-def _kernels(observed: Observations):
-    """Kind, name and correlation (n, n) of each process."""
-    log_f = np.log(observed.frequency)
-    apart = log_f[:, None] - log_f
-    smooth, same = np.exp(-0.5 * (apart / LENGTH) ** 2), np.abs(apart) < 1e-9
-    along = SMOOTH * smooth + ROUGH * same
-    for t in observed.isotherms:
-        at = observed.isotherm == t
-        yield "isotherm", f"{t:g} degC", (LEVEL + along) * np.outer(at, at)
+def _kernels(observed: Observations) -> Iterator[tuple[str, str, NDArray, Kernel]]:
+    """Kind, name, points (n, d) of the tests that it reaches (else NaN) and correlation of each process."""
+    log_f = np.log(observed.frequency)[:, None]
+
+    def along(apart: NDArray) -> NDArray:
+        return SMOOTH * np.exp(-0.5 * (apart[0] / LENGTH) ** 2) + ROUGH * (np.abs(apart[0]) < 1e-9)
+
+    for t in observed.held_isotherms:
+        at = np.where(observed.isotherm == t, 0.0, np.nan)[:, None]
+        yield "isotherm", f"{t:g} degC", log_f + at, lambda apart: LEVEL + along(apart)
     if observed.isotherms.size > 1:
-        yield "all", "all tests", along
+        yield "all", "all tests", log_f, along
     if len(observed.names) > 1:
         span = ACROSS * max(float(np.ptp(observed.isotherms)), 1.0)
-        warmer = observed.temperature[:, None] - observed.temperature
-        kernel = np.exp(-0.5 * (apart / SPECIMEN_LENGTH) ** 2 - 0.5 * (warmer / span) ** 2)
+        both = np.hstack([log_f / SPECIMEN_LENGTH, observed.temperature[:, None] / span])
         for k, name in enumerate(observed.names):
-            at = observed.specimen == k
-            yield "specimen", f"specimen {name}", (0.5 + 0.5 * kernel) * np.outer(at, at)
+            at = np.where(observed.specimen == k, 0.0, np.nan)[:, None]
+            yield "specimen", f"specimen {name}", both + at, _of_specimen
 
 
-def factor_of(kernel: NDArray, left_out: float) -> NDArray:
-    rows = np.flatnonzero(np.diag(kernel) > 0.0)
-    value, vector = np.linalg.eigh(kernel[np.ix_(rows, rows)])
-    value, vector = np.maximum(value[::-1], 0.0), vector[:, ::-1]
+def _of_specimen(apart: NDArray) -> NDArray:
+    return 0.5 + 0.5 * np.exp(-0.5 * (apart**2).sum(axis=0))
+
+
+def factor_of(points: NDArray, kernel: Kernel, left_out: float) -> NDArray:
+    """Factor (n, rank) of the correlation between points (n, d), zero where a point is NaN.
+
+    kernel: of the differences (d, m, m). Tests at one point share a row, so that only distinct points are solved for.
+    """
+    rows = np.flatnonzero(np.isfinite(points).all(axis=1))
+    distinct, place, count = np.unique(points[rows], axis=0, return_inverse=True, return_counts=True)
+    apart = distinct.T[:, :, None] - distinct.T[:, None, :]
+    weight = np.sqrt(count)
+    value, vector = np.linalg.eigh(weight[:, None] * kernel(apart) * weight)
+    value, vector = np.maximum(value[::-1], 0.0), vector[:, ::-1] / weight[:, None]
     rank = int(np.searchsorted(np.cumsum(value), (1.0 - left_out) * value.sum())) + 1
-    root = np.zeros((kernel.shape[0], rank))
-    root[rows] = vector[:, :rank] * np.sqrt(value[:rank])
+    root = np.zeros((points.shape[0], min(rank, value.size)))
+    root[rows] = (vector[:, :rank] * np.sqrt(value[:rank]))[place.ravel()]
     return root
 
 
@@ -218,7 +227,7 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
         middle = _point(model, cause, first)
         second = np.clip(first + middle.step, lowest, highest)
         one, change = first - log_v, second - 2.0 * first + log_v
-        reach = float(np.clip(np.linalg.norm(one) / max(np.linalg.norm(change), 1e-12), 1.0, 20.0))
+        reach = float(np.clip(np.linalg.norm(one) / np.maximum(np.linalg.norm(change), 1e-12), 1.0, 20.0))
         far = np.clip(log_v + 2.0 * reach * one + reach**2 * change, lowest, highest)
         trial = _point(model, cause, far)
         if not trial.objective <= middle.objective:
@@ -236,18 +245,37 @@ def with_uncertain_sizes(model: Reduced, cause: Direction, found: Estimate) -> E
 
     Their covariance is that of the curvature of the objective; what the table does not tell is held to a factor.
     """
-    log_v, m = np.log(found.variances), found.variances.size
-    curvature, along = np.zeros((m, m)), np.zeros(m)
-    for k in range(m):
-        moved = np.zeros(m)
-        moved[k] = STEP
-        low, high = (_point(model, cause, log_v + sign * moved) for sign in (-1.0, 1.0))
-        if np.isfinite(low.objective) and np.isfinite(high.objective):
-            curvature[k] = (high.gradient - low.gradient) / (2.0 * STEP)
-            along[k] = (high.amplitude - low.amplitude) / (2.0 * STEP)
-    value, vector = np.linalg.eigh(0.25 * (curvature + curvature.T))  # half of it, for -2 ln likelihood
+    curvature, along = _curvature(model, cause, found.variances)
+    value, vector = np.linalg.eigh(0.5 * curvature)  # half of it, for -2 ln likelihood
     spread = (vector.T @ along) ** 2 / (np.maximum(value, 0.0) + UNKNOWN**-2)
     return replace(found, std_error=float(np.sqrt(found.std_error**2 + spread.sum())))
+
+
+def _curvature(model: Reduced, cause: Direction, variances: Vector) -> tuple[NDArray, Vector]:
+    """Second derivatives (m, m) of the objective along ln v, and first ones (m,) of the amplitude.
+
+    With P the inverse covariance, law and cause taken out, dP/dv_k = -P U_k U_k^T P.
+    """
+    found, m = model.processes, variances.size
+    block, s = found.block, np.sqrt(variances)[found.block]
+    lower, failed = _factor(model, s)
+    if failed:
+        return np.zeros((m, m)), np.zeros(m)
+    inverse = dtrtri(lower, lower=1)[0]
+    left = (np.eye(s.size) - inverse.T @ inverse) / s[:, None] / s  # U^T P U
+    right = s[:, None] * np.column_stack([model.along, cause.cross[:, 0]])
+    solved = dpotrs(lower, right, lower=1)[0]
+    pull, sensed = (solved / s[:, None]).T
+    information = max(float(cause.own[0, 0] - right[:, 1] @ solved[:, 1]), 1e-12)
+    pull = pull - sensed * float(cause.along[0] - right[:, 1] @ solved[:, 0]) / information
+    left = left - np.outer(sensed, sensed) / information
+    member = np.eye(m)[block]
+    prior = 2.0 / (found.usual**2 + variances)
+    gradient = np.bincount(block, np.diag(left) - pull**2, m) + prior
+    second = member.T @ (2.0 * pull[:, None] * left * pull - left**2) @ member
+    second[range(m), range(m)] += gradient / variances - 0.5 * prior**2
+    along = -variances * np.bincount(block, sensed * pull, m) / information
+    return variances[:, None] * second * variances, along
 
 
 @dataclass(frozen=True)
@@ -257,7 +285,6 @@ class _Point:
     objective: float
     misfit: float
     step: Vector  # of ln v
-    gradient: Vector  # of the objective along ln v
     amplitude: float
     std_error: float
 
@@ -269,11 +296,11 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
     s = np.sqrt(v)[block]
     lower, failed = _factor(model, s)
     if failed:
-        return _Point(np.inf, np.inf, np.zeros(m), np.zeros(m), 0.0, np.inf)
+        return _Point(np.inf, np.inf, np.zeros(m), 0.0, np.inf)
     data = s * model.along
     right = data[:, None] if cause is None else np.column_stack([data, s * cause.cross[:, 0]])
     solved = dpotrs(lower, right, lower=1)[0]
-    diagonal = (1.0 - np.diag(dpotri(lower, lower=1)[0])) / s**2
+    diagonal = (1.0 - (dtrtri(lower, lower=1)[0] ** 2).sum(axis=0)) / s**2
     pull = solved[:, 0] / s
     misfit = 2.0 * float(np.log(np.diag(lower)).sum()) - float(data @ solved[:, 0])
     amplitude, std_error, interval = 0.0, np.inf, 0.0
@@ -289,7 +316,7 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
     trace = np.bincount(block, np.maximum(diagonal, 0.0), m) + 2.0 / (found.usual**2 + v)
     square = np.bincount(block, pull**2, m)
     step = 0.5 * np.log(np.maximum(square, 1e-12) / trace)
-    return _Point(misfit + interval, misfit, step, v * (trace - square), amplitude, std_error)
+    return _Point(misfit + interval, misfit, step, amplitude, std_error)
 
 
 def _factor(model: Reduced, s: Vector) -> tuple[NDArray, bool]:

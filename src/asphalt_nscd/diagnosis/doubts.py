@@ -19,14 +19,19 @@ from asphalt_nscd.diagnosis import discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
 Key = tuple[str, str | float | None]
 # Standard errors that the size must keep beside each rival. Measured in drawn tables: look-alikes of a cause that the
 # catalogue lacks keep up to 5.1, right names at three times the limit 8.7 or more.
 ENOUGH = 6.0
+BETTER = (
+    6.0  # of -2 ln likelihood: an error of a known shape is told if the tests are 20 times as likely with it
+)
 FIRST = 0.05  # size at which the search for the size of a rival begins, in its own units
 MOST_SPECIMENS = 0.5  # share of the specimens at which a fault of one specimen may be named
+MANY_ISOTHERMS = 3  # at which one and the same cause speaks for a law of another form
 
 
 def find_doubts(
@@ -46,8 +51,9 @@ def find_doubts(
     variances = np.square(sizes) if len(sizes) else np.zeros(len(processes.names))
     table = _Table(plain, linear, processes, variances)
     for candidate in named:
-        own = [*_at_bound(active[candidate.key]), *_of_many(candidate, named, len(plain.observed.names))]
-        own += _beside_rivals(table, active[candidate.key])
+        taken = active[candidate.key]
+        own = [*_of_size(taken, plain.observed), *_of_many(candidate, named, len(plain.observed.names))]
+        own += _beside_rivals(table, taken)
         if not own and found:
             own = ["It was found after a name that is in doubt"]
         if own:
@@ -55,18 +61,22 @@ def find_doubts(
     return found
 
 
-def _at_bound(candidate: Candidate) -> Iterator[str]:
+def _of_size(candidate: Candidate, observed: Observations) -> Iterator[str]:
+    """A size at the bound of the search, and one that these tests cannot have."""
     for parameter, value in zip(candidate.cause.parameters, candidate.values, strict=True):
         if value and np.isclose(value, [parameter.low, parameter.high], rtol=1e-6, atol=0.0).any():
             unit = "" if parameter.unit == "1" else f" {parameter.unit}"
             yield f"Its {parameter.name.replace('_', ' ')} stands at the bound of {value:g}{unit}"
+    yield from filter(None, [candidate.cause.impossible(np.array(candidate.values), observed)])
 
 
 def _of_many(candidate: Candidate, named: Sequence[Candidate], specimens: int) -> Iterator[str]:
-    """A fault of one specimen that most of them would have to share."""
+    """A fault of one specimen that most of them would have to share; one isotherm after another that is off."""
     same = sum(one.cause.name == candidate.cause.name for one in named)
     if isinstance(candidate.place, str) and same > 1 and same >= MOST_SPECIMENS * specimens:
         yield f"It is named at {same} of {specimens} specimens, so that it is no fault of one of them"
+    if isinstance(candidate.place, float) and same >= MANY_ISOTHERMS:
+        yield f"It is named at {same} isotherms: a shift with temperature that is not of WLF's form looks the same"
 
 
 class _Table:
@@ -87,24 +97,36 @@ class _Table:
         rest = np.delete(linear.jacobian, columns, axis=1)
         back = direction[:, 0] * size
         out = replace(
-            linear, jacobian=rest, residual=linear.residual + back,
+            linear,
+            jacobian=rest,
+            residual=linear.residual + back,
             precision=np.delete(np.delete(linear.precision, columns, 0), columns, 1),
             gradient=np.delete(linear.gradient, columns) + rest.T @ back,
-        )  # fmt: skip
+        )
         effect = size * self.plain.direction(linear.law, linear.scales, linear.active, number, 0)
         return out, direction, effect
 
-    def beside(self, rest: Fitted, direction: NDArray, roots: Sequence[NDArray], usual: float) -> Estimate:
-        """The cause estimated beside its discrepancy and further processes with these factors (n, rank)."""
+    def beside(
+        self, rest: Fitted, direction: NDArray | None, roots: Sequence[NDArray], usual: float
+    ) -> Estimate:
+        """The cause estimated beside its discrepancy and further processes with these factors (n, rank).
+
+        direction: whitened (2n, 1), of the cause; None for the processes in its place.
+        """
         found = self.processes
         count = [*np.bincount(found.block), *(root.shape[1] for root in roots)]
         factor = np.hstack([found.factor, *(self.plain.noise.whiten(root) for root in roots)])
         every = Processes(
-            (*found.names, *("rival" for _ in roots)), (*found.roots, *roots), factor,
-            np.repeat(np.arange(len(count)), count), np.array([*found.usual, *(usual for _ in roots)]),
-        )  # fmt: skip
+            (*found.names, *("rival" for _ in roots)),
+            (*found.roots, *roots),
+            factor,
+            np.repeat(np.arange(len(count)), count),
+            np.array([*found.usual, *(usual for _ in roots)]),
+        )
         model: Reduced = discrepancy.reduce(every, rest)
-        along: Direction = discrepancy.directions(model, rest, direction)
+        along: Direction | None = (
+            None if direction is None else discrepancy.directions(model, rest, direction)
+        )
         begin = np.concatenate([self.variances, np.full(len(roots), FIRST**2)])
         tried = [discrepancy.estimate(model, along, start) for start in (begin, None)]
         return min(tried, key=lambda one: one.misfit)
@@ -118,10 +140,17 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
     for root in _smooth(table.plain):
         beside = table.beside(rest, direction, (sigma[0] * root, 1j * sigma[1] * root), 1.0)
         least = min(least, abs(beside.z))
-    if least < ENOUGH:
+    known = [
+        words
+        for words, roots in _shaped(table.plain)
+        if table.beside(rest, None, roots, 1.0).misfit < alone.misfit - BETTER
+    ]
+    if known:
+        yield f"It may be {' or '.join(known)} instead"
+    elif least < ENOUGH:
         yield (
-            f"Beside a smooth effect without a name its size is {np.floor(10.0 * least) / 10.0:g} standard errors, "
-            f"fewer than {ENOUGH:g}"
+            "A smooth error without a name may explain it: beside one, its size is "
+            f"{np.floor(10.0 * least) / 10.0:g} standard errors, fewer than {ENOUGH:g}"
         )
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))
@@ -130,12 +159,41 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
             yield f"Its size may differ between {words}"
 
 
+def _shaped(plain: Joint) -> Iterator[tuple[str, list[NDArray[np.complex128]]]]:
+    """Errors that laboratories make and the catalogue lacks: words, and factors (n, 1), each with a size of its own."""
+    observed, (of_modulus, of_phase) = plain.observed, plain.noise.sigma
+    size, phase = np.abs(observed.modulus), 1j * observed.logarithm.imag
+    away = observed.temperature - observed.temperature.mean()
+    for words, shapes, unit in (
+        ("a phase read on a wrong scale", [phase], of_phase),
+        ("a machine's compliance taken off |E*| alone", [size], of_modulus),
+        (
+            "a constant added to |E*|",
+            [1.0 / size, 1.0 / size**2],
+            of_modulus,
+        ),  # the logarithm to second order
+        ("a change of |E*| with temperature that is no shift", [away], of_modulus),
+    ):
+        lengths = [float(np.sqrt(np.mean(np.abs(shape) ** 2))) for shape in shapes]
+        if min(lengths) > 0.0:
+            yield (
+                words,
+                [(unit * s / one)[:, None].astype(complex) for s, one in zip(shapes, lengths, strict=True)],
+            )
+
+
 def _smooth(plain: Joint) -> Iterator[NDArray]:
     """Factors (n, rank) of a smooth effect over ln f, the same at all temperatures and changing with them."""
     observed = plain.observed
-    log_f = np.log(observed.frequency)
-    along = discrepancy.LEVEL + np.exp(-0.5 * ((log_f[:, None] - log_f) / discrepancy.LENGTH) ** 2)
-    yield discrepancy.factor_of(along, discrepancy.LEFT_OUT["all"])
+    log_f = np.log(observed.frequency)[:, None] / discrepancy.LENGTH
+
+    def along(apart: NDArray) -> NDArray:
+        return discrepancy.LEVEL + np.exp(-0.5 * apart[0] ** 2)
+
+    yield discrepancy.factor_of(log_f, along, discrepancy.LEFT_OUT["all"])
     span = discrepancy.ACROSS * max(float(np.ptp(observed.isotherms)), 1.0)
-    warmer = (observed.isotherm[:, None] - observed.isotherm) / span
-    yield discrepancy.factor_of(along * np.exp(-0.5 * warmer**2), discrepancy.LEFT_OUT["all"])
+    yield discrepancy.factor_of(
+        np.hstack([log_f, observed.isotherm[:, None] / span]),
+        lambda apart: along(apart) * np.exp(-0.5 * apart[1] ** 2),
+        discrepancy.LEFT_OUT["all"],
+    )

@@ -8,7 +8,7 @@ causes that sit in the material or the specimen; those at the head and in the ch
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,7 @@ from asphalt_nscd.rheology.fitting import Fit
 from asphalt_nscd.rheology.laws_io import write_chain
 from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE
 from asphalt_nscd.rheology.spectrum import Spectrum, parameters
-from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
+from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
 Vector = NDArray[np.float64]
@@ -66,7 +66,7 @@ def material_law(diagnosis: Diagnosis) -> Fit:
     reference = float(observed.isotherms[observed.isotherms.size // 2])
     shift = "wlf" if observed.isotherms.size > 2 and observed.size > LEAST_TESTS else "arrhenius"
     return fit_spectrum(
-        observed.omega, observed.temperature, modulus, reference, shift=shift, prior=ASPHALT_CONCRETE
+        observed.omega, observed.temperature, modulus, reference, Form(shift=shift), prior=ASPHALT_CONCRETE
     )
 
 
@@ -79,9 +79,9 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum) -> list[str]:
     if miss < FAR or not diagnosis.replicated:  # else the scatter itself is a guess
         return []
     return [
-        f"The law of the extended simulation, 2S2P1D with one shift for all, is {miss:.2g} times the scatter of a test "
-        f"away from the law found here, {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*|: so far is that "
-        "simulation from these data."
+        f"law.json, the law of the extended simulation, differs from the law found here by "
+        f"{100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*|, {miss:.2g} times the scatter of a test: it is 2S2P1D "
+        "with WLF, and these tests ask for more."
     ]
 
 
@@ -96,8 +96,8 @@ def prior_notes(fit: Fit) -> list[str]:
         return []
     listed = words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
     return [
-        f"The tests do not determine {listed} of the law in law.json: they follow from what asphalt concrete "
-        "usually has and are not a finding."
+        f"The tests do not determine {listed} in law.json: usual values of asphalt concrete stand there, which are "
+        "no finding."
     ]
 
 
@@ -106,37 +106,53 @@ def _without_causes(diagnosis: Diagnosis) -> Complex:
     return diagnosis.ladder.joint.apparent(diagnosis.ladder.fitted.law, ())[0]
 
 
+@dataclass(frozen=True)
+class Sample:
+    """One numerical specimen, and the simulated tests on it."""
+
+    number: int  # from 0; it stands for the measured specimen of this number
+    amplitude: float  # of the tests, m
+    tests: Sequence[tuple[float, float, str | Path]]  # T [degC], f [Hz], file of the bond law to write
+
+
 def extend(
-    diagnosis_file: str | Path, law_file: str | Path, measured: str | Path,
-    geometry: str | Path | Mapping[str, Any], number: int, amplitude: float,
-    tests: Sequence[tuple[float, float, str | Path]], rig_output: str | Path,
-) -> None:  # fmt: skip
-    """Write the bond law (a Kelvin chain) of each test (T [degC], f [Hz], path) of one sample, and its rig.
+    diagnosis_file: str | Path,
+    law_file: str | Path,
+    measured: str | Path,
+    geometry: str | Path | Mapping[str, Any],
+    sample: Sample,
+    rig_output: str | Path,
+) -> None:
+    """Write the bond law (a Kelvin chain) of each test of one sample, and its rig.
 
     The law goes into the bonds as it is: with facets, |E*| of a specimen is that of its law (docs/mapping.md).
-    number: of the sample from 0; it stands for the measured specimen of this number.
     """
     named = named_causes(diagnosis_file)
     observed, _ = read_observations(measured, geometry)
     law = read_spectrum(law_file)
-    stands_for = number % len(observed.names)
-    frequencies = [frequency for _, frequency, _ in tests]
+    stands_for = sample.number % len(observed.names)
+    frequencies = [frequency for _, frequency, _ in sample.tests]
     band = 2.0 * np.pi * min(frequencies) / MARGIN, 2.0 * np.pi * max(frequencies) * MARGIN
 
-    for temperature, frequency, path in tests:
+    for temperature, frequency, path in sample.tests:
         row = _row(observed, stands_for, temperature, frequency)
         bonds = _bond_modulus(law, observed, row, named)
         chain, error = kelvin_chain(bonds, *band, TOLERANCE)
         lowest, highest = (omega / (2.0 * np.pi) for omega in band)
         write_chain(
-            path, chain, source="diagnosis", temperature=temperature, error=error,
-            lowest_hz=lowest, highest_hz=highest,
-        )  # fmt: skip
+            path,
+            chain,
+            source="diagnosis",
+            temperature=temperature,
+            error=error,
+            lowest_hz=lowest,
+            highest_hz=highest,
+        )
     rig: dict[str, float] = {}
     gamma = float(observed.form_factor[observed.specimen == stands_for][0])
     for candidate in named:
         if candidate.place is None or candidate.place == observed.names[stands_for]:
-            rig |= candidate.cause.rig(np.array(candidate.values), gamma, amplitude)
+            rig |= candidate.cause.rig(np.array(candidate.values), gamma, sample.amplitude)
     write_json(rig_output, {key: float(value) for key, value in rig.items()})
 
 

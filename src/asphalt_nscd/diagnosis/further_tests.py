@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,7 @@ from asphalt_nscd.diagnosis.observations import Observations
 
 NEW, METAL = "a new specimen", "a metal reference specimen"
 METAL_MODULUS, METAL_LEVEL = 70e9, 0.03  # Pa, aluminium; how well its modulus and the form factor are known
+ISOTHERMS = 12  # of a table at most, at which further tests are weighed
 APART = 8.0  # K between isotherms, from which one between them is worth a test
 BEYOND = 10.0  # K beyond the tests
 COLDEST, WARMEST = -20.0, 60.0  # degC
@@ -95,11 +97,11 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     nuisance, precision = _of_law(joint, at)
     keys = tuple(c.key for c in fitted.active)
     effects = np.column_stack([_effect(joint, at, candidate, keys) for candidate in candidates])
-    names, roots, sizes = _discrepancy(diagnosis, joint, at)
+    names, roots, variances = _discrepancy(diagnosis, joint, at)
     of_law = nuisance.shape[1]
     nuisance = np.hstack([nuisance, *roots])
     sizes = np.concatenate(
-        [np.full(root.shape[1], v) for root, v in zip(roots, sizes, strict=True)] or [np.zeros(0)]
+        [np.full(root.shape[1], v) for root, v in zip(roots, variances, strict=True)] or [np.zeros(0)]
     )
     precision = _block(precision, 1.0 / sizes)
     metal = _metal(observed)
@@ -115,7 +117,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     known = Knowledge(linear, [old])
     # The law stands at its best already, so that only the discrepancy moves.
     left = parts(observed.logarithm - fitted.modelled)
-    moved = known.covariance @ (parts(linear.nuisance[old.rows]).T @ np.linalg.solve(old.scatter, left))
+    moved = known.expected(parts(linear.nuisance[old.rows]).T @ np.linalg.solve(old.scatter, left))
     departures = {
         ("linear", f"{t:g} degC"): _halved(table, t, departure, linear)
         for t, departure in _departures(linear, moved, names, roots, of_law, _doubtful(diagnosis)).items()
@@ -149,14 +151,18 @@ def _repeats(
 
 
 def _departures(
-    linear: Linear, moved: NDArray, names: Sequence[str], roots: Sequence[NDArray], first: int,
+    linear: Linear,
+    moved: NDArray,
+    names: Sequence[str],
+    roots: Sequence[NDArray],
+    first: int,
     doubtful: Sequence[float],
-) -> dict[float, NDArray[np.complex128]]:  # fmt: skip
+) -> dict[float, NDArray[np.complex128]]:
     """By isotherm [degC], ln E* (N,) that its own discrepancy takes up."""
     found: dict[float, NDArray[np.complex128]] = {}
     for name, root in zip(names, roots, strict=True):
         place = name.rsplit(", ", 1)[0]
-        t = float(place.removesuffix(" degC")) if place.endswith(" degC") else None
+        t = float(place.removesuffix(" degC")) if place.endswith(" degC") else np.nan
         if t in doubtful:
             at = slice(first, first + root.shape[1])
             found[t] = found.get(t, 0.0) + linear.nuisance[:, at] @ moved[at]
@@ -171,7 +177,8 @@ def _doubtful(diagnosis: Diagnosis) -> list[float]:
 
 
 def _half(table: Observations) -> NDArray[np.bool_]:
-    return table.amplitude < 0.5 * (1.0 + HALF) * np.median(table.amplitude)
+    strain = table.known("amplitude")
+    return np.asarray(strain < 0.5 * (1.0 + HALF) * np.median(strain))
 
 
 def _halved(
@@ -190,8 +197,8 @@ def _with_strain(observed: Observations) -> Observations:
 
 
 def temperatures(observed: Observations) -> list[float]:
-    """Isotherms tested, one between any two that are far apart, and one beyond either end [degC]."""
-    tested = observed.isotherms
+    """Isotherms tested (a dozen at most), one between any two that are far apart, one beyond either end [degC]."""
+    tested = _some(observed.isotherms, ISOTHERMS)
     middle = [round(float(a + b) / 2.0) for a, b in pairwise(tested) if b - a >= APART]
     ends = [round(float(tested[0] - BEYOND)), round(float(tested[-1] + BEYOND))]
     inside = [t for t in (*middle, *ends) if COLDEST <= t <= WARMEST]
@@ -200,40 +207,73 @@ def temperatures(observed: Observations) -> list[float]:
 
 def frequencies(observed: Observations) -> list[float]:
     """Frequencies tested (at most eight of them), and one below them [Hz]."""
-    tested = observed.frequencies
-    chosen = tested[np.unique(np.linspace(0, tested.size - 1, 8).round().astype(int))]
+    tested = _some(observed.frequencies, 8)
     lower = float(f"{tested[0] / 3.0:.1g}")
-    return [*([lower] if lower >= 0.01 else []), *map(float, chosen)]
+    return [*([lower] if lower >= 0.01 else []), *map(float, tested)]
+
+
+def _some(values: NDArray[np.float64], most: int) -> NDArray[np.float64]:
+    """At most so many of them, spread evenly, both ends among them."""
+    return values[np.unique(np.linspace(0, values.size - 1, min(most, values.size)).round().astype(int))]
 
 
 def _table(observed: Observations, at: Sequence[float]) -> Observations:
     """The tests done, then every specimen, with a new one, at every temperature and frequency and two strains."""
     names = (*observed.names, NEW)
-    full = [
-        (s, t, f, 1.0)
-        for s in range(len(names)) for t in at for f in frequencies(observed)
-    ]  # fmt: skip
+    full = [(s, t, f, 1.0) for s in range(len(names)) for t in at for f in frequencies(observed)]
     half = [
         (s, t, f, HALF)
         for s in range(len(observed.names))
-        for t in observed.isotherms
+        for t in _some(observed.isotherms, ISOTHERMS)
         for f in observed.frequencies
     ]
     specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half, strict=True))
     like = np.array([np.flatnonzero(observed.specimen == min(s, len(names) - 2))[0] for s in specimen])
     more = replace(
-        observed.subset(like), specimen=specimen, temperature=temperature, frequency=frequency,
-        amplitude=strain * np.median(observed.amplitude), nominal_temperature=temperature,
-        order=None, cycles=None, time_step=None,
-    )  # fmt: skip
-    both = {
+        observed.subset(like),
+        specimen=specimen,
+        temperature=temperature,
+        frequency=frequency,
+        amplitude=strain * float(np.median(observed.known("amplitude"))),
+        nominal_temperature=temperature,
+    )
+    course: dict[str, Any] = {
+        name: _after(observed, name, specimen)
+        for name in ("order", "cycles", "time_step")
+        if getattr(observed, name) is not None
+    }
+    more = replace(more, **course)
+    both: dict[str, Any] = {
         name: np.concatenate([getattr(observed, name), getattr(more, name)])
-        for name in ("specimen", "temperature", "frequency", "modulus", "form_factor", "inertia", "amplitude")
+        for name in (
+            "specimen",
+            "temperature",
+            "frequency",
+            "modulus",
+            "form_factor",
+            "inertia",
+            "amplitude",
+            *course,
+        )
     }
     return replace(
-        observed, **both, names=names, nominal_temperature=np.concatenate([observed.isotherm, temperature]),
-        order=None, cycles=None, time_step=None, strain=None, quality={}, whole=observed.table,
-    )  # fmt: skip
+        observed,
+        **both,
+        names=names,
+        nominal_temperature=np.concatenate([observed.isotherm, temperature]),
+        strain=None,
+        quality={},
+        whole=observed.table,
+    )
+
+
+def _after(observed: Observations, name: str, specimen: NDArray[np.int64]) -> NDArray[np.float64]:
+    """A column for tests to come (n,): a specimen has borne all of its tests, a new one none; steps are as usual."""
+    column = observed.known(name)
+    if name == "time_step":
+        return np.full(specimen.size, float(np.median(column)))
+    borne = [column[observed.specimen == k].max() for k in range(len(observed.names))]
+    return np.array([*borne, column.min()])[specimen]
 
 
 def _noise(noise: Noise, observed: Observations, table: Observations) -> Noise:
@@ -283,8 +323,9 @@ def _of_law(joint: Joint, at: Fitted) -> tuple[NDArray[np.complex128], NDArray[n
     modulus, slope = joint.apparent(at.law, at.active, at.scales)
     shapes = [
         joint.direction(at.law, at.scales, at.active, k, j)
-        for k, candidate in enumerate(at.active) for j in range(1, len(candidate.values))
-    ]  # fmt: skip
+        for k, candidate in enumerate(at.active)
+        for j in range(1, len(candidate.values))
+    ]
     rows = joint.base.prior(at.law)[1]
     precision = _block(rows.T @ rows, np.full(at.scales.size, joint.noise.scale**-2))
     return np.column_stack([slope / modulus[:, None], *shapes]), _block(precision, np.ones(len(shapes)))
@@ -297,7 +338,9 @@ def _block(matrix: NDArray, diagonal: NDArray) -> NDArray[np.float64]:
     return out
 
 
-def _discrepancy(diagnosis: Diagnosis, joint: Joint, at: Fitted):
+def _discrepancy(
+    diagnosis: Diagnosis, joint: Joint, at: Fitted
+) -> tuple[list[str], list[NDArray[np.complex128]], list[float]]:
     """Names, roots (N, rank) and variances of the processes; a new isotherm between those tested, a usual specimen."""
     sizes = diagnosis.ladder.discrepancy
     if not sizes:
@@ -309,7 +352,7 @@ def _discrepancy(diagnosis: Diagnosis, joint: Joint, at: Fitted):
     return [found.names[k] for k in kept], [found.roots[k] for k in kept], [variances[k] for k in kept]
 
 
-def _variance(name: str, sizes, tested: NDArray[np.float64]) -> float:
+def _variance(name: str, sizes: dict[str, float], tested: NDArray[np.float64]) -> float:
     if name in sizes:
         return sizes[name] ** 2
     place, part = name.rsplit(", ", 1)
@@ -337,7 +380,15 @@ def _sweeps(observed: Observations, table: Observations, noise: Noise, costs: Co
             yield _sweep(table.names[specimen], temperature, chosen, half, at, noise, costs)
 
 
-def _sweep(specimen, temperature, chosen, half, at, noise: Noise, costs: Costs) -> Sweep:
+def _sweep(
+    specimen: str,
+    temperature: float,
+    chosen: tuple[float, ...],
+    half: bool,
+    at: NDArray[np.int64],
+    noise: Noise,
+    costs: Costs,
+) -> Sweep:
     one = np.zeros(at.size, int)
     source = np.minimum(at, noise.within.shape[1] - 1)
     tested = Tested(at, _scatter(noise.within[:, source], noise.shared[:, source], one))
@@ -380,7 +431,13 @@ def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> NDAr
     return out
 
 
-def _metal_rows(metal, table, names, roots, columns) -> NDArray[np.complex128]:
+def _metal_rows(
+    metal: Observations,
+    table: Observations,
+    names: Sequence[str],
+    roots: Sequence[NDArray[np.complex128]],
+    columns: int,
+) -> NDArray[np.complex128]:
     """Of the nuisance only what the machine adds to all tests reaches the metal."""
     rows = np.zeros((metal.size, columns), complex)
     first = columns - sum(root.shape[1] for root in roots)

@@ -2,16 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
-from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.joint import Fitted, Joint
+from asphalt_nscd.diagnosis.joint import Complex, Fitted, Joint
+
+FOLDS = 20  # of a table at most; neighbours beyond that are left out together
 
 
-def predictions(joint: Joint, fitted: Fitted, label: NDArray) -> NDArray[np.complex128]:
-    """ln E* (n,) of each row from a fit without the rows that share its label, e.g. its frequency."""
-    predicted = np.empty(joint.observed.size, complex)
-    for value in np.unique(label):
-        rows = np.flatnonzero(label == value)
-        predicted[rows] = joint.predict(joint.without(rows, fitted))[rows]
-    return predicted
+@dataclass
+class HeldOut:
+    """Predictions of rows that were left out of a fit; each set is made once."""
+
+    joint: Joint
+    _made: dict[tuple[int, str], Complex] = field(default_factory=dict)
+
+    def predictions(self, fitted: Fitted, part: str) -> Complex:
+        """ln E* (n,) of each row from a fit without the rows that share its part, `isotherm` or `frequency`."""
+        key = id(fitted), part
+        if key not in self._made:
+            values, label = np.unique(getattr(self.joint.observed, part), return_inverse=True)
+            label = label * min(values.size, FOLDS) // values.size
+            predicted = np.empty(label.size, complex)
+            for fold in np.unique(label):
+                rows = np.flatnonzero(label == fold)
+                predicted[rows] = self.joint.predict(self.joint.without(rows, fitted))[rows]
+            self._made[key] = predicted
+        return self._made[key]

@@ -9,15 +9,17 @@ information of the new tests on `a` is that of their innovation, what the old on
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
+from scipy.linalg import cho_solve, solve_triangular
 
 Matrix = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 LEAST = 1e-9  # information of a prior that says nothing
+TOGETHER = 128  # sets of tests that are weighed at once, so that memory stays small
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,6 @@ class Knowledge:
     """What some tests say. information (K, K): of the amplitudes, with everything else integrated out."""
 
     def __init__(self, linear: Linear, tested: Sequence[Tested]) -> None:
-        self.linear, self.tested = linear, tuple(tested)
         q, k = linear.nuisance.shape[1], linear.effects.shape[1]
         gram, cross, own = linear.precision + LEAST * np.eye(q), np.zeros((q, k)), np.zeros((k, k))
         for tests in tested:
@@ -60,28 +61,46 @@ class Knowledge:
                 for values in (linear.nuisance, linear.effects)
             )
             gram, cross, own = gram + h.T @ h, cross + h.T @ d, own + d.T @ d
-        self.covariance = np.linalg.inv(gram)
-        followed = self.covariance @ cross  # by how much x takes up each effect in these tests
+        h, self._lower = parts(linear.nuisance), np.linalg.cholesky(gram)
+        followed = self.expected(cross)  # by how much x takes up each effect in these tests
         self.information = own - cross.T @ followed
-        h = parts(linear.nuisance)
         self._left = parts(linear.effects) - h @ followed  # of each effect, what these tests do not predict
-        self.spread = (
-            h @ self.covariance @ h.T
-        )  # covariance (2N, 2N) of ln|E*| and phase that these tests leave
+        # (2N, q): its product with its transpose is the covariance of ln|E*| and phase that these tests leave.
+        self._spread = solve_triangular(self._lower, h.T, lower=True, check_finite=False).T
 
-    def gained(self, tests: Tested) -> Matrix:
-        """Information (K, K) that further tests would add."""
-        at = self._places(tests.rows)
-        lower = np.linalg.cholesky(tests.scatter + self.spread[np.ix_(at, at)])
-        half = solve_triangular(lower, self._left[at], lower=True, check_finite=False)
-        return half.T @ half
+    def expected(self, weighed: Matrix) -> Matrix:
+        """x from the tests that Knowledge began with, given H^T of the inverse scatter times what was measured."""
+        return cho_solve((self._lower, True), weighed, check_finite=False)
 
-    def _places(self, rows: NDArray[np.int64]) -> NDArray[np.int64]:
-        return np.concatenate([rows, rows + self.linear.nuisance.shape[0]])
+    def gained(self, tests: Sequence[Tested]) -> Matrix:
+        """Information (M, K, K) that each of M sets of further tests would add."""
+        more = np.zeros((len(tests), *self.information.shape))
+        sizes = np.array([one.rows.size for one in tests])
+        for size in np.unique(sizes[sizes > 0]):
+            alike = np.flatnonzero(sizes == size)
+            for some in np.array_split(alike, -(-alike.size // TOGETHER)):
+                half = self._new(np.array([tests[k].rows for k in some]), [tests[k].scatter for k in some])[0]
+                more[some] = half.transpose(0, 2, 1) @ half
+        return more
+
+    def _new(self, rows: NDArray[np.int64], scatter: Sequence[Matrix]) -> tuple[Matrix, Matrix]:
+        """Of each set of tests (M, n), effects (M, 2n, K) and spread (M, 2n, q) in units of what was not known."""
+        at = np.concatenate([rows, rows + self._left.shape[0] // 2], axis=1)
+        spread = self._spread[at]
+        lower = np.linalg.cholesky(np.array(scatter) + spread @ spread.transpose(0, 2, 1))
+        return np.linalg.solve(lower, self._left[at]), np.linalg.solve(lower, spread)
 
     def after(self, tests: Tested) -> Knowledge:
         """With further tests done."""
-        return Knowledge(self.linear, (*self.tested, tests))
+        effects, spread = (value[0] for value in self._new(tests.rows[None], [tests.scatter]))
+        new = copy(self)
+        new.information = self.information + effects.T @ effects
+        new._left = self._left - self._spread @ (spread.T @ effects)
+        # (1 - S^T S)^(1/2), with singular values s < 1 of S.
+        _, s, vector = np.linalg.svd(spread, full_matrices=False)
+        shrunk = 1.0 - np.sqrt(np.maximum(1.0 - s**2, 0.0))
+        new._spread = self._spread - (self._spread @ vector.T * shrunk) @ vector
+        return new
 
 
 @dataclass(frozen=True)
@@ -138,8 +157,7 @@ class Inquiry:
         self._known: dict[bytes, Knowledge] = {}
         for one in self.asked:
             if one.kept.tobytes() not in self._known:
-                kept = _some(old, one.kept)
-                self._known[one.kept.tobytes()] = Knowledge(linear, [] if kept is None else [kept])
+                self._known[one.kept.tobytes()] = Knowledge(linear, [_some(old, one.kept)])
 
     def known(self, one: Asked) -> Knowledge:
         return self._known[one.kept.tobytes()]
@@ -148,14 +166,15 @@ class Inquiry:
         """Nats (M, Q) that each of M sets of tests would add to each question."""
         after = {}
         for key, known in self._known.items():
-            kept = (_some(one, np.frombuffer(key, bool)) for one in tests)
-            nothing = np.zeros_like(known.information)
-            more = [nothing if one is None else known.gained(one) for one in kept]
-            after[key] = known.information + np.array(more)
-        return np.column_stack([
-            one.question.nats(after[one.kept.tobytes()]) - one.question.nats(self.known(one).information)
-            for one in self.asked
-        ])  # fmt: skip
+            after[key] = known.information + known.gained(
+                [_some(one, np.frombuffer(key, bool)) for one in tests]
+            )
+        return np.column_stack(
+            [
+                one.question.nats(after[one.kept.tobytes()]) - one.question.nats(self.known(one).information)
+                for one in self.asked
+            ]
+        )
 
     def strengths(self) -> list[float]:
         return [float(one.question.strength(self.known(one).information)) for one in self.asked]
@@ -164,14 +183,14 @@ class Inquiry:
         """Do the tests."""
         for key, known in self._known.items():
             kept = _some(tests, np.frombuffer(key, bool))
-            if kept is not None:
+            if kept.rows.size:
                 self._known[key] = known.after(kept)
 
 
-def _some(tests: Tested, kept: NDArray[np.bool_]) -> Tested | None:
-    """Those of the tests that count; None if none does."""
+def _some(tests: Tested, kept: NDArray[np.bool_]) -> Tested:
+    """Those of the tests that count."""
+    if kept[tests.rows].all():
+        return tests
     at = np.flatnonzero(kept[tests.rows])
-    if not at.size:
-        return None
     both = np.concatenate([at, at + tests.rows.size])
     return Tested(tests.rows[at], tests.scatter[np.ix_(both, both)])

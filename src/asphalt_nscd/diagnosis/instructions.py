@@ -9,11 +9,12 @@ next, given the first.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
@@ -33,17 +34,23 @@ FOUND = (USUAL_THRESHOLD + POWER) ** 2  # strength of a cause that is found in 1
 KEPT = (SURVIVES + POWER) ** 2
 TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached in 19 of 20 cases
 PRESENT = 0.1  # chance that a cause nobody has seen is there
+MOST_TOLD = 2.0 * float(np.log(1000.0))  # strength above which odds are not told as a number
+PLAIN = {"secondary_process": "a second loss peak (secondary process)"}  # whose size alone says little
 REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
 
 
 @dataclass(frozen=True)
 class Open:
-    """An open question: what it is about, and how a reader is told what the tests would do for it."""
+    """An open question: what it is about, and how a reader is told what the tests would do for it.
+
+    alike: whether the two causes that it tells apart fitted the tests equally well.
+    """
 
     kind: str  # kept, metal, apart, repeat, linear or reach
     asked: Asked
     about: str
     other: str = ""
+    alike: bool = False
 
 
 @dataclass
@@ -70,15 +77,19 @@ def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, 
         "costs": costs.sentence,
         "orders": [
             {
-                "text": _text(one), "why": _reasons(one, questions), "hours": round(one.hours, 2),
-                "nats": round(one.nats, 2), "specimens": one.specimens,
+                "text": _text(one),
+                "why": _reasons(one, questions),
+                "hours": round(one.hours, 2),
+                "nats": round(one.nats, 2),
+                "specimens": one.specimens,
                 "temperature_C": None if one.sweep.specimen == METAL else one.sweep.temperature,
-                "frequencies_Hz": list(one.sweep.frequencies), "half_strain": one.sweep.half_strain,
+                "frequencies_Hz": list(one.sweep.frequencies),
+                "half_strain": one.sweep.half_strain,
             }
             for one in chosen
             if _reasons(one, questions)
         ],
-    }  # fmt: skip
+    }
 
 
 def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
@@ -116,8 +127,10 @@ def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
 
 def _same(one: Sweep, other: Sweep) -> bool:
     return (one.temperature, one.frequencies, one.half_strain) == (
-        other.temperature, other.frequencies, other.half_strain,
-    ) and METAL not in (one.specimen, other.specimen)  # fmt: skip
+        other.temperature,
+        other.frequencies,
+        other.half_strain,
+    ) and METAL not in (one.specimen, other.specimen)
 
 
 def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
@@ -126,13 +139,15 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
     everything = np.ones(model.linear.nuisance.shape[0], bool)
     known = Knowledge(model.linear, [model.old]).information
     found: list[Open] = []
+    rivals = {rung.candidate.key: {one.key for one in rung.rivals} for rung in diagnosis.ladder.rungs}
     for k in active:
         found += _of_named(diagnosis, model, k, active)
         for j in range(len(active), len(model.candidates)):
             question = Question(k, _amplitude(model.candidates[k]), (*active, j), TOLD_APART)
             if question.strength(known) < TOLD_APART:
                 words = words_of(model.candidates[k]), words_of(model.candidates[j])
-                found.append(Open("apart", Asked(question, everything), *words))
+                as_good = model.candidates[j].key in rivals[model.candidates[k].key]
+                found.append(Open("apart", Asked(question, everything), *words, as_good))
     for n, (kind, about) in enumerate(model.departures):
         question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART)
         found.append(Open(kind, Asked(question, everything), about))
@@ -161,7 +176,7 @@ def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, 
     return found
 
 
-def _parts(table: Observations, rows: int):
+def _parts(table: Observations, rows: int) -> Iterator[tuple[str, NDArray[np.bool_]]]:
     """What may be left out, as `hangs_on` names it, and the rows (N,) of the model that stay."""
     for values, words in (
         (table.isotherm, lambda t: f"{t:g} degC"),
@@ -201,7 +216,8 @@ def _sized(candidate: Candidate, typical: float) -> str:
     if first.unit == "1":
         value, unit = 100.0 * value, "%"
     unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
-    return f"{an(words_of(candidate))} of {three_digits(value)} {unit}"
+    what = PLAIN.get(candidate.cause.name, an(words_of(candidate)))
+    return f"{what} of {three_digits(value)} {unit}"
 
 
 def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
@@ -214,13 +230,17 @@ def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
     reasons = []
     if again:
         reasons.append(
-            f"The reading of {joined(again)} contradicts its isotherm. If it does not come back, the machine or the "
-            "mounting was at fault, and the new test counts."
+            (
+                f"The reading of {again[0]} contradicts the other tests of its isotherm."
+                if len(again) == 1
+                else f"The readings of {joined(again)} contradict the other tests of their isotherms."
+            )
+            + " If a new test agrees with those, the machine or the mounting was at fault: use the new test."
         )
     if "linear" in kinds and order.sweep.half_strain:
         reasons.append(
-            f"If the mix is not linear at {order.sweep.temperature:g} degC, what is unexplained there halves. If the "
-            "machine is at fault, it stays."
+            f"If the mix is not linear at {order.sweep.temperature:g} degC, the unexplained part should halve. If the "
+            "machine is at fault, it should not change."
         )
     reasons += [_reason(questions[k], *strengths) for k, strengths in told.items()]
     return [reason for reason in reasons if reason][:REASONS]
@@ -238,8 +258,10 @@ def _reason(one: Open, before: float, after: float) -> str:
     if one.kind == "metal":
         return f"The {one.about} must show on metal too, as {one.other}. The mix has no part in that."
     if one.kind == "apart":
-        odds = f"expected odds {_odds(after)} to 1 (now {_odds(before)} to 1)"
-        return f"It tells the {one.about} from {an(one.other)}: {odds}."
+        if before >= MOST_TOLD and not one.alike:
+            return ""
+        now = "now both fit" if one.alike else f"now {_odds(before)} to 1"
+        return f"It tells the {one.about} from {an(one.other)}: expected odds {_odds(after)} to 1 ({now})."
     chances = [100.0 * float(ndtr(np.sqrt(strength) - USUAL_THRESHOLD)) for strength in (before, after)]
     if chances[1] - chances[0] < NOTICEABLE:
         return ""
@@ -248,7 +270,8 @@ def _reason(one: Open, before: float, after: float) -> str:
 
 
 def _odds(strength: float) -> str:
-    return "more than 1000" if strength > 2.0 * np.log(1000.0) else f"{np.exp(0.5 * strength):.2g}"
+    odds = float(np.exp(0.5 * min(strength, MOST_TOLD)))
+    return "more than 1000" if strength >= MOST_TOLD else three_digits(float(f"{odds:.2g}"))
 
 
 def _text(one: Order) -> str:

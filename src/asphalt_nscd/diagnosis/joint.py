@@ -11,10 +11,9 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import block_diag, solve_triangular
 from scipy.linalg.lapack import dposv
 
-from asphalt_nscd.diagnosis.bases import Base
+from asphalt_nscd.diagnosis.bases import Base, FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause, Place
 from asphalt_nscd.diagnosis.observations import Observations
 
@@ -23,6 +22,8 @@ Complex = NDArray[np.complex128]
 ITERATIONS = 60
 MOST_DAMPED = 1e9  # a step damped more than this moves nothing
 CONVERGED = 1e-6  # change of the objective, in units of the replicate scatter squared
+SILENT = 1e-12  # of a parameter's precision: a typical step of it moves no test by a millionth of its scatter
+NEAR = 0.01  # the same where a fit is only to predict what was left out of it
 
 
 @dataclass(frozen=True)
@@ -52,8 +53,8 @@ class Noise:
     within, shared (2, n): standard deviations of ln|E*| and of the phase [rad], of single tests and of what
     the tests of one block share; block (n,): number of the specimen's isotherm a test belongs to. sigma:
     scatter of one test, mean over the table; scale: standard deviation of ln|E*| between specimens; freedom:
-    degrees of freedom of the estimate. discrepancy: covariance (2n, 2n) of both, added where a table holds
-    more than scatter.
+    degrees of freedom of the estimate. discrepancy: factor R (2n, q) of the covariance R R^T of both, added where a
+    table holds more than scatter.
     """
 
     within: NDArray
@@ -67,7 +68,7 @@ class Noise:
     def subset(self, rows: NDArray) -> Noise:
         """The noise of some of the rows."""
         both = np.concatenate([np.arange(self.block.size)[rows] + k * self.block.size for k in (0, 1)])
-        beside = None if self.discrepancy is None else self.discrepancy[np.ix_(both, both)]
+        beside = None if self.discrepancy is None else self.discrepancy[both]
         block = np.unique(self.block[rows], return_inverse=True)[1]
         return replace(
             self, within=self.within[:, rows], shared=self.shared[:, rows], block=block, discrepancy=beside
@@ -75,11 +76,11 @@ class Noise:
 
     def whiten(self, values: Complex) -> NDArray[np.float64]:
         """(n, ...) complex to (2 n, ...) real of unit scatter."""
-        parts = (values.real, values.imag)
+        white = np.concatenate([self._whitened(0, values.real), self._whitened(1, values.imag)])
         if self.discrepancy is None:
-            return np.concatenate([self._whitened(k, part) for k, part in enumerate(parts)])
-        # Many small systems: a product costs less than a solution.
-        return self._root @ np.concatenate(parts)
+            return white
+        taken, _ = self._beside
+        return white - taken @ (taken.T @ white)
 
     def _whitened(self, part: int, values: NDArray) -> NDArray:
         """By the symmetric root of a variance and a share common to each block."""
@@ -101,22 +102,27 @@ class Noise:
         return out
 
     @cached_property
-    def _factor(self) -> NDArray:
-        """Lower factor of the covariance with its discrepancy."""
+    def _beside(self) -> tuple[NDArray, Vector]:
+        """T (2n, q) and s^2 (q,): with F the discrepancy's factor whitened by the scatter alone and s its singular
+        values, 1 - T T^T is the inverse root of 1 + F F^T."""
         assert self.discrepancy is not None
-        same = self.block[:, None] == self.block
-        parts = [np.diag(w**2) + np.outer(s, s) * same for w, s in zip(self.within, self.shared, strict=True)]
-        return np.linalg.cholesky(block_diag(*parts) + self.discrepancy)
+        modulus, phase = np.split(self.discrepancy, 2)
+        factor = np.concatenate([self._whitened(0, modulus), self._whitened(1, phase)])
+        square, vector = np.linalg.eigh(factor.T @ factor)
+        square = np.maximum(square, 0.0)
+        root = np.sqrt(1.0 + square)
+        # (1 - 1/root)/square, without the difference of near numbers where the square is small.
+        return factor @ (vector / np.sqrt(root * (1.0 + root))), square
 
     @cached_property
-    def _root(self) -> NDArray:
-        """Inverse of the factor."""
-        return solve_triangular(self._factor, np.eye(self._factor.shape[0]), lower=True, check_finite=False)
-
-    @property
     def log_determinant(self) -> float:
         """Of the covariance with its discrepancy."""
-        return 2.0 * float(np.log(np.diag(self._factor)).sum())
+        own = sum(
+            2.0 * float(np.log(within).sum())
+            + float(np.log1p(np.bincount(self.block, (shared / within) ** 2)).sum())
+            for within, shared in zip(self.within, self.shared, strict=True)
+        )
+        return own + float(np.log1p(self._beside[1]).sum())
 
 
 @dataclass(frozen=True)
@@ -145,6 +151,12 @@ class Joint:
         self.observed, self.base, self.noise = observed, base, noise
         self.membership = np.eye(len(observed.names))[observed.specimen]
         self._last: tuple[Vector, tuple[Complex, Complex]] | None = None  # at the temperatures stated
+
+    @property
+    def spectrum(self) -> FlexibleSpectrum:
+        """The law common to all temperatures, where the base is one."""
+        assert isinstance(self.base, FlexibleSpectrum)
+        return self.base
 
     def apparent(
         self, law: Vector, active: tuple[Candidate, ...], scales: Vector | None = None
@@ -202,7 +214,7 @@ class Joint:
             values[parameter] += sign * 1e-3 * typical[parameter]
             moved = active[:index] + (active[index].with_values(values),) + active[index + 1 :]
             low_high.append(self._shown(law, moved, scales))
-        return np.log(low_high[1] / low_high[0]) / 2e-3
+        return np.asarray(np.log(low_high[1] / low_high[0]) / 2e-3, complex)
 
     def linearise(self, law: Vector, scales: Vector, active: tuple[Candidate, ...]) -> Fitted:
         """Objective and derivatives where the parameters stand."""
@@ -227,6 +239,9 @@ class Joint:
                 precision[first + j, first + j] += 1.0
             first += len(candidate.values)
         assert first == total
+        # What neither a test nor a prior speaks of, a bias of an isotherm that is left out, stays where it is.
+        silent = np.flatnonzero(np.diag(precision) < SILENT)
+        precision[silent, silent] = 1.0
         objective = residual @ residual + prior @ prior + (scales @ scales) / self.noise.scale**2
         gradient = jacobian.T @ residual
         gradient[:p] -= prior_slope.T @ prior
@@ -245,7 +260,7 @@ class Joint:
         kept = np.setdiff1d(np.arange(self.observed.size), rows)
         part = Joint(self.observed.subset(kept), self.base, self.noise.subset(kept))
         active = tuple(c for c in fitted.active if c.cause.rows(part.observed, c.place).any())
-        return part.fit(fitted.law, fitted.scales, active)
+        return part.fit(fitted.law, fitted.scales, active, NEAR)
 
     def fit(
         self, law: Vector, scales: Vector, active: tuple[Candidate, ...] = (), converged: float = CONVERGED

@@ -6,18 +6,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import fdtrc
 
 from asphalt_nscd.diagnosis import beside, chance, limits
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
-from asphalt_nscd.diagnosis.chance import CHANCE
+from asphalt_nscd.diagnosis.chance import CHANCE, Scores
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.start import fit_spectrum, marginal_likelihood
 
 RUNGS = 4
 SHORTLIST = 0.4  # candidates whose score gain is above this share of the best are refitted
 MOST_REFITS = 8
+MOST_PLACES = 20  # isotherms of a cause that are refitted beside them
 AS_GOOD = 6.0  # gains of the objective closer than this are a likelihood ratio of 20: not told apart
 AS_MUCH = 0.97  # of the gain of the best nameless pattern, which may be the cause's own
 EXCESS = 4.0  # standard deviations of the misfit above which it is structure
@@ -135,9 +137,13 @@ def _excess(ladder: Ladder) -> float:
 
 
 def _climb_beside(
-    ladder: Ladder, joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int,
+    ladder: Ladder,
+    joint: Joint,
+    start: Fitted,
+    catalogue: Sequence[Cause],
+    draws: int,
     random: np.random.Generator,
-) -> None:  # fmt: skip
+) -> None:
     """The ladder again, beside a discrepancy; every cause with what it hangs on."""
     begun = beside.begin(joint, start)
     found, end, survey = beside.climb(begun, catalogue, draws, random)
@@ -147,8 +153,9 @@ def _climb_beside(
     ladder.rungs = [
         Rung(one.candidate, one.p_value, one.before.fitted, one.after.fitted, one.rivals) for one in found
     ]
-    if ladder.rungs:
-        ladder.rungs[-1] = replace(ladder.rungs[-1], after=end.fitted)
+    # A rung ends where the next begins, with the roughness of the law chosen anew.
+    ends = [*(rung.before for rung in ladder.rungs[1:]), end.fitted]
+    ladder.rungs = [replace(rung, after=after) for rung, after in zip(ladder.rungs, ends, strict=False)]
     ladder.hangs_on = {c.key: beside.hangs_on(end, c) for c in end.fitted.active}
     ladder.limits, ladder.unseen, ladder.alike = beside.detection_limits(end, survey, draws, random)
     ladder.estimates = beside.estimates(end, survey)
@@ -164,7 +171,9 @@ def _stands_out(rung: Rung, remaining: Remaining) -> bool:
     return gain - more * AS_GOOD >= AS_MUCH * remaining.simple
 
 
-def _scores(joint: Joint, fitted: Fitted, candidates: list[Candidate]):
+def _scores(
+    joint: Joint, fitted: Fitted, candidates: list[Candidate]
+) -> tuple[Scores, NDArray[np.bool_], NDArray[np.float64]]:
     directions = chance.candidate_directions(joint, fitted, candidates)
     confined = np.array([isinstance(c.place, str) for c in candidates], bool)
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
@@ -172,7 +181,14 @@ def _scores(joint: Joint, fitted: Fitted, candidates: list[Candidate]):
     return found, one_sided, chance.effective(found, one_sided) ** 2
 
 
-def _best(joint, fitted, candidates, gains, p_value, least) -> Rung:
+def _best(
+    joint: Joint,
+    fitted: Fitted,
+    candidates: list[Candidate],
+    gains: NDArray[np.float64],
+    p_value: float,
+    least: float,
+) -> Rung:
     """The candidate of largest gain when refitted jointly, among those that come near it by their score.
 
     With them the other isotherms of such a cause: a shift bent towards the one that is off hides it. Of those
@@ -185,9 +201,9 @@ def _best(joint, fitted, candidates, gains, p_value, least) -> Rung:
         if gains[k] >= max(SHORTLIST * gains.max(), least) and len(shortlist) < MOST_REFITS:
             shortlist.setdefault(candidates[k].key, candidates[k])
     bent = {name for name, place in shortlist if isinstance(place, float)}
-    for candidate in candidates:
-        if candidate.cause.name in bent:
-            shortlist.setdefault(candidate.key, candidate)
+    others = [candidates[k] for k in order if candidates[k].cause.name in bent]
+    for candidate in others[:MOST_PLACES]:
+        shortlist.setdefault(candidate.key, candidate)
     refits = [joint.fit(fitted.law, fitted.scales, (*fitted.active, c)) for c in shortlist.values()]
     gained = np.array([fitted.objective - refit.objective for refit in refits])
     gained -= [2.0 * (len(c.values) - 1) for c in shortlist.values()]
@@ -239,14 +255,19 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
     if len(observed.names) < 2 or observed.size < 2 * (members.max() + 1):
         return []
     out = []
-    for name, unit in (("modulus", 1.0), ("phase", 1j)):
+    for name, unit in (("modulus", 1.0 + 0j), ("phase", 1j)):
         found = chance.scores(
-            joint, fitted, unit * np.eye(members.max() + 1)[members], np.ones(members.max() + 1, bool)
+            joint,
+            fitted,
+            np.asarray(unit * np.eye(members.max() + 1)[members], complex),
+            np.ones(members.max() + 1, bool),
         )
         value, vector = np.linalg.eigh(found.correlation)
         kept = value > 1e-3
         square = float((((vector.T @ found.z)[kept]) ** 2 / value[kept]).sum())
         rank = int(kept.sum())
+        if rank == 0:
+            continue  # each specimen has frequencies of its own: the law takes all of it
         p_value = 2.0 * float(fdtrc(rank, joint.noise.freedom, square / rank))
         out.append(
             Remaining(min(p_value, 1.0), f"each specimen at each frequency, {name}", max(square - rank, 0.0))

@@ -28,7 +28,7 @@ def detection_limits(
     Of a cause that comes in several shapes, what is enough for most of those that can be seen.
     """
     sizes: dict[tuple, list[float]] = {}
-    unseen = {}
+    unseen: dict[tuple, Candidate] = {}
     directions = joint.noise.whiten(chance.candidate_directions(joint, fitted, list(candidates)))
     share = found.information / np.maximum((directions**2).sum(axis=0), 1e-300)
     for k, candidate in enumerate(candidates):
@@ -66,7 +66,7 @@ def alike(
 ) -> list[tuple[Candidate, Candidate]]:
     """Pairs that even three times the detection limit does not tell apart; as_good: gain they may differ by."""
     correlation = found.correlation
-    out = {}
+    out: dict[tuple, tuple[Candidate, Candidate]] = {}
     for i, one in enumerate(candidates):
         for k in range(i):
             other = candidates[k]

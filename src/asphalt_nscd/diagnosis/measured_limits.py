@@ -103,10 +103,18 @@ def _tried(work: tuple[Diagnosis, Hidden, Trials]) -> dict[str, Any]:
     candidate, first = hidden.candidate, hidden.candidate.cause.parameters[0]
     before = {rung.candidate.key for rung in diagnosis.ladder.rungs}
     row: dict[str, Any] = {
-        "cause": candidate.cause.name, "where": "" if candidate.place is None else candidate.place,
-        "times_limit": hidden.times, "put_in": candidate.values[0] - hidden.own, "unit": first.unit, "named": 0,
-        "established": 0, "change_found": np.nan, "std_error": np.nan, "within_interval": 0, "named_instead": "",
-    }  # fmt: skip
+        "cause": candidate.cause.name,
+        "where": "" if candidate.place is None else candidate.place,
+        "times_limit": hidden.times,
+        "put_in": candidate.values[0] - hidden.own,
+        "unit": first.unit,
+        "named": 0,
+        "established": 0,
+        "change_found": np.nan,
+        "std_error": np.nan,
+        "within_interval": 0,
+        "named_instead": "",
+    }
     try:
         found = diagnose(put_in(diagnosis, hidden), trials.scatter, draws=DRAWS, seed=trials.seed)
     except InputError:
@@ -116,9 +124,12 @@ def _tried(work: tuple[Diagnosis, Hidden, Trials]) -> dict[str, Any]:
             value, error = report.amplitude(found, rung.candidate)
             off = abs(value - candidate.values[0])
             row |= {
-                "named": 1, "established": int(found.established(rung)), "change_found": value - hidden.own,
-                "std_error": error, "within_interval": int(off <= CONFIDENCE * error),
-            }  # fmt: skip
+                "named": 1,
+                "established": int(found.established(rung)),
+                "change_found": value - hidden.own,
+                "std_error": error,
+                "within_interval": int(off <= CONFIDENCE * error),
+            }
     others = [
         rung.candidate for rung in found.ladder.rungs if rung.candidate.key not in {candidate.key, *before}
     ]
@@ -132,12 +143,16 @@ def summarised(table: pd.DataFrame) -> dict[str, Any]:
         times = rows["times_limit"].abs()
         out[str(cause)] = {
             f"{multiple:g}": {
-                "tried": int(at.sum()), "named": int(rows.loc[at, "named"].sum()),
+                "tried": int(at.sum()),
+                "named": int(rows.loc[at, "named"].sum()),
                 "within_interval": int(rows.loc[at, "within_interval"].sum()),
-                "other_named": int((rows.loc[at, "named_instead"] != "").sum()), "stated_power": stated_power(multiple),
+                "other_named": int((rows.loc[at, "named_instead"] != "").sum()),
+                "stated_power": stated_power(multiple),
             }
-            for multiple in TIMES for at in [times == multiple] if at.any()
-        }  # fmt: skip
+            for multiple in TIMES
+            for at in [times == multiple]
+            if at.any()
+        }
     return out
 
 

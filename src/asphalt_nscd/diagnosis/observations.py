@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
+HELD = 3  # tests of an isotherm that may be off by itself
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,12 @@ class Observations:
         return np.unique(self.isotherm)
 
     @property
+    def held_isotherms(self) -> Vector:
+        """Those of them [degC] with a few tests at least; of one test alone nothing is told from scatter."""
+        values, count = np.unique(self.isotherm, return_counts=True)
+        return values[count >= HELD]
+
+    @property
     def frequencies(self) -> Vector:
         """Frequencies tested [Hz], ascending."""
         return np.unique(self.frequency)
@@ -86,16 +94,27 @@ class Observations:
             conditions.append(self.amplitude)
         return np.unique(np.column_stack(conditions), axis=0, return_inverse=True)[1].ravel()
 
+    def known(self, name: str) -> Vector:
+        """An optional column that the caller knows to be there."""
+        column: Vector | None = getattr(self, name)
+        assert column is not None, name
+        return column
+
     def subset(self, rows: NDArray) -> Observations:
         """The rows of a mask or index; names stay, so that numbers keep their meaning."""
-        optional = {
+        optional: dict[str, Any] = {
             name: None if (value := getattr(self, name)) is None else value[rows]
             for name in ("amplitude", "order", "cycles", "time_step", "nominal_temperature", "strain")
         }
         return replace(
-            self, specimen=self.specimen[rows], temperature=self.temperature[rows],
-            frequency=self.frequency[rows], modulus=self.modulus[rows],
+            self,
+            specimen=self.specimen[rows],
+            temperature=self.temperature[rows],
+            frequency=self.frequency[rows],
+            modulus=self.modulus[rows],
             form_factor=self.form_factor[rows],
-            inertia=self.inertia[rows], whole=self.table,
-            quality={name: column[rows] for name, column in self.quality.items()}, **optional,
-        )  # fmt: skip
+            inertia=self.inertia[rows],
+            whole=self.table,
+            quality={name: column[rows] for name, column in self.quality.items()},
+            **optional,
+        )

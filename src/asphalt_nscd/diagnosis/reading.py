@@ -16,6 +16,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, REDUCED_COLUMNS, reduced_frame
+from asphalt_nscd.measurements.slips import slips
 from asphalt_nscd.measurements.twopoint import form_factor, mass_factor
 
 SYNONYMS = {"T_C": "temperature_C", "f_Hz": "frequency_Hz", "phi_deg": "phase_deg"}
@@ -40,9 +41,10 @@ PAPER_GEOMETRY = {
 
 
 def read_observations(
-    measurements: str | Path | Campaign, geometry: str | Path | Mapping[str, Any],
+    measurements: str | Path | Campaign,
+    geometry: str | Path | Mapping[str, Any],
     static_modulus: float | None = None,
-) -> tuple[Observations, str]:  # fmt: skip
+) -> tuple[Observations, str]:
     """Observations of a campaign or of a measurement table, and the origin its rows state.
 
     Columns specimen (or replicate), temperature_C (T_C), frequency_Hz (f_Hz), and one of the forms of
@@ -51,7 +53,7 @@ def read_observations(
     have empty cells. static_modulus [Pa].
     """
     campaign = measurements if isinstance(measurements, Campaign) else None
-    table = _renamed(read_csv(measurements) if campaign is None else campaign.table)
+    table = _renamed(measurements.table if isinstance(measurements, Campaign) else read_csv(measurements))
     path = table.path
     reduced = set(REDUCED_COLUMNS) <= set(table.columns)  # before: peaks stand beside the moduli
     if reduced:
@@ -89,20 +91,28 @@ def read_observations(
     strain = table.numbers_or_nan("microstrain") * HALF_MICRO
     origins = sorted(set(frame["origin"]))
     observed = Observations(
-        specimen=specimen, names=tuple(str(name) for name in names),
-        temperature=temperature, frequency=_as_set(frequency, specimen, isotherm),
-        modulus=frame["E_MPa"].to_numpy(float) * 1e6 * np.exp(1j * np.radians(frame["phase_deg"].to_numpy(float))),
+        specimen=specimen,
+        names=tuple(str(name) for name in names),
+        temperature=temperature,
+        frequency=_as_set(frequency, specimen, isotherm),
+        modulus=frame["E_MPa"].to_numpy(float)
+        * 1e6
+        * np.exp(1j * np.radians(frame["phase_deg"].to_numpy(float))),
         form_factor=gamma[specimen],
         inertia=(gamma * mass)[specimen],
-        amplitude=_grouped(optional.get("amplitude_m"), 0.05),
-        order=optional.get("order"), cycles=optional.get("cycles"),
+        amplitude=_grouped(optional["amplitude_m"], 0.05) if "amplitude_m" in optional else None,
+        order=optional.get("order"),
+        cycles=optional.get("cycles"),
         time_step=optional.get("time_step_s"),
         static_modulus=static_modulus,
         nominal_temperature=None if isotherm is temperature else isotherm,
         strain=None if np.isnan(strain).all() else strain,
         quality={name: table.numbers_or_nan(name) for name in quality.COLUMNS if name in table.columns},
         test_type=test_type,
-    )  # fmt: skip
+    )
+    found = next(slips(frame.assign(temperature_C=isotherm, frequency_Hz=observed.frequency)), None)
+    if found is not None:
+        raise InputError(f"{path}: {found}")
     softest = float(observed.modulus.real.min())
     if static_modulus is not None and static_modulus > BEYOND_SCATTER * softest:
         raise InputError(
@@ -121,10 +131,8 @@ def _as_set(frequency: np.ndarray, specimen: np.ndarray, temperature: np.ndarray
     return frequency if fewer else grouped
 
 
-def _grouped(values: np.ndarray | None, apart: float) -> np.ndarray | None:
+def _grouped(values: np.ndarray, apart: float) -> np.ndarray:
     """Means of values whose logarithms follow one another by less than `apart`."""
-    if values is None:
-        return None
     order = np.argsort(values)
     jumps = np.diff(np.log(values[order])) > apart
     group = np.concatenate([[0], np.cumsum(jumps)])

@@ -35,7 +35,7 @@ def coefficients(observed: Observations) -> dict[str, Any] | None:
             {"temperature_C": t, **{way: _pooled([row[way]]) for way in ("between", "within")}}
             for t, row in rows.items()
         ],
-    }  # fmt: skip
+    }
 
 
 def _isotherm(at: Observations) -> dict[str, tuple[Vector, int]] | None:

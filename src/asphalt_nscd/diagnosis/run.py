@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import (
     bond_mapping,
+    levels,
     measured_limits,
     quality,
     repeatability,
@@ -27,7 +28,7 @@ from asphalt_nscd.diagnosis.instructions import instructions
 from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.reading import read_observations
+from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.files.errors import InputError
@@ -35,8 +36,13 @@ from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes
 from asphalt_nscd.rheology.spectrum_io import spectrum_content
 
+OF_THE_PAPER = (
+    "no --geometry: the paper's specimen is taken, 250 mm high, with 235 g that move; a mass, friction or compliance "
+    "of the bench depends on it"
+)
 STEPS = 5  # read, causes, law, second opinion, next tests
 FEW_DRAWS = 1000  # where a second opinion is asked for
+MATTERING = 0.02  # share of the tests that doubtful ones must have for one
 
 
 @dataclass
@@ -91,40 +97,58 @@ class Outcome:
         return f"{summary(self.content)}\n\nWritten to {folder}: {', '.join(names)}."
 
 
-def run(
-    measurements: str | Path | Campaign, folder: str | Path, geometry: str | Path | Mapping[str, Any],
-    specimen: str | Path | None = None, static_modulus: float | None = None,
-    scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
-    simulations: str | Path | None = None, facets: str | Path | None = None,
-) -> str:  # fmt: skip
-    """Diagnose measurements and write four files into the folder; the summary. See `conclude`."""
-    outcome = conclude(
-        measurements, geometry, specimen, static_modulus, scatter, draws, seed, simulations, facets
-    )
-    return outcome.written(folder)
+@dataclass(frozen=True)
+class Draws:
+    """Of the chance level: how many, and the seed of their random numbers.
+
+    >>> Draws(500)
+    Draws(number=500, seed=0)
+    """
+
+    number: int = 4000
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """What was simulated of the tests that are diagnosed.
+
+    campaign: table of simulated tests, to say what in them is numerics; facets: of the same tests with bonds that are
+    facets, to judge bond_mapping; specimen: numerical specimen, a file of `asphalt-nscd reduced-specimen`; else the
+    one shipped.
+
+    >>> Simulated(campaign="results/smoke/simulations.csv").specimen is None
+    True
+    """
+
+    campaign: str | Path | None = None
+    facets: str | Path | None = None
+    specimen: str | Path | None = None
 
 
 def conclude(
-    measurements: str | Path | Campaign, geometry: str | Path | Mapping[str, Any],
-    specimen: str | Path | None = None, static_modulus: float | None = None,
-    scatter: tuple[float, float] | None = None, draws: int = 4000, seed: int = 0,
-    simulations: str | Path | None = None, facets: str | Path | None = None,
+    measurements: str | Path | Campaign,
+    geometry: str | Path | Mapping[str, Any],
+    *,
+    static_modulus: float | None = None,
+    scatter: tuple[float, float] | None = None,
+    simulated: Simulated = Simulated(),
+    draws: Draws = Draws(),  # noqa: B008  frozen
     progress: Progress = lambda *_: None,
-) -> Outcome:  # fmt: skip
+) -> Outcome:
     """Diagnose measurements.
 
-    static_modulus [Pa]; scatter: of |E*| (relative) and phase [rad]. simulations: table of simulated tests, whose
-    numerics are judged; facets: of the same tests with bonds that are facets, beside which bond_mapping is judged.
+    static_modulus [Pa]; scatter: of |E*| (relative) and phase [rad].
     """
     done = Steps(progress)
-    numerical = read_specimen(specimen)
+    numerical = read_specimen(simulated.specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None
-    given = Path(measurements) if campaign is None else campaign.table.path
+    given = measurements.table.path if isinstance(measurements, Campaign) else Path(measurements)
     files = (given,) if campaign is None else campaign.files
     observed, origin = read_observations(measurements, geometry, static_modulus)
     done.step()
     try:
-        diagnosis = diagnose(observed, scatter, draws=draws, seed=seed)
+        diagnosis = diagnose(observed, scatter, draws=draws.number, seed=draws.seed)
     except InputError as error:
         raise InputError(f"{given}: {error}") from None
     done.step()
@@ -133,14 +157,23 @@ def conclude(
     if fit is not None:
         content["notes"] += law_notes(diagnosis, fit.law) + prior_notes(fit)
     done.step()
-    content["reading"] = reading(observed, () if campaign is None else campaign.notes)
-    if simulations is not None:
-        content["numerics"]["campaign"] = of_campaign(simulations, observed.temperature, observed.frequency)
-        before = _begin_with_campaigns(content, diagnosis, numerical, simulations, facets)
+    notes = [] if campaign is None else [*campaign.notes]
+    if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:
+        notes.append(OF_THE_PAPER)
+    content["reading"] = reading(observed, notes)
+    if simulated.campaign is not None:
+        content["numerics"]["campaign"] = of_campaign(
+            simulated.campaign, observed.temperature, observed.frequency
+        )
+        before = _begin_with_campaigns(content, diagnosis, numerical, simulated.campaign, simulated.facets)
     content["origin"] = origin
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
-    content["with_suspects"] = with_suspects(diagnosis, scatter, seed)
+    between = (content["repeatability"] or {}).get("between") or {}
+    content["odd_levels"] = levels.odd(observed)
+    content["notes"] += levels.notes(content["odd_levels"], between.get("E_percent"))
+    content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
+    content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
     done.step()
     content["instructions"] = instructions(diagnosis)
     done.step()
@@ -152,29 +185,39 @@ def conclude(
         **provenance(),
         "measurements": given.name,
         **(_checksums(files) if files else {}),
-        "draws": draws,
-        "seed": seed,
+        "draws": draws.number,
+        "seed": draws.seed,
         "geometry": dict(geometry) if isinstance(geometry, Mapping) else Path(geometry).name,
-        "specimen": None if specimen is None else Path(specimen).name,
+        "specimen": None if simulated.specimen is None else Path(simulated.specimen).name,
         "static_modulus_Pa": static_modulus,
         "scatter_stated": None if scatter is None else list(scatter),
     }
     law = None
     if fit is not None:
         law = spectrum_content(
-            fit.law, source=f"fitted ({origin})", rms_log_residual=fit.rms_log_residual,
-            std_error=fit.std_error, unseen=fit.unseen, from_prior=fit.from_prior,
-        )  # fmt: skip
+            fit.law,
+            source=f"fitted ({origin})",
+            rms_log_residual=fit.rms_log_residual,
+            std_error=fit.std_error,
+            unseen=fit.unseen,
+            from_prior=fit.from_prior,
+        )
     return Outcome(
-        content, report.residual_table(diagnosis, numerical, before),
-        suspects.table(observed, list(diagnosis.suspects), held), law, diagnosis,
-    )  # fmt: skip
+        content,
+        report.residual_table(diagnosis, numerical, before),
+        suspects.table(observed, list(diagnosis.suspects), held),
+        law,
+        diagnosis,
+    )
 
 
 def _begin_with_campaigns(
-    content: dict[str, Any], diagnosis: Diagnosis, specimen: NumericalSpecimen, simulations: str | Path,
+    content: dict[str, Any],
+    diagnosis: Diagnosis,
+    specimen: NumericalSpecimen,
+    simulations: str | Path,
     facets: str | Path | None,
-) -> NDArray[np.complex128]:  # fmt: skip
+) -> NDArray[np.complex128]:
     """Put what was simulated before the ladder: its first rung, and the errors before the law. ln E* (n,) of it."""
     observed = diagnosis.observed
     before = after = bond_mapping.simulated(simulations, observed)
@@ -203,7 +246,26 @@ def with_suspects(
     """What is named if the tests that were set aside are used; None where none was."""
     if diagnosis.whole is None or not diagnosis.set_aside.size:
         return None
-    other = diagnose(diagnosis.whole, scatter, draws=FEW_DRAWS, seed=seed, use_suspects=True)
+    return _named(diagnose(diagnosis.whole, scatter, draws=FEW_DRAWS, seed=seed, use_suspects=True))
+
+
+def without_doubtful(
+    diagnosis: Diagnosis, scatter: tuple[float, float] | None, seed: int
+) -> dict[str, Any] | None:
+    """What is named if the doubtful tests are not used either; None where nothing was, or they are few or too many."""
+    whole = diagnosis.whole
+    rows = [one.row for one in diagnosis.suspects]
+    kept = sum(one.used for one in diagnosis.suspects)
+    if whole is None or not diagnosis.ladder.rungs or kept < MATTERING * whole.size or not kept:
+        return None
+    try:
+        part = whole.subset(np.setdiff1d(np.arange(whole.size), rows))
+        return _named(diagnose(part, scatter, draws=FEW_DRAWS, seed=seed, use_suspects=True))
+    except InputError:
+        return None
+
+
+def _named(other: Diagnosis) -> dict[str, Any]:
     named = [
         {"cause": rung.candidate.cause.name, "where": rung.candidate.place} for rung in other.ladder.rungs
     ]
@@ -216,12 +278,15 @@ def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
     specimen = [observed.names[place] for place in observed.specimen]
     above = [
         {
-            "specimen": specimen[one.row], "temperature_C": float(observed.isotherm[one.row]),
-            "frequency_Hz": float(observed.frequency[one.row]), "column": one.column, "value": one.value,
+            "specimen": specimen[one.row],
+            "temperature_C": float(observed.isotherm[one.row]),
+            "frequency_Hz": float(observed.frequency[one.row]),
+            "column": one.column,
+            "value": one.value,
             "limit": one.limit,
         }
         for one in quality.exceeded(observed)
-    ]  # fmt: skip
+    ]
     together = isotherm_notes(observed.temperature, observed.isotherm)
     if together:
         together.append("The law is fitted to the measured temperatures.")

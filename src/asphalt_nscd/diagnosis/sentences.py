@@ -13,11 +13,16 @@ from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.chance import CHANCE
 from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
+from asphalt_nscd.files.words import counted
 
 Content = Mapping[str, Any]
 TEST_TYPES = {
     "bending": "two-point bending of a trapezoidal specimen",
     "tension-compression": "axial test of a cylinder (tension-compression, AMPT or UTM)",
+}
+SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not None}
+BOUNDS = {
+    cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
 }
 OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {
     "relaxation_spectrum",
@@ -41,6 +46,11 @@ def on_data(content: Content) -> str:
         parts.append(
             f"specimens differ by {spread['E_percent']:.1f} % in |E*| and {spread['phase_deg']:.1f} deg in phase"
         )
+    parts += [
+        f"|E*| of specimen {one['specimen']} at {one['temperature_C']:g} degC is {one['factor']:.2g} times what the "
+        "others say"
+        for one in content.get("odd_levels", [])[:LARGEST]
+    ]
     broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
     if broken:
         parts.append(f"at {joined([f'{t:g}' for t in broken])} degC modulus and phase contradict each other")
@@ -97,7 +107,7 @@ def test_type(content: Content) -> str:
     if read is None:
         return ""
     at = joined([f"{t:g}" for t in read["isotherms_C"]])
-    return f"{TEST_TYPES[read['test_type']]}, {len(read['specimens'])} specimens, {at} degC"
+    return f"{TEST_TYPES[read['test_type']]}, {counted(len(read['specimens']), 'specimen')}, {at} degC"
 
 
 def not_used(content: Content) -> list[Content]:
@@ -112,18 +122,34 @@ def doubtful(content: Content) -> list[Content]:
 
 def with_suspects(content: Content) -> str:
     """What the suspect tests would have changed, had they been used; empty where no test is left out."""
-    with_all = content.get("with_suspects")
-    if with_all is None:
+    return _changed(content, "with_suspects", "With these tests used")
+
+
+def on_doubtful(content: Content) -> str:
+    """How many doubtful tests are used, and what is named without them; empty where there are none."""
+    kept = len(doubtful(content))
+    if not kept:
         return ""
-    without = [cause_words(rung) for rung in content["ladder"] if rung["cause"] != BOND_MAPPING]
-    other = [cause_words(rung) for rung in with_all["causes"]]
-    if other == without:
-        return "With these tests used the same causes are named."
-    more = joined([an(words) for words in other if words not in without])
-    less = joined([an(words) for words in without if words not in other], "or")
+    more = " more" if not_used(content) else ""
+    told = f"{counted(kept, f'{more} test'.lstrip())} {'is' if kept == 1 else 'are'} doubtful but used"
+    changed = _changed(content, "without_doubtful", f"Without {'it' if kept == 1 else 'them'}")
+    return f"{told}; suspect_tests in diagnosis.json says why. {changed}".rstrip()
+
+
+def _changed(content: Content, key: str, when: str) -> str:
+    """What another choice of tests would name; empty where there was none."""
+    then = content.get(key)
+    if then is None:
+        return ""
+    now = [cause_words(rung) for rung in content["ladder"] if rung["cause"] != BOND_MAPPING]
+    other = [cause_words(rung) for rung in then["causes"]]
+    more = joined([an(words) for words in other if words not in now])
+    less = joined([an(words) for words in now if words not in other], "or")
     changes = [f"also name {more}"] if more else []
     changes += [f"not name {less}"] if less else []
-    return f"With these tests used the diagnosis would {joined(changes)}."
+    return (
+        f"{when} the diagnosis would {joined(changes)}." if changes else f"{when} the same causes are named."
+    )
 
 
 def place_of_test(one: Content) -> str:
@@ -131,33 +157,54 @@ def place_of_test(one: Content) -> str:
 
 
 def causes(content: Content) -> list[tuple[str, str]]:
-    """Each named cause with its size, and how sure the name is."""
+    """Each named cause with its size, then what its sign means and how sure the name is."""
     return [
-        (f"{cause_words(rung)}: {size(rung)}".removesuffix(": "), _sure(rung, content))
+        (f"{cause_words(rung)}: {size(rung)}".removesuffix(": "), f"{_meaning(rung)}{_sure(rung, content)}")
         for rung in content["ladder"]
     ]
+
+
+def _meaning(rung: Content) -> str:
+    """What the sign of the amplitude says; empty for a cause that has but one."""
+    if rung["cause"] not in SIGNS:
+        return ""
+    above, below = SIGNS[rung["cause"]]
+    return f"{above if next(iter(rung['parameters'].values()))['value'] > 0.0 else below} "
 
 
 def _sure(rung: Content, content: Content) -> str:
     if rung["cause"] == BOND_MAPPING:
         return f"Established: {rung['evidence']}."
-    chance = "chance alone does as well in less than 1 of a million tables" if rung["p_value"] < 1e-6 else (
-        f"chance alone does as well in {_per_cent(rung['p_value'])} of all tables"
-    )  # fmt: skip
+    chance = (
+        "by chance this happens in fewer than one of a million tables"
+        if rung["p_value"] < 1e-6
+        else (f"by chance this happens in {_per_cent(rung['p_value'])} of all tables")
+    )
     if rung["as_good"]:
-        others = joined([name.replace("_", " ").replace(" @ ", " at ") for name in rung["as_good"]], "or")
+        others = joined([_rival(name) for name in rung["as_good"]], "or")
         return f"Likely. {others[:1].upper()}{others[1:]} fits as well; these tests do not say which."
     if rung.get("hangs_on"):
-        return (
-            f"Likely, not established. Without {joined(rung['hangs_on'], 'or')} these tests do not show it."
-        )
+        rests = joined(rung["hangs_on"])
+        fails = "leave out any one" if len(rung["hangs_on"]) > 1 else "leave it out"
+        return f"Likely, not established. It rests on {rests}: {fails} and it is no longer found."
     if rung.get("doubts"):
         return f"Likely, not established. {'. '.join(rung['doubts'])}."
     if not rung.get("established", True):
-        return "Likely, not established. These tests are too few to exclude what the catalogue lacks."
+        return "Likely, not established. These tests are too few to exclude a cause outside the catalogue."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     return f"Established: {chance}."
+
+
+def _rival(name: str) -> str:
+    """`temperature_bias @ 21.0` in words."""
+    words, _, place = name.replace("_", " ").partition(" @ ")
+    if not place:
+        return words
+    try:
+        return f"{words} at {float(place):g} degC"
+    except ValueError:
+        return f"{words} at {place}"
 
 
 def _more_than_scatter(content: Content) -> bool:
@@ -175,14 +222,14 @@ def left(content: Content) -> list[str]:
         return [f"{_place(name)}: {_in_units(name, value, scatter)}" for name, value in parts]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None and _more_than_scatter(content):
-        return [f"{pattern['pattern']}: {three_digits(pattern['z'])} standard deviations"]
+        return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]
     return []
 
 
 def _place(name: str) -> str:
     """`specimen A, spectrum` in words; `37 degC, phase` says it already."""
     place, part = name.rsplit(", ", 1)
-    return f"{place} relaxes in a way of its own" if part == "spectrum" else name
+    return f"{place} does not follow the common master curve" if part == "spectrum" else name
 
 
 def _in_units(name: str, value: float, scatter: Content) -> str:
@@ -239,6 +286,9 @@ def size(rung: Content) -> str:
     unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
     if error is None:
         interval = ""
+    elif amplitude["value"] in BOUNDS.get(rung["cause"], ()):
+        beyond = "more" if amplitude["value"] > 0.0 else "less"
+        return f"{three_digits(value)} {unit} or {beyond} (the search ends there)"
     else:
         half = CONFIDENCE * shown(error, amplitude["unit"])[0]
         interval = f" +- {three_digits(float(f'{half:.2g}'))}"

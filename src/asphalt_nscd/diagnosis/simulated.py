@@ -36,7 +36,9 @@ class NumericalSpecimen:
         dynamic = modulus[:, None, None] * self.stiffness - (omega**2)[:, None, None] * self.mass
         motion = np.linalg.solve(dynamic[:, 1:, 1:], -dynamic[:, 1:, :1])
         force = dynamic[:, 0, 0] + (dynamic[:, :1, 1:] @ motion)[:, 0, 0]
-        return form_factor(self.geometry) * (force + mass_factor(self.geometry) * omega**2)
+        return np.asarray(
+            form_factor(self.geometry) * (force + mass_factor(self.geometry) * omega**2), complex
+        )
 
     def ratio(self) -> float:
         """c: static modulus of the specimen over that of its law; one with facets, at full size."""

@@ -44,7 +44,7 @@ def of_likeliest_roughness(
     """The roughness of largest marginal likelihood, each fitted from where the one before ended."""
     scored = []
     for roughness in ROUGHNESS:
-        smooth = Joint(joint.observed, replace(joint.base, roughness=roughness), joint.noise)
+        smooth = Joint(joint.observed, replace(joint.spectrum, roughness=roughness), joint.noise)
         fitted = smooth.fit(fitted.law, fitted.scales, fitted.active, converged)
         scored.append((marginal_likelihood(smooth, fitted), smooth, fitted))
     return max(scored, key=lambda item: item[0])[1:]
@@ -52,7 +52,7 @@ def of_likeliest_roughness(
 
 def marginal_likelihood(joint: Joint, fitted: Fitted) -> float:
     """ln of the Laplace approximation, up to what does not depend on the roughness."""
-    spectrum = joint.base
+    spectrum = joint.spectrum
     sign, curvature = np.linalg.slogdet(fitted.precision)
     normaliser = -2.0 * (spectrum.times.size - 2) * np.log(spectrum.roughness)
     return -0.5 * (fitted.objective + curvature - normaliser)

@@ -16,18 +16,23 @@ def summary(content: Content) -> str:
     """The first page as text, one part after another; parts with nothing to say are left out."""
     read = content.get("reading", {"notes": []})
     verdict = [f"Data: {sentences.on_data(content)}", f"Simulation: {sentences.on_simulation(content)}"]
-    test = sentences.test_type(content)
+    test, named = sentences.test_type(content), sentences.causes(content)
     parts = [
         ("What was read", read["notes"]),
         ("Verdict", [*([f"Test: {test}."] if test else []), *verdict]),
-        ("Tests not to be used", _suspects(content)),
-        ("Causes", [f"{cause}. {sure}" for cause, sure in sentences.causes(content)] or ["No cause beats chance."]),
+        ("Tests not to be used" if sentences.not_used(content) else "Doubtful tests", _suspects(content)),
+        (
+            "Causes",
+            [*(f"{cause}. {sure}" for cause, sure in named), "+- is the 95 % interval."]
+            if named
+            else ["No cause beats chance."],
+        ),
         ("What stays unexplained", _left(content)),
         ("What to do next", _orders(content)),
         ("Scatter", _scatter(content)),
         ("Limits, stated and measured", _limits(content)),
         ("Remarks", content["notes"]),
-    ]  # fmt: skip
+    ]
     return "\n\n".join(_part(title, lines) for title, lines in parts if lines)
 
 
@@ -40,12 +45,7 @@ def _suspects(content: Content) -> list[str]:
     for one in sentences.not_used(content):
         lines.append(f"{sentences.place_of_test(one)}:")
         lines += [f"  {reason}" for reason in one["reasons"]]
-    lines += filter(None, [sentences.with_suspects(content)])
-    kept = len(sentences.doubtful(content))
-    if kept:
-        tests = "test is" if kept == 1 else "tests are"
-        lines.append(f"{kept} more {tests} doubtful but used; suspect_tests in diagnosis.json says why.")
-    return lines
+    return lines + list(filter(None, [sentences.with_suspects(content), sentences.on_doubtful(content)]))
 
 
 def _left(content: Content) -> list[str]:

@@ -98,9 +98,14 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
     contradicts = listed[:, None] & (doubtful | supported | (single == single.min(axis=1, keepdims=True)))
     found = []
     for row in np.flatnonzero(listed | flagged | far.any(axis=1)):
-        reasons = [_causal_reason(observed, held, row, column) for column in np.flatnonzero(contradicts[row])]
+        reasons = [
+            _causal_reason(observed, held, int(row), int(column))
+            for column in np.flatnonzero(contradicts[row])
+        ]
         reasons += flags[row]
-        reasons += [_replicate_reason(observed, apart, row, column) for column in np.flatnonzero(far[row])]
+        reasons += [
+            _replicate_reason(observed, apart, int(row), int(column)) for column in np.flatnonzero(far[row])
+        ]
         reasons += [SHARED] * bool(shared[row])
         found.append(Suspect(int(row), tuple(reasons), not bool(out[row])))
     return found
@@ -133,10 +138,13 @@ def broken_isotherms(observed: Observations, held: Held | None = None) -> list[B
         count = np.bincount(at)
         found.append(
             BrokenIsotherm(
-                float(temperature), frequency, np.bincount(at, difference[rows]) / count,
-                np.sqrt(np.bincount(at, error[rows] ** 2)) / count, np.unique(observed.specimen[rows]).size,
+                float(temperature),
+                frequency,
+                np.bincount(at, difference[rows]) / count,
+                np.sqrt(np.bincount(at, error[rows] ** 2)) / count,
+                np.unique(observed.specimen[rows]).size,
             )
-        )  # fmt: skip
+        )
     return found
 
 
@@ -145,18 +153,20 @@ def table(observed: Observations, found: list[Suspect], held: Held) -> pd.DataFr
     suspect = {one.row: one for one in found}
     flagged = {one.row for one in quality.exceeded(observed)}
     rows = range(observed.size)
-    return pd.DataFrame({
-        "specimen": [observed.names[k] for k in observed.specimen],
-        "temperature_C": observed.isotherm,
-        "frequency_Hz": observed.frequency,
-        "E_MPa": np.abs(observed.modulus) / 1e6,
-        "phase_deg": np.degrees(observed.logarithm.imag),
-        "phase_required_deg": np.degrees(held.required),
-        "std_error_deg": np.degrees(held.required_error),
-        "quality_flag": [int(row in flagged) for row in rows],
-        "reasons": ["; ".join(suspect[row].reasons) if row in suspect else "" for row in rows],
-        "used": [int(row not in suspect or suspect[row].used) for row in rows],
-    })  # fmt: skip
+    return pd.DataFrame(
+        {
+            "specimen": [observed.names[k] for k in observed.specimen],
+            "temperature_C": observed.isotherm,
+            "frequency_Hz": observed.frequency,
+            "E_MPa": np.abs(observed.modulus) / 1e6,
+            "phase_deg": np.degrees(observed.logarithm.imag),
+            "phase_required_deg": np.degrees(held.required),
+            "std_error_deg": np.degrees(held.required_error),
+            "quality_flag": [int(row in flagged) for row in rows],
+            "reasons": ["; ".join(suspect[row].reasons) if row in suspect else "" for row in rows],
+            "used": [int(row not in suspect or suspect[row].used) for row in rows],
+        }
+    )
 
 
 def _broken_temperatures(observed: Observations, held: Held) -> NDArray[np.float64]:

@@ -93,9 +93,15 @@ class _Table:
         n = self.judged.size
         none, evidence = np.full((n, 2), np.nan), np.full((n, len(WEIGHTS), BENDS.size), np.nan)
         held = Held(
-            self.judged, none, none.copy(), np.ones((n, 3)), none[:, 0].copy(), none[:, 0].copy(), evidence,
+            self.judged,
+            none,
+            none.copy(),
+            np.ones((n, 3)),
+            none[:, 0].copy(),
+            none[:, 0].copy(),
+            evidence,
             self.scatter,
-        )  # fmt: skip
+        )
         for group in self.groups:
             self._hold_group(group, held)
         return held
@@ -236,16 +242,17 @@ def blocks(observed: Observations) -> NDArray[np.int64]:
 
 
 def _groups(observed: Observations) -> list[_Group]:
-    block, alike = blocks(observed), {}
+    block = blocks(observed)
+    alike: dict[tuple[float, ...], list[NDArray[np.int64]]] = {}
     order = np.lexsort([observed.frequency, block])
     for rows in np.split(order, np.flatnonzero(np.diff(block[order])) + 1):
         if rows.size >= LEAST:
             alike.setdefault(tuple(observed.frequency[rows]), []).append(rows)
     groups = []
-    for frequencies, rows in alike.items():
+    for frequencies, members in alike.items():
         causal, departing = covariances(frequencies), _departures(np.log(frequencies))
         both = (causal[:, None] + departing).reshape(-1, *causal.shape[1:])
-        groups.append(_Group(np.array(rows), both))
+        groups.append(_Group(np.array(members), both))
     return groups
 
 

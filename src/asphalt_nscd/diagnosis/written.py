@@ -32,9 +32,14 @@ _NUMBERS += [
 ]
 _CAUSALITY = ["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
 _SHOWN = {
-    "s": (1e3, "ms"), "Pa": (1e-6, "MPa"), "1/Pa": (1e12, "1/TPa"), "kg": (1e3, "g"), "deg": (1.0, "°"),
-    "degC": (1.0, "°C"), "1": (1.0, ""),
-}  # fmt: skip
+    "s": (1e3, "ms"),
+    "Pa": (1e-6, "MPa"),
+    "1/Pa": (1e12, "1/TPa"),
+    "kg": (1e3, "g"),
+    "deg": (1.0, "°"),
+    "degC": (1.0, "°C"),
+    "1": (1.0, ""),
+}
 
 
 def read_diagnosis(paths: Sequence[Path]) -> dict[str, Any]:

@@ -35,6 +35,7 @@ class Parameter:
 class Cause(ABC):
     """One physical cause. The first parameter is its amplitude: at zero the cause is absent.
 
+    signs: what an amplitude above and one below zero mean; none where only one sign can be.
     confirmed_by: the measurement that would confirm it. needs: what the table must have for it to show.
     shows_in: a design in which it shows, where one that could have shown it does not.
     like_a_law: a rougher law follows it far, so that it is also looked for by fits that begin with it.
@@ -45,6 +46,7 @@ class Cause(ABC):
     stage: ClassVar[int]
     parameters: ClassVar[tuple[Parameter, ...]]
     sentence: ClassVar[str]  # what is wrong, for a reader of the report
+    signs: ClassVar[tuple[str, str] | None] = None
     confirmed_by: ClassVar[str]
     needs: ClassVar[str] = ""
     shows_in: ClassVar[str] = "a design in which a smooth law cannot follow it"
@@ -70,6 +72,10 @@ class Cause(ABC):
         if isinstance(place, str):
             return observed.specimen == observed.names.index(place)
         return observed.isotherm == place
+
+    def impossible(self, values: Vector, observed: Observations) -> str:
+        """Why these tests cannot have a cause of this size; empty where they can."""
+        return ""
 
     def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
         """Temperature of the mix above the one stated [K], (n,)."""

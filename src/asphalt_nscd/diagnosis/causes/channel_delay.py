@@ -1,6 +1,9 @@
+from collections.abc import Sequence
+
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Parameter
+from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class ChannelDelay(Cause):
@@ -10,16 +13,20 @@ class ChannelDelay(Cause):
     stage = CHANNEL
     parameters = (Parameter("delay", "s", -5e-3, 5e-3, 1e-4),)
     sentence = "the displacement channel lags the force channel by a fixed time"
+    signs = (
+        "The displacement is recorded after the force.",
+        "The displacement is recorded before the force.",
+    )
     confirmed_by = (
         "a test on an elastic reference specimen of metal: its phase must be zero at every frequency"
     )
 
-    def places(self, observed):
+    def places(self, observed: Observations) -> Sequence[Place]:
         return (None,) if observed.frequencies.size > 1 else ()
 
-    def apparent(self, modulus, values, observed):
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         inertia = observed.inertia * observed.omega**2
         return (modulus - inertia) * np.exp(1j * observed.omega * values[0]) + inertia
 
-    def rig(self, values, form_factor, amplitude):
+    def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
         return {"channel_delay_s": values[0]}

@@ -1,6 +1,9 @@
+from collections.abc import Sequence
+
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Parameter
+from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class Damage(Cause):
@@ -13,17 +16,16 @@ class Damage(Cause):
     confirmed_by = "repeating the first test at the end"
     needs = "the order of the tests (column order or cycles)"
 
-    def places(self, observed):
-        progress = self._progress(observed)
-        return () if progress is None or np.ptp(progress) == 0.0 else (None,)
+    def places(self, observed: Observations) -> Sequence[Place]:
+        known = observed.cycles is not None or observed.order is not None
+        return (None,) if known and np.ptp(self._progress(observed)) > 0.0 else ()
 
-    def apparent(self, modulus, values, observed):
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         return modulus * (1.0 - values[0] * self._progress(observed))
 
     @staticmethod
-    def _progress(observed):
-        """(n,) from zero at the first test to one at the last; None where the order is not known."""
-        count, every = ((o.cycles if o.cycles is not None else o.order) for o in (observed, observed.table))
-        if count is None:
-            return None
+    def _progress(observed: Observations) -> Vector:
+        """(n,) from zero at the first test to one at the last."""
+        name = "order" if observed.cycles is None else "cycles"
+        count, every = observed.known(name), observed.table.known(name)
         return (count - every.min()) / max(np.ptp(every), 1e-300)

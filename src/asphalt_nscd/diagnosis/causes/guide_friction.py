@@ -1,6 +1,7 @@
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Parameter
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Parameter, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class GuideFriction(Cause):
@@ -19,11 +20,11 @@ class GuideFriction(Cause):
     sentence = "dry friction in a guide adds a loss that does not depend on the frequency"
     confirmed_by = "a test of the rig without a specimen, or tests at two amplitudes"
 
-    def apparent(self, modulus, values, observed):
-        loss = values[0]
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
+        loss: Vector | float = values[0]
         if observed.amplitude is not None:
-            loss = loss * np.median(observed.table.amplitude) / observed.amplitude
+            loss = loss * np.median(observed.table.known("amplitude")) / observed.amplitude
         return modulus + 1j * loss
 
-    def rig(self, values, form_factor, amplitude):
+    def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
         return {"guide_friction_N": values[0] / form_factor * np.pi * amplitude / 4.0}

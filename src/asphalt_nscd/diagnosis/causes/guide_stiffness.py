@@ -1,4 +1,7 @@
-from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Parameter
+from collections.abc import Sequence
+
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class GuideStiffness(Cause):
@@ -19,11 +22,11 @@ class GuideStiffness(Cause):
         "otherwise"
     )
 
-    def places(self, observed):
+    def places(self, observed: Observations) -> Sequence[Place]:
         return () if observed.static_modulus is None or not self.on_bench(observed) else (None,)
 
-    def apparent(self, modulus, values, observed):
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         return modulus + values[0]
 
-    def rig(self, values, form_factor, amplitude):
+    def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
         return {"guide_stiffness_N_m": values[0] / form_factor}

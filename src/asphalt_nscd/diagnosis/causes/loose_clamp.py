@@ -1,4 +1,7 @@
-from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Parameter
+from collections.abc import Sequence
+
+from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class LooseClamp(Cause):
@@ -16,11 +19,11 @@ class LooseClamp(Cause):
     confirmed_by = "clamping the specimen again and repeating its coldest test"
     needs = "two-point bending and a second specimen to compare with"
 
-    def places(self, observed):
+    def places(self, observed: Observations) -> Sequence[Place]:
         return observed.names if len(observed.names) > 1 and self.on_bench(observed) else ()
 
-    def apparent(self, modulus, values, observed):
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         return modulus / (1.0 + values[0] * modulus)
 
-    def rig(self, values, form_factor, amplitude):
+    def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
         return {"clamp_compliance_m_N": values[0] * form_factor}

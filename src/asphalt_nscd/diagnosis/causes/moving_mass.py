@@ -1,4 +1,7 @@
-from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Parameter
+from collections.abc import Sequence
+
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class MovingMass(Cause):
@@ -15,13 +18,20 @@ class MovingMass(Cause):
     needs = "two-point bending at several frequencies"
     parameters = (Parameter("mass", "kg", -2.0, 2.0, 0.02),)
     sentence = "the mass moving with the head differs from the one used in the reduction"
+    signs = ("More mass moves than the reduction counts.", "Less mass moves than the reduction counts.")
     confirmed_by = "weighing what moves with the head, or a test of the rig without a specimen"
 
-    def places(self, observed):
+    def places(self, observed: Observations) -> Sequence[Place]:
         return (None,) if observed.frequencies.size > 1 and self.on_bench(observed) else ()
 
-    def apparent(self, modulus, values, observed):
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         return modulus - observed.form_factor * values[0] * observed.omega**2
 
-    def rig(self, values, form_factor, amplitude):
+    def impossible(self, values: Vector, observed: Observations) -> str:
+        counted = float((observed.inertia / observed.form_factor).max())  # nothing, where moduli were given
+        if values[0] >= -counted or not counted:
+            return ""
+        return f"Less than no mass would move: the reduction counts {1e3 * counted:.0f} g"
+
+    def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
         return {"head_mass_kg": values[0]}

@@ -1,6 +1,7 @@
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Parameter
+from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Complex, Parameter, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class PhaseOffset(Cause):
@@ -10,13 +11,14 @@ class PhaseOffset(Cause):
     stage = CHANNEL
     parameters = (Parameter("offset", "deg", -30.0, 30.0, 0.5),)
     sentence = "the measured phase is off by the same angle in every test"
+    signs = ("The measured phases are too large.", "The measured phases are too small.")
     confirmed_by = (
         "a test on an elastic reference specimen of metal: its phase must be zero at every frequency"
     )
 
-    def apparent(self, modulus, values, observed):
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         inertia = observed.inertia * observed.omega**2
         return (modulus - inertia) * np.exp(1j * np.radians(values[0])) + inertia
 
-    def rig(self, values, form_factor, amplitude):
+    def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
         return {"phase_offset_rad": float(np.radians(values[0]))}

@@ -1,6 +1,9 @@
+from collections.abc import Sequence
+
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 GAS = 8.314  # J/(mol K)
 ZERO = 273.15
@@ -21,15 +24,15 @@ class SecondaryProcess(Cause):
     confirmed_by = "tests at more frequencies, or the loss peak of the binder"
     shows_in = "a table in which nothing but scatter is left: structure without a name passes for a loss bump"
 
-    def places(self, observed):
+    def places(self, observed: Observations) -> Sequence[Place]:
         return (None,) if observed.isotherms.size > 2 and observed.frequencies.size > 2 else ()
 
-    def shapes(self, observed):
+    def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
         # Its peak anywhere in the tested band at the middle temperature, shifting less than the mix.
         slow, fast = -np.log10(observed.omega.min()) + 0.5, -np.log10(observed.omega.max()) - 0.5
         return tuple((time, energy, 0.6) for time in np.linspace(fast, slow, 5) for energy in (30.0, 60.0))
 
-    def apparent(self, modulus, values, observed):
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         strength, log_time, energy, exponent = values
         middle = float(np.median(observed.table.isotherms)) + ZERO
         kelvin = observed.temperature + ZERO

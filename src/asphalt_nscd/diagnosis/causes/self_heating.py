@@ -1,6 +1,9 @@
+from collections.abc import Sequence
+
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class SelfHeating(Cause):
@@ -12,14 +15,16 @@ class SelfHeating(Cause):
     sentence = "the specimens warm themselves while they are tested"
     confirmed_by = "a thermometer in the specimen, or the drift of the modulus during a longer test"
 
-    def places(self, observed):
-        return (None,) if observed.frequencies.size > 1 and observed.isotherms.size > 1 else ()
+    def places(self, observed: Observations) -> Sequence[Place]:
+        several = observed.frequencies.size > 1 and observed.isotherms.size > 1
+        # A table of metal dissipates nothing.
+        return (None,) if several and self._power(observed.table).max() > 0.0 else ()
 
-    def temperature_rise(self, values, observed):
+    def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
         return values[0] * self._power(observed) / self._power(observed.table).max()
 
     @staticmethod
-    def _power(observed):
+    def _power(observed: Observations) -> Vector:
         # The measured loss: a true feedback would only change the rise by its own small share.
         power = observed.omega * np.maximum(observed.modulus.imag, 0.0)
         return power if observed.amplitude is None else power * observed.amplitude**2

@@ -1,6 +1,9 @@
+from collections.abc import Sequence
+
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class Solver(Cause):
@@ -17,10 +20,10 @@ class Solver(Cause):
     confirmed_by = "the same tests at half the time step"
     needs = "simulated tests (column time_step_s); in measurements there is no time step"
 
-    def places(self, observed):
+    def places(self, observed: Observations) -> Sequence[Place]:
         return () if observed.time_step is None else (None,)
 
-    def apparent(self, modulus, values, observed):
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         slope = np.angle(modulus) / (0.5 * np.pi)
-        step = 1j * observed.omega * observed.time_step
+        step = 1j * observed.omega * observed.known("time_step")
         return modulus * (-np.expm1(-step) / step) ** (values[0] * slope)

@@ -1,4 +1,7 @@
-from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Parameter
+from collections.abc import Sequence
+
+from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class SpecimenGeometry(Cause):
@@ -8,11 +11,12 @@ class SpecimenGeometry(Cause):
     stage = SPECIMEN
     parameters = (Parameter("relative_modulus", "1", -0.8, 3.0, 0.03),)
     sentence = "the dimensions used for this specimen are wrong beyond the usual scatter of specimens"
+    signs = ("Its modulus comes out too high.", "Its modulus comes out too low.")
     confirmed_by = "measuring its dimensions again"
     needs = "two more specimens to compare with"
 
-    def places(self, observed):
+    def places(self, observed: Observations) -> Sequence[Place]:
         return observed.names if len(observed.names) > 2 else ()
 
-    def apparent(self, modulus, values, observed):
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         return modulus * (1.0 + values[0])

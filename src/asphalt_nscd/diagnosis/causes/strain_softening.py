@@ -1,6 +1,9 @@
+from collections.abc import Sequence
+
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class StrainSoftening(Cause):
@@ -13,9 +16,11 @@ class StrainSoftening(Cause):
     confirmed_by = "an amplitude sweep down to 20 microstrain"
     needs = "more than one amplitude (column amplitude_m)"
 
-    def places(self, observed):
+    def places(self, observed: Observations) -> Sequence[Place]:
         amplitude = observed.amplitude
         return (None,) if amplitude is not None and np.ptp(amplitude) > 0.2 * amplitude.max() else ()
 
-    def apparent(self, modulus, values, observed):
-        return modulus * (1.0 - values[0] * observed.amplitude / observed.table.amplitude.max())
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
+        return modulus * (
+            1.0 - values[0] * observed.known("amplitude") / observed.table.known("amplitude").max()
+        )

@@ -1,4 +1,7 @@
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter
+from collections.abc import Sequence
+
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.observations import Observations
 
 
 class TemperatureBias(Cause):
@@ -8,14 +11,15 @@ class TemperatureBias(Cause):
     stage = MATERIAL
     parameters = (Parameter("temperature_rise", "K", -8.0, 8.0, 0.3),)
     sentence = "the specimens were not at the temperature stated for this isotherm"
+    signs = ("The specimens were warmer than stated.", "The specimens were colder than stated.")
     confirmed_by = "a thermometer in a dummy specimen at this temperature"
 
-    def places(self, observed):
+    def places(self, observed: Observations) -> Sequence[Place]:
         # Two isotherms: a bias of one is a change of the shift law.
-        return tuple(float(t) for t in observed.isotherms) if observed.isotherms.size > 3 else ()
+        return tuple(float(t) for t in observed.held_isotherms) if observed.isotherms.size > 3 else ()
 
-    def temperature_rise(self, values, observed):
+    def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
         return values[0]
 
-    def apparent(self, modulus, values, observed):
+    def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         return modulus

@@ -1,0 +1,88 @@
+"""The discrepancy's algebra against dense matrices and finite differences."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import approx_fprime
+
+from asphalt_nscd.diagnosis import discrepancy
+from asphalt_nscd.diagnosis.discrepancy import Direction, Processes, Reduced
+from asphalt_nscd.diagnosis.joint import Noise
+
+SIZE, PARTS, COLUMNS = 20, 4, 12
+
+
+@pytest.fixture
+def random():
+    return np.random.default_rng(5)
+
+
+def noise(random) -> Noise:
+    block = np.repeat(np.arange(5), 4)
+    ratio = random.uniform(0.1, 2.0, (2, 5))[:, block]
+    within = random.uniform(0.5, 2.0, (2, 5))[:, block]
+    return Noise(within, ratio * within, block, (1.0, 1.0), 0.1, 30)
+
+
+def test_what_is_whitened_beside_a_discrepancy_has_the_inverse_of_its_covariance(random):
+    plain = noise(random)
+    factor = random.standard_normal((2 * SIZE, 7)) * np.geomspace(1e-4, 1e3, 7)
+    wide = replace(plain, discrepancy=factor)
+    same = plain.block[:, None] == plain.block
+    dense = factor @ factor.T
+    for k in (0, 1):
+        at = slice(k * SIZE, (k + 1) * SIZE)
+        dense[at, at] += np.diag(plain.within[k] ** 2) + np.outer(plain.shared[k], plain.shared[k]) * same
+    values = random.standard_normal((SIZE, 3)) + 1j * random.standard_normal((SIZE, 3))
+    both = np.concatenate([values.real, values.imag])
+    white = wide.whiten(values)
+    assert white.T @ white == pytest.approx(both.T @ np.linalg.solve(dense, both), rel=1e-7)
+    assert wide.log_determinant == pytest.approx(np.linalg.slogdet(dense)[1], rel=1e-9)
+    rows = np.array([0, 1, 5, 9, 13])
+    every = np.concatenate([rows, rows + SIZE])
+    part = wide.subset(rows).whiten(values[rows])
+    wanted = both[every].T @ np.linalg.solve(dense[np.ix_(every, every)], both[every])
+    assert part.T @ part == pytest.approx(wanted, rel=1e-7)
+
+
+def test_a_factor_of_distinct_points_gives_the_kernel_of_all_tests():
+    points = np.array([[0.0], [1.0], [np.nan], [1.0], [3.0], [0.0], [0.0]])
+    kernel = discrepancy.factor_of(points, lambda apart: 0.3 + np.exp(-0.5 * apart[0] ** 2), 1e-12)
+    reached = np.isfinite(points[:, 0])
+    apart = points - points.T
+    wanted = np.where(reached[:, None] & reached, 0.3 + np.exp(-0.5 * apart**2), 0.0)
+    assert kernel @ kernel.T == pytest.approx(wanted, abs=1e-12)
+    assert kernel.shape[1] == 3
+
+
+def small(random) -> tuple[Reduced, Direction]:
+    """A model of four processes and one cause, and data that hold both."""
+    u, d, y = (random.standard_normal((40, k)) for k in (COLUMNS, 1, 1))
+    y = y + 2.0 * d + u @ random.standard_normal((COLUMNS, 1)) * 0.7
+    block = np.repeat(np.arange(PARTS), COLUMNS // PARTS)
+    roots = tuple(np.zeros((20, COLUMNS // PARTS), complex) for _ in range(PARTS))
+    found = Processes(tuple("abcd"), roots, u, block, np.array([0.5, 0.1, 0.3, 1.0]))
+    model = Reduced(found, u.T @ u, (u.T @ y)[:, 0])
+    return model, Direction(u.T @ d, d.T @ d, (d.T @ y)[:, 0])
+
+
+def test_curvature_and_slope_are_those_of_finite_differences(random):
+    model, cause = small(random)
+    variances = np.array([0.4, 0.02, 1.3, 0.1])
+    curvature, along = discrepancy._curvature(model, cause, variances)
+
+    def objective(log_v):
+        return discrepancy._point(model, cause, log_v).objective
+
+    def slope(log_v):
+        step = 1e-4 * np.eye(PARTS)
+        return np.array([objective(log_v + e) - objective(log_v - e) for e in step]) / 2e-4
+
+    log_v = np.log(variances)
+    numeric = np.array([slope(log_v + e) - slope(log_v - e) for e in 1e-3 * np.eye(PARTS)]) / 2e-3
+    assert curvature == pytest.approx(numeric, rel=1e-3, abs=1e-4)
+    amplitude = approx_fprime(log_v, lambda x: discrepancy._point(model, cause, x).amplitude, 1e-6)
+    assert along == pytest.approx(amplitude, rel=1e-3, abs=1e-6)

@@ -1,0 +1,78 @@
+"""Sentences on tests that are doubtful, and on what another choice of tests would name."""
+
+import pytest
+
+from asphalt_nscd.diagnosis.sentences import causes, on_doubtful, with_suspects
+
+
+def content(used: int, out: int, **then):
+    tests = [{"specimen": "A", "temperature_C": 4.0, "frequency_Hz": 25.0, "reasons": ["x"]}] * (used + out)
+    suspect = [{**one, "used": k < used} for k, one in enumerate(tests)]
+    ladder = [{"cause": "phase_offset", "where": None}]
+    return {"suspect_tests": suspect, "ladder": ladder, **then}
+
+
+@pytest.mark.parametrize(
+    "used,out,told",
+    [
+        (0, 2, ""),
+        (1, 0, "1 test is doubtful but used; suspect_tests in diagnosis.json says why."),
+        (2, 1, "2 more tests are doubtful but used; suspect_tests in diagnosis.json says why."),
+    ],
+)
+def test_doubtful_tests_are_counted(used, out, told):
+    assert on_doubtful(content(used, out)) == told
+
+
+@pytest.mark.parametrize(
+    "named,changed",
+    [
+        ([{"cause": "phase_offset", "where": None}], "Without it the same causes are named."),
+        ([], "Without it the diagnosis would not name a phase offset."),
+        (
+            [{"cause": "loose_clamp", "where": "A"}],
+            "Without it the diagnosis would also name a loose clamp of specimen A and not name a phase offset.",
+        ),
+    ],
+)
+def test_what_is_named_without_the_doubtful_tests_is_told(named, changed):
+    then = {"verdict": "explained", "causes": named}
+    assert on_doubtful(content(1, 0, without_doubtful=then)).endswith(f"says why. {changed}")
+    assert with_suspects(content(1, 1, with_suspects=then)) == changed.replace(
+        "Without it", "With these tests used"
+    )
+
+
+def test_the_same_causes_in_another_order_are_the_same():
+    found = content(0, 1, with_suspects={"verdict": "explained", "causes": []})
+    found["ladder"] = [{"cause": name, "where": None} for name in ("phase_offset", "channel_delay")]
+    found["with_suspects"]["causes"] = found["ladder"][::-1]
+    assert with_suspects(found) == "With these tests used the same causes are named."
+
+
+@pytest.mark.parametrize(
+    "hangs_on,as_good,sure",
+    [
+        (
+            ["4 degC", "specimen B"],
+            [],
+            "It rests on 4 degC and specimen B: leave out any one and it is no longer found.",
+        ),
+        (["4 degC"], [], "It rests on 4 degC: leave it out and it is no longer found."),
+        (
+            [],
+            ["temperature_bias @ 21.0"],
+            "Temperature bias at 21 degC fits as well; these tests do not say which.",
+        ),
+        ([], ["loose_clamp @ B"], "Loose clamp at B fits as well; these tests do not say which."),
+    ],
+)
+def test_why_a_name_is_only_likely(hangs_on, as_good, sure):
+    bias = {"value": 8.0, "std_error": 0.4, "unit": "K"}
+    rung = {
+        "cause": "temperature_bias", "where": 4.0, "parameters": {"temperature_rise": bias}, "p_value": 1e-9,
+        "as_good": as_good, "hangs_on": hangs_on,
+    }  # fmt: skip
+    ((told, meaning),) = causes({"ladder": [rung]})
+    assert told == "temperature bias at 4 degC: 8 K or more (the search ends there)"
+    assert meaning.endswith(sure)
