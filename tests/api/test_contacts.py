@@ -46,6 +46,8 @@ def test_normal_last_input_taken_for_normal_first_is_doubted():
         ((np.eye(6), [-1.0, 0.0, 0.0], 0.5), "not of three rows for each contact"),
         ((np.eye(3), [-1.0, np.nan, 0.0], 0.5), "must be finite"),
         ((np.eye(3), [-1.0, 0.0, 0.0], -0.5), "must not be negative"),
+        ((np.eye(3) + np.eye(3, k=1), [-1.0, 0.0, 0.0], 0.5), "W: not symmetric"),
+        ((sparse.csr_array(-np.eye(3)), [-1.0, 0.0, 0.0], 0.5), "W: negative on its diagonal"),
     ],
 )
 @pytest.mark.parametrize("order", ["nts", "tsn"])

@@ -137,3 +137,26 @@ def test_export_of_a_diagnosis_is_that_of_its_folder(diagnosis, folder, tmp_path
     ours, theirs = ((tmp_path / f"{name}.inp").read_text() for name in ("object", "file"))
     assert ours == theirs and "*VISCOELASTIC" in ours and "tests in residuals.csv" in ours
     assert said[0].partition(": ")[2] == said[1].partition(": ")[2]
+
+
+def test_the_kind_of_test_is_said_or_refused_as_by_the_command(tmp_path, capsys):
+    table = an.read(EXPORTS)
+    bent = an.diagnose(table, measured_in="bending", draws=an.Draws(500))
+    assert bent.content["reading"]["test_type"] == "bending"
+    with pytest.raises(
+        an.InputError, match="'torsion' is not known; give one of bending, tension-compression"
+    ):
+        an.diagnose(table, measured_in="torsion")
+    with pytest.raises(SystemExit) as done:
+        cli.main(["diagnose", str(EXPORTS), "--measured-in", "torsion", "--output", str(tmp_path)])
+    assert done.value.code == 2 and "'bending', 'tension-compression'" in capsys.readouterr().err
+
+
+def test_what_is_known_beside_the_table(diagnosis):
+    stated = an.diagnose(
+        EXPORTS, known=an.Known(static_modulus_MPa=50.0, scatter=(2.0, 0.5)), draws=an.Draws(500)
+    )
+    said = stated.content["provenance"]
+    assert said["static_modulus_Pa"] == 50e6 and said["scatter_stated"] == pytest.approx(
+        [0.02, np.radians(0.5)]
+    )

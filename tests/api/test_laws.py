@@ -81,3 +81,27 @@ def test_bonds_follow_a_law_of_all_temperatures_by_a_chain(tmp_path):
 def test_what_cannot_be_is_refused_in_a_sentence(ask, sentence):
     with pytest.raises(an.InputError, match=sentence):
         ask()
+
+
+@pytest.mark.parametrize(
+    "frequency,temperature,sentence",
+    [
+        (0.0, 15.0, "frequency_Hz: not all above zero"),
+        ([1.0, -1.0], 15.0, "frequency_Hz: not all above zero"),
+        (np.nan, 15.0, "frequency_Hz: not all finite"),
+        ("ten", 15.0, "frequency_Hz: 'ten' is no number"),
+        (1.0, np.inf, "temperature_C: not all finite"),
+        (1.0, 20.0, "holds at 15 degC only, not at 20"),
+    ],
+)
+def test_where_a_law_says_nothing(frequency, temperature, sentence):
+    law = an.Law.burgers(**TABLE3, temperature_C=15.0)
+    with pytest.raises(an.InputError, match=sentence):
+        law.complex_modulus(frequency, temperature)
+
+
+def test_a_chain_is_used_in_its_band():
+    chain = an.fit(table()).of_bonds(frequency_Hz=10.0, temperature_C=20.0)
+    assert chain.of_bonds(20.0, 20.0) is chain
+    with pytest.raises(an.InputError, match="a Kelvin chain for 5 to 20 Hz, which says nothing at 100 Hz"):
+        chain.of_bonds(100.0, 20.0)

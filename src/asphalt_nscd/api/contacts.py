@@ -10,13 +10,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
 
+from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.contacts.friction import ContactSolution
 from asphalt_nscd.nscd.contacts.friction import solve_contacts as solve_normal_first
 
+ASYMMETRY = 1e-6  # of the largest entry: rounding of what was assembled
 ORDERS = {"nts": (0, 1, 2), "tns": (1, 0, 2), "tsn": (2, 0, 1)}  # where n, t, s stand in what is given
 
 
+@checked
 def solve_contacts(
     W: Any, q: ArrayLike, mu: ArrayLike, *, order: str = "nts", tolerance: float = 1e-8
 ) -> ContactSolution:
@@ -37,9 +40,13 @@ def solve_contacts(
     """
     if order not in ORDERS:
         raise InputError(f"order {order!r} is not known; give one of {', '.join(ORDERS)}.")
-    free = np.asarray(q, float).ravel()
+    try:
+        free = np.asarray(q, float).ravel()
+    except (TypeError, ValueError):
+        raise InputError("q: not numbers; give three velocities [m/s] for each contact.") from None
     if free.size % 3:
         raise InputError(f"q holds {free.size} numbers; give three for each contact.")
+    _require_symmetric(W)
     place = (3 * np.arange(free.size // 3)[:, None] + ORDERS[order]).ravel()
     _doubt(free, order)
     try:
@@ -51,10 +58,21 @@ def solve_contacts(
             else np.asarray(W)[np.ix_(place, place)]
         )
         solved = solve_normal_first(matrix, free[place], mu, tolerance)
-    except ValueError as error:
+    except (TypeError, ValueError) as error:
         raise InputError(f"contacts: {error}.") from None
     back = np.argsort(place)
     return replace(solved, reactions=solved.reactions[back], velocities=solved.velocities[back])
+
+
+def _require_symmetric(W: Any) -> None:
+    """Refuse what is no Delassus operator: it is symmetric, and no contact pulls itself."""
+    if not (sparse.issparse(W) or isinstance(W, np.ndarray)) or W.ndim != 2 or W.shape[0] != W.shape[1]:
+        return  # refused further on
+    largest = abs(W).max() if W.shape[0] else 0.0
+    if largest and abs(W - W.T).max() > ASYMMETRY * largest:
+        raise InputError("W: not symmetric; give H^T M^-1 H, in which action equals reaction.")
+    if (W.diagonal() < 0.0).any():
+        raise InputError("W: negative on its diagonal; give H^T M^-1 H, which is positive semidefinite.")
 
 
 def _doubt(free: np.ndarray, order: str) -> None:
@@ -69,6 +87,6 @@ def _doubt(free: np.ndarray, order: str) -> None:
             warnings.warn(
                 f"q: no contact closes along the normals of order {order!r}, and all would in order {other!r}; check "
                 "the order. Reactions are zero as it stands.",
-                stacklevel=3,
+                stacklevel=4,
             )
             return

@@ -14,29 +14,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
 from asphalt_nscd.api.pictures import shown_in_notebooks
 from asphalt_nscd.api.tables import Measurements, campaign_in
 from asphalt_nscd.diagnosis.measured_limits import Progress, Trials, verify
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
-from asphalt_nscd.diagnosis.run import Outcome, conclude
+from asphalt_nscd.diagnosis.run import Draws, Outcome, Simulated, conclude
 from asphalt_nscd.diagnosis.sentences import on_data, on_simulation
 from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.diagnosis.written import mean_averages, read_diagnosis
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.store import read_json, write_json
+from asphalt_nscd.files.words import counted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-
-@dataclass(frozen=True)
-class Draws:
-    """Of the chance level: how many, and the seed of their random numbers."""
-
-    number: int = 4000
-    seed: int = 0
 
 
 @dataclass(frozen=True)
@@ -44,6 +38,13 @@ class Diagnosis:
     """What the simulation gets wrong about measurements, how sure that is, and what could not have been seen.
 
     `str(diagnosis)` is what the command line prints.
+
+    >>> diagnosis = diagnose("data/tutorial/exports", draws=Draws(500))
+    >>> diagnosis.verdict, diagnosis.law.kind
+    ('explained', '2s2p1d')
+    >>> diagnosis.suspects[["specimen", "temperature_C", "frequency_Hz", "used"]]
+      specimen  temperature_C  frequency_Hz   used
+    0    Mix-B            4.0          25.0  False
     """
 
     outcome: Outcome
@@ -178,10 +179,8 @@ class Diagnosis:
             if row.cause != "relaxation_spectrum"
         ]
         aside = int((~self.suspects["used"].astype(bool)).sum())
-        return (
-            f"Diagnosis({self.verdict}: {'; '.join(named) or 'no cause named'}; {self.content['tests']} tests used, "
-            f"{aside} not used)"
-        )
+        used = counted(self.content["tests"], "test")
+        return f"Diagnosis({self.verdict}: {'; '.join(named) or 'no cause named'}; {used} used, {aside} not used)"
 
     def _repr_html_(self) -> str:
         from html import escape
@@ -205,46 +204,81 @@ class Diagnosis:
 
 _ERRORS = ("E", "phase")
 _LADDER = [
-    "cause", "where", "parameter", "value", "std_error", "unit", "p_value",
+    "cause",
+    "where",
+    "parameter",
+    "value",
+    "std_error",
+    "unit",
+    "p_value",
     *(f"error_{q}_{when}_percent" for q in _ERRORS for when in ("before", "after")),
-    "established", "as_good", "hangs_on", "doubts", "sentence", "confirmed_by",
-]  # fmt: skip
+    "established",
+    "as_good",
+    "hangs_on",
+    "doubts",
+    "sentence",
+    "confirmed_by",
+]
 
 
 def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
     name, amplitude = next(iter(rung["parameters"].items()))
     inside = mean_averages(rung["gain"]["in_sample"])
     return {
-        "cause": rung["cause"], "where": "" if rung["where"] is None else rung["where"], "parameter": name,
-        "value": amplitude["value"], "unit": amplitude["unit"],
+        "cause": rung["cause"],
+        "where": "" if rung["where"] is None else rung["where"],
+        "parameter": name,
+        "value": amplitude["value"],
+        "unit": amplitude["unit"],
         "std_error": np.nan if amplitude["std_error"] is None else amplitude["std_error"],
         "p_value": rung["p_value"],
         **{
             f"error_{q}_{when}_percent": inside[f"mre_{q}_percent"][when]
-            for q in _ERRORS for when in ("before", "after")
+            for q in _ERRORS
+            for when in ("before", "after")
         },
-        "established": bool(rung.get("established")), "as_good": ", ".join(rung["as_good"]),
+        "established": bool(rung.get("established")),
+        "as_good": ", ".join(rung["as_good"]),
         "hangs_on": ", ".join(map(str, rung.get("hangs_on", ()))),
         "doubts": ". ".join(rung.get("doubts", ())),
-        "sentence": rung["sentence"], "confirmed_by": rung["confirmed_by"],
-    }  # fmt: skip
+        "sentence": rung["sentence"],
+        "confirmed_by": rung["confirmed_by"],
+    }
 
 
+@dataclass(frozen=True)
+class Known:
+    """What is known beside the table.
+
+    static_modulus_MPa: of the mix at long times. scatter: standard deviations of one test, |E*| in % and phase in
+    degrees; else they come from replicates.
+
+    >>> Known(scatter=(3.0, 0.5)).static_modulus_MPa is None
+    True
+    """
+
+    static_modulus_MPa: float | None = None
+    scatter: tuple[float, float] | None = None
+
+
+@checked
 def diagnose(
-    measurements: Measurements, *, geometry: str | Path | Mapping[str, Any] = PAPER_GEOMETRY,
-    specimen: str | Path | None = None, static_modulus_MPa: float | None = None,
-    scatter: tuple[float, float] | None = None, simulations: str | Path | None = None,
-    facets: str | Path | None = None, draws: Draws = Draws(),  # noqa: B008  frozen
+    measurements: Measurements,
+    *,
+    measured_in: str | None = None,
+    geometry: str | Path | Mapping[str, Any] = PAPER_GEOMETRY,
+    known: Known = Known(),  # noqa: B008  frozen, and the next two
+    simulated: Simulated = Simulated(),  # noqa: B008
+    draws: Draws = Draws(),  # noqa: B008
     progress: Progress = lambda *_: None,
-) -> Diagnosis:  # fmt: skip
+) -> Diagnosis:
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
 
-    measurements: a file, a folder, several of them, or a DataFrame, read as `read` says. geometry: b_mm, B_mm, e_mm,
-    h_mm, mass_kg, mobile_mass_kg of the specimens, or a table of them; of ready moduli only the form factor counts.
-    specimen: numerical specimen, a file of `asphalt-nscd reduced-specimen`; else the one shipped. static_modulus_MPa:
-    of the mix at long times, if known. scatter: standard deviations of one test, |E*| in % and phase in degrees; else
-    from replicates. simulations: table of simulated tests, to say what in them is numerics; facets: of the same tests
-    with bonds that are facets, to judge bond_mapping. progress(stage, done, total): called as the work goes on.
+    measurements: a file, a folder, several of them, or a DataFrame, read as `read` says. measured_in: "bending" or
+    "tension-compression"; else tension-compression for machine exports, bending for tables. geometry: b_mm, B_mm,
+    e_mm, h_mm, mass_kg, mobile_mass_kg of the specimens, or a table of them; of ready moduli only the form factor
+    counts. known: Known(static_modulus_MPa, scatter). simulated: what was simulated of the same tests.
+    progress(stage, done, total): called as the work goes on.
 
     Raises InputError, with one sentence, for tables that cannot be diagnosed.
 
@@ -253,22 +287,19 @@ def diagnose(
     Diagnosis(explained: channel_delay 0.000792 s (established); 71 tests used, 1 not used)
     >>> diagnosis.ladder[["cause", "error_E_before_percent", "error_E_after_percent"]].round(1)
                      cause  error_E_before_percent  error_E_after_percent
-    0  relaxation_spectrum                    16.4                    4.2
-    1        channel_delay                     4.2                    0.8
+    0  relaxation_spectrum                    15.8                    3.9
+    1        channel_delay                     3.9                    0.4
     """
+    scatter, static = known.scatter, known.static_modulus_MPa
     stated = None if scatter is None else (scatter[0] / 100.0, float(np.radians(scatter[1])))
-    static = None if static_modulus_MPa is None else 1e6 * static_modulus_MPa
     return Diagnosis(
         conclude(
-            campaign_in(measurements),
+            campaign_in(measurements, measured_in=measured_in),
             geometry,
-            specimen,
-            static,
-            stated,
-            draws.number,
-            draws.seed,
-            simulations,
-            facets,
-            progress,
+            static_modulus=None if static is None else 1e6 * static,
+            scatter=stated,
+            simulated=simulated,
+            draws=draws,
+            progress=progress,
         )
     )

@@ -7,6 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
 from asphalt_nscd.api.results import Result
 from asphalt_nscd.exports.card import UNITS, Settings
@@ -24,6 +25,9 @@ class ExportSettings:
     """Largest errors of the Prony series over the tested band, Poisson's ratio, units and name of the material.
 
     poisson: None for 0.35, said to be assumed. units: "SI" or "mm-N-MPa".
+
+    >>> ExportSettings(error_percent=0.5, poisson=0.4, units="mm-N-MPa").error_deg
+    0.5
     """
 
     error_percent: float = 1.0
@@ -43,11 +47,16 @@ class ExportSettings:
         return Settings(Miss(self.error_percent, self.error_deg), self.poisson, UNITS[self.units], self.name)
 
 
+@checked
 def export(
-    law: Law | Diagnosis | Result | str | Path, output: str | Path, form: str, *,
+    law: Law | Diagnosis | Result | str | Path,
+    output: str | Path,
+    form: str,
+    *,
     settings: ExportSettings = ExportSettings(),  # noqa: B008  frozen
-    temperatures_C: tuple[float, ...] | None = None, frequencies_Hz: tuple[float, ...] | None = None,
-) -> str:  # fmt: skip
+    temperatures_C: tuple[float, ...] | None = None,
+    frequencies_Hz: tuple[float, ...] | None = None,
+) -> str:
     """Write a law, or spheres and bonds, for another program; one line that says what and how well.
 
     law: a Law, a Diagnosis (whose law is taken), or a law file. form: abaqus, ansys, comsol, csv, xlsx or mepdg. Or a
@@ -68,6 +77,12 @@ def export(
         return export_law(read_law_file(law, *tested), card, form, output)
     if isinstance(law, Law):
         return export_law(law_of(law.source, dict(law.content), *tested), card, form, output)
+    from asphalt_nscd.api.diagnosis import Diagnosis
+
+    if not isinstance(law, Diagnosis):
+        raise InputError(
+            f"export: cannot write a value of type {type(law).__name__}; give a Law, a Diagnosis, a result or a path."
+        )
     if law.law is None:
         raise InputError("a diagnosis of one isotherm has no law; diagnose tests at more temperatures.")
     with TemporaryDirectory() as folder:  # the export finds the tests beside the law

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 
+from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.tables import observed_in
 from asphalt_nscd.exports.law import ONE_TEMPERATURE, ExportedLaw, law_of
 from asphalt_nscd.files.errors import InputError
@@ -20,13 +21,12 @@ from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.chain_law import chain_at
 from asphalt_nscd.rheology.fitted_laws import burgers_at
-from asphalt_nscd.rheology.laws_io import law_content
+from asphalt_nscd.rheology.laws_io import law_content, require_holds
 from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE
 from asphalt_nscd.rheology.spectrum import LAWS
-from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
+from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import spectrum_content
 
-SAME_TEMPERATURE = 1e-6  # K
 CHAIN_ERROR = 1e-3  # of ln E*, of the chain that bonds follow
 MARGIN = 2.0  # of its band to either side of the tested frequency, for the transient
 
@@ -44,6 +44,8 @@ class Law:
     source: Path = Path("in memory", "law.json")  # of the file; tests beside it are its band
 
     def __post_init__(self) -> None:
+        if not isinstance(self.content, Mapping):
+            raise InputError(f"Law: {self.content!r} is no content of a law; give a path to Law.read.")
         self._parsed  # noqa: B018  refuses a content that is no law
 
     @classmethod
@@ -52,6 +54,7 @@ class Law:
         return cls(read_json(path), Path(path))
 
     @classmethod
+    @checked
     def burgers(
         cls, *, Em_Pa: float, eta_m_Pa_s: float, Ek_Pa: float, eta_k_Pa_s: float, temperature_C: float
     ) -> Law:
@@ -97,21 +100,25 @@ class Law:
 
         temperature_C is left out for a law of one temperature, and needed for a law of all.
         """
-        omega = 2.0 * np.pi * np.asarray(frequency_Hz, float)
+        frequencies = _numbers(frequency_Hz, "frequency_Hz")
+        if not (frequencies > 0.0).all():
+            raise InputError("frequency_Hz: not all above zero; give frequencies in Hz.")
+        omega = 2.0 * np.pi * frequencies
         law: Any = self._parsed.law
         if self.temperature_C is None:
             if temperature_C is None:
                 raise InputError(f"{self.source}: a law of all temperatures; give temperature_C.")
-            return np.asarray(law.complex_modulus(omega, np.asarray(temperature_C, float)))
+            return np.asarray(law.complex_modulus(omega, _numbers(temperature_C, "temperature_C")))
         if temperature_C is not None:
-            self._require(temperature_C)
+            for temperature in np.unique(_numbers(temperature_C, "temperature_C")):
+                require_holds(self.source, dict(self.content), float(temperature), ())
         return np.asarray(law.complex_modulus(omega))
 
     def shift_factor(self, temperature_C: ArrayLike) -> NDArray[np.float64]:
         """a_T: reduced frequency over frequency at temperatures [degC]."""
         if self.temperature_C is not None:
             raise InputError(f"{self.source}: a law of one temperature has no shift; give a law of all.")
-        return self._parsed.factor(np.asarray(temperature_C, float))
+        return self._parsed.factor(_numbers(temperature_C, "temperature_C"))
 
     def write(self, path: str | Path) -> None:
         """Write the law as JSON, as the command line does."""
@@ -123,7 +130,7 @@ class Law:
         The chain is within 0.1 % of the law from half to twice the frequency [Hz].
         """
         if self.temperature_C is not None:
-            self._require(temperature_C)
+            require_holds(self.source, dict(self.content), temperature_C, [frequency_Hz])
             return self
         law: Any = self._parsed.law
         band = frequency_Hz / MARGIN, frequency_Hz * MARGIN
@@ -136,13 +143,6 @@ class Law:
         if not isinstance(law, Burgers | KelvinChain):
             raise InputError(f"{self.source}: a law of all temperatures; take `of_bonds` at one.")
         return law
-
-    def _require(self, temperature_C: ArrayLike) -> None:
-        if np.any(np.abs(np.asarray(temperature_C, float) - self._parsed.temperature) > SAME_TEMPERATURE):
-            raise InputError(
-                f"{self.source}: holds at {self._parsed.temperature:g} degC only; ask for that temperature, or give "
-                "a law of all."
-            )
 
     def __repr__(self) -> str:
         said = ", ".join(f"{name} = {value:.4g}" for name, value in self.parameters["value"].items())
@@ -157,6 +157,18 @@ class Law:
         return f", reference {self._parsed.temperature:g} degC"
 
 
+def _numbers(values: ArrayLike, name: str) -> NDArray[np.float64]:
+    """Finite numbers as an array, or InputError."""
+    try:
+        found = np.asarray(values, float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: {values!r} is no number; give numbers.") from None
+    if not np.isfinite(found).all():
+        raise InputError(f"{name}: not all finite; give numbers.")
+    return found
+
+
+@checked
 def fit(table: Any, law: str = "2s2p1d", *, temperature_C: float | None = None, shift: str = "wlf") -> Law:
     """Fit a law to the moduli of a table.
 
@@ -181,10 +193,12 @@ def fit(table: Any, law: str = "2s2p1d", *, temperature_C: float | None = None, 
             )
         frame = pd.DataFrame(
             {
-                "temperature_C": observed.isotherm, "frequency_Hz": observed.frequency,
-                "E_MPa": 1e-6 * np.abs(observed.modulus), "phase_deg": np.degrees(np.angle(observed.modulus)),
+                "temperature_C": observed.isotherm,
+                "frequency_Hz": observed.frequency,
+                "E_MPa": 1e-6 * np.abs(observed.modulus),
+                "phase_deg": np.degrees(np.angle(observed.modulus)),
             }
-        )  # fmt: skip
+        )
         return Law(burgers_at(frame, temperature_C, name))
     if law not in LAWS:
         raise InputError(f"fit: law {law!r} is not known; give one of burgers, {', '.join(LAWS)}.")
@@ -197,15 +211,18 @@ def fit(table: Any, law: str = "2s2p1d", *, temperature_C: float | None = None, 
             observed.temperature,
             observed.modulus,
             reference,
-            law,
-            shift,
+            Form(law, shift),
             prior=ASPHALT_CONCRETE,
         )
     except InputError as error:
         raise InputError(f"{name}: {error}") from None
     return Law(
         spectrum_content(
-            fitted.law, source=f"fitted ({origin})", rms_log_residual=fitted.rms_log_residual,
-            std_error=fitted.std_error, unseen=fitted.unseen, from_prior=fitted.from_prior,
+            fitted.law,
+            source=f"fitted ({origin})",
+            rms_log_residual=fitted.rms_log_residual,
+            std_error=fitted.std_error,
+            unseen=fitted.unseen,
+            from_prior=fitted.from_prior,
         )
-    )  # fmt: skip
+    )

@@ -1,7 +1,9 @@
-"""Figures that Jupyter shows without pyplot."""
+"""What Jupyter shows: figures without pyplot, and objects as small tables."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from html import escape
 from io import BytesIO
 from typing import TYPE_CHECKING
 
@@ -9,6 +11,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SCREEN_DPI = 160  # figures have the size of a journal column, 90 mm
+
+
+def sheet(title: str, rows: Mapping[str, str], notes: Sequence[str] = ()) -> str:
+    """An object as HTML: its title, a row for each quantity with its value and unit, and notes to unfold."""
+    cells = "".join(
+        f"<tr><th>{escape(name)}</th><td>{escape(value)}</td></tr>" for name, value in rows.items()
+    )
+    items = "".join(f"<li>{escape(note)}</li>" for note in notes)
+    folded = f"<details><summary>Notes</summary><ul>{items}</ul></details>" if notes else ""
+    return f"<p><b>{escape(title)}</b></p><table><tbody>{cells}</tbody></table>{folded}"
 
 
 def shown_in_notebooks(figure: Figure) -> Figure:

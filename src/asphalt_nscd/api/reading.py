@@ -8,6 +8,7 @@ from typing import Any
 
 import pandas as pd
 
+from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.bending import Test
 from asphalt_nscd.api.diagnosis import Diagnosis
 from asphalt_nscd.api.laws import Law
@@ -18,10 +19,14 @@ from asphalt_nscd.files.store import kind_of, read_json
 from asphalt_nscd.table_import.frames import frame_of
 
 
+@checked
 def read(
-    source: Measurements, *, sheet: str | None = None, columns: Mapping[str, str] | None = None,
+    source: Measurements,
+    *,
+    sheet: str | None = None,
+    columns: Mapping[str, str] | None = None,
     measured_in: str | None = None,
-) -> pd.DataFrame | Law | Diagnosis | Packing | Specimen | Test:  # fmt: skip
+) -> pd.DataFrame | Law | Diagnosis | Packing | Specimen | Test:
     """Read what a file, a folder or a DataFrame holds.
 
     * Measurements (CSV, TSV, XLSX, exports of testing machines, or a folder of them, or a DataFrame with columns that

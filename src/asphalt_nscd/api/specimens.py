@@ -11,31 +11,28 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from asphalt_nscd.api.arguments import checked
+from asphalt_nscd.api.pictures import sheet
 from asphalt_nscd.api.results import Result
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.packings.incoming import as_deposit
 from asphalt_nscd.packings.incoming import read_packing as read_spheres
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
 from asphalt_nscd.specimen.network import AREAS
-from asphalt_nscd.specimen.preparation import DEPOSIT, SPECIMEN, Vibration, bonded, specimen_of
+from asphalt_nscd.specimen.preparation import DEPOSIT, SPECIMEN, Pouring, Vibration, bonded, specimen_of
 from asphalt_nscd.specimen.preparation import pour as pour_spheres
 from asphalt_nscd.specimen.trimming import Specimen as BondedSpheres
 
+Number = int | float | np.number
 SPHERE_COLUMNS = ["x_m", "y_m", "z_m", "radius_m"]
 
 
-class Packing(Result):
-    """Spheres at rest in a box [0, length] x [0, width] x [0, height], z upwards."""
-
-    kind = DEPOSIT
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """How a file of another program was read; none for what was poured here."""
-        return tuple(filter(None, str(self.attributes.get("notes", "")).split("\n")))
+class Spheres(Result):
+    """What packings and specimens have in common."""
 
     @property
     def position_m(self) -> np.ndarray:
@@ -46,6 +43,26 @@ class Packing(Result):
     def radius_m(self) -> np.ndarray:
         """Radii (n,) [m]."""
         return self.arrays["radius"]
+
+    @property
+    def _radii(self) -> str:
+        return f"radii {1e3 * self.radius_m.min():.3g} to {1e3 * self.radius_m.max():.3g} mm"
+
+
+class Packing(Spheres):
+    """Spheres at rest in a box [0, length] x [0, width] x [0, height], z upwards.
+
+    >>> packing = pour({8.0: 40}, (0.04, 0.03, 0.12), vibration=Vibration(duration=0.0))
+    >>> list(packing.spheres), len(packing.spheres), packing.box_m.tolist()
+    (['x_m', 'y_m', 'z_m', 'radius_m'], 40, [0.04, 0.03, 0.12])
+    """
+
+    kind = DEPOSIT
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """How a file of another program was read; none for what was poured here."""
+        return tuple(filter(None, str(self.attributes.get("notes", "")).split("\n")))
 
     @property
     def box_m(self) -> np.ndarray:
@@ -60,27 +77,40 @@ class Packing(Result):
     def __repr__(self) -> str:
         said = self.attributes
         return (
-            f"Packing({self.radius_m.size} spheres, radii {1e3 * self.radius_m.min():.3g} to "
-            f"{1e3 * self.radius_m.max():.3g} mm, layer {1e3 * said['layer_height_m']:.3g} mm high, solid fraction "
-            f"{said['solid_fraction']:.3f})"
+            f"Packing({counted(self.radius_m.size, 'sphere')}, {self._radii}, layer "
+            f"{1e3 * said['layer_height_m']:.3g} mm high, solid fraction {said['solid_fraction']:.3f})"
+        )
+
+    def _repr_html_(self) -> str:
+        said, box = self.attributes, 1e3 * self.box_m
+        return sheet(
+            f"Packing of {counted(self.radius_m.size, 'sphere')}",
+            {
+                "spheres": self._radii,
+                "box (length, width, height)": f"{box[0]:.4g} × {box[1]:.4g} × {box[2]:.4g} mm",
+                "height of the layer": f"{1e3 * said['layer_height_m']:.4g} mm",
+                "solid fraction": f"{said['solid_fraction']:.3f}",
+                "contacts of a sphere": f"{said['coordination']:.2f} in the mean",
+                "largest overlap": f"{1e6 * said['largest_overlap_m']:.3g} µm",
+            },
+            self.notes,
         )
 
 
 @dataclass(frozen=True)
-class Specimen(Result):
-    """Bonded spheres between the foot (z = 0) and the head (z = h); bending along x."""
+class Specimen(Spheres):
+    """Bonded spheres between the foot (z = 0) and the head (z = h); bending along x.
+
+    The origin is the middle of the foot. Radii are those after the reduction of volume.
+
+    >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
+    >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}
+    >>> beam = specimen(packing, g)
+    >>> list(beam.bonds), f"{beam.geometry.h:g} m", bool((beam.bonds["gap_m"] < 2e-3).all())
+    (['first', 'second', 'gap_m', 'length_m', 'area_m2'], '0.1 m', True)
+    """
 
     kind = SPECIMEN
-
-    @property
-    def position_m(self) -> np.ndarray:
-        """Centres (n, 3) [m]; the origin is the middle of the foot."""
-        return self.arrays["position"]
-
-    @property
-    def radius_m(self) -> np.ndarray:
-        """Radii (n,) [m], after the reduction of volume."""
-        return self.arrays["radius"]
 
     @cached_property
     def bonded(self) -> BondedSpheres:
@@ -98,29 +128,56 @@ class Specimen(Result):
         network = self.bonded.network
         return pd.DataFrame(
             {
-                "first": network.first, "second": network.second, "gap_m": network.gap,
-                "length_m": network.length, "area_m2": network.area,
+                "first": network.first,
+                "second": network.second,
+                "gap_m": network.gap,
+                "length_m": network.length,
+                "area_m2": network.area,
             }
-        )  # fmt: skip
+        )
 
     def __repr__(self) -> str:
         g = self.geometry
         return (
-            f"Specimen({self.radius_m.size} spheres, {self.bonded.network.first.size} bonds by {self.bonded.area}, b = "
-            f"{1e3 * g.b:g}, B = {1e3 * g.B:g}, e = {1e3 * g.e:g}, h = {1e3 * g.h:g} mm)"
+            f"Specimen({counted(self.radius_m.size, 'sphere')}, {counted(self._bonds, 'bond')} by {self.bonded.area}, "
+            f"b = {1e3 * g.b:g}, B = {1e3 * g.B:g}, e = {1e3 * g.e:g}, h = {1e3 * g.h:g} mm)"
+        )
+
+    @property
+    def _bonds(self) -> int:
+        return int(self.bonded.network.first.size)
+
+    def _repr_html_(self) -> str:
+        g = self.geometry
+        return sheet(
+            f"Specimen of {counted(self.radius_m.size, 'sphere')}",
+            {
+                "bonds": f"{self._bonds}, their area by {self.bonded.area}",
+                "width of head b and of foot B": f"{1e3 * g.b:g} and {1e3 * g.B:g} mm",
+                "thickness e, height h": f"{1e3 * g.e:g} and {1e3 * g.h:g} mm",
+                "mass, mobile mass": f"{g.mass:g} and {g.mobile_mass:g} kg",
+                "spheres": f"{self._radii}, {self.bonded.density:.4g} kg/m³",
+            },
         )
 
 
+@checked
 def pour(
-    counts: str | Path | pd.DataFrame | Mapping[float, int], box_m: tuple[float, float, float], *,
-    seed: int = 0, friction: float = 0.2, vibration: Vibration = Vibration(),  # noqa: B008  frozen
+    counts: str | Path | pd.DataFrame | Mapping[float, int],
+    box_m: tuple[float, float, float],
+    *,
+    seed: int = 0,
+    friction: float = 0.2,
+    vibration: Vibration = Vibration(),  # noqa: B008  frozen
     time_step_s: float = 4e-4,
-) -> Packing:  # fmt: skip
+    threads: int = 1,
+) -> Packing:
     """Pour spheres from a random lattice by gravity, then vibrate the layer with the top wall.
 
     counts: number of spheres by diameter in mm, {6.0: 120, 10.0: 30}, or a table diameter_mm,count. box_m: length,
     width and height [m]. friction: of spheres and walls. vibration: Vibration(stroke [m], frequency [Hz],
-    duration [s]); a duration of 0 is none. Raises InputError where the box cannot hold the spheres.
+    duration [s]); a duration of 0 is none. threads: to compute on; they change no number. Raises InputError where the
+    box cannot hold the spheres.
 
     >>> packing = pour({8.0: 40}, (0.04, 0.03, 0.12), vibration=Vibration(duration=0.0))
     >>> packing.radius_m.size, 0.4 < packing.attributes["solid_fraction"] < 0.7
@@ -129,9 +186,10 @@ def pour(
     if len(box_m) != 3 or not all(np.isfinite(box_m)) or min(box_m) <= 0.0:
         raise InputError(f"box_m = {box_m}: give length, width and height in m, greater than zero.")
     spheres = _counts(counts)
-    return Packing(*pour_spheres(spheres, box_m, seed, friction, vibration, time_step_s))
+    return Packing(*pour_spheres(spheres, Pouring(box_m, seed, friction, vibration, time_step_s, threads)))
 
 
+@checked
 def read_packing(path: str | Path, *, unit: str | None = None, up: str = "z") -> Packing:
     """Spheres that another program poured or a scanner saw, as a packing.
 
@@ -163,9 +221,13 @@ def _counts(counts: Any) -> tuple[np.ndarray, np.ndarray]:
     else:
         pairs = list(counts.items())
     for diameter, count in pairs:
+        if not (isinstance(diameter, Number) and isinstance(count, Number)):
+            raise InputError(
+                f"counts: {diameter!r}: {count!r}; give a diameter in mm and a number of spheres."
+            )
         if not 0.01 <= diameter <= 100.0:
             raise InputError(f"counts: a diameter of {diameter:g} mm; give diameters in mm, 0.01 to 100.")
-        if count != round(count) or not 0 <= count <= MOST_SPHERES:
+        if float(count) % 1.0 or not 0 <= count <= MOST_SPHERES:
             raise InputError(
                 f"counts: {count:g} spheres of {diameter:g} mm; give whole numbers, zero or more."
             )
@@ -175,10 +237,15 @@ def _counts(counts: Any) -> tuple[np.ndarray, np.ndarray]:
     return 1e-3 * np.array(diameters, float), np.array(numbers, int)
 
 
+@checked
 def specimen(
-    packing: Packing | str | Path, geometry: str | Path | Mapping[str, Any] = PAPER_GEOMETRY, *,
-    area: str = "paper", volume_reduction: float = 0.1, gap_max_mm: float = 2.0,
-) -> Specimen:  # fmt: skip
+    packing: Packing | str | Path,
+    geometry: str | Path | Mapping[str, Any] = PAPER_GEOMETRY,
+    *,
+    area: str = "paper",
+    volume_reduction: float = 0.1,
+    gap_max_mm: float = 2.0,
+) -> Specimen:
     """Cut a specimen from a packing, turn it upright, shrink its spheres and bond them.
 
     geometry: b_mm, B_mm, e_mm, h_mm, mass_kg, mobile_mass_kg; h lies along x of the packing, e along y, B along z. area

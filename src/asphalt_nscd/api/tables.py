@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -19,17 +20,24 @@ Measurements: TypeAlias = str | Path | pd.DataFrame | Campaign | list[str | Path
 
 
 def campaign_in(
-    measurements: Measurements, sheet: str | None = None, columns: Mapping[str, str] | None = None,
+    measurements: Measurements,
+    sheet: str | None = None,
+    columns: Mapping[str, str] | None = None,
     measured_in: str | None = None,
-) -> Campaign:  # fmt: skip
+) -> Campaign:
     """A path, a folder, several of them, or a DataFrame as a campaign."""
     if measured_in not in (None, *TEST_TYPES):
         raise InputError(f"measured_in {measured_in!r} is not known; give one of {', '.join(TEST_TYPES)}.")
     if isinstance(measurements, Campaign):
-        return measurements
+        return measurements if measured_in is None else replace(measurements, test_type=measured_in)
     if isinstance(measurements, pd.DataFrame):
         return campaign_of(measurements, columns, measured_in)
     several = measurements if isinstance(measurements, list | tuple) else [measurements]
+    if not several or not all(isinstance(path, str | Path) for path in several):
+        raise InputError(
+            f"measurements: no table ({type(measurements).__name__}); give a file, a folder, several of "
+            "them, or a DataFrame."
+        )
     return read_campaign([Path(path) for path in several], sheet, columns, measured_in)[0]
 
 

@@ -9,6 +9,7 @@ from decimal import ROUND_UP, Context, Decimal
 from asphalt_nscd import __version__
 from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import counted
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import MaxwellSeries, of_chain
@@ -79,7 +80,7 @@ class Card:
 
     def achieved(self) -> str:
         """Number of terms and largest errors, in words."""
-        terms = f"{len(self.series.moduli)} Prony terms at {self.law.temperature:g} degC"
+        terms = f"{counted(len(self.series.moduli), 'Prony term')} at {self.law.temperature:g} degC"
         return f"{terms}, largest errors {_short(self.error.percent)} % of |E*| and {_short(self.error.degrees)} deg"
 
     def poisson_said(self) -> str:
@@ -176,6 +177,11 @@ def make_card(law: ExportedLaw, settings: Settings) -> Card:
         series, error = fit_series(law.at_reference, low, high, settings.allowed)
     except InputError as refusal:
         raise InputError(f"{law.path}: {refusal}") from None
+    if not series.moduli:
+        raise InputError(
+            f"{law.path}: over {law.band} the law does not relax, so that a series would have no term; give the "
+            "temperatures and frequencies that were tested."
+        )
     return Card(law, settings, series, error, exact=False)
 
 

@@ -12,6 +12,7 @@ from asphalt_nscd.files.store import atomic_path
 
 SOLIDS = ("abaqus", "ansys", "comsol")  # programs that want a solid at infinite time
 # Format: its module and the endings of its files, the usual one first.
+FAR_OFF = 0.15  # of ln |E*|, root mean square: a law that is no law of these tests
 FORMATS = {
     "abaqus": ("abaqus", (".inp",)),
     "ansys": ("ansys", (".inp", ".mac", ".dat", ".txt")),
@@ -45,6 +46,10 @@ def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Pa
 
 def require_form(form: str, output: Path) -> None:
     """Refuse an unknown format, and an output whose ending is not of the format."""
+    if form == "vtk":
+        raise InputError(
+            f"format 'vtk' is for spheres and tests (HDF5); give a law one of {', '.join(FORMATS)}."
+        )
     if form not in FORMATS:
         raise InputError(f"format {form!r} is not known; give one of {', '.join(FORMATS)}.")
     endings = FORMATS[form][1]
@@ -56,4 +61,10 @@ def require_form(form: str, output: Path) -> None:
 
 def _said(card: Card) -> str:
     shift = "" if card.law.shift else ", no shift"
-    return f"{card.achieved()} over {card.law.band}{shift}; {card.poisson_said()}."
+    off = card.law.rms_log_residual or 0.0
+    far = (
+        f" The law itself misses its tests by {100.0 * off:.0f} %: do not rely on it."
+        if off > FAR_OFF
+        else ""
+    )
+    return f"{card.achieved()} over {card.law.band}{shift}; {card.poisson_said()}.{far}"

@@ -16,7 +16,7 @@ from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
-from asphalt_nscd.rheology.laws_io import bond_law_of, numbers_of
+from asphalt_nscd.rheology.laws_io import bond_law_of, numbers_of, require_holds
 from asphalt_nscd.rheology.shift import GAS_CONSTANT, WLF, ZERO_CELSIUS, Arrhenius
 from asphalt_nscd.rheology.spectrum import LAWS, Spectrum
 from asphalt_nscd.rheology.spectrum_io import spectrum_of
@@ -24,13 +24,8 @@ from asphalt_nscd.rheology.spectrum_io import spectrum_of
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-ONE_TEMPERATURE = ("burgers", "kelvin_chain")
-NAMES = {
-    "burgers": "Burgers",
-    "kelvin_chain": "Kelvin chain",
-    "2s2p1d": "2S2P1D",
-    "huet-sayegh": "Huet-Sayegh",
-}
+ONE_TEMPERATURE = {"burgers": "Burgers", "kelvin_chain": "Kelvin chain"}
+LAW_OF_DIAGNOSIS = "law.json"
 LOOSE = 0.5  # standard error over value, from which a parameter is hardly determined
 # Where neither the file nor the user says what was tested.
 USUAL_TEMPERATURES = (-10.0, 0.0, 10.0, 20.0, 30.0, 40.0)  # degC
@@ -75,7 +70,8 @@ class ExportedLaw:
     def name(self) -> str:
         """Kind of law and of shift, in words."""
         shift = {WLF: ", WLF shift", Arrhenius: ", Arrhenius shift"}.get(type(self.shift), "")
-        return f"{NAMES[self.kind]}{shift}"
+        title = ONE_TEMPERATURE.get(self.kind) or LAWS[self.kind].title
+        return f"{title}{shift}"
 
     def loose(self) -> str:
         """A sentence on parameters that the tests do not determine; empty where there are none."""
@@ -137,12 +133,19 @@ def read_law_file(
     temperatures: tuple[float, ...] | None = None,
     frequencies: tuple[float, ...] | None = None,
 ) -> ExportedLaw:
-    """Read a law of a study, of a diagnosis or of the extended simulation.
+    """Read a law of a study, of a diagnosis (or the folder of one), or of the extended simulation.
 
     temperatures [degC], frequencies [Hz]: the tested ones, every pair. Where they are absent, those of
     residuals.csv beside the law of a diagnosis, or the band of a Kelvin chain, or usual ones.
     """
-    return law_of(Path(path), read_json(path), temperatures, frequencies)
+    path = Path(path)
+    if path.is_dir():
+        if not (path / LAW_OF_DIAGNOSIS).is_file():
+            raise InputError(
+                f"{path}: a folder without {LAW_OF_DIAGNOSIS}; give a law, or the folder of a diagnosis."
+            )
+        path /= LAW_OF_DIAGNOSIS
+    return law_of(path, read_json(path), temperatures, frequencies)
 
 
 def law_of(
@@ -153,8 +156,12 @@ def law_of(
 ) -> ExportedLaw:
     """The law in the content of a file, with the band as `read_law_file` takes it."""
     kind = content.get("law") if isinstance(content, dict) else None
-    if kind not in NAMES:
-        raise InputError(f"{path}: holds law {kind!r}; give a file with one of {', '.join(NAMES)}.")
+    known = [*ONE_TEMPERATURE, *LAWS]
+    if kind not in known:
+        if isinstance(content, dict) and "ladder" in content:
+            raise InputError(f"{path}: is a diagnosis; give the law.json beside it.")
+        holds = "no law file, for it has no key 'law'" if kind is None else f"holds law {kind!r}"
+        raise InputError(f"{path}: {holds}; give a file with one of {', '.join(known)}.")
     law: Any
     if kind in LAWS:
         law = spectrum_of(path, content)
@@ -168,13 +175,22 @@ def law_of(
                 "or give a law of all temperatures, such as law.json of a diagnosis."
             )
         temperatures = (temperature,)
+        require_holds(path, content, None, frequencies or ())
     band = _band(path, content, temperatures, frequencies)
     rms = content.get("rms_log_residual")
     return ExportedLaw(
-        path, kind, str(content.get("source")), law, temperature, shift, band, _numbers(content),
-        _numbers(content.get("std_error")), rms if isinstance(rms, float) else None,
+        path,
+        kind,
+        str(content.get("source")),
+        law,
+        temperature,
+        shift,
+        band,
+        _numbers(content),
+        _numbers(content.get("std_error")),
+        rms if isinstance(rms, float) else None,
         tuple(str(name) for name in content.get("unseen") or ()),
-    )  # fmt: skip
+    )
 
 
 def _numbers(content: Any) -> dict[str, float]:
@@ -189,18 +205,23 @@ def _numbers(content: Any) -> dict[str, float]:
 
 
 def _band(
-    path: Path, content: dict[str, Any], temperatures: tuple[float, ...] | None,
+    path: Path,
+    content: dict[str, Any],
+    temperatures: tuple[float, ...] | None,
     frequencies: tuple[float, ...] | None,
-) -> Band:  # fmt: skip
+) -> Band:
     one = content["law"] in ONE_TEMPERATURE
     residuals = path.with_name("residuals.csv")
-    if not one and temperatures is None and frequencies is None and is_file(residuals):
-        tests = read_residuals([residuals])
-        return Band(
-            tests["temperature_C"].to_numpy(float), tests["frequency_Hz"].to_numpy(float),
-            "the tests in residuals.csv",
-        )  # fmt: skip
     origin = "as stated"
+    if not one and None in (temperatures, frequencies) and is_file(residuals):
+        tests = read_residuals([residuals])
+        tested = tests["temperature_C"].to_numpy(float), tests["frequency_Hz"].to_numpy(float)
+        if temperatures is None and frequencies is None:
+            return Band(*tested, "the tests in residuals.csv")
+        given = "temperatures" if temperatures else "frequencies"
+        origin = f"{given} as stated, the rest from residuals.csv"
+        temperatures = temperatures or tuple(np.unique(tested[0]).tolist())
+        frequencies = frequencies or tuple(np.unique(tested[1]).tolist())
     if frequencies is None and content["law"] == "kelvin_chain":
         ends = numbers_of(path, content, {"low": "lowest_Hz", "high": "highest_Hz"})
         frequencies, origin = (ends["low"], ends["high"]), "band of the chain"

@@ -30,6 +30,9 @@ HEADINGS = {
     "phase_before_deg": "phase of the Burgers laws [°]",
     "residual_E_before_percent": "ln(measured |E*| / Burgers laws) [%]",
     "residual_phase_before_deg": "measured phase - Burgers laws [°]",
+    "residual_E_percent": "ln(measured |E*| / named causes) [%]",
+    "residual_phase_deg": "measured phase - named causes [°]",
+    "z": "residual over its scatter [1]",
     "E_after_MPa": "|E*| with the named causes [MPa]",
     "phase_after_deg": "phase with the named causes [°]",
     "residual_E_after_percent": "ln(measured |E*| / named causes) [%]",
@@ -135,7 +138,10 @@ def _diagnosis(book: Workbook, content: dict[str, Any]) -> None:
     """Suspect tests and unexplained conditions, where the diagnosis has any, and its notes."""
     for key, title in (("suspect_tests", "Suspects"), ("unexplained", "Unexplained")):
         if content.get(key):
-            _fill(book, title, pd.json_normalize(content[key]).rename(columns=_heading))
+            frame = pd.json_normalize(content[key])
+            if "reasons" in frame:
+                frame["reasons"] = frame["reasons"].str.join("; ")
+            _fill(book, title, frame.rename(columns=_heading))
     if content.get("notes"):
         _fill(book, "Notes", pd.DataFrame({"note of the diagnosis": content["notes"]}))
 

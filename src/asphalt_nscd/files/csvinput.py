@@ -163,9 +163,10 @@ def read_csv(path: str | Path) -> Table:
     for line, fields in rows[1:]:
         if len(fields) != len(header):
             raise unreadable(
-                path, f"line {line}: {len(fields)} fields under {len(header)} column names",
+                path,
+                f"line {line}: {len(fields)} fields under {len(header)} column names",
                 "separate with commas and write decimals with a point",
-            )  # fmt: skip
+            )
     columns = {name: [fields[i] for _, fields in rows[1:]] for i, name in enumerate(header)}
     return Table(path, columns, [line for line, _ in rows[1:]])
 

@@ -40,8 +40,8 @@ def require_unchanged(arguments: Iterable[str]) -> None:
             if len(kept) == WHOLE and kept != _digest(path).encode():
                 raise DamagedFile(
                     path,
-                    "content is not what was written: damaged, or changed by hand (to have that taken, put it back "
-                    f"and delete {_beside(path).name})",
+                    "damaged, or edited after the workflow wrote it (to keep an edit, put the edited file back and "
+                    f"delete {_beside(path).name})",
                 )
 
 

@@ -20,6 +20,10 @@ class InputError(Exception):
     The message is one sentence that names the file, the row or key, and the mend. The command
     line prints it alone, without a traceback, and exits with status 2. What it quotes from a file
     may hold anything: it stays one line, and of a length to be read.
+
+    >>> raise InputError("mix.csv, line 3: E_MPa = -5;\\n give a modulus greater than zero.")
+    Traceback (most recent call last):
+    asphalt_nscd.files.errors.InputError: mix.csv, line 3: E_MPa = -5; give a modulus greater than zero.
     """
 
     def __init__(self, message: str) -> None:

@@ -76,7 +76,7 @@ def read_json(path: str | Path) -> Any:
     try:
         return json.loads(Path(path).read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as error:  # no JSON, no UTF-8, a number or nesting without end
-        raise unreadable(path, f"not valid JSON ({error})", "delete it and make it again") from None
+        raise unreadable(path, f"not valid JSON ({error})", "give a JSON file, or make it again") from None
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ def load(path: str | Path, kind: str) -> Record:
     except Exception as error:  # h5py raises nearly any exception on a damaged file
         if Path(path).suffix.lower() in _OF_OTHERS:
             raise InputError(
-                f"{path}: no HDF5; `asphalt-nscd import-packing` reads packings of that kind."
+                f"{path}: not an HDF5 file; `asphalt-nscd import-packing` makes one of a packing."
             ) from None
         raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None
     found, format_version = attributes.pop("kind", None), attributes.pop("format_version", None)

@@ -1,0 +1,1 @@
+"""Frictional contact problems in files; the solver is `nscd.contacts`."""

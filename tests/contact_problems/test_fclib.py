@@ -1,0 +1,154 @@
+"""FCLIB files: three storages, what is refused, and the command from files to lines and exit status."""
+
+from __future__ import annotations
+
+import h5py
+import numpy as np
+import pandas as pd
+import pytest
+from scipy import sparse
+
+from asphalt_nscd import cli
+from asphalt_nscd.contact_problems.fclib import read_problem
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.verification.assemblies import block_on_slope, box_stack
+
+
+def stored(W, storage):
+    """Datasets of a matrix as FCLIB writes it."""
+    W = sparse.csr_array(W)
+    if storage == "triplets":
+        coo = W.tocoo()
+        row, column = coo.coords
+        content = {"nz": coo.nnz, "i": row, "p": column, "x": coo.data}
+    else:
+        W = W.tocsc() if storage == "columns" else W
+        content = {"nz": -1 if storage == "columns" else -2, "i": W.indices, "p": W.indptr, "x": W.data}
+    return {"m": W.shape[0], "n": W.shape[1], "nzmax": W.nnz, **content}
+
+
+def write(path, W, q, mu, storage="rows", change=(), spacedim=3):
+    """`change` replaces datasets by name; None removes."""
+    content = {f"W/{name}": value for name, value in stored(W, storage).items()}
+    content |= {"spacedim": spacedim, "vectors/q": q, "vectors/mu": np.broadcast_to(mu, len(q) // 3)}
+    content |= dict(change)
+    with h5py.File(path, "w") as file:
+        file["fclib_local/info/title"] = "a test"
+        for name, value in content.items():
+            if value is not None:
+                whole = np.asarray(value).dtype.kind in "iu"
+                file[f"fclib_local/{name}"] = np.atleast_1d(np.asarray(value, np.int32 if whole else None))
+    return path
+
+
+@pytest.mark.parametrize("storage", ["rows", "columns", "triplets"])
+def test_storages(tmp_path, storage):
+    """An unsymmetric W shows whether rows are rows."""
+    W = np.arange(36.0).reshape(6, 6) * (np.arange(36).reshape(6, 6) % 3 > 0)
+    problem = read_problem(write(tmp_path / "p.hdf5", W, np.arange(6.0), [0.3, 0.4], storage))
+    np.testing.assert_array_equal(problem.W.toarray(), W)
+    np.testing.assert_array_equal(problem.q, np.arange(6.0))
+    np.testing.assert_array_equal(problem.mu, [0.3, 0.4])
+
+
+def test_more_room_than_entries(tmp_path):
+    """nzmax may exceed what the pointers use."""
+    W = np.eye(6)
+    room = {"W/x": np.ones(9), "W/i": np.r_[np.arange(6), [7, 8, 9]], "W/nzmax": 9}
+    problem = read_problem(write(tmp_path / "p.hdf5", W, np.zeros(6), 0.5, change=room))
+    np.testing.assert_array_equal(problem.W.toarray(), W)
+
+
+REFUSED = {
+    "two dimensions": ({"spacedim": 2}, "spacedim is 2"),
+    "no W": ({"W/x": None}, "no dataset fclib_local/W/x"),
+    "no q": ({"vectors/q": None}, "no dataset fclib_local/vectors/q"),
+    "q too short": ({"vectors/q": np.zeros(3)}, "do not belong together"),
+    "mu too long": ({"vectors/mu": np.zeros(3)}, "do not belong together"),
+    "negative friction": ({"vectors/mu": np.array([0.1, -0.1])}, "vectors/mu has negative values"),
+    "not finite": ({"vectors/q": np.full(6, np.nan)}, "vectors/q has values that are not finite"),
+    "text": ({"vectors/q": np.array([b"x"] * 6)}, "vectors/q does not hold numbers"),
+    "storage": ({"W/nz": -3}, r"unknown way \(nz = -3\)"),
+    "pointers": ({"W/p": np.array([0, 1, 2, 3, 4, 5, 99])}, "pointers W/p do not fit"),
+    "pointers backward": ({"W/p": np.array([0, 2, 1, 3, 4, 5, 6])}, "pointers W/p do not fit"),
+    "columns": ({"W/i": np.array([0, 1, 2, 3, 4, 6])}, "outside its rows and columns"),
+    "triplets missing": ({"W/nz": 8}, "announces 8 entries"),
+    "triplets outside": ({"W/nz": 6, "W/p": np.array([0, 1, 2, 3, 4, -1])}, "outside its rows and columns"),
+    "no rows": ({"W/m": 0}, "W has 0 rows"),
+    "two sizes": ({"W/m": np.array([6, 6])}, "W/m is not one number"),
+    "bilateral": ({"R/m": 3}, "bilateral constraints"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_refused(tmp_path, name):
+    change, sentence = REFUSED[name]
+    path = write(tmp_path / "p.hdf5", np.eye(6), np.zeros(6), 0.5, change=change)
+    with pytest.raises(InputError, match=rf"^{path}: .*{sentence}.*; give a local problem .*\.$"):
+        read_problem(path)
+
+
+def test_foreign_files(tmp_path):
+    with pytest.raises(InputError, match="no such file"):
+        read_problem(tmp_path / "absent.hdf5")
+    (tmp_path / "text.hdf5").write_text("m,n\n")
+    with pytest.raises(InputError, match="text.hdf5: damaged or not HDF5"):
+        read_problem(tmp_path / "text.hdf5")
+    whole = write(tmp_path / "p.hdf5", np.eye(6), np.zeros(6), 0.5).read_bytes()
+    (tmp_path / "cut.hdf5").write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(InputError, match="cut.hdf5: damaged or not HDF5"):
+        read_problem(tmp_path / "cut.hdf5")
+    with h5py.File(tmp_path / "global.hdf5", "w") as file:
+        file["fclib_global/M/m"] = [6]
+    with pytest.raises(InputError, match="a global problem"):
+        read_problem(tmp_path / "global.hdf5")
+    with h5py.File(tmp_path / "ours.hdf5", "w") as file:
+        file["velocity"] = np.zeros(6)
+    with pytest.raises(InputError, match="no dataset fclib_local/spacedim"):
+        read_problem(tmp_path / "ours.hdf5")
+
+
+def run(capsys, *arguments):
+    with pytest.raises(SystemExit) as end:
+        cli.main(["fclib", *map(str, arguments)])
+    return end.value.code, capsys.readouterr()
+
+
+def test_command(tmp_path, capsys):
+    """One line and one row for each file, in their order."""
+    stack, block = box_stack(4), block_on_slope(0.3)
+    files = [
+        write(tmp_path / "stack.hdf5", stack.W, stack.q, 0.5),
+        write(tmp_path / "block.hdf5", block.W, block.q, 0.5, "columns"),
+    ]
+    status, said = run(capsys, *files, "--tolerance", "1e-8", "--output", tmp_path / "table.csv")
+    assert status == 0
+    lines = said.out.splitlines()
+    assert [line.split(":")[0] for line in lines] == ["stack.hdf5", "block.hdf5"]
+    assert "36 contacts" in lines[0] and "4 contacts" in lines[1]
+    assert all(line.endswith("s, converged") for line in lines)
+    table = pd.read_csv(tmp_path / "table.csv")
+    assert table.columns.tolist() == [
+        "file", "contacts", "iterations", "error", "scaled_error", "seconds", "converged",
+    ]  # fmt: skip
+    assert table.converged.all() and (table[["error", "scaled_error"]].to_numpy() <= 1e-8).all()
+
+
+def test_command_says_what_is_not_solved(tmp_path, capsys):
+    """A contact of two fixed bodies driven together: status 1, and the others are solved all the same."""
+    block = block_on_slope(0.3)
+    files = [
+        write(tmp_path / "fixed.hdf5", np.zeros((3, 3)), np.array([-1.0, 0, 0]), 0.5, "triplets"),
+        write(tmp_path / "block.hdf5", block.W, block.q, 0.5),
+    ]
+    status, said = run(capsys, *files, "--output", tmp_path / "table.csv")
+    assert status == 1
+    assert [line.endswith("NOT converged") for line in said.out.splitlines()] == [True, False]
+    assert "not converged to 1e-08: fixed.hdf5" in said.err and "block" not in said.err
+    assert pd.read_csv(tmp_path / "table.csv").converged.tolist() == [False, True]
+
+
+def test_command_reads_all_before_it_solves(tmp_path, capsys):
+    good = write(tmp_path / "good.hdf5", np.eye(3), np.array([-1.0, 0, 0]), 0.5)
+    status, said = run(capsys, good, tmp_path / "absent.hdf5")
+    assert status == 2 and said.out == "" and "absent.hdf5: no such file" in said.err

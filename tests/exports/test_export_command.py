@@ -1,0 +1,115 @@
+"""What the command says, which law files it takes, and over which band."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from naive.prony import CAMPAIGN, SPECTRA
+
+from asphalt_nscd import cli
+from asphalt_nscd.exports.card import Settings
+from asphalt_nscd.exports.export import export_law
+from asphalt_nscd.exports.law import read_law_file
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import write_json
+from asphalt_nscd.rheology.spectrum_io import write_spectrum
+
+BURGERS_KEYS = ("Em_Pa", "eta_m_Pa_s", "Ek_Pa", "eta_k_Pa_s")
+
+
+def run(capsys, *arguments):
+    with pytest.raises(SystemExit) as left:
+        cli.main(["export", *map(str, arguments)])
+    told = capsys.readouterr()
+    return left.value.code, told.out + told.err
+
+
+def test_the_tested_band_is_that_of_the_diagnosis(folder):
+    read = read_law_file(folder / "law.json")
+    assert str(read.band) == "-10 to 54 degC, 0.1 to 25 Hz (the tests in residuals.csv)"
+    assert "as stated" in str(read_law_file(folder / "law.json", (0.0, 10.0), (1.0,)).band)
+    assert str(read_law_file(folder / "law.json", (0.0, 10.0)).band).startswith(
+        "0 to 10 degC, 0.1 to 25 Hz (temp"
+    )
+    assert read_law_file(folder).path == folder / "law.json"
+    with pytest.raises(InputError, match="a folder without law.json"):
+        read_law_file(folder.parent)
+
+
+def test_a_band_where_nothing_relaxes_is_refused(folder, capsys):
+    arguments = (
+        folder / "law.json",
+        "--format",
+        "csv",
+        "--temperatures-c",
+        500,
+        "--output",
+        folder / "none.csv",
+    )
+    code, told = run(capsys, *arguments)
+    assert code == 2 and "does not relax, so that a series would have no term" in told
+    assert not (folder / "none.csv").exists()
+
+
+def test_the_command_says_what_it_wrote(folder, capsys):
+    status, said = run(capsys, folder / "law.json", "--format", "abaqus", "--output", folder / "law.inp")
+    assert status == 0 and said.count("\n") == 1
+    assert "Prony terms at 21 degC" in said and "assumed, not measured" in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--format", "abaqus", "--output", "law.csv"], "a file of format abaqus ends in .inp"),
+        (
+            ["--format", "abaqus", "--output", "law.inp", "--poisson", "0.5"],
+            "greater than -1 and less than 0.5",
+        ),
+        (
+            ["--format", "ansys", "--output", "law.mac", "--poisson", "-1"],
+            "greater than -1 and less than 0.5",
+        ),
+        (["--format", "abaqus", "--output", "law.inp", "--name", "2nd"], "begin with a letter"),
+        (["--format", "csv", "--output", "law.csv", "--temperatures-c", "-300,0"], "greater than -273.15"),
+        (
+            ["--format", "csv", "--output", "law.csv", "--error-percent", "1e-9"],
+            "no Prony series of 60 terms",
+        ),
+    ],
+)
+def test_what_cannot_be_written_is_one_sentence(folder, capsys, monkeypatch, arguments, sentence):
+    monkeypatch.chdir(folder)
+    status, said = run(capsys, "law.json", *arguments)
+    assert status == 2 and sentence in said
+    assert not (folder / arguments[3]).exists()
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        ({"law": "maxwell"}, "holds law 'maxwell'; give a file with one of burgers"),
+        ([1], "no law file, for it has no key 'law'; give a file with one of burgers"),
+        ({"ladder": [], "verdict": "explained"}, "is a diagnosis; give the law.json beside it"),
+        ({"law": "burgers", **dict.fromkeys(BURGERS_KEYS, 1e9)}, "key 'temperature_C' is missing"),
+        ({"law": "2s2p1d"}, "key 'shift' is None"),
+    ],
+)  # fmt: skip
+def test_law_files_that_cannot_be_read_are_refused(tmp_path, content, sentence):
+    write_json(tmp_path / "law.json", content)
+    with pytest.raises(InputError, match=re.escape(sentence)):
+        read_law_file(tmp_path / "law.json")
+
+
+def test_parameters_that_the_tests_hardly_determine_are_named(tmp_path):
+    law = SPECTRA["FD"][0]
+    error = {"glassy_modulus": 20e9, "k": 0.01, "delta": 0.1}
+    write_spectrum(
+        tmp_path / "law.json", law, source="fitted", rms_log_residual=0.03, std_error=error, unseen=["beta"]
+    )
+    read = read_law_file(tmp_path / "law.json", *CAMPAIGN)
+    assert "hardly determine E_glassy_Pa, beta:" in read.loose()
+    for form, name in (("csv", "law.csv"), ("mepdg", "E.csv")):
+        export_law(read, Settings(), form, tmp_path / name)
+        joined = re.sub(r"\n#\s+", " ", (tmp_path / name).read_text())
+        assert read.loose() in joined

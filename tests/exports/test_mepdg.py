@@ -1,0 +1,77 @@
+"""The table of AASHTOWare, held against the law."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+from naive.prony import ROOT, SPECTRA
+
+from asphalt_nscd.exports.card import Settings
+from asphalt_nscd.exports.export import export_law
+from asphalt_nscd.exports.law import read_law_file
+from asphalt_nscd.exports.mepdg import FREQUENCIES, TEMPERATURES_F
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.laws_io import write_law
+from asphalt_nscd.rheology.published_laws import read_published
+from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum import TwoS2P1D
+from asphalt_nscd.rheology.spectrum_io import write_spectrum
+
+
+def test_the_table_of_aashtoware(spectrum, tmp_path):
+    read, law, _ = spectrum
+    line = export_law(read, Settings(), "mepdg", tmp_path / "E.csv")
+    text = (tmp_path / "E.csv").read_text()
+    table = pd.read_csv(tmp_path / "E.csv", comment="#", index_col="temperature_F")
+    assert table.index.tolist() == [14, 40, 70, 100, 130]
+    assert [float(re.search(r"at_(.*)_Hz", name)[1]) for name in table] == [0.1, 0.5, 1, 5, 10, 25]
+    celsius = (np.array(TEMPERATURES_F) - 32.0) / 1.8
+    wanted = np.abs(law.complex_modulus(2 * np.pi * np.array(FREQUENCIES), celsius[:, None])) / 6894.757
+    np.testing.assert_allclose(table.to_numpy(), wanted, rtol=1e-3)
+    joined = re.sub(r"\n#\s+", " ", text)
+    delta, alpha, beta, gamma = (
+        float(re.search(rf"{name} = ([-\d.e]+?)[,;]", joined)[1])
+        for name in ("delta", "alpha", "beta", "gamma")
+    )
+    shifts = dict(re.findall(r"(\d+) degF (-?\d+\.\d{5})", joined))
+    error = float(re.search(r"largest error (\S+) %", joined)[1])
+    for temperature, row in zip(TEMPERATURES_F, wanted):
+        log_time = -np.log10(FREQUENCIES) - float(shifts[f"{temperature:g}"])
+        fit = 10.0 ** (delta + alpha / (1.0 + np.exp(beta + gamma * log_time)))
+        assert 100.0 * np.abs(fit / row - 1.0).max() <= 1.05 * error + 0.02
+    assert float(shifts["14"]) > 0 > float(shifts["130"])
+    assert f"sigmoid within {error:.2g} %" in line
+
+
+def test_what_aashtoware_would_take_beyond_the_tests_is_named(tmp_path):
+    law = SPECTRA["FD"][0]
+    write_spectrum(tmp_path / "law.json", law, source="fitted", rms_log_residual=0.03)
+    read = read_law_file(tmp_path / "law.json", (4.0, 21.0, 37.0), (1.0, 10.0))
+    line = export_law(read, Settings(), "mepdg", tmp_path / "E.csv")
+    joined = re.sub(r"\n#\s+", " ", (tmp_path / "E.csv").read_text())
+    beyond = dict(re.findall(r"([\d.]+ degF [\d.]+ Hz) \((f?T?)\)", joined))
+    assert beyond["130 degF 0.1 Hz"] == "fT" and beyond["14 degF 25 Hz"] == "fT"
+    assert "70 degF 10 Hz" not in beyond and "70 degF 1 Hz" not in beyond
+    assert f"{len(beyond)} of them extrapolated" in line
+
+
+def test_where_the_shift_is_not_defined_the_table_is_empty(tmp_path):
+    law = TwoS2P1D(130e6, 35e9, 0.18, 0.49, 2.5, 0.04, 2000.0, WLF(12.0, 30.0, 21.0))
+    write_spectrum(tmp_path / "law.json", law, source="fitted", rms_log_residual=0.03)
+    read = read_law_file(tmp_path / "law.json", (10.0, 21.0, 37.0), (1.0, 10.0))
+    export_law(read, Settings(), "mepdg", tmp_path / "E.csv")
+    table = pd.read_csv(tmp_path / "E.csv", comment="#", index_col="temperature_F")
+    assert table.loc[14].isna().all() and table.loc[[40, 70, 100, 130]].notna().all(axis=None)
+    assert "not defined so cold" in (tmp_path / "E.csv").read_text()
+
+
+def test_one_temperature_is_not_enough_for_aashtoware_nor_takes_others(tmp_path):
+    temperatures, laws = read_published(ROOT / "data/paper/table3_burgers.csv")
+    write_law(tmp_path / "law.json", laws[0], source="published", temperature=temperatures[0])
+    with pytest.raises(InputError, match="this table has five"):
+        export_law(read_law_file(tmp_path / "law.json"), Settings(), "mepdg", tmp_path / "E.csv")
+    with pytest.raises(InputError, match="leave out --temperatures-c"):
+        read_law_file(tmp_path / "law.json", (0.0, 10.0))

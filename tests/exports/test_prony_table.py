@@ -1,0 +1,36 @@
+"""The table of a Prony series, held against the law."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from naive.prony import ROOT, assert_within
+
+from asphalt_nscd.exports.card import Settings
+from asphalt_nscd.exports.export import export_law
+from asphalt_nscd.exports.law import read_law_file
+from asphalt_nscd.rheology.laws_io import write_law
+from asphalt_nscd.rheology.published_laws import read_published
+
+
+def test_the_csv_comes_back(spectrum, tmp_path):
+    read, law, (temperature, frequency) = spectrum
+    export_law(read, Settings(), "csv", tmp_path / "law.csv")
+    table = pd.read_csv(tmp_path / "law.csv", comment="#")
+    assert np.isinf(table["relaxation_time_s"][0]) and table["share_of_instantaneous"].sum() == pytest.approx(
+        1
+    )
+    omega = 2 * np.pi * frequency * law.shift.factor(temperature)
+    turned = 1j * omega[:, None] * table["relaxation_time_s"].to_numpy()[1:]
+    moduli = table["modulus_Pa"].to_numpy()
+    found = moduli[0] + (moduli[1:] * turned / (1 + turned)).sum(axis=1)
+    wanted = law.complex_modulus(2 * np.pi * frequency, temperature)
+    assert_within(found, wanted, (tmp_path / "law.csv").read_text(), Settings().allowed)
+
+
+def test_a_burgers_law_as_csv_flows(tmp_path):
+    temperatures, laws = read_published(ROOT / "data/paper/table3_burgers.csv")
+    write_law(tmp_path / "law.json", laws[0], source="published", temperature=temperatures[0])
+    export_law(read_law_file(tmp_path / "law.json"), Settings(), "csv", tmp_path / "law.csv")
+    assert pd.read_csv(tmp_path / "law.csv", comment="#")["modulus_Pa"][0] == 0.0

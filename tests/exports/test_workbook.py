@@ -1,0 +1,62 @@
+"""The workbook, held against the law and the diagnosis."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import openpyxl
+import pandas as pd
+import pytest
+from naive.prony import SPECTRA, assert_within
+
+from asphalt_nscd.exports.card import UNITS, Settings
+from asphalt_nscd.exports.export import export_law
+from asphalt_nscd.exports.law import read_law_file
+from asphalt_nscd.files.store import write_json
+
+
+def test_the_workbook_comes_back(folder):
+    law = SPECTRA["FD"][0]
+    export_law(
+        read_law_file(folder / "law.json"), Settings(units=UNITS["mm-N-MPa"]), "xlsx", folder / "law.xlsx"
+    )
+    sheets = pd.read_excel(folder / "law.xlsx", sheet_name=None)
+    assert list(sheets) == [
+        "Read me", "Law", "Shift factors", "Master curve", "Prony series", "Measured", "Residuals",
+    ]  # fmt: skip
+    for name in list(sheets)[2:]:
+        for heading in sheets[name].columns:
+            assert re.search(r"\[.+\]$", heading) or heading.startswith(("specimen", "branch", "tested")), (
+                heading
+            )
+    curve = sheets["Master curve"]
+    frequency = curve["frequency at 21 °C [Hz]"].to_numpy()
+    wanted = law.complex_modulus(2 * np.pi * frequency, 21.0)
+    np.testing.assert_allclose(curve["|E*| of the law [MPa]"] * 1e6, np.abs(wanted), rtol=1e-9)
+    prony = sheets["Prony series"]
+    turned = 2j * np.pi * frequency[:, None] * prony["relaxation time [s]"].to_numpy()[1:]
+    moduli = 1e6 * prony["modulus [MPa]"].to_numpy()
+    found = moduli[0] + (moduli[1:] * turned / (1 + turned)).sum(axis=1)
+    assert_within(found, wanted, "\n".join(sheets["Read me"].iloc[:, 0]), Settings().allowed)
+    np.testing.assert_allclose(curve["phase of the Prony series [°]"], np.degrees(np.angle(found)), rtol=1e-6)
+    measured = sheets["Measured"]
+    np.testing.assert_allclose(measured["ln(measured |E*| / law) [%]"], 100 * np.log(1.02), rtol=1e-6)
+    np.testing.assert_allclose(measured["measured phase - law [°]"], 0.3, rtol=1e-6)
+    shift = sheets["Shift factors"].set_index("temperature [°C]")["log10 a_T [decades]"]
+    assert shift[21.0] == 0.0 and shift[-10.0] == pytest.approx(np.log10(law.shift.factor(-10.0)))
+
+
+def test_suspect_tests_and_notes_of_a_diagnosis_stand_in_the_workbook(folder, monkeypatch):
+    content = {
+        "suspect_tests": [{"specimen": "=1+1", "temperature_C": 37.0, "frequency_Hz": 25.0, "z": 6.1}],
+        "unexplained": [], "notes": ["Look at the clamp."],
+    }  # fmt: skip
+    write_json(folder / "diagnosis.json", content)
+    monkeypatch.setattr("asphalt_nscd.exports.workbook.read_diagnosis", lambda paths: content)
+    export_law(read_law_file(folder / "law.json"), Settings(), "xlsx", folder / "law.xlsx")
+    book = openpyxl.load_workbook(folder / "law.xlsx")
+    assert [cell.value for cell in book["Suspects"][2]] == ["=1+1", 37, 25, 6.1]
+    assert book["Suspects"]["A2"].data_type == "s"  # no formula
+    assert book["Notes"]["A2"].value == "Look at the clamp."
+    assert "Unexplained" not in book.sheetnames
