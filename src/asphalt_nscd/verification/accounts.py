@@ -28,9 +28,14 @@ ACCOUNT = "dt F z' = stores + dissipation, see nscd.energy"
 
 
 def account(
-    system: BondedSystem, amplitude: float, method: str, name: str, devices: HeadDevices = RIGID,
-    cycles: float = 1.0, law: BondLaw = QUICK_LAW,
-) -> tuple[Energies, float]:  # fmt: skip
+    system: BondedSystem,
+    amplitude: float,
+    method: str,
+    name: str,
+    devices: HeadDevices = RIGID,
+    cycles: float = 1.0,
+    law: BondLaw = QUICK_LAW,
+) -> tuple[Energies, float]:
     """(energies at the end, largest error of the account in any step over the work at the end)."""
     scheme = Scheme.named(name, OMEGA * DT)
     stepper: Stepper

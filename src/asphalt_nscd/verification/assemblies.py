@@ -76,8 +76,9 @@ def box_stack(
     spots = np.stack(np.meshgrid(*[np.linspace(-0.45, 0.45, across)] * 2), axis=-1).reshape(-1, 2)
     contacts = [
         (k, k - 1, np.array([x * size[0], y * size[1], k * size[2]]), [0.0, 0.0, 1.0])
-        for k in range(height) for x, y in spots
-    ]  # fmt: skip
+        for k in range(height)
+        for x, y in spots
+    ]
     centre = [np.array([0.0, 0.0, (k + 0.5) * size[2]]) for k in range(height)]
     return Assembly([mass] * height, [inertia] * height, centre, contacts, falling(height, kick))
 

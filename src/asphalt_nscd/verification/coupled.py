@@ -8,13 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
+from asphalt_nscd.contact_problems import fclib
 from asphalt_nscd.nscd import solve_contacts
 from asphalt_nscd.nscd.bonds.system import opening_operator
 from asphalt_nscd.nscd.contacts.interior import interior_path
 from asphalt_nscd.nscd.contacts.newton import refine
 from asphalt_nscd.nscd.contacts.problem import ContactProblem
 from asphalt_nscd.nscd.contacts.proximal import softened
-from asphalt_nscd.verification import assemblies, fclib
+from asphalt_nscd.verification import assemblies
 from asphalt_nscd.verification.contacts import UPRIGHT, G
 from asphalt_nscd.verification.row import Checks, Row
 

@@ -1,6 +1,7 @@
 """Equal bits: across two runs, with one thread allowed and two, and from a checkpoint.
 
-Every step of the command line is one thread, whatever is allowed: BLAS on two sums in another order.
+Every step of the command line is one thread, whatever is allowed: BLAS on two sums in another order. Only pouring
+takes more where it is told to; see spheres.py.
 """
 
 from __future__ import annotations
@@ -21,9 +22,12 @@ from asphalt_nscd.bending.checkpoint import Checkpoint
 from asphalt_nscd.bending.model import Model
 from asphalt_nscd.nscd.stepping.break_modes import StandBy
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
+from asphalt_nscd.specimen.granulate import PouringNumerics
+from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.verification.methods import beam
 from asphalt_nscd.verification.row import Checks, Row
 from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam
+from asphalt_nscd.verification.spheres import advanced, balls
 
 checks = Checks()
 
@@ -34,11 +38,8 @@ def digest() -> str:
     """Of the states of a pile in motion, of a condensed run with breaking bonds, a reduced one, and contacts."""
     from asphalt_nscd.nscd import solve_contacts
     from asphalt_nscd.nscd.stepping.scheme import VARIABLES
-    from asphalt_nscd.specimen.granulate import PouringNumerics
-    from asphalt_nscd.specimen.lattice import random_lattice
     from asphalt_nscd.verification.assemblies import box_stack
     from asphalt_nscd.verification.methods import march
-    from asphalt_nscd.verification.spheres import advanced, balls
 
     box = (0.017, 0.016, 0.05)
     position, radius = random_lattice(

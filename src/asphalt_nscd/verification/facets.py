@@ -70,13 +70,28 @@ def patch() -> list[Row]:
     traction = np.einsum("bk,bka->ba", force.reshape(-1, 3)[within], network.frame[within])
     error = traction - network.area[within, None] * network.frame[within, 0] @ STRAIN
     return [
-        Row("uniform strain, largest force on a sphere", 0.0, np.abs(load[:, :3]).max() / scale, 10 * LEFT_OUT, source),
         Row(
-            "uniform strain, largest torque on a sphere (mm)", 0.0, 1e3 * np.abs(load[:, 3:]).max() / scale,
-            10 * LEFT_OUT, source,
+            "uniform strain, largest force on a sphere",
+            0.0,
+            np.abs(load[:, :3]).max() / scale,
+            10 * LEFT_OUT,
+            source,
         ),
-        Row("uniform strain, traction of a facet", 0.0, np.abs(error).max() / scale, 1e-12, "sigma n = E strain n"),
-    ]  # fmt: skip
+        Row(
+            "uniform strain, largest torque on a sphere (mm)",
+            0.0,
+            1e3 * np.abs(load[:, 3:]).max() / scale,
+            10 * LEFT_OUT,
+            source,
+        ),
+        Row(
+            "uniform strain, traction of a facet",
+            0.0,
+            np.abs(error).max() / scale,
+            1e-12,
+            "sigma n = E strain n",
+        ),
+    ]
 
 
 @checks

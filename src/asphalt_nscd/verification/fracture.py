@@ -147,23 +147,39 @@ def reduced_against_full() -> list[Row]:
 def energy() -> list[Row]:
     rows = []
     for method, name, most in (
-        ("full", "euler", 30), ("reduced", "euler", NO_LIMIT), ("full", "fitted", 30), ("reduced", "fitted", 30),
-    ):  # fmt: skip
+        ("full", "euler", 30),
+        ("reduced", "euler", NO_LIMIT),
+        ("full", "fitted", 30),
+        ("reduced", "fitted", 30),
+    ):
         run = fractured(method, name, most)
         assert run.energies is not None
         rows.append(
             Row(
-                f"energy account of the fracture, {method}, {name}", 0.0, run.error / run.energies.actuator,
-                CLOSES, "dt F z' = stores + dissipation, see nscd.energy",
+                f"energy account of the fracture, {method}, {name}",
+                0.0,
+                run.error / run.energies.actuator,
+                CLOSES,
+                "dt F z' = stores + dissipation, see nscd.energy",
             )
-        )  # fmt: skip
+        )
     run = fractured("full", "euler")
     assert run.energies is not None
     sums, work = run.energies, run.energies.actuator
     return [
         *rows,
-        Row("energy released by fracture over the work", run.fracture / work, sums.fracture / work, 1e-9,
-            "stores of each bond before it broke"),
-        Row("numerical dissipation over the work", run.numerical / work, sums.numerical / work, 1e-9,
-            "half the squares of the changes in each step"),
-    ]  # fmt: skip
+        Row(
+            "energy released by fracture over the work",
+            run.fracture / work,
+            sums.fracture / work,
+            1e-9,
+            "stores of each bond before it broke",
+        ),
+        Row(
+            "numerical dissipation over the work",
+            run.numerical / work,
+            sums.numerical / work,
+            1e-9,
+            "half the squares of the changes in each step",
+        ),
+    ]

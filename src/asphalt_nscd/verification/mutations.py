@@ -11,6 +11,7 @@ import tempfile
 from functools import cache, partial
 from pathlib import Path
 
+from asphalt_nscd.files.words import counted
 from asphalt_nscd.verification.row import Checks, Row
 from asphalt_nscd.workflow_support.sources import PACKAGE
 
@@ -35,12 +36,12 @@ MUTANTS = [
     ("stress of the reduced model", "methods", "nscd/stepping/reduced_kernel.py", "(explicit[a] - new_v[a])", "(explicit[a] + new_v[a])"),
     ("opening in a sweep over bonds", "methods", "nscd/bonds/gauss_seidel.py", "mx -= motion[j, 0]", "mx += motion[j, 0]"),
     ("extrapolation of the two-step scheme", "methods", "nscd/stepping/scheme.py", "v + share * (v - earlier", "v - share * (v - earlier"),
-    ("dissipation of the dashpots", "accounts", "nscd/stepping/energy.py", "sums.dashpots += dt * strain", "sums.dashpots -= dt * strain"),
+    ("dissipation of the dashpots", "accounts", "nscd/stepping/energy.py", "sums.dashpots += dt * of.strain", "sums.dashpots -= dt * of.strain"),
     ("slip in the natural map", "coupled", "nscd/contacts/gauss_seidel.py", "shifted = u0 + friction", "shifted = u0 - friction"),
     ("other contacts in a sweep", "coupled", "nscd/contacts/gauss_seidel.py", "u0 += w[0, 0] * n + w[0, 1] * t + w[0, 2] * s\n                u1", "u0 += w[0, 0] * n - w[0, 1] * t + w[0, 2] * s\n                u1"),
-    ("normal reaction of a sticking contact", "coupled", "nscd/contacts/gauss_seidel.py", "n = stopping - b1 * x", "n = stopping + b1 * x"),
+    ("normal reaction of a sticking contact", "coupled", "nscd/contacts/coulomb.py", "n = stopping - b1 * x", "n = stopping + b1 * x"),
     ("slip in Newton's method", "coupled", "nscd/contacts/newton.py", "z[:, 0] -= rho", "z[:, 0] += rho"),
-    ("derivative of the projection", "coupled", "nscd/contacts/newton.py", "np.eye(2) - direction", "np.eye(2) + direction"),
+    ("derivative of the projection", "coupled", "nscd/contacts/coulomb.py", "np.eye(2) - direction", "np.eye(2) + direction"),
     ("slip on the interior path", "coupled", "nscd/contacts/interior.py", "residual[:, 0] += slip", "residual[:, 0] -= slip"),
     ("derivative of the slip on it", "coupled", "nscd/contacts/interior.py", "keep[:, 0, 1:] -= share", "keep[:, 0, 1:] += share"),
     ("velocity of a proximal point", "coupled", "nscd/contacts/proximal.py", "problem.free_velocity - each * r", "problem.free_velocity + each * r"),
@@ -48,6 +49,7 @@ MUTANTS = [
     ("gravity of a sphere", "spheres", "nscd/spheres/granular.py", "+= dt * gravity[k]", "-= dt * gravity[k]"),
     ("moment of a contact on a sphere", "spheres", "nscd/spheres/gauss_seidel.py", "motion[j, 4] -= uj * tx", "motion[j, 4] += uj * tx"),
     ("spin in the slip of two spheres", "spheres", "nscd/spheres/gauss_seidel.py", "(vx - (sy * nz - sz * ny))", "(vx + (sy * nz - sz * ny))"),
+    ("width of the slabs that threads share out", "spheres", "nscd/spheres/slabs.py", "width = apart *", "width = 0.3 * apart *"),
     ("restitution of an impact", "spheres", "nscd/spheres/granular.py", "= -restitution * opening", "= restitution * opening"),
 ]  # fmt: skip
 
@@ -68,7 +70,7 @@ def mutate(what: str, theme: str, file: str, right: str, wrong: str) -> Row:
         red, seen = 1, f"{theme} does not end"
     else:
         red = len(failed - (red_rows_before(theme) or set()))
-        seen = f"{red} rows of {theme} fail"
+        seen = f"{counted(red, 'row')} of {theme} {'fails' if red == 1 else 'fail'}"
     return Row(f"noticed: {what}", 1.0, float(min(red, 1)), 0.0, f"{right} -> {wrong} in {file}: {seen}")
 
 

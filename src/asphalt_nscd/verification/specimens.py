@@ -22,9 +22,13 @@ def elastic(modulus: float) -> BondLaw:
 
 
 def jittered_beam(
-    seed: int = 1, shape: tuple[int, ...] = (3, 2, 9), spacing: float = 4e-3, fill: float = 0.42,
-    reach: float = 2e-3, area: str = "paper",
-) -> Specimen:  # fmt: skip
+    seed: int = 1,
+    shape: tuple[int, ...] = (3, 2, 9),
+    spacing: float = 4e-3,
+    fill: float = 0.42,
+    reach: float = 2e-3,
+    area: str = "paper",
+) -> Specimen:
     """A prismatic beam of spheres on a cubic lattice, each moved within its cell; bonds as in `trim`.
 
     fill: largest radius over `spacing` [m]; a sphere stays inside its cell, so that none overlap.
@@ -46,16 +50,26 @@ def jittered_beam(
 
 
 def system_of(
-    operator: np.ndarray, weight: np.ndarray | float, mass: np.ndarray | float, driven: int,
-    load: np.ndarray | float = 0.0, gap: float = 1.0, friction: float = 0.0,
-) -> BondedSystem:  # fmt: skip
+    operator: np.ndarray,
+    weight: np.ndarray | float,
+    mass: np.ndarray | float,
+    driven: int,
+    load: np.ndarray | float = 0.0,
+    gap: float = 1.0,
+    friction: float = 0.0,
+) -> BondedSystem:
     """A system from dense arrays; bonds do not break."""
     bonds, d = operator.shape[0] // 3, operator.shape[1]
     return BondedSystem(
-        operator=sparse.csr_matrix(operator), weight=np.broadcast_to(weight, 3 * bonds).astype(float),
-        mass=np.broadcast_to(mass, d).astype(float), load=np.broadcast_to(load, d).astype(float), driven=driven,
-        gap=np.full(bonds, gap), strength=np.full(bonds, np.inf), friction=friction,
-    )  # fmt: skip
+        operator=sparse.csr_matrix(operator),
+        weight=np.broadcast_to(weight, 3 * bonds).astype(float),
+        mass=np.broadcast_to(mass, d).astype(float),
+        load=np.broadcast_to(load, d).astype(float),
+        driven=driven,
+        gap=np.full(bonds, gap),
+        strength=np.full(bonds, np.inf),
+        friction=friction,
+    )
 
 
 def chain(bodies: int, weight: float, mass: float, load: float = 0.0) -> BondedSystem:

@@ -1,10 +1,11 @@
-"""Rigid spheres with contact and friction against textbook motions and conservation laws."""
+"""Rigid spheres with contact and friction against textbook motions, conservation laws, and other numbers of threads."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.verification.row import Checks, Row, order
@@ -16,9 +17,13 @@ TIGHT = PouringNumerics(time_step=1e-4, tolerance=1e-14, most_sweeps=5000, recov
 
 
 def balls(
-    position: ArrayLike, radius: ArrayLike = R, friction: float = 0.5, restitution: float = 0.0,
-    gravity: ArrayLike = (0.0, 0.0, -G), box: tuple[float, float, float] = (1.0, 1.0, 1.0),
-) -> Granulate:  # fmt: skip
+    position: ArrayLike,
+    radius: ArrayLike = R,
+    friction: float = 0.5,
+    restitution: float = 0.0,
+    gravity: ArrayLike = (0.0, 0.0, -G),
+    box: tuple[float, float, float] = (1.0, 1.0, 1.0),
+) -> Granulate:
     """Spheres of 2600 kg/m3 at rest in a box of walls."""
     position = np.atleast_2d(np.asarray(position, float))
     radius = np.broadcast_to(radius, len(position)).astype(float)
@@ -244,4 +249,32 @@ def cloud() -> list[Row]:
             1e-4,
             "Signorini",
         ),
+    ]
+
+
+def thrown(members: int) -> bytes:
+    """Positions, velocities and impulses of spheres under a driven plate, in twelve slabs or more, at every step."""
+    box = (0.09, 0.014, 0.03)
+    position, radius = random_lattice(
+        np.array([2e-3, 4e-3]), np.array([500, 40]), box, np.random.default_rng(3)
+    )
+    numerics, told = PouringNumerics.of(radius, 4e-4), []
+    with Team(members) as team:
+        pile = balls(position, radius, 0.2, box=box)
+        pile.team = team
+        pile.hang_wall(pile.top() + 1e-3, 0.01 * pile.weight() / G)
+        pile.drive[:] = -0.3, 3.0 * pile.weight() * numerics.time_step
+        for _ in range(120):
+            pile.advance(numerics)
+            told += [pile.position.tobytes(), pile.velocity.tobytes(), pile.impulse.tobytes()]
+    return b"".join(told)
+
+
+@checks
+def threads() -> list[Row]:
+    one, source = thrown(1), "positions, velocities and impulses of every step"
+    differs = {members: float(thrown(members) != one) for members in (2, 3)}
+    return [
+        Row(f"pouring on one thread and on {members}, results that differ", 0.0, found, 0.0, source)
+        for members, found in differs.items()
     ]

@@ -12,8 +12,17 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.verification.row import FAILED, PASSED, Row
 
 THEMES = (
-    "spheres", "contacts", "coupled", "law", "beams", "facets", "methods", "accounts", "fracture", "determinism",
-)  # fmt: skip
+    "spheres",
+    "contacts",
+    "coupled",
+    "law",
+    "beams",
+    "facets",
+    "methods",
+    "accounts",
+    "fracture",
+    "determinism",
+)
 MUTATIONS = "mutations"  # a theme too, but one that takes many times as long
 COLUMNS = ["theme", "name", "expected", "found", "error", "tolerance", "verdict", "source"]
 
@@ -49,7 +58,7 @@ def summarised(rows: pd.DataFrame) -> pd.DataFrame:
     groups = counted.groupby("theme", sort=False)
     return groups.agg(
         rows=("passed", "size"), passed=("passed", "sum"), largest_error_over_tolerance=("share", "max")
-    ).reset_index()  # fmt: skip
+    ).reset_index()
 
 
 def require_passed(paths: Iterable[str | Path]) -> None:
