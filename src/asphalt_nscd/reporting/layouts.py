@@ -95,22 +95,50 @@ def _errors(quantity: str, kinds: Mapping[str, str], sentence: str, scatter: str
 
 
 _TABLE4 = {"published": "published", "simulated": "simulated", "law": "law of the bonds"}
+_CRITERIA = {
+    "what": "what",
+    "target": "target",
+    "percent": "%",
+    "interval_percent": "interval",
+    "of": "of",
+    "met": "met",
+}
 BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
     "ladder": [
         Rungs("E", sentence="Modulus |E\\*|, mean relative error in percent:"),
         Rungs("phase", sentence="Phase angle, mean relative error in percent:"),
     ],
+    "wild": [
+        Layout(
+            {
+                "what": "what",
+                "n": "tables",
+                "hits": "ended so",
+                "median": "median",
+                "most_95_percent": "95 of 100 below",
+                "largest": "largest",
+            },
+            figures=3,
+        )
+    ],
     "samples": [
         Layout(
             {
-                "sample": "sample", "spheres": "spheres", "bonds": "bonds", "solid_fraction": "solid fraction",
-                "tests": "tests", "tests_with_broken_bonds": "tests that broke a bond",
+                "sample": "sample",
+                "spheres": "spheres",
+                "bonds": "bonds",
+                "solid_fraction": "solid fraction",
+                "tests": "tests",
+                "tests_with_broken_bonds": "tests that broke a bond",
             }
         ),
         Layout(
             {
-                "sample": "sample", "E_over_law": "E over law", "E_over_law_lowest": "lowest",
-                "E_over_law_highest": "highest", "largest_phase_difference_deg": "largest phase difference, deg",
+                "sample": "sample",
+                "E_over_law": "E over law",
+                "E_over_law_lowest": "lowest",
+                "E_over_law_highest": "highest",
+                "largest_phase_difference_deg": "largest phase difference, deg",
             }
         ),
     ],
@@ -128,51 +156,101 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
     ],
     "blind": [
         Layout(
-            {
-                "what": "what", "target": "target", "percent": "%", "interval_percent": "interval", "of": "of",
-                "met": "met",
-            },
+            _CRITERIA,
             shorter={
-                "the same of averages over specimens, which hide what one of them does":
-                    "the same of averages over specimens",
-                "outside the catalogue: confident wrong name, at 3 times the limit":
-                    "outside the catalogue: wrong name, at 3 times the limit",
-
-                "causes whose removal leaves their effects unexplained (80 %), not misnamed (10 %)":
-                    "removed causes whose effects stay unexplained, not misnamed",
+                "the same of averages over specimens, which hide what one of them does": (
+                    "the same of averages over specimens"
+                ),
+                "outside the catalogue: confident wrong name, at 3 times the limit": (
+                    "outside the catalogue: wrong name, at 3 times the limit"
+                ),
+                "causes whose removal leaves their effects unexplained (80 %), not misnamed (10 %)": (
+                    "removed causes whose effects stay unexplained, not misnamed"
+                ),
             },
         )
     ],
+    "blind_real": [Layout(_CRITERIA)],
     "mapping": [
         Layout(
             {
-                "mapping": "bonds", "kt_over_kn": "kt / kn", "spheres": "spheres", "packings": "packings",
-                "least E / law": "least", "mean": "mean", "largest": "largest", "in tension": "in tension",
+                "mapping": "bonds",
+                "kt_over_kn": "kt / kn",
+                "spheres": "spheres",
+                "packings": "packings",
+                "least E / law": "least",
+                "mean": "mean",
+                "largest": "largest",
+                "in tension": "in tension",
                 "Poisson's ratio": "ν",
             }
         )
     ],
+    "outside": [
+        Layout(
+            {
+                "poured_by": "poured by",
+                "seed": "seed",
+                "bonds": "bonds",
+                "solid_fraction": "solid fraction",
+                "coordination": "contacts",
+                "E_GPa": "modulus, GPa",
+                "E_over_law": "over law",
+                "phase_deg": "phase, °",
+            }
+        ),
+        Notes(["poured_by", "bonds"], "remark"),
+    ],
     "benchmark": [
         Layout(
             {
-                "topic": "topic", "case": "case", "spheres": "spheres", "time_step_s": "time step, s",
-                "cpu_s": "CPU time, s", "memory_MB": "memory, MB",
+                "topic": "topic",
+                "case": "case",
+                "spheres": "spheres",
+                "time_step_s": "time step, s",
+                "cpu_s": "CPU time, s",
+                "memory_MB": "memory, MB",
             }
         ),
         Notes(["topic", "case"], "remark"),
     ],
+    "families": [
+        Layout(
+            {
+                "data": "data",
+                "mre_E_burgers_percent": "modulus, Burgers",
+                "mre_E_law_percent": "one law",
+                "mre_E_held_out_percent": "left out",
+                "mre_phase_burgers_percent": "phase, Burgers",
+                "mre_phase_law_percent": "one law ",
+                "mre_phase_held_out_percent": "left out ",
+            },
+            figures=3,
+        )
+    ],
+    "diagnosis_times": [
+        Layout(
+            {"case": "table", "cpu_s": "CPU time, s", "memory_MB": "memory, MB", "remark": "remark"},
+        )
+    ],
     "growth": [
         Layout(
             {
-                "stage": "stage", "from": "from", "to": "to", "exponent_of_time": "exponent of time",
-                "last_exponent_of_time": "last", "cpu_s_of_largest": "CPU time of largest, s",
+                "stage": "stage",
+                "from": "from",
+                "to": "to",
+                "exponent_of_time": "exponent of time",
+                "last_exponent_of_time": "last",
+                "cpu_s_of_largest": "CPU time of largest, s",
             }
         ),
         Layout(
             {
-                "stage": "stage", "exponent_of_memory": "exponent of memory", "last_exponent_of_memory": "last",
+                "stage": "stage",
+                "exponent_of_memory": "exponent of memory",
+                "last_exponent_of_memory": "last",
                 "memory_MB_of_largest": "memory of largest, MB",
             }
         ),
     ],
-}  # fmt: skip
+}

@@ -28,9 +28,12 @@ def by_rule(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataFram
         raise InputError(f"{folder}: no benchmark files; run the workflow first.")
     jobs = pd.DataFrame(rows, columns=["rule", "s", "cpu", "memory"]).groupby("rule", as_index=False)
     table = jobs.agg(
-        jobs=("s", "size"), wall_s=("s", "sum"), cpu_s=("cpu", "sum"),
-        longest_s=("s", "max"), memory_MB=("memory", "max"),
-    )  # fmt: skip
+        jobs=("s", "size"),
+        wall_s=("s", "sum"),
+        cpu_s=("cpu", "sum"),
+        longest_s=("s", "max"),
+        memory_MB=("memory", "max"),
+    )
     table["share_percent"] = 100.0 * table["wall_s"] / table["wall_s"].sum()
     return table.sort_values("wall_s", ascending=False, ignore_index=True)
 
@@ -66,7 +69,11 @@ def as_markdown(table: pd.DataFrame, elapsed_s: float) -> str:
 
 def _line(name: str, rules: pd.DataFrame) -> str:
     values = [
-        rules["jobs"].sum(), rules["wall_s"].sum(), rules["cpu_s"].sum(), rules["longest_s"].max(),
-        rules["memory_MB"].max(), rules["share_percent"].sum(),
-    ]  # fmt: skip
+        rules["jobs"].sum(),
+        rules["wall_s"].sum(),
+        rules["cpu_s"].sum(),
+        rules["longest_s"].max(),
+        rules["memory_MB"].max(),
+        rules["share_percent"].sum(),
+    ]
     return f"| {name} | " + " | ".join("" if pd.isna(value) else f"{value:.0f}" for value in values) + " |"

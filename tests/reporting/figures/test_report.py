@@ -40,7 +40,7 @@ def test_first_page_says_what_was_done_and_found(page):
     assert said["simulated"][0].startswith("2 samples of 90 to 110 bonded spheres")
     assert said["simulated"][0].endswith("at 6 conditions: 12 tests.")
     assert "|E*| times 1.1 to 1.2" in said["simulated"][1]
-    assert "do not stand for the mix" in said["simulated"][2]
+    assert "simulated |E*| is not" in said["simulated"][2]
     assert "(Table 4) of |E*| by 11.1 %, most at 20 °C, and of the phase by 5 %" in said["wrong"][0]
     assert "laws in their bonds miss 2.1 % and 4.9 % themselves" in said["wrong"][1]
     assert "with a relaxation spectrum and a loose clamp of specimen 2" in said["found"]["simulation"]
@@ -52,6 +52,16 @@ def test_first_page_says_what_was_done_and_found(page):
     assert said["held_out"] is None, "two temperatures have none between them"
 
 
+def test_packings_of_another_program_are_named(page, results, tmp_path):
+    table = pd.read_csv(tmp_path / "samples.csv").assign(packing=["a.csv", "b.csv"])
+    table.to_csv(given := tmp_path / "given.csv", index=False)
+    said = first_page(
+        results.measured(), results.simulations(("s1", "s2")), [given], results.diagnosis()["diagnosis"],
+        [tmp_path / "map.png"], results.ladder(),
+    )  # fmt: skip
+    assert "bonded spheres, from packings of another program (a.csv, b.csv), in" in said["simulated"][0]
+
+
 def test_one_number_for_before_stands_on_the_first_page(page, tmp_path):
     html = assemble("mine", page(), [], tmp_path)
     assert html.count("11.1") == 2 and "<td>as in the paper</td>" in html
@@ -60,7 +70,7 @@ def test_one_number_for_before_stands_on_the_first_page(page, tmp_path):
 
 def test_what_to_beware_of_stands_on_the_first_page(page, tmp_path):
     html = assemble("mine", page(notes=["Only one specimen."]), [], tmp_path)
-    assert html.index("<h3>Why") < html.index("Only one specimen.") < html.index("<h3>What was gained")
+    assert html.index("<h2>Why") < html.index("Only one specimen.") < html.index("<h2>What was gained")
 
 
 def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
@@ -107,3 +117,12 @@ def test_entries_stand_in_their_parts_by_number_with_captions(page, tmp_path):
     assert "With <em>words</em> &lt; 3." in html and "“&lt;mine&gt;”" in html
     with pytest.raises(InputError, match=r"gone\.rst: no such file"):
         assemble("mine", page(), [Entry("1 Early", tmp_path / "gone.png")], tmp_path)
+
+
+def test_tables_behind_a_figure_are_linked_and_headings_stand_below_the_part(page, tmp_path):
+    (tmp_path / "t.rst").write_text("**T**\n")
+    (tmp_path / "t.html").write_text("<html><body><h1>One</h1><h2 id='a'>Two</h2></body></html>")
+    entry = Entry("1 Early", tmp_path / "t.html", [tmp_path / "in/a.csv", tmp_path.parent / "b.csv"])
+    html = assemble("mine", page(), [entry], tmp_path, tmp_path)
+    assert 'Data: <a href="in/a.csv">a.csv</a>, <a href="../b.csv">b.csv</a>' in html
+    assert "<h3>One</h3><h4 id='a'>Two</h4>" in html

@@ -44,3 +44,7 @@ def test_without_a_common_law_frequencies_stand_as_they_are(results):
     _, modulus, _ = drawn(results, ladder=[], verdict="nothing_to_explain").axes
     assert {x for x, _ in points(modulus, hollow=False)} == {0.1, 1.0, 10.0, 25.0}
     assert "no law common" in modulus.get_xlabel()
+    modulus.figure.canvas.draw()
+    labels = [label.get_text() for label in modulus.get_xticklabels() + modulus.get_xticklabels(minor=True)]
+    assert [label for label in labels if label] == ["0.1", "1", "10", "25"]
+    assert "isotherms of" in modulus.get_title(loc="left")

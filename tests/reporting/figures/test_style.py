@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures import numbers, style
 
 
 def lightness(colour):
@@ -70,8 +70,8 @@ def test_labels_at_ends_are_in_the_order_of_the_lines_and_apart():
 
 
 def test_temperatures_have_a_true_minus():
-    assert style.celsius(-10.0) == "\N{MINUS SIGN}10 °C"
-    assert style.celsius(12.5) == "12.5 °C"
+    assert numbers.celsius(-10.0) == "\N{MINUS SIGN}10 °C"
+    assert numbers.celsius(12.5) == "12.5 °C"
 
 
 def test_axes_stand_where_the_last_bit_of_the_layout_does_not_show():

@@ -19,7 +19,7 @@ def table(tmp_path):
 def test_cells_say_what_the_table_says(table):
     html = page(table, "E & phase")
     assert "<caption>E &amp; phase</caption>" in html
-    assert "<th>specimen</th><th>E_MPa</th><th>bonds</th>" in html
+    assert '<th scope="col">specimen</th><th scope="col">E_MPa</th><th scope="col">bonds</th>' in html
     assert '<td>01</td><td class="number">24300.1</td><td class="number">12</td>' in html
     assert '<td>s&lt;2&gt;</td><td class="number"></td><td class="number">70000000</td>' in html
 
@@ -35,5 +35,11 @@ def test_table_that_is_none(tmp_path):
 def test_comment_lines_at_the_beginning_stand_above_the_table(tmp_path):
     (tmp_path / "t.csv").write_text("# largest error 0.8 % < 1 %\n#   of |E*|\nspecimen,E_MPa\n#2,1\n")
     html = page(tmp_path / "t.csv", "t")
-    assert "<pre>largest error 0.8 % &lt; 1 %\n  of |E*|</pre><table>" in html
+    assert '<p class="note">largest error 0.8 % &lt; 1 % of |E*|</p><div class="wide"' in html
     assert '<td>#2</td><td class="number">1</td>' in html
+
+
+def test_a_cell_with_a_sentence_is_not_squeezed(tmp_path):
+    (tmp_path / "t.csv").write_text(f"evidence,verdict\n{'word ' * 9},differs\n")
+    html = page(tmp_path / "t.csv", "t")
+    assert '<td class="words">word word' in html and "<td>differs</td>" in html

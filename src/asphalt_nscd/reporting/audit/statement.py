@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
 
 REPRODUCED = "reproduced"
 DIFFERS = "differs"
@@ -30,6 +34,12 @@ def compared(
     agrees = abs(ours - published) <= tolerance * abs(published)
     evidence = f"{evidence} Counts as reproduced within {100.0 * tolerance:g} %."
     return Statement(where, statement, published, ours, unit, REPRODUCED if agrees else DIFFERS, evidence)
+
+
+def spanned(values: Sequence[float] | NDArray[np.float64], form: str) -> str:
+    """The range of values; one number where both ends read alike."""
+    low, high = f"{min(values):{form}}", f"{max(values):{form}}"
+    return low if low == high else f"{low} to {high}"
 
 
 def judged(holds: bool) -> str:

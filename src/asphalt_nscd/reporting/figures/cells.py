@@ -10,7 +10,7 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import BoundaryNorm
 from numpy.typing import NDArray
 
-from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures import numbers, style
 
 COLOURS = "RdBu_r"
 BANDS = 5  # steps of 1, 2, 5, ... on either side of zero
@@ -39,13 +39,17 @@ def draw_table(
             colour = style.GREY if faint is not None and faint[i, k] else style.INK
             digits = 0 if abs(value) >= 9.95 else 1
             axes.text(
-                k + 0.5, i + 0.5, style.minus(f"{round(value, digits) + 0.0:.{digits}f}"), ha="center",
-                va="center", fontsize=5.5,
+                k + 0.5,
+                i + 0.5,
+                numbers.minus(f"{round(value, digits) + 0.0:.{digits}f}"),
+                ha="center",
+                va="center",
+                fontsize=5.5,
                 color="white" if dark else colour,
-            )  # fmt: skip
+            )
     for axis, values in ((axes.xaxis, table.columns), (axes.yaxis, table.index)):
         every = -(-len(values) // MOST_LABELS)
-        labels = [style.minus(f"{value:g}") for value in values]
+        labels = [numbers.minus(f"{value:g}") for value in values]
         axis.set_ticks(np.arange(len(values))[::every] + 0.5, labels[::every])
         axis.set_tick_params(length=0.0)
     return image

@@ -68,14 +68,24 @@ def _dimensions(axes: Axes, geometry: Geometry) -> None:
 
 
 def _dimension(
-    axes: Axes, start: np.ndarray, end: np.ndarray, measure: tuple[str, float], offset: tuple[float, float],
+    axes: Axes,
+    start: np.ndarray,
+    end: np.ndarray,
+    measure: tuple[str, float],
+    offset: tuple[float, float],
     rotation: float = 0.0,
-) -> None:  # fmt: skip
+) -> None:
     axes.annotate("", tuple(start), xytext=tuple(end), arrowprops=ARROW, annotation_clip=False)
     axes.annotate(
-        f"${measure[0]}$ = {1e3 * measure[1]:g} mm", tuple((start + end) / 2.0), xytext=offset, rotation=rotation,
-        textcoords="offset points", ha="center", va="center", annotation_clip=False,
-    )  # fmt: skip
+        f"${measure[0]}$ = {1e3 * measure[1]:g} mm",
+        tuple((start + end) / 2.0),
+        xytext=offset,
+        rotation=rotation,
+        textcoords="offset points",
+        ha="center",
+        va="center",
+        annotation_clip=False,
+    )
 
 
 def _test(axes: Axes, geometry: Geometry, amplitude: float) -> None:
@@ -84,9 +94,12 @@ def _test(axes: Axes, geometry: Geometry, amplitude: float) -> None:
     half, bent = 0.5 * (B - (B - b) * z / h), BENT * h * deflection(geometry, z)
     axes.add_patch(Polygon(_front(geometry), facecolor=FACES["front"], edgecolor=style.INK, lw=0.8))
     axes.plot(
-        np.concatenate([bent - half, (bent + half)[::-1]]), np.concatenate([z, z[::-1]]),
-        color=style.BLUE, lw=0.8, ls=style.DASHES[1],
-    )  # fmt: skip
+        np.concatenate([bent - half, (bent + half)[::-1]]),
+        np.concatenate([z, z[::-1]]),
+        color=style.BLUE,
+        lw=0.8,
+        ls=style.DASHES[1],
+    )
 
     ground = Rectangle((-0.8 * B, -0.05 * h), 1.6 * B, 0.05 * h, facecolor="white", hatch="//////", lw=0.0)
     ground.set_edgecolor(style.GREY)

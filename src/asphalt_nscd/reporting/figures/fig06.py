@@ -55,9 +55,14 @@ def _panel(axes: Axes, records: list[Record], extent: float) -> None:
         amplitudes.append(np.ptp(_settled(record)) / 2.0)
         dash = style.DASHES[-rank % len(records) % len(style.DASHES)]
         axes.plot(
-            1e3 * time, force, color=colour, ls=dash, lw=3.0 - 2.2 * rank / max(1, len(records) - 1),
-            label=f"$dt$ = {_power(_step(record))} s", zorder=2 + rank,
-        )  # fmt: skip
+            1e3 * time,
+            force,
+            color=colour,
+            ls=dash,
+            lw=3.0 - 2.2 * rank / max(1, len(records) - 1),
+            label=f"$dt$ = {_power(_step(record))} s",
+            zorder=2 + rank,
+        )
     axes.axhline(0.0, color=style.PALE, lw=0.5, zorder=0)
     axes.set_xlabel("time in the last cycle (ms)")
     axes.set_ylabel("force at the head (N)")

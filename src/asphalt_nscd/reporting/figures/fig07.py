@@ -46,9 +46,13 @@ def draw(test: list[Path]) -> Figure:
             [at, at], [response.force_amplitude, 1.2 * response.force_amplitude], color=style.INK, lw=0.5
         )
     right.annotate(
-        f"$\\Psi$ = {np.degrees(response.phase):.1f}°", (displaced, level), xytext=(6.0, 0.0),
-        textcoords="offset points", va="center", fontsize=7.0,
-    )  # fmt: skip
+        f"$\\Psi$ = {np.degrees(response.phase):.1f}°",
+        (displaced, level),
+        xytext=(6.0, 0.0),
+        textcoords="offset points",
+        va="center",
+        fontsize=7.0,
+    )
     right.plot([crest, displaced], [level, level], color=style.INK, lw=0.8)
     figure.legend(
         [axes.lines[0], right.lines[0]],
@@ -56,8 +60,10 @@ def draw(test: list[Path]) -> Figure:
             f"displacement, $z_0$ = {1e6 * response.displacement_amplitude:.3g} µm",
             f"force, $F_0$ = {response.force_amplitude:.3g} N",
         ],
-        loc="outside upper left", ncols=2, borderpad=0.1,
-    )  # fmt: skip
+        loc="outside upper left",
+        ncols=2,
+        borderpad=0.1,
+    )
     return figure
 
 

@@ -60,9 +60,15 @@ def _profiles(
         axes.plot(head[row] * beam, 1e3 * fine, color=style.GREY, lw=0.6, zorder=1)
         axes.plot(velocity[row], height, ls="", marker=marker, ms=2.4, color=colour, mew=0.3)
         axes.annotate(
-            text, (head[row], 1e3 * geometry.h), xytext=(0.0, 4.0), ha="center", textcoords="offset points",
-            fontsize=7.0, color=colour, annotation_clip=False,
-        )  # fmt: skip
+            text,
+            (head[row], 1e3 * geometry.h),
+            xytext=(0.0, 4.0),
+            ha="center",
+            textcoords="offset points",
+            fontsize=7.0,
+            color=colour,
+            annotation_clip=False,
+        )
     axes.set_ylim(0.0, 1e3 * geometry.h)
     axes.set_xlabel("mean velocity of the spheres (mm/s)")
     axes.set_ylabel("height above the foot (mm)")
@@ -71,8 +77,9 @@ def _profiles(
             axes.plot([], [], ls="", marker="o", ms=2.4, color=style.INK, label="spheres")[0],
             axes.plot([], [], color=style.GREY, lw=0.6, label="elastic beam")[0],
         ],
-        loc="lower right", borderpad=0.1,
-    )  # fmt: skip
+        loc="lower right",
+        borderpad=0.1,
+    )
     style.letter(axes, "a", "profiles at five instants", pad=15.0)
 
 

@@ -26,9 +26,12 @@ def draw(simulations: list[Path], extended: list[Path], measured: list[Path]) ->
     frequencies = np.unique(np.concatenate([before["frequency_Hz"], after["frequency_Hz"]]))
     figure, panels = style.new_figure(style.SINGLE, 165.0, rows=2, sharex=True, sharey=True)
     for axes, panel, words, tests in zip(
-        panels, "ab", ("as in the paper", "with facets, extended as diagnosed"),
-        (before, after), strict=True,
-    ):  # fmt: skip
+        panels,
+        "ab",
+        ("as in the paper", "with facets, extended as diagnosed"),
+        (before, after),
+        strict=True,
+    ):
         _isotherms(axes, temperatures, tests, data)
         style.frequency_axis(axes, frequencies)
         axes.set_ylabel(AXIS[COLUMN])

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from asphalt_nscd.diagnosis.written import read_causality, read_diagnosis
-from asphalt_nscd.reporting.figures import cells, style
+from asphalt_nscd.reporting.figures import cells, numbers, style
 
 ACROSS = 3  # panels of a row
 HEAD, CELL = 30.0, 5.5  # mm: what stands around the panels of a row, and an isotherm
@@ -31,7 +31,7 @@ IN_USE: dict[str, Any] = {
 # Corner of the cell [its width, its height] where a mark leaves the number free.
 SUSPECT_AT, FLAG_AT = (0.18, 0.24), (0.85, 0.8)
 FLAG: dict[str, Any] = {"marker": "^", "mfc": style.INK, "mec": "white", "ms": 3.2, "mew": 0.3, "ls": "none"}
-NONE = "No isotherm has the four tests that hold modulus against phase."
+NONE = "No isotherm has the four tests needed to compare modulus and phase."
 
 
 @style.journal
@@ -68,18 +68,33 @@ def draw(causality: list[Path], diagnosis: list[Path]) -> Figure:
     )
     limit = norm.boundaries[-1]
     bar.set_label(f"phase measured \N{MINUS SIGN} phase that |E*| requires (°), scale ±{limit:g}°")
-    bar.ax.set_xticks(norm.boundaries, [style.minus(f"{edge:g}") for edge in norm.boundaries])
+    bar.ax.set_xticks(norm.boundaries, [numbers.minus(f"{edge:g}") for edge in norm.boundaries])
     bar.ax.tick_params(labelsize=6.0, length=1.5)
     keys = [
         Line2D([], [], label="suspect, not used", **OUT),
         Line2D([], [], label="suspect, used", **IN_USE),
         Line2D([], [], label="quality limit exceeded", **FLAG),
-        Line2D([], [], ls="none", marker="$0.0$", color=style.GREY, ms=9.0, label=f"within {CLEAR:g} standard errors"),
-    ]  # fmt: skip
+        Line2D(
+            [],
+            [],
+            ls="none",
+            marker="$0.0$",
+            color=style.GREY,
+            ms=9.0,
+            label=f"within {CLEAR:g} standard errors",
+        ),
+    ]
     figure.legend(
-        handles=keys, loc="outside upper left", ncols=2 if columns == 1 else 4, borderpad=0.1, handlelength=1.2,
-        columnspacing=1.2, title=f"{content['origin']} data", title_fontsize=7.0, alignment="left",
-    )  # fmt: skip
+        handles=keys,
+        loc="outside upper left",
+        ncols=2 if columns == 1 else 4,
+        borderpad=0.1,
+        handlelength=1.2,
+        columnspacing=1.2,
+        title=f"{content['origin']} data",
+        title_fontsize=7.0,
+        alignment="left",
+    )
     return figure
 
 

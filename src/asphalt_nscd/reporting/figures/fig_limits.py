@@ -48,9 +48,13 @@ def draw(diagnosis: list[Path]) -> Figure:
     if any(cause in limits for cause, _ in found):
         keys.append(Line2D([], [], marker="D", color=style.ORANGE, label="found, with its 95 % interval"))
     figure.legend(
-        handles=keys, loc="outside upper left", title=f"{content['origin']} data", title_fontsize=7.0, alignment="left",
+        handles=keys,
+        loc="outside upper left",
+        title=f"{content['origin']} data",
+        title_fontsize=7.0,
+        alignment="left",
         borderpad=0.1,
-    )  # fmt: skip
+    )
     return figure
 
 

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from asphalt_nscd.diagnosis.written import NOTABLE, conditions, read_diagnosis, read_residuals
-from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures import numbers, style
 
 ABSENT = """No law common to all temperatures was taken,
 so there are no shift factors and no master curve."""
@@ -41,8 +41,9 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     for temperature, (colour, marker) in zip(temperatures, style.series(len(temperatures)), strict=True):
         rows = cells[cells["temperature_C"] == temperature].sort_values("frequency_Hz")
         for axes, measured, simulated, scale in (
-            (norm, "E_MPa", "E_after_MPa", 1e-3), (phase, "phase_deg", "phase_after_deg", 1.0)
-        ):  # fmt: skip
+            (norm, "E_MPa", "E_after_MPa", 1e-3),
+            (phase, "phase_deg", "phase_after_deg", 1.0),
+        ):
             axes.plot(rows["reduced_Hz"], rows[simulated] * scale, color=colour, lw=1.0)
             _points(axes, rows, rows[measured] * scale, colour, marker, filled=False)
         for axes, column in zip((off_norm, off_phase), RESIDUALS, strict=True):
@@ -55,19 +56,22 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     phase.set_ylabel("phase angle (°)")
     for axes, words, sigma in zip(
         (off_norm, off_phase), RESIDUALS.values(), _scatter_of_means(content, cells), strict=True
-    ):  # fmt: skip
+    ):
         axes.axhspan(-NOTABLE * sigma, NOTABLE * sigma, color=style.PALE, lw=0.0, alpha=0.6, zorder=0)
         axes.set_ylabel(words)
     reference = min(shift, key=lambda t: abs(shift[t]))
     for axes in panels[:4]:
         axes.set_xscale("log")
         axes.sharex(norm)
-    off_phase.set_xlabel(f"reduced frequency (Hz), at {style.celsius(reference)}")
+    off_phase.set_xlabel(f"reduced frequency (Hz), at {numbers.celsius(reference)}")
     shifts.set_xlabel("temperature (°C)")
     shifts.set_ylabel("log10 shift factor")
     for axes, panel, words in zip(
-        panels, "abcde", ("", "", "measured − simulated", "measured − simulated", "shift factors"), strict=True
-    ):  # fmt: skip
+        panels,
+        "abcde",
+        ("", "", "measured − simulated", "measured − simulated", "shift factors"),
+        strict=True,
+    ):
         style.letter(axes, panel, words, pad=3.0)
     style.isotherm_legends(figure, _keys(content["origin"]), temperatures)
     return figure

@@ -24,9 +24,15 @@ def draw(packing: list[Path]) -> Figure:
     for friction, (colour, marker) in zip(frictions, style.series(len(frictions)), strict=True):
         for facets, points in tests[tests["friction"] == friction].groupby("facets"):
             axes.plot(
-                points["solid_fraction"], points["ratio"], ls="", marker=marker, ms=5.0, color=colour,
-                markerfacecolor="white" if facets else colour, label=None if facets else f"{friction:g}",
-            )  # fmt: skip
+                points["solid_fraction"],
+                points["ratio"],
+                ls="",
+                marker=marker,
+                ms=5.0,
+                color=colour,
+                markerfacecolor="white" if facets else colour,
+                label=None if facets else f"{friction:g}",
+            )
     axes.margins(0.12)
     axes.set_xlabel("solid fraction of the deposit")
     axes.set_ylabel("|E*| simulated / law")

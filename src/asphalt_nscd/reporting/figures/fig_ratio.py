@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from asphalt_nscd.measurements.tables import read_tests
-from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures import numbers, style
 
 GROUP = 0.8  # width of a sample's group of points, of 1
 
@@ -26,10 +26,11 @@ def draw(simulations: list[Path]) -> Figure:
     # Within the group of a sample: one run of points for each temperature, frequencies from left to right.
     run = GROUP / len(temperatures)
     tests["place"] = (
-        tests["specimen"].map(samples.index) - GROUP / 2.0
+        tests["specimen"].map(samples.index)
+        - GROUP / 2.0
         + run * tests["temperature_C"].map(temperatures.index)
         + run * (0.5 + tests["frequency_Hz"].map(frequencies.index)) / (len(frequencies) + 0.5)
-    )  # fmt: skip
+    )
     looks = style.series(len(temperatures))
     figure, panels = style.new_figure(style.WIDE, 90.0, rows=2, sharex=True)
     for axes, panel, column in zip(panels, "ab", ("ratio", "lead"), strict=True):
@@ -39,9 +40,14 @@ def draw(simulations: list[Path]) -> Figure:
                 axes.plot(points["place"], points[column], color=colour, lw=0.5)
             for broken, points in rows.groupby(rows["broken_bonds"] > 0):
                 axes.plot(
-                    points["place"], points[column], ls="", color=colour, marker=marker, ms=3.2,
+                    points["place"],
+                    points[column],
+                    ls="",
+                    color=colour,
+                    marker=marker,
+                    ms=3.2,
                     markerfacecolor="white" if broken else colour,
-                )  # fmt: skip
+                )
         style.letter(axes, panel)
     panels[0].axhline(1.0, color=style.GREY, lw=0.5, zorder=0)
     panels[1].axhline(0.0, color=style.GREY, lw=0.5, zorder=0)
@@ -56,7 +62,7 @@ def draw(simulations: list[Path]) -> Figure:
     panels[1].set_xlim(-0.5, len(samples) - 0.5)
     point: dict[str, Any] = {"ls": "", "ms": 3.2}
     handles = [
-        Line2D([], [], **point, marker=marker, color=colour, label=style.celsius(temperature))
+        Line2D([], [], **point, marker=marker, color=colour, label=numbers.celsius(temperature))
         for temperature, (colour, marker) in zip(temperatures, looks, strict=True)
     ]
     if (tests["broken_bonds"] > 0).any():

@@ -20,7 +20,7 @@ from asphalt_nscd.diagnosis.written import (
     read_diagnosis,
     read_residuals,
 )
-from asphalt_nscd.reporting.figures import cells, style
+from asphalt_nscd.reporting.figures import cells, numbers, style
 
 ROWS = {
     "E": ("|E*| measured − simulated (%)", "modulus_percent"),
@@ -48,7 +48,7 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
             image, ax=list(row), orientation="horizontal", fraction=0.06, aspect=40, pad=0.02
         )
         bar.set_label(words)
-        bar.ax.set_xticks(norm.boundaries, [style.minus(f"{edge:g}") for edge in norm.boundaries])
+        bar.ax.set_xticks(norm.boundaries, [numbers.minus(f"{edge:g}") for edge in norm.boundaries])
         bar.ax.tick_params(labelsize=6.0, length=1.5)
     for axes in panels[1]:
         axes.set_xlabel("frequency (Hz)")
@@ -59,9 +59,13 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
         facecolor="none", edgecolor=style.INK, label=f"beyond {NOTABLE:g} standard deviations of replicates"
     )
     figure.legend(
-        handles=[marked], loc="outside upper left", title=f"{content['origin']} data, means over specimens",
-        title_fontsize=7.0, alignment="left", borderpad=0.1,
-    )  # fmt: skip
+        handles=[marked],
+        loc="outside upper left",
+        title=f"{content['origin']} data, means over specimens",
+        title_fontsize=7.0,
+        alignment="left",
+        borderpad=0.1,
+    )
     return figure
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from asphalt_nscd.diagnosis.written import read_causality, read_diagnosis
-from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures import numbers, style
 
 MOST_LISTED = 10  # specimens in the legend
 POINT: dict[str, Any] = {"ls": "", "ms": 4.0, "mew": 0.9}
@@ -31,8 +31,10 @@ def draw(causality: list[Path], diagnosis: list[Path]) -> Figure:
     for name, (colour, marker) in zip(names, style.series(len(names)), strict=True):
         own = tests[tests["specimen"] == name]
         for axes, x, y in (
-            (black, "phase_deg", "E_GPa"), (modulus, "reduced_Hz", "E_GPa"), (phase, "reduced_Hz", "phase_deg")
-        ):  # fmt: skip
+            (black, "phase_deg", "E_GPa"),
+            (modulus, "reduced_Hz", "E_GPa"),
+            (phase, "reduced_Hz", "phase_deg"),
+        ):
             _points(axes, own[x], own[y], own["reasons"].ne(""), colour, marker)
     for axes in (black, modulus):
         axes.set_yscale("log")
@@ -40,16 +42,27 @@ def draw(causality: list[Path], diagnosis: list[Path]) -> Figure:
         axes.set_ylabel("|E*| (GPa)")
     black.set_xlabel("phase angle (°)")
     for axes in (modulus, phase):
-        axes.set_xscale("log")
+        if shift:
+            axes.set_xscale("log")
+        else:
+            style.frequency_axis(axes, tests["frequency_Hz"])
         axes.set_xlabel(axis)
+    curves = "master curve" if shift else "isotherms"
     phase.set_ylabel("phase angle (°)")
     style.letter(black, "a", "Black diagram")
-    style.letter(modulus, "b", "master curve of |E*|")
-    style.letter(phase, "c", "master curve of the phase")
+    style.letter(modulus, "b", f"{curves} of |E*|")
+    style.letter(phase, "c", f"{curves} of the phase")
     figure.legend(
-        handles=_keys(names, bool(tests["reasons"].ne("").any())), loc="outside upper left", ncols=3, borderpad=0.1,
-        columnspacing=1.2, handlelength=1.0, title=f"{content['origin']} data", title_fontsize=7.0, alignment="left",
-    )  # fmt: skip
+        handles=_keys(names, bool(tests["reasons"].ne("").any())),
+        loc="outside upper left",
+        ncols=3,
+        borderpad=0.1,
+        columnspacing=1.2,
+        handlelength=1.0,
+        title=f"{content['origin']} data",
+        title_fontsize=7.0,
+        alignment="left",
+    )
     return figure
 
 
@@ -59,7 +72,7 @@ def _shift(content: dict) -> tuple[dict[float, float], str]:
     if rung is None:
         return {}, UNSHIFTED
     shift = {float(t): value for t, value in rung["log10_shift"].items()}
-    return shift, SHIFTED.format(style.celsius(min(shift, key=lambda t: abs(shift[t]))))
+    return shift, SHIFTED.format(numbers.celsius(min(shift, key=lambda t: abs(shift[t]))))
 
 
 def _points(axes: Axes, x: pd.Series, y: pd.Series, suspect: pd.Series, colour: object, marker: str) -> None:

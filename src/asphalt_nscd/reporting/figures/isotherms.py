@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.measurements.tables import averages, origin_of, read_measured, read_tests
 from asphalt_nscd.measurements.twopoint import norm_and_phase
-from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import read_law
 
@@ -53,11 +53,14 @@ def draw_isotherms(
     else:
         axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
     figure.legend(
-        handles=keys(shown, tests, bool(burgers)), loc="outside upper left", ncols=1,
-        borderpad=0.1, labelspacing=0.3,
-    )  # fmt: skip
+        handles=keys(shown, tests, bool(burgers)),
+        loc="outside upper left",
+        ncols=1,
+        borderpad=0.1,
+        labelspacing=0.3,
+    )
     style.label_ends(
-        axes, tests["frequency_Hz"].max() * APART, ends, [style.celsius(t) for t in temperatures], colours
+        axes, tests["frequency_Hz"].max() * APART, ends, [numbers.celsius(t) for t in temperatures], colours
     )
     return figure
 
@@ -78,10 +81,15 @@ def error_bars(
     """Means with standard deviations; the bars are left out where there is one value only."""
     spread = points[f"{column}_sd"] * SHOWN_PER_UNIT[column]
     axes.errorbar(
-        points["frequency_Hz"] * shift, points[column] * SHOWN_PER_UNIT[column],
-        yerr=None if spread.isna().all() else spread.fillna(0.0), fmt=marker, color=colour,
-        markerfacecolor=colour if filled else "white", elinewidth=0.6, zorder=3 if filled else 2,
-    )  # fmt: skip
+        points["frequency_Hz"] * shift,
+        points[column] * SHOWN_PER_UNIT[column],
+        yerr=None if spread.isna().all() else spread.fillna(0.0),
+        fmt=marker,
+        color=colour,
+        markerfacecolor=colour if filled else "white",
+        elinewidth=0.6,
+        zorder=3 if filled else 2,
+    )
 
 
 def keys(measured: pd.DataFrame, tests: pd.DataFrame, law: bool) -> list[Line2D]:

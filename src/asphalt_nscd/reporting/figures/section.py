@@ -31,11 +31,18 @@ def draw_section(axes: Axes, specimen: Record, colours: NDArray[np.float64]) -> 
     disc = np.sqrt(radius[met] ** 2 - position[met, 1] ** 2)
     axes.add_collection(
         EllipseCollection(
-            2.0 * disc, 2.0 * disc, np.zeros(disc.size), units="xy", offsets=plane[met],
-            transOffset=axes.transData, facecolors=colours[met], edgecolors=style.INK, linewidths=0.25,
+            2.0 * disc,
+            2.0 * disc,
+            np.zeros(disc.size),
+            units="xy",
+            offsets=plane[met],
+            transOffset=axes.transData,
+            facecolors=colours[met],
+            edgecolors=style.INK,
+            linewidths=0.25,
             zorder=2,
         )
-    )  # fmt: skip
+    )
     # Under the discs, so that a bond shows where mastic would be: in the gap.
     first, second = specimen.arrays["network/first"], specimen.arrays["network/second"]
     spheres = (first < radius.size) & (second < radius.size)  # the others lead to a plate

@@ -20,7 +20,7 @@ from asphalt_nscd.measurements.tables import (
     read_tests,
     the_only,
 )
-from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.reporting.figures.isotherms import APART, AXIS, SHOWN_PER_UNIT, error_bars, law_line
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import read_law
@@ -30,9 +30,12 @@ SYMBOLS = {"Em": r"$E_m$", "eta_m": r"$\eta_m$", "Ek": r"$E_k$", "eta_k": r"$\et
 
 
 def draw_sensitivity(
-    parameter: str, sensitivity: Sequence[Path], simulations: Sequence[Path], measured: Sequence[Path],
+    parameter: str,
+    sensitivity: Sequence[Path],
+    simulations: Sequence[Path],
+    measured: Sequence[Path],
     laws: Sequence[Path],
-) -> Figure:  # fmt: skip
+) -> Figure:
     """|E*| (a) and phase (b) against frequency for each factor on `parameter`, and unchanged."""
     law_file = the_only(laws, "laws")
     temperature = read_json(law_file)["temperature_C"]
@@ -73,9 +76,11 @@ def _legend(figure: Figure, axes: Axes, origin: str, temperature: float) -> None
     keys: list[Any] = [point, simulated, line]  # matplotlib takes containers of artists too
     figure.legend(
         keys,
-        [f"{origin}, {style.celsius(temperature)}", "simulated", "Burgers law of the bonds"],
-        loc="outside upper left", ncols=3, borderpad=0.1,
-    )  # fmt: skip
+        [f"{origin}, {numbers.celsius(temperature)}", "simulated", "Burgers law of the bonds"],
+        loc="outside upper left",
+        ncols=3,
+        borderpad=0.1,
+    )
 
 
 def _scaled(law: Burgers, parameter: str, factor: float) -> Burgers:

@@ -35,9 +35,12 @@ class View:
 
 
 def picture(
-    position: NDArray[np.float64], radius: NDArray[np.float64], colour: NDArray[np.float64], view: View,
+    position: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    colour: NDArray[np.float64],
+    view: View,
     resolution: float,
-) -> tuple[NDArray[np.float64], tuple[float, float, float, float]]:  # fmt: skip
+) -> tuple[NDArray[np.float64], tuple[float, float, float, float]]:
     """RGBA image and its extent (left, right, bottom, top) [m] in the view's plane.
 
     position (n, 3), radius (n,) [m]; colour (n, 3) in 0..1; resolution in pixels per metre.

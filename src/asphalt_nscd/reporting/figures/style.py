@@ -16,19 +16,39 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 from numpy.typing import ArrayLike
 
+from asphalt_nscd.reporting.figures import numbers
+
 SINGLE, WIDE = 90.0, 140.0  # mm, the widths of a journal's column and of a column and a half
 MM = 1.0 / 25.4  # inch
 RC: dict[Any, Any] = {
     "font.family": "DejaVu Sans",  # comes with matplotlib, so that every machine draws the same
-    "font.size": 8.0, "axes.labelsize": 8.0, "legend.fontsize": 7.0,
-    "xtick.labelsize": 7.0, "ytick.labelsize": 7.0, "mathtext.fontset": "dejavusans",
-    "axes.linewidth": 0.6, "axes.spines.top": False, "axes.spines.right": False,
-    "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
-    "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5, "ytick.minor.size": 1.5,
-    "lines.linewidth": 1.0, "lines.markersize": 4.0, "lines.markeredgewidth": 0.7,
-    "errorbar.capsize": 1.5, "legend.frameon": False, "legend.handlelength": 2.2,
-    "axes.unicode_minus": True, "pdf.fonttype": 42, "svg.fonttype": "path",
-}  # fmt: skip
+    "font.size": 8.0,
+    "axes.labelsize": 8.0,
+    "legend.fontsize": 7.0,
+    "xtick.labelsize": 7.0,
+    "ytick.labelsize": 7.0,
+    "mathtext.fontset": "dejavusans",
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.minor.width": 0.4,
+    "ytick.minor.width": 0.4,
+    "xtick.major.size": 2.5,
+    "ytick.major.size": 2.5,
+    "xtick.minor.size": 1.5,
+    "ytick.minor.size": 1.5,
+    "lines.linewidth": 1.0,
+    "lines.markersize": 4.0,
+    "lines.markeredgewidth": 0.7,
+    "errorbar.capsize": 1.5,
+    "legend.frameon": False,
+    "legend.handlelength": 2.2,
+    "axes.unicode_minus": True,
+    "pdf.fonttype": 42,
+    "svg.fonttype": "path",
+}
 INK, GREY, PALE = "#1a1a1a", "#7a7a7a", "#c8c8c8"
 BLUE, ORANGE = "#20558a", "#d9822b"  # dark and light, apart in grey as well
 MARKERS = ("o", "s", "^", "D", "v", "h", "<", ">", "p", "*")
@@ -88,7 +108,8 @@ def isotherm_legends(figure: Figure, keys: Sequence[Line2D], temperatures: Seque
     """Above the axes: at the left what `keys` explain, at the right the point of each isotherm of `series`."""
     looks = zip(temperatures, series(len(temperatures)), strict=True)
     points = [
-        Line2D([], [], ls="", marker=marker, color=colour, label=celsius(t)) for t, (colour, marker) in looks
+        Line2D([], [], ls="", marker=marker, color=colour, label=numbers.celsius(t))
+        for t, (colour, marker) in looks
     ]
     tight = {"borderpad": 0.1, "labelspacing": 0.3, "columnspacing": 1.0}
     figure.legend(handles=keys, loc="outside upper left", **tight)
@@ -129,9 +150,15 @@ def label_ends(
     at = np.array([axes.transData.transform((x, y))[1] for y in ends]) * points
     for y, text, colour, shift in zip(ends, texts, colours, spread(at.tolist(), 8.5) - at, strict=True):
         axes.annotate(
-            text, (x, y), xytext=(5.0, shift), textcoords="offset points", va="center",
-            fontsize=7.0, color=colour, annotation_clip=False,
-        )  # fmt: skip
+            text,
+            (x, y),
+            xytext=(5.0, shift),
+            textcoords="offset points",
+            va="center",
+            fontsize=7.0,
+            color=colour,
+            annotation_clip=False,
+        )
 
 
 def spread(places: Sequence[float], least: float) -> np.ndarray:
@@ -149,13 +176,3 @@ def spread(places: Sequence[float], least: float) -> np.ndarray:
     result = np.empty_like(wanted)
     result[order] = base + least * np.arange(wanted.size)
     return result
-
-
-def celsius(temperature: float) -> str:
-    """15 -> "15 °C", with a true minus."""
-    return minus(f"{temperature:g} °C")
-
-
-def minus(number: str) -> str:
-    """A number in text with a true minus."""
-    return number.replace("-", "\N{MINUS SIGN}")

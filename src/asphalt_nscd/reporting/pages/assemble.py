@@ -2,51 +2,54 @@
 
 from __future__ import annotations
 
+import os
+import re
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from importlib.resources import files
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from docutils.core import publish_parts
-from jinja2 import Environment, StrictUndefined
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.reporting.pages.style import STYLE
+from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE, environment
+
+COLUMN = 1000  # px, more than a journal's column of 90 mm has; a broader figure is not shrunk to a telephone
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A figure (PNG) or a table (the HTML page made of it), in a part of the report."""
+    """A figure (PNG) or a table (the HTML page made of it), in a part of the report; the files that hold its data."""
 
     part: str
     path: Path
+    sources: list[Path] = field(default_factory=list)
 
     @property
     def name(self) -> str:
         return self.path.stem
 
 
-def assemble(study: str, page: Mapping[str, Any], entries: Iterable[Entry], captions: Path) -> str:
-    """HTML of the report. captions: folder with a reStructuredText file for each entry, its first line in bold."""
+def assemble(
+    study: str, page: Mapping[str, Any], entries: Iterable[Entry], captions: Path, folder: Path = Path()
+) -> str:
+    """HTML of the report. captions: folder with a reStructuredText file for each entry, its first line in bold.
+
+    folder: where the report will stand; from there links lead to the files behind figures and tables.
+    """
     parts: dict[str, list[dict[str, Any]]] = {}
     for entry in entries:
-        parts.setdefault(entry.part, []).append(_shown(entry, captions / f"{entry.name}.rst"))
+        parts.setdefault(entry.part, []).append(_shown(entry, captions / f"{entry.name}.rst", folder))
     ordered = {
         part.partition(" ")[2]: sorted(shown, key=lambda one: one["order"])
         for part, shown in sorted(parts.items())
     }
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    template = environment.from_string(
-        (files("asphalt_nscd.reporting.pages") / "report.html").read_text(encoding="utf-8")
-    )
-    return template.render(study=study, style=STYLE, page=page, parts=ordered)
+    template = environment().get_template("report.html")
+    return template.render(study=study, style=STYLE, script=SCRIPT, page=page, parts=ordered)
 
 
-def _shown(entry: Entry, caption: Path) -> dict[str, Any]:
+def _shown(entry: Entry, caption: Path, folder: Path) -> dict[str, Any]:
     if not caption.is_file() or not entry.path.is_file():
         raise InputError(
             f"{entry.path if caption.is_file() else caption}: no such file; make it or check the path."
@@ -58,11 +61,16 @@ def _shown(entry: Entry, caption: Path) -> dict[str, Any]:
         "title": title,
         "caption": _html(text),
         "order": _order(title),
+        "sources": [(path.name, Path(os.path.relpath(path, folder)).as_posix()) for path in entry.sources],
     }
     if entry.path.suffix == ".png":
-        return content | {"png": b64encode(entry.path.read_bytes()).decode()}
+        picture = entry.path.read_bytes()
+        width = int.from_bytes(picture[16:20], "big")  # of the header of a PNG
+        return content | {"png": b64encode(picture).decode(), "broad": width > COLUMN}
     whole = entry.path.read_text(encoding="utf-8")
-    return content | {"body": whole.partition("<body>")[2].partition("</body>")[0]}
+    body = whole.partition("<body>")[2].partition("</body>")[0]
+    # Below the heading of its part.
+    return content | {"body": re.sub(r"(</?h)([12])\b", lambda tag: f"{tag[1]}{int(tag[2]) + 2}", body)}
 
 
 def _html(text: str) -> str:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import re
-from base64 import b64encode
 from collections.abc import Sequence
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from jinja2 import Environment, StrictUndefined
 
 from asphalt_nscd.diagnosis import sentences
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
@@ -26,7 +23,8 @@ from asphalt_nscd.diagnosis.written import (
 )
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.reporting.pages.style import STYLE
+from asphalt_nscd.reporting.pages import plots, specimen_plots
+from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE, environment
 from asphalt_nscd.reporting.pages.way import QUANTITIES, read_ladder
 
 TEMPLATE = "diagnosis_page.html"
@@ -62,39 +60,40 @@ def in_type(text: str) -> str:
     return MINUS.sub("\N{MINUS SIGN}", text)
 
 
-def render(content: dict[str, Any], title: str) -> str:
-    """HTML of the sections."""
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+def render(content: dict[str, Any], title: str, links: Sequence[str] = ()) -> str:
+    """HTML of the sections. links: files beside the page that hold what it shows."""
+    filled = environment()
+    filled.filters["in_type"] = in_type
+    return filled.get_template(TEMPLATE).render(
+        title=title, style=STYLE, script=SCRIPT, links=links, **content
     )
-    environment.filters["in_type"] = in_type
-    template = environment.from_string(
-        (files("asphalt_nscd.reporting.pages") / TEMPLATE).read_text(encoding="utf-8")
-    )
-    return template.render(title=title, style=STYLE, **content)
 
 
 def sections(
-    diagnosis: list[Path], map: list[Path], table4: Sequence[Path] = (), ladder: Sequence[Path] = (),
-    specimens: Sequence[Path] = (), causality: Sequence[Path] = (),
-) -> dict[str, Any]:  # fmt: skip
-    """What the page says, as text and rows of text. map, specimens, causality: pictures (PNG)."""
+    diagnosis: list[Path],
+    residuals: list[Path],
+    causality: list[Path],
+    table4: Sequence[Path] = (),
+    ladder: Sequence[Path] = (),
+) -> dict[str, Any]:
+    """What the page says, as text and rows of text, and plots that name their tests.
+
+    Of diagnosis.json, residuals.csv and causality.csv; table4, ladder: tables of a study.
+    """
     content = read_diagnosis(diagnosis)
     rungs = content["ladder"]
     return {
         "first": first(content),
-        "pictures": {
-            name: _picture(paths) for name, paths in (("specimens", specimens), ("causality", causality))
-        },
-        "origin": _origin(content["origin"]),
-        "scatter": _scatter(content),
+        "specimens": specimen_plots.charts(causality, diagnosis),
+        "origin": origin(content["origin"]),
+        "scatter": scatter(content),
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
         "ladder": [_rung(rung) | {"as_good": _members(rung["as_good"], content)} for rung in rungs],
         "held_out": HELD_OUT,
         "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
-        "map": _picture(map),
+        "charts": plots.charts(residuals, diagnosis),
         "unexplained": [_unexplained(row) for row in content["unexplained"]],
         "limits": _limits(content["detection_limits"]),
         "not_testable": [
@@ -118,6 +117,7 @@ def first(content: dict[str, Any]) -> dict[str, Any]:
         "simulation": sentences.on_simulation(content),
         "not_used": [(sentences.place_of_test(one), one["reasons"]) for one in sentences.not_used(content)],
         "with_suspects": sentences.with_suspects(content),
+        "doubtful": sentences.on_doubtful(content),
         "causes": sentences.causes(content),
         "left": sentences.left(content),
         "orders": found["orders"],
@@ -130,12 +130,7 @@ def first(content: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _picture(paths: Sequence[Path]) -> str:
-    """PNG as text for an <img>; empty where there is none."""
-    return b64encode(the_only(list(paths), "picture").read_bytes()).decode() if paths else ""
-
-
-def _scatter(content: dict[str, Any]) -> str:
+def scatter(content: dict[str, Any]) -> str:
     scatter = content["scatter"]
     sizes = f"From test to test they scatter by {scatter['modulus_percent']:.2g} % and {scatter['phase_deg']:.2g}°"
     if scatter["from_replicates"]:
@@ -145,7 +140,7 @@ def _scatter(content: dict[str, Any]) -> str:
     return f"{sizes} as far as a smooth law can tell, for nothing was repeated."
 
 
-def _origin(origin: str) -> list[str]:
+def origin(origin: str) -> list[str]:
     return [sentence for word, sentence in ORIGINS.items() if word in origin] or [f"The data are {origin}."]
 
 
@@ -162,14 +157,16 @@ def _table4(paths: Sequence[Path]) -> list[list[str]]:
 def _rung(rung: dict[str, Any]) -> dict[str, Any]:
     gain = rung["gain"]
     return {
-        "cause": _cause(rung), "sentence": rung["sentence"], "p": _chance(rung["p_value"]),
+        "cause": _cause(rung),
+        "sentence": rung["sentence"],
+        "p": _chance(rung["p_value"]),
         "evidence": rung.get("evidence"),
         "parameters": [_estimate(name, value) for name, value in rung["parameters"].items()],
         "hangs_on": rung.get("hangs_on", []),
         "doubts": rung.get("doubts", []),
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {name: _gain(gain["held_out"][name]) for name in HELD_OUT if name in gain["held_out"]},
-    }  # fmt: skip
+    }
 
 
 def _way(paths: Sequence[Path]) -> dict[str, Any]:
@@ -193,7 +190,7 @@ def _way(paths: Sequence[Path]) -> dict[str, Any]:
 
 def _suspect(one: dict[str, Any]) -> list[str]:
     where = [one["specimen"], place_name(one["temperature_C"]), f"{one['frequency_Hz']:g} Hz"]
-    return [*where, "yes" if one["used"] else "no", "; ".join(one["reasons"])]
+    return [*where, "yes" if one["used"] else "no", in_type("; ".join(one["reasons"]))]
 
 
 def _members(names: list[str], content: dict[str, Any]) -> list[str]:

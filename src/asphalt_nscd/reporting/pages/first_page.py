@@ -2,51 +2,54 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis.written import three_digits
+from asphalt_nscd.diagnosis.written import read_diagnosis, three_digits
 from asphalt_nscd.files.csvinput import read_csv
+from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.reporting.pages.diagnosis_page import in_type, sections
+from asphalt_nscd.reporting.pages.diagnosis_page import first, in_type, origin, scatter
 from asphalt_nscd.reporting.pages.way import inner_held_out, means, read_ladder
 
 ENOUGH = 5000  # spheres
-TOO_FEW = (
-    "So few spheres are a smaller specimen than any that was measured, and do not stand for the mix: laws, phase and "
-    "diagnosis are already what they will be, simulated |E*| is not."
-)
+TOO_FEW = "No specimen this small was measured. Laws, phase and diagnosis are final; simulated |E*| is not."
 
 
 def first_page(
-    measured: Sequence[Path], simulations: Sequence[Path], samples: Sequence[Path], diagnosis: list[Path],
-    map: list[Path], ladder: Sequence[Path],
-) -> dict[str, Any]:  # fmt: skip
+    measured: Sequence[Path],
+    simulations: Sequence[Path],
+    samples: Sequence[Path],
+    diagnosis: list[Path],
+    map: list[Path],
+    ladder: Sequence[Path],
+) -> dict[str, Any]:
     """Sentences of each part, and rows of the gain.
 
     measured, simulations, samples: one CSV table each, as the workflow makes them; diagnosis: diagnosis.json;
     map: PNG picture of the residuals; ladder: ladder.csv, the errors of each campaign.
     """
-    found = sections(diagnosis, map)
+    content = read_diagnosis(diagnosis)
+    told = first(content)
     way = read_ladder(ladder)
     moduli, tests = _frame(measured, "measured"), _frame(simulations, "simulations")
     return {
-        "measured": _measured(moduli, found),
+        "measured": [*_measured(moduli), *origin(content["origin"]), scatter(content)],
         "simulated": _simulated(tests, _frame(samples, "samples")),
         "wrong": _wrong(way),
         "found": {
-            name: _typed(found["first"][name])
-            for name in ("data", "simulation", "causes", "left", "with_suspects")
+            name: _typed(told[name]) for name in ("data", "simulation", "causes", "left", "with_suspects")
         },
-        "not_used": [in_type(where) for where, _ in found["first"]["not_used"]],
-        "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in found["first"]["orders"]],
-        "notes": _typed(found["diagnosis"]["notes"]),
+        "not_used": [in_type(where) for where, _ in told["not_used"]],
+        "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in told["orders"]],
+        "notes": _typed(content["notes"]),
         "gained": _gained(way),
         "held_out": _held_out(way),
-        "map": found["map"],
+        "map": b64encode(the_only(map, "map").read_bytes()).decode(),
     }
 
 
@@ -63,25 +66,26 @@ def _frame(paths: Sequence[Path], name: str) -> pd.DataFrame:
     )
 
 
-def _measured(frame: pd.DataFrame, found: dict[str, Any]) -> list[str]:
+def _measured(frame: pd.DataFrame) -> list[str]:
     names = ("temperature_C", "frequency_Hz", "E_MPa", "phase_deg")
     temperature, frequency, modulus, phase = (_range(frame[name]) for name in names)
     return [
-        f"{len(frame)} complex moduli of {_many(frame['specimen'].nunique(), 'specimen')}, {temperature} °C, "
+        f"{len(frame)} complex moduli of {counted(frame['specimen'].nunique(), 'specimen')}, {temperature} °C, "
         f"{frequency} Hz: |E*| {modulus} MPa, phase {phase}°.",
-        *found["origin"],
-        found["scatter"],
-    ]  # fmt: skip
+    ]
 
 
 def _simulated(tests: pd.DataFrame, samples: pd.DataFrame) -> list[str]:
+    origin = "poured from the grading"
+    if "packing" in samples:
+        origin = f"from packings of another program ({', '.join(samples['packing'])})"
     conditions = tests[["temperature_C", "frequency_Hz"]].drop_duplicates()
     return [
-        f"{_many(len(samples), 'sample')} of {_range(samples['spheres'])} bonded spheres, poured from the grading, "
-        f"in two-point bending at {_many(len(conditions), 'condition')}: {_many(len(tests), 'test')}.",
+        f"{counted(len(samples), 'sample')} of {_range(samples['spheres'])} bonded spheres, {origin}, "
+        f"in two-point bending at {counted(len(conditions), 'condition')}: {counted(len(tests), 'test')}.",
         f"They return the law of their bonds, |E*| times {_range(samples['E_over_law'])} as they are bonded.",
         *([TOO_FEW] if samples["spheres"].max() < ENOUGH else []),
-    ]  # fmt: skip
+    ]
 
 
 def _wrong(way: pd.DataFrame) -> list[str]:
@@ -129,7 +133,3 @@ def _number(value: float) -> str:
     """Four digits, or all before the point."""
     text = f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
     return text.replace("-", "\N{MINUS SIGN}")
-
-
-def _many(count: int, name: str) -> str:
-    return f"{count} {name}" + ("" if count == 1 else "s")

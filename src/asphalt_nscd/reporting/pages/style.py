@@ -3,24 +3,43 @@
 from __future__ import annotations
 
 from html import escape
+from importlib.resources import files
 from itertools import takewhile
 from pathlib import Path
 
 import pandas as pd
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
 
 from asphalt_nscd.files.errors import InputError
 
-STYLE = """
-body { font: 14px/1.4 system-ui, sans-serif; margin: 1.5em; color: #111; background: #fff; }
-table { border-collapse: collapse; }
-caption { text-align: left; font-weight: bold; padding-bottom: .6em; }
-pre { max-width: 70em; white-space: pre-wrap; color: #444; }
-th, td { padding: .25em .7em; border-bottom: 1px solid #ddd; text-align: left; }
-td { vertical-align: top; max-width: 34em; }
-th { position: sticky; top: 0; background: #fff; border-bottom: 2px solid #111; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-tr:hover td { background: #f2f2f2; }
-"""
+
+def _own(name: str) -> str:
+    return (files("asphalt_nscd.reporting.pages") / name).read_text(encoding="utf-8")
+
+
+STYLE, SCRIPT = _own("page.css"), _own("page.js")
+# A page of one table scrolls inside it, so that the head of the table stays in sight.
+_ALONE = "@media screen { .wide { max-height: 92vh; overflow: auto; } }"
+LONG = 40  # characters of a cell that must not be squeezed into a word a line
+
+
+def worded(cell: str) -> Markup:
+    """The class of a cell that holds a sentence; nothing for a short one."""
+    return Markup(' class="words"') if len(cell) > LONG else Markup("")
+
+
+def environment() -> Environment:
+    """The templates of this folder."""
+    made = Environment(
+        loader=PackageLoader("asphalt_nscd.reporting", "pages"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    made.filters["worded"] = worded
+    return made
 
 
 def page(table: str | Path, title: str) -> str:
@@ -38,18 +57,32 @@ def page(table: str | Path, title: str) -> str:
         raise InputError(f"{table}: no such file; check the path.") from None
     except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
         raise InputError(f"{table}: not a CSV table ({error}); make it again.") from None
-    head = "".join(f"<th>{escape(str(name))}</th>" for name in frame)
+    head = "".join(f'<th scope="col">{escape(str(name))}</th>' for name in frame)
     rows = "\n".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in frame.itertuples(index=False))
-    said = f"<pre>{escape(chr(10).join(notes))}</pre>" if notes else ""
+    said = "".join(f'<p class="note">{escape(note)}</p>' for note in _sentences(notes))
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
-        f"<style>{STYLE}</style></head>\n<body>{said}<table><caption>{escape(title)}</caption>\n"
-        f"<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table></body></html>\n"
+        f'<meta name="viewport" content="width=device-width, initial-scale=1"><style>{STYLE}{_ALONE}</style>'
+        f"<script>{SCRIPT}</script></head>\n<body>{said}"
+        f'<div class="wide" tabindex="0" role="region" aria-label="{escape(title)}"><table>'
+        f"<caption>{escape(title)}</caption>\n"
+        f"<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table></div></body></html>\n"
     )
+
+
+def _sentences(notes: list[str]) -> list[str]:
+    """Comment lines as sentences: an indented line goes on with the one above it."""
+    joined: list[str] = []
+    for note in notes:
+        if note.startswith(" ") and joined:
+            joined[-1] += f" {note.strip()}"
+        else:
+            joined.append(note)
+    return joined
 
 
 def _cell(value: object) -> str:
     if isinstance(value, str):
-        return f"<td>{escape(value)}</td>"
+        return f"<td{worded(value)}>{escape(value)}</td>"
     text = "" if pd.isna(value) else f"{value:d}" if isinstance(value, int) else f"{value:.6g}"
     return f'<td class="number">{text}</td>'

@@ -20,8 +20,12 @@ from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
 
 def make(
-    measured: list[Path], diagnosis: list[Path], law: list[Path], specimen: list[Path], ladder: Sequence[Path] = ()
-) -> pd.DataFrame:  # fmt: skip
+    measured: list[Path],
+    diagnosis: list[Path],
+    law: list[Path],
+    specimen: list[Path],
+    ladder: Sequence[Path] = (),
+) -> pd.DataFrame:
     """One row for each table of measurements: errors as in Table 4 in percent, mean over temperatures.
 
     measured, diagnosis, law: one file each for a table, in one order, named by the folder of the diagnosis.
@@ -39,7 +43,7 @@ def make(
             "data": found.parent.name if number else content["origin"],
             "origin": content["origin"],
             "causes_named": ", ".join(candidate.cause.name for candidate in named_causes(found)),
-        }  # fmt: skip
+        }
         last = read_ladder(ladder) if ladder and not number else None
         for error in ERRORS:
             quantity = error.split("_")[1]

@@ -23,11 +23,14 @@ def make(simulations: list[Path], facets: list[Path]) -> pd.DataFrame:
             broken = tests["broken_bonds"]
             rows.append(
                 {
-                    "temperature_C": temperature, "mapping": mapping, "tests": len(tests),
-                    "tests_with_broken_bonds": int((broken > 0).sum()), "broken_bonds": int(broken.sum()),
+                    "temperature_C": temperature,
+                    "mapping": mapping,
+                    "tests": len(tests),
+                    "tests_with_broken_bonds": int((broken > 0).sum()),
+                    "broken_bonds": int(broken.sum()),
                     "most_broken_bonds": int(broken.max()),
                     "bonds_mean": tests.groupby("specimen")["bonds"].first().mean(),
                     "largest_utilisation": tests.loc[broken == 0, "largest_utilisation"].max(),
                 }
-            )  # fmt: skip
+            )
     return pd.DataFrame(rows).sort_values("temperature_C", kind="stable", ignore_index=True)

@@ -21,15 +21,19 @@ from asphalt_nscd.measurements.tables import (
     read_tests,
     the_only,
 )
-from asphalt_nscd.reporting.tables.table4 import ERRORS, read_errors
+from asphalt_nscd.reporting.tables.table4 import ERRORS, name_of, named, read_errors
 
 PAPER, FACETS = "as in the paper", "facets"
 
 
 def make(
-    simulations: list[Path], measured: list[Path], diagnosis: list[Path], facets: Sequence[Path] = (),
-    extended: Sequence[Path] = (), published: Sequence[Path] = (),
-) -> pd.DataFrame:  # fmt: skip
+    simulations: list[Path],
+    measured: list[Path],
+    diagnosis: list[Path],
+    facets: Sequence[Path] = (),
+    extended: Sequence[Path] = (),
+    published: Sequence[Path] = (),
+) -> pd.DataFrame:
     """Mean relative errors (Table 4) of each campaign of simulated tests at each temperature.
 
     facets: the tests of `simulations` with bonds that are facets; where there are none, those have them already.
@@ -47,14 +51,14 @@ def make(
         tests = read_tests(paths)
         law = tests[[*KEYS, *OF_THE_LAW]].rename(columns=dict(zip(OF_THE_LAW, MODULUS, strict=True)))
         rung = mean_relative_error(data, tests)
-        rung = rung.merge(_named(mean_relative_error(data, law), "law"), on="temperature_C")
+        rung = rung.merge(named(mean_relative_error(data, law), "law"), on="temperature_C")
         rung.insert(0, "rung", name)
         for error in ERRORS:
             held = _held_out(content, error) if paths is extended else {}
-            rung[_name(error, "held_out")] = [held.get(f"{t:g}") for t in rung["temperature_C"]]
+            rung[name_of(error, "held_out")] = [held.get(f"{t:g}") for t in rung["temperature_C"]]
         rungs.append(rung)
     table = pd.concat(rungs, ignore_index=True)
-    table = table.astype({_name(error, "held_out"): float for error in ERRORS})
+    table = table.astype({name_of(error, "held_out"): float for error in ERRORS})
     table["scatter_E_percent"] = content["scatter"]["modulus_percent"]
     degrees = content["scatter"]["phase_deg"]
     of_phase = {
@@ -63,7 +67,7 @@ def make(
     }
     table["scatter_phase_percent"] = table["temperature_C"].map(of_phase)
     if published:
-        printed = _named(read_errors(the_only(published, "published")), "published")
+        printed = named(read_errors(the_only(published, "published")), "published")
         table = table.merge(printed, on="temperature_C", how="left")
     table.insert(2, "compared_with", [origin_of(at_temperature(data, t)) for t in table["temperature_C"]])
     kinds = [name for name in table if name not in ("rung", "temperature_C", "compared_with")]
@@ -83,11 +87,3 @@ def _held_out(content: dict[str, Any], error: str) -> dict[str, float]:
             held = rung["gain"]["held_out"].get("leave_one_isotherm_out", {})
             return {t: one[error]["after"] for t, one in held.get("averages_by_temperature", {}).items()}
     return {}
-
-
-def _name(error: str, kind: str) -> str:
-    return error.replace("_percent", f"_{kind}_percent")
-
-
-def _named(errors: pd.DataFrame, kind: str) -> pd.DataFrame:
-    return errors.rename(columns={error: _name(error, kind) for error in ERRORS})

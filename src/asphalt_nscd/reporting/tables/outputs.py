@@ -17,12 +17,14 @@ def make(outputs: list[Path], timings: list[Path]) -> pd.DataFrame:
     timed.require(["rule", "wall_s"])
     seconds = dict(zip(timed.text("rule"), timed.numbers("wall_s"), strict=True))
     rules = [cell.split() for cell in parts.text("rules")]
-    return pd.DataFrame({
-        "in the paper": parts.text("in_the_paper"),
-        "rules": [_names(names) for names in rules],
-        "files": [_names(cell.split()) for cell in parts.text("files")],
-        "minutes": [round(sum(seconds.get(name, 0.0) for name in names) / 60.0, 2) for names in rules],
-    })  # fmt: skip
+    return pd.DataFrame(
+        {
+            "in the paper": parts.text("in_the_paper"),
+            "rules": [_names(names) for names in rules],
+            "files": [_names(cell.split()) for cell in parts.text("files")],
+            "minutes": [round(sum(seconds.get(name, 0.0) for name in names) / 60.0, 2) for names in rules],
+        }
+    )
 
 
 def _names(names: list[str]) -> str:

@@ -10,9 +10,17 @@ import pandas as pd
 from asphalt_nscd.files.store import load
 
 OF_A_STAGE = [
-    "solid_fraction", "periods", "periods_with_contact", "grains_touched_per_period", "coordination", "segregation",
-    "largest_overlap_m", "largest_overlap_moving_m", "weight_balance", "unbalanced_force",
-]  # fmt: skip
+    "solid_fraction",
+    "periods",
+    "periods_with_contact",
+    "grains_touched_per_period",
+    "coordination",
+    "segregation",
+    "largest_overlap_m",
+    "largest_overlap_moving_m",
+    "weight_balance",
+    "unbalanced_force",
+]
 
 
 def make(deposits: list[Path]) -> pd.DataFrame:

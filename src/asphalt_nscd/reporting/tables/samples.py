@@ -12,7 +12,10 @@ from asphalt_nscd.measurements.tables import read_tests
 
 
 def make(simulations: list[Path], deposits: list[Path]) -> pd.DataFrame:
-    """One row for each sample. Ratio and phase are those of the tests in which no bond broke."""
+    """One row for each sample. Ratio and phase are those of the tests in which no bond broke.
+
+    packing: file of the packing, where another program poured it.
+    """
     tests = read_tests(simulations, numbers=["spheres", "bonds", "broken_bonds"])
     layers = {path.stem: load(path, "deposit").attributes for path in deposits}
     rows = []
@@ -22,14 +25,20 @@ def make(simulations: list[Path], deposits: list[Path]) -> pd.DataFrame:
         whole = of_sample[of_sample["broken_bonds"] == 0]
         ratio = whole["E_MPa"] / whole["E_law_MPa"]
         apart = (whole["phase_deg"] - whole["phase_law_deg"]).abs()
+        layer = layers[specimen]
         rows.append(
             {
                 "sample": specimen,
-                "spheres": int(of_sample["spheres"].iloc[0]), "bonds": int(of_sample["bonds"].iloc[0]),
-                "solid_fraction": layers[specimen]["solid_fraction"],
-                "E_over_law": ratio.mean(), "E_over_law_lowest": ratio.min(), "E_over_law_highest": ratio.max(),
+                **({"packing": layer["source"]} if "source" in layer else {}),
+                "spheres": int(of_sample["spheres"].iloc[0]),
+                "bonds": int(of_sample["bonds"].iloc[0]),
+                "solid_fraction": layer["solid_fraction"],
+                "E_over_law": ratio.mean(),
+                "E_over_law_lowest": ratio.min(),
+                "E_over_law_highest": ratio.max(),
                 "largest_phase_difference_deg": apart.max(),
-                "tests": len(of_sample), "tests_with_broken_bonds": len(of_sample) - len(whole),
+                "tests": len(of_sample),
+                "tests_with_broken_bonds": len(of_sample) - len(whole),
             }
-        )  # fmt: skip
+        )
     return pd.DataFrame(rows)

@@ -40,14 +40,16 @@ def make(fitted: list[Path], measured: list[Path], published: Sequence[Path] = (
         for name, (field, key, unit) in PARAMETERS.items():
             rows.append(
                 {
-                    "temperature_C": temperature, "parameter": name, "unit": unit,
+                    "temperature_C": temperature,
+                    "parameter": name,
+                    "unit": unit,
                     "published": getattr(known, field) * MEGA if known else np.nan,
                     "fitted": getattr(law, field) * MEGA,
                     # as many unknowns as data leave no standard error
                     "standard_error": content["std_error"][key] * MEGA if content["std_error"] else np.nan,
                     "fitted_to": origin_of(at_temperature(data, temperature)),
                 }
-            )  # fmt: skip
+            )
     table = pd.DataFrame(rows).sort_values("temperature_C", kind="stable", ignore_index=True)
     ratio = table["fitted"] / table["published"]
     table.insert(6, "fitted_over_published", ratio)

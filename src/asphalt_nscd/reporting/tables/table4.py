@@ -31,14 +31,14 @@ def make(simulations: list[Path], measured: list[Path], published: Sequence[Path
     """
     tests, data = read_tests(simulations), read_measured(measured)
     law = tests[[*KEYS, *OF_THE_LAW]].rename(columns=dict(zip(OF_THE_LAW, MODULUS, strict=True)))
-    simulated = _named(mean_relative_error(data, tests), "simulated")
-    table = simulated.merge(_named(mean_relative_error(data, law), "law"), on="temperature_C")
+    simulated = named(mean_relative_error(data, tests), "simulated")
+    table = simulated.merge(named(mean_relative_error(data, law), "law"), on="temperature_C")
     if published:
         printed = read_errors(the_only(published, "published"))
-        table = table.merge(_named(printed, "published"), on="temperature_C", how="left")
+        table = table.merge(named(printed, "published"), on="temperature_C", how="left")
     kinds = ["published", "simulated", "law"] if published else ["simulated", "law"]
     table["compared_with"] = [origin_of(at_temperature(data, t)) for t in table["temperature_C"]]
-    errors = [_name(error, kind) for error in ERRORS for kind in kinds]
+    errors = [name_of(error, kind) for error in ERRORS for kind in kinds]
     return table[["temperature_C", "compared_with", *errors]]
 
 
@@ -50,9 +50,11 @@ def read_errors(path: str | Path) -> pd.DataFrame:
     return pd.DataFrame(columns | {name: table.numbers(name, PERCENT) for name in ERRORS})
 
 
-def _name(error: str, kind: str) -> str:
+def name_of(error: str, kind: str) -> str:
+    """Column of one of ERRORS of a kind: "law", say."""
     return error.replace("_percent", f"_{kind}_percent")
 
 
-def _named(errors: pd.DataFrame, kind: str) -> pd.DataFrame:
-    return errors.rename(columns={error: _name(error, kind) for error in ERRORS})
+def named(errors: pd.DataFrame, kind: str) -> pd.DataFrame:
+    """The same errors in the columns of a kind."""
+    return errors.rename(columns={error: name_of(error, kind) for error in ERRORS})

@@ -1,0 +1,206 @@
+"""Parts of plots for a page, as SVG of our own: each test carries a title that names it; colours follow the page.
+
+matplotlib's SVG is ten times as large, and its colours are those of paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from html import escape
+
+import numpy as np
+import pandas as pd
+from matplotlib import colormaps
+from matplotlib.colors import to_hex
+from matplotlib.ticker import LogLocator, MaxNLocator
+
+from asphalt_nscd.reporting.figures.numbers import celsius, minus
+
+WIDTH, HEIGHT = 360, 250  # of one plot, in units of about a pixel on a telephone
+LEFT, RIGHT, TOP, BOTTOM = 52, 8, 22, 40  # margins for labels
+MOST_TICKS = 7
+MOST_NUMBERED = 8  # columns of a map whose cells have room for a number
+STRONGEST = 0.85  # opacity of the largest value of a map
+HINT = (
+    "Point at a test, tap it, or step through the tests with the arrow keys; Home, End and Escape work too."
+)
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Plots that belong together, as SVG, and what they show."""
+
+    name: str
+    title: str
+    caption: str
+    plots: tuple[str, ...]
+    keys: Sequence[tuple[str, str, str]] = ()  # name of a series, its colour on a light and on a dark page
+    of: str = "Isotherms"  # what the series are
+    hint: str = HINT
+
+
+@dataclass(frozen=True)
+class Axis:
+    """What stands on an axis: label, and values of a table; `end` "" for measured, "_after" for simulated."""
+
+    label: str
+    values: Callable[[pd.DataFrame, str], pd.Series]
+    log: bool = False
+
+    def place(self, values: Sequence[float] | np.ndarray) -> np.ndarray:
+        of = np.asarray(values, float)
+        return np.log10(of) if self.log else of
+
+    def ticks(self, low: float, high: float) -> list[tuple[float, str]]:
+        """Places and labels between two places."""
+        if not self.log:
+            places = MaxNLocator(6).tick_values(low, high)
+            return [(float(x), minus(f"{x:.6g}")) for x in places if low <= x <= high]
+        for steps in ((1.0, 2.0, 5.0), (1.0,)):
+            places = LogLocator(subs=steps, numticks=50).tick_values(10.0**low, 10.0**high)
+            inside = [float(x) for x in places if low <= np.log10(x) <= high]
+            if len(inside) <= MOST_TICKS:
+                break
+        every = -(-len(inside) // MOST_TICKS) or 1
+        return [(float(np.log10(x)), _power(x)) for x in inside[::every]]
+
+
+MODULUS = Axis("|E*| (MPa)", lambda of, end: of[f"E{end}_MPa"], log=True)
+PHASE = Axis("phase (°)", lambda of, end: of[f"phase{end}_deg"])
+
+
+def _power(value: float) -> str:
+    """1000 as it is; beyond four digits as a power of ten."""
+    if 1e-3 <= value < 1e5:
+        return f"{value:g}"
+    return f"{value:.0e}".replace("e+0", "e").replace("e-0", "e\N{MINUS SIGN}").replace("e+", "e")
+
+
+@dataclass(frozen=True)
+class _Range:
+    low: float
+    high: float
+
+    @classmethod
+    def about(cls, places: np.ndarray) -> _Range:
+        """All places, and a twentieth more at either end."""
+        low, high = float(np.nanmin(places)), float(np.nanmax(places))
+        room = 0.05 * (high - low) or 0.5
+        return cls(low - room, high + room)
+
+    def on(self, place: float | np.ndarray, start: float, end: float) -> np.ndarray:
+        return start + (np.asarray(place) - self.low) / (self.high - self.low) * (end - start)
+
+
+class Frame:
+    """Axes that hold some tables, with grid and labels: `parts` of the SVG."""
+
+    def __init__(self, x: Axis, y: Axis, tables: Sequence[tuple[pd.DataFrame, str]]) -> None:
+        self.x, self.y = x, y
+        self.across, self.up = (
+            _Range.about(axis.place(np.concatenate([axis.values(table, end) for table, end in tables])))
+            for axis in (x, y)
+        )
+        self.parts: list[str] = []
+        for place, label in x.ticks(self.across.low, self.across.high):
+            at = float(self.across.on(place, LEFT, WIDTH - RIGHT))
+            self.parts.append(f'<path class="grid" d="M{at:.1f} {TOP}V{HEIGHT - BOTTOM}"/>')
+            at_edge = at > WIDTH - RIGHT - 3.0 * len(label)
+            self.parts.append(text(at, HEIGHT - BOTTOM + 15, label, "end" if at_edge else "middle"))
+        for place, label in y.ticks(self.up.low, self.up.high):
+            at = float(self.up.on(place, HEIGHT - BOTTOM, TOP))
+            self.parts.append(f'<path class="grid" d="M{LEFT} {at:.1f}H{WIDTH - RIGHT}"/>')
+            self.parts.append(text(LEFT - 5, at + 4, label, "end"))
+        self.parts.append(f'<path class="axis" d="M{LEFT} {TOP}V{HEIGHT - BOTTOM}H{WIDTH - RIGHT}"/>')
+        self.parts.append(text(0.5 * (LEFT + WIDTH - RIGHT), HEIGHT - 6, x.label))
+        self.parts.append(text(2, 13, f"{y.label}", "start"))
+
+    def points(self, table: pd.DataFrame, end: str = "") -> list[tuple[float, float]]:
+        """Where the rows of a table stand."""
+        columns = (
+            self.across.on(self.x.place(self.x.values(table, end)), LEFT, WIDTH - RIGHT),
+            self.up.on(self.y.place(self.y.values(table, end)), HEIGHT - BOTTOM, TOP),
+        )
+        return list(zip(*columns, strict=True))
+
+
+def test(at: tuple[float, float], words: str, look: str = "test") -> str:
+    """A circle that says which test it is."""
+    return f'<circle class="{look}" cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="4"><title>{escape(words)}</title></circle>'
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A value at an isotherm [degC] and a frequency [Hz], and what it says; mark: SVG of a square from 0 to 1."""
+
+    temperature: float
+    frequency: float
+    value: float
+    words: str
+    quiet: bool = False  # its number says little
+    mark: str = ""
+
+
+def cells(title: str, label: str, every: Sequence[Cell], largest: float) -> str:
+    """A map over frequency and temperature, coloured by value as far as `largest`."""
+    temperatures, frequencies = (
+        sorted({getattr(cell, name) for cell in every}) for name in ("temperature", "frequency")
+    )
+    width = (WIDTH - LEFT - RIGHT) / len(frequencies)
+    height = (HEIGHT - TOP - BOTTOM) / len(temperatures)
+    apart = -(-len(frequencies) // MOST_NUMBERED), -(-len(temperatures) // MOST_NUMBERED)
+    parts = [text(2, 13, title, "start")]
+    parts += [
+        text(LEFT + (k + 0.5) * width, HEIGHT - BOTTOM + 15, f"{frequency:g}")
+        for k, frequency in enumerate(frequencies)
+        if k % apart[0] == 0
+    ]
+    parts += [
+        text(LEFT - 5, HEIGHT - BOTTOM - (i + 0.5) * height + 4, celsius(temperature), "end")
+        for i, temperature in enumerate(temperatures)
+        if i % apart[1] == 0
+    ]
+    parts.append(text(0.5 * (LEFT + WIDTH - RIGHT), HEIGHT - 6, "frequency (Hz)"))
+    numbered = len(frequencies) <= MOST_NUMBERED and len(temperatures) <= 2 * MOST_NUMBERED
+    for cell in every:
+        left = LEFT + frequencies.index(cell.frequency) * width
+        top = HEIGHT - BOTTOM - (temperatures.index(cell.temperature) + 1) * height
+        strength = STRONGEST * min(abs(cell.value) / largest, 1.0)
+        parts.append(
+            f'<g><title>{escape(cell.words)}</title><rect class="cell" x="{left:.1f}" y="{top:.1f}" '
+            f'width="{width:.1f}" height="{height:.1f}" fill="var(--{"more" if cell.value > 0.0 else "less"})" '
+            f'fill-opacity="{strength:.2f}"/>'
+        )
+        if cell.mark:
+            parts.append(
+                f'<g transform="translate({left:.1f} {top:.1f}) scale({width:.1f} {height:.1f})">{cell.mark}</g>'
+            )
+        if numbered:
+            look = ' class="quiet"' if cell.quiet else ""
+            parts.append(text(left + 0.5 * width, top + 0.5 * height + 4, signed(cell.value), look=look))
+        parts.append("</g>")
+    return svg(label, parts)
+
+
+def colours(count: int) -> list[tuple[str, str]]:
+    """Of each series, cold to warm, on a light and on a dark page; as the figures have them."""
+    plasma = colormaps["plasma"]
+    light, dark = (plasma(np.linspace(*ends, max(count, 2)))[:count] for ends in ((0.0, 0.7), (0.4, 1.0)))
+    return [(to_hex(one), to_hex(other)) for one, other in zip(light, dark, strict=True)]
+
+
+def signed(value: float) -> str:
+    digits = 0 if abs(value) >= 9.95 else 1
+    return minus(f"{round(value, digits) + 0.0:+.{digits}f}")
+
+
+def text(x: float, y: float, words: str, anchor: str = "middle", look: str = "") -> str:
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{look}>{escape(words)}</text>'
+
+
+def svg(label: str, parts: Sequence[str]) -> str:
+    return (
+        f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="group" aria-roledescription="chart" tabindex="0" '
+        f'aria-label="{escape(label)}">{"".join(parts)}</svg>'
+    )
