@@ -15,15 +15,18 @@ __version__ = "0.1.0"
 # Name: its module, imported when the name is first asked for. The same names stand in __init__.pyi, which editors
 # and type checkers read.
 _NAMES = {
-    "Bonds": "api.bending",
+    "Bonds": "bending.model",
     "Diagnosis": "api.diagnosis",
-    "Draws": "api.diagnosis",
+    "Draws": "diagnosis.run",
     "ExportSettings": "api.exporting",
     "InputError": "files.errors",
+    "Known": "api.diagnosis",
     "Law": "api.laws",
+    "Load": "bending.case",
     "Numerics": "bending.case",
     "Packing": "api.specimens",
     "Rig": "bending.rig",
+    "Simulated": "diagnosis.run",
     "Specimen": "api.specimens",
     "Test": "api.bending",
     "Vibration": "specimen.preparation",

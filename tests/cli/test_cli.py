@@ -235,6 +235,10 @@ def test_number_out_of_its_range_is_refused_before_anything_is_read(arguments, c
         (["table", "table4", "--output", "x.csv"], "data simulations, measured: missing"),
         (["figure", "fig09", "laws=l", "--output-stem", "x"], "data simulations, measured: missing"),
         (["table", "table4", "simulation=s", "--output", "x.csv"], "data simulation: not known"),
+        (
+            ["table", "audit", "gradings=g", "--output", "x.csv"],
+            "data gradings: not known; give grading, counts",
+        ),
     ],
 )
 def test_data_that_a_table_or_figure_does_not_take_is_named(
@@ -320,7 +324,7 @@ def test_a_digit_changed_or_a_line_lost_is_noticed_within_the_workflow(tmp_path,
     assert damage(table.read_text()) != table.read_text()
     table.write_text(changed := damage(table.read_text()))
     done = run(*page, env=inside, cwd=tmp_path)
-    assert done.returncode == 2 and not table.exists() and "content is not what was written" in done.stderr
+    assert done.returncode == 2 and not table.exists() and "edited after the workflow wrote it" in done.stderr
     assert table.with_name(".measured.csv.damaged").read_text() == changed
     assert (
         run(*reduce, env=inside, cwd=tmp_path).returncode
@@ -382,3 +386,20 @@ def test_a_step_of_the_workflow_without_its_extra_is_one_sentence(capsys):
     assert (
         capsys.readouterr().err == "error: this step needs docutils; pip install 'asphalt-nscd[workflow]'.\n"
     )
+
+
+@pytest.mark.parametrize("threads", ["0", "-2", "1000000"])
+def test_threads_that_the_machine_has_not_are_refused(threads, capsys, tmp_path):
+    counts, output = tmp_path / "counts.csv", tmp_path / "s1.h5"
+    counts.write_text("diameter_mm,count\n5,20\n")
+    with pytest.raises(SystemExit) as stop:
+        cli.main(
+            ["deposit", "--counts", str(counts), "--box-m", "0.05,0.02,0.12", "--seed", "1", "--threads", threads,
+             "--output", str(output)]
+        )  # fmt: skip
+    assert stop.value.code == 2
+    said = capsys.readouterr().err
+    assert re.fullmatch(
+        rf"error: threads = {threads}: give a whole number from 1 to \d+, the cores .*\n", said
+    )
+    assert not output.exists()

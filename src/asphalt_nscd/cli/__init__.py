@@ -54,9 +54,13 @@ class _Steps(click.Group):
 
 @click.group(cls=_Steps, context_settings={"show_default": True, "help_option_names": ["-h", "--help"]})
 @click.option(
-    "--version", is_flag=True, is_eager=True, expose_value=False, help="Show version and commit.",
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    help="Show version and commit.",
     callback=lambda context, option, asked: _say_version(context) if asked else None,
-)  # fmt: skip
+)
 def group() -> None:
     """Complex modulus of asphalt concrete by nonsmooth contact dynamics, step by step."""
 

@@ -19,7 +19,7 @@ outputs = click.option(
 )
 
 
-def gather(name: str, **keys: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+def gather(name: str, /, **keys: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Hand options over as one mapping `name`: its keys, each with the option whose value it gets."""
 
     def decorate(command: Callable[..., None]) -> Callable[..., None]:
@@ -60,9 +60,12 @@ class Number(click.ParamType):
     name = "number"
 
     def __init__(
-        self, above: float | None = None, low: float | None = None, below: float | None = None,
+        self,
+        above: float | None = None,
+        low: float | None = None,
+        below: float | None = None,
         high: float | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.limits = [
             (above, "greater than", lambda x, limit: x > limit),
             (low, "at least", lambda x, limit: x >= limit),

@@ -24,10 +24,13 @@ def bars(unit: str, on_terminal: bool = False) -> Iterator[Callable[[str, float,
                 bar.close()
             shown = stage
             bar = tqdm(
-                total=total, desc=stage, unit=unit, mininterval=0.1 if on_terminal else 5.0,
+                total=total,
+                desc=stage,
+                unit=unit,
+                mininterval=0.1 if on_terminal else 5.0,
                 disable=None if on_terminal else False,
                 bar_format="{desc}: {percentage:3.0f}% |{bar:20}| {elapsed} gone, {remaining} left",
-            )  # fmt: skip
+            )
         bar.update(done - bar.n)
 
     try:

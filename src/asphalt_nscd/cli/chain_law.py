@@ -33,10 +33,16 @@ from asphalt_nscd.cli import _options
 )
 @_options.output
 def command(
-    spectrum: Path, temperature_c: float, lowest_hz: float, highest_hz: float, tolerance: float,
-    factor: float, output: Path,
-) -> None:  # fmt: skip
+    spectrum: Path,
+    temperature_c: float,
+    lowest_hz: float,
+    highest_hz: float,
+    tolerance: float,
+    factor: float,
+    output: Path,
+) -> None:
     """Convert a law of all temperatures to the Kelvin chain that bonds follow at one temperature."""
     from asphalt_nscd.rheology.chain_law import chain_law
 
     chain_law(spectrum, temperature_c, lowest_hz, highest_hz, tolerance, factor, output)
+    click.echo(f"{output}: a Kelvin chain at {temperature_c:g} degC, from {lowest_hz:g} to {highest_hz:g} Hz")

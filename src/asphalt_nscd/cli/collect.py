@@ -14,5 +14,7 @@ def command(tests: tuple[Path, ...], output: Path) -> None:
     """Collect test files into one table, a row for each."""
     from asphalt_nscd.bending.collect import collect
     from asphalt_nscd.files.store import write_table
+    from asphalt_nscd.files.words import counted
 
     write_table(output, collect(tests))
+    click.echo(f"{output}: {counted(len(tests), 'test')}")

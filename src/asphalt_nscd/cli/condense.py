@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -35,11 +36,12 @@ from asphalt_nscd.cli import _options
     help="Small file to write for `simulate --excerpt`; most tests need no more.",
 )
 @_options.output
-def command(
-    specimen: Path, head: str, poisson: float, kt_over_kn: float, yield_pa: float, friction: float,
-    output: Path, excerpt_output: Path | None,
-) -> None:  # fmt: skip
+@_options.gather(
+    "bonds", head="head", poisson="poisson", kt_over_kn="kt_over_kn", yield_Pa="yield_pa", friction="friction"
+)
+def command(specimen: Path, bonds: dict[str, Any], output: Path, excerpt_output: Path | None) -> None:
     """Assemble the bonded system of a specimen and its reduced form. Every test on the specimen uses them."""
-    from asphalt_nscd.bending.model import condense
+    from asphalt_nscd.bending.model import Bonds, condense
 
-    condense(specimen, head, poisson, yield_pa, friction, output, excerpt_output, kt_over_kn)
+    unknowns = condense(specimen, Bonds(**bonds), output, excerpt_output)
+    click.echo(f"{output}: {unknowns} unknowns")

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -28,16 +29,16 @@ from asphalt_nscd.cli import _options, _progress
     "--vibration-s", default=1.0, type=_options.NOT_NEGATIVE, help="Duration of the vibration, s; 0 for none."
 )
 @click.option("--time-step-s", default=4e-4, type=_options.Number(above=0.0, high=1e-3), help="Time step, s.")
+@click.option("--threads", default=1, type=int, help="Threads to compute on; they change no number.")
 @_options.output
-def command(
-    counts: Path, box_m: tuple[float, float, float], seed: int, friction: float, stroke_mm: float,
-    vibration_hz: float, vibration_s: float, time_step_s: float, output: Path,
-) -> None:  # fmt: skip
+@_options.gather("vibration", stroke="stroke_mm", frequency="vibration_hz", duration="vibration_s")
+@_options.gather(
+    "pouring", box="box_m", seed="seed", friction="friction", time_step="time_step_s", threads="threads"
+)
+def command(counts: Path, pouring: dict[str, Any], vibration: dict[str, float], output: Path) -> None:
     """Pour spheres from a random lattice by gravity, then vibrate the layer with the top wall."""
-    from asphalt_nscd.specimen.preparation import deposit
+    from asphalt_nscd.specimen.preparation import Pouring, Vibration, deposit
 
+    vibration["stroke"] *= 1e-3
     with _progress.bars("s") as progress:
-        deposit(
-            counts, box_m, seed, friction, stroke_mm * 1e-3, vibration_hz, vibration_s, time_step_s,
-            output, progress,
-        )  # fmt: skip
+        deposit(counts, Pouring(vibration=Vibration(**vibration), **pouring), output, progress)

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import click
@@ -16,7 +15,7 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 @click.option(
     "--output", required=True, type=_options.File, help="Folder for diagnosis.json and residuals.csv."
 )
-@click.option("--sheet", help="Sheet of an XLSX file, where several hold something.")
+@click.option("--sheet", help="The only sheet of an XLSX file to read; else all that hold tests.")
 @_options.column
 @click.option(
     "--measured-in",
@@ -66,40 +65,56 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 @click.option("--page/--no-page", default=True, help="Whether to write diagnosis.html too.")
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
+@_options.gather(
+    "table", measurements="measurements", sheet="sheet", columns="columns", measured_in="measured_in"
+)
+@_options.gather("known", geometry="geometry", static_modulus_MPa="static_modulus_mpa")
+@_options.gather("scatter", modulus="modulus_scatter_percent", phase="phase_scatter_deg")
+@_options.gather("simulated", campaign="simulations", facets="facets", specimen="specimen")
+@_options.gather("draws", number="draws", seed="seed")
+@_options.gather("limits", verify="verify_limits", jobs="jobs")
+@_options.gather("written", output="output", page="page")
 def command(
-    measurements: tuple[Path, ...], output: Path, sheet: str | None, columns: tuple[tuple[str, str], ...],
-    measured_in: str | None, geometry: Any, specimen: Path | None, static_modulus_mpa: float | None,
-    modulus_scatter_percent: float | None, phase_scatter_deg: float | None, draws: int, seed: int,
-    simulations: Path | None, facets: Path | None, page: bool, verify_limits: bool, jobs: int | None,
-) -> None:  # fmt: skip
+    table: dict[str, Any],
+    known: dict[str, Any],
+    scatter: dict[str, Any],
+    simulated: dict[str, Any],
+    draws: dict[str, int],
+    limits: dict[str, Any],
+    written: dict[str, Any],
+) -> None:
     """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
 
     MEASUREMENTS: files or a folder of them. Read are exports of testing machines (AMPT, UTM) and tables (CSV,
     TSV, XLSX) with a row for each test or a column for each temperature or frequency.
     """
-    if (modulus_scatter_percent is None) != (phase_scatter_deg is None):
+    if (scatter["modulus"] is None) != (scatter["phase"] is None):
         raise click.UsageError("give --modulus-scatter-percent and --phase-scatter-deg together.")
-    if facets is not None and simulations is None:
-        raise click.UsageError("give --simulations with --facets: the tests that they stand beside.")
-    from asphalt_nscd.api.diagnosis import Draws, diagnose
+    if simulated["facets"] is not None and simulated["campaign"] is None:
+        raise click.UsageError(
+            "--facets needs --simulations, the same tests with the paper's bonds; give both."
+        )
+    from asphalt_nscd.api.diagnosis import Draws, Known, Simulated, diagnose
     from asphalt_nscd.api.tables import campaign_in
 
-    scatter = None
-    if modulus_scatter_percent is not None and phase_scatter_deg is not None:
-        scatter = modulus_scatter_percent, phase_scatter_deg
+    output, measurements = written["output"], table["measurements"]
+    stated = None if scatter["modulus"] is None else (scatter["modulus"], scatter["phase"])
     with bars("step", on_terminal=True) as progress:
         diagnosis = diagnose(
-            campaign_in(measurements, sheet, dict(columns), measured_in), geometry=geometry, specimen=specimen,
-            static_modulus_MPa=static_modulus_mpa, scatter=scatter, simulations=simulations, facets=facets,
-            draws=Draws(draws, seed), progress=progress,
-        )  # fmt: skip
-        if verify_limits:
-            diagnosis = diagnosis.verify_limits(jobs, progress)
+            campaign_in(measurements, table["sheet"], dict(table["columns"]), table["measured_in"]),
+            geometry=known["geometry"],
+            known=Known(known["static_modulus_MPa"], stated),
+            simulated=Simulated(**simulated),
+            draws=Draws(**draws),
+            progress=progress,
+        )
+        if limits["verify"]:
+            diagnosis = diagnosis.verify_limits(limits["jobs"], progress)
     names = diagnosis.outcome.write(output)
-    if page:
+    if written["page"]:
         # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
         title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
         names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
     click.echo(f"{diagnosis}\n\nWritten to {output}: {', '.join(names)}.")
-    if page:
+    if written["page"]:
         click.echo(f"Open {output / names[-1]} in a browser; it needs no network.")

@@ -12,9 +12,9 @@ from asphalt_nscd.cli import _data, _options
 @click.option("--title", required=True, help="Title of the page.")
 @_options.output
 def command(data: tuple[tuple[str, Path], ...], title: str, output: Path) -> None:
-    """Show a diagnosis as an HTML page, from diagnosis=FILE, map=PNG and optional pictures and tables.
+    """Show a diagnosis as an HTML page, from diagnosis=JSON, residuals=CSV, causality=CSV.
 
-    Optional are specimens=PNG, causality=PNG, table4=CSV and ladder=CSV.
+    table4=CSV and ladder=CSV, of a study, may be added.
     """
     from asphalt_nscd.files.store import atomic_path
     from asphalt_nscd.reporting.pages.diagnosis_page import render, sections

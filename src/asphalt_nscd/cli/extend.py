@@ -32,11 +32,11 @@ class Test(click.ParamType):
     "--test", "tests", required=True, multiple=True, type=Test(), help="A test and its bond law to write."
 )
 @click.option("--rig-output", required=True, type=_options.File, help="Rig to write.")
+@_options.gather("sample", number="number", amplitude="amplitude_m", tests="tests")
 def command(
-    diagnosis: Path, law: Path, measured: Path, geometry: Any, number: int, amplitude_m: float,
-    tests: tuple[tuple[float, float, Path], ...], rig_output: Path,
-) -> None:  # fmt: skip
+    diagnosis: Path, law: Path, measured: Path, geometry: Any, sample: dict[str, Any], rig_output: Path
+) -> None:
     """Extend the simulation of one sample by what a diagnosis named: bond laws of its tests, and a rig."""
-    from asphalt_nscd.diagnosis.extension import extend
+    from asphalt_nscd.diagnosis.extension import Sample, extend
 
-    extend(diagnosis, law, measured, geometry, number, amplitude_m, tests, rig_output)
+    extend(diagnosis, law, measured, geometry, Sample(**sample), rig_output)

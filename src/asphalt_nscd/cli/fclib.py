@@ -23,8 +23,8 @@ def command(files: tuple[Path, ...], tolerance: float, output: Path | None) -> N
     error is that of Siconos and FCLIB; the scaled error does not depend on units. Iterations count
     Gauss-Seidel sweeps and steps of the interior path and of Newton's method.
     """
+    from asphalt_nscd.contact_problems import fclib
     from asphalt_nscd.files import store
-    from asphalt_nscd.verification import fclib
 
     outcomes = fclib.solve_files(files, tolerance)
     for outcome in outcomes:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import click
@@ -10,9 +11,10 @@ from asphalt_nscd.cli import _options
 @click.command()
 @click.argument("packing", type=_options.File)
 @click.option(
-    "--unit", type=click.Choice(["m", "cm", "mm", "um"]),
+    "--unit",
+    type=click.Choice(["m", "cm", "mm", "um"]),
     help="Of lengths, where the file does not say it; else m or mm, whichever makes aggregate of the radii.",
-)  # fmt: skip
+)
 @click.option("--up", default="z", type=click.Choice(["x", "y", "z"]), help="Axis against gravity.")
 @_options.output
 def command(packing: Path, unit: str | None, up: str, output: Path) -> None:
@@ -22,6 +24,13 @@ def command(packing: Path, unit: str | None, up: str, output: Path) -> None:
     """
     from asphalt_nscd.api.specimens import read_packing
 
+    if output.suffix.lower() != ".h5":
+        raise click.UsageError(f"{output}: a deposit is a file of HDF5; let its name end in .h5.")
     given = read_packing(packing, unit=unit, up=up)
     given.write(output)
-    click.echo("\n".join([*given.notes, f"wrote {output}; cut a specimen: asphalt-nscd trim {output} ..."]))
+    height = math.floor(1e5 * given.box_m[0]) / 100.0  # mm; a beam longer than the box is refused
+    click.echo("\n".join(given.notes))
+    click.echo(
+        f"wrote {output}; cut a specimen as high as the box is long: asphalt-nscd trim {output} --geometry "
+        f"h_mm={height:g},..."
+    )

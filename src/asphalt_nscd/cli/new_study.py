@@ -29,7 +29,7 @@ Of a sieve table:
     type=_options.File,
     help="Table (CSV, TSV, XLSX), machine export, or a folder of them; repeatable.",
 )
-@click.option("--sheet", help="Sheet of an XLSX file, if several sheets hold data.")
+@click.option("--sheet", help="The only sheet of an XLSX file to read; else all that hold tests.")
 @_options.column
 @click.option(
     "--geometry",
@@ -43,16 +43,23 @@ Of a sieve table:
 )
 @click.option("--grading", type=_options.File, help="Sieve table for the spheres: sieve (mm), passing (%).")
 @click.option("--small", is_flag=True, help="One sample of some hundred spheres, to try a study in minutes.")
-def command(
-    name: str, measurements: tuple[Path, ...], sheet: str | None, columns: tuple[tuple[str, str], ...], geometry: Any,
-    measured_in: str | None, grading: Path | None, small: bool,
-) -> None:  # fmt: skip
+@_options.gather(
+    "wishes",
+    geometry="geometry",
+    grading="grading",
+    measured_in="measured_in",
+    small="small",
+    sheet="sheet",
+    columns="columns",
+)
+def command(name: str, measurements: tuple[Path, ...], wishes: dict[str, Any]) -> None:
     """Write config/NAME.yaml, a study of your own measurements, and print how the table was read."""
     from asphalt_nscd.table_import.write import Wishes, new_study
 
-    given = Path(geometry) if isinstance(geometry, str) else geometry
-    wishes = Wishes(given, grading, measured_in, small, sheet, dict(columns))
-    config, notes = new_study(name, measurements, wishes)
+    if isinstance(wishes["geometry"], str):
+        wishes["geometry"] = Path(wishes["geometry"])
+    wishes["columns"] = dict(wishes["columns"])
+    config, notes = new_study(name, measurements, Wishes(**wishes))
     for note in notes:
         click.echo(note)
     click.echo(f"wrote {config}; run: snakemake --cores all --configfile {config}")

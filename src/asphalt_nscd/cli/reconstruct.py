@@ -39,17 +39,20 @@ from asphalt_nscd.cli import _options
 )
 @click.option("--law-output", type=_options.File, help="File for the law behind the table.")
 @_options.output
+@_options.gather(
+    "sampling",
+    seed="seed",
+    specimens="specimens",
+    frequencies="frequencies_hz",
+    amplitude="amplitude_m",
+    specimen_scatter="specimen_scatter",
+    modulus_scatter="modulus_scatter",
+    phase_scatter_deg="phase_scatter_deg",
+)
 def command(
-    laws_table: Path, output: Path, frequencies_hz: tuple[float, ...], amplitude_m: float, **options: Any
+    laws_table: Path, geometry: Any, output: Path, sampling: dict[str, Any], law_output: Path | None
 ) -> None:
     """Draw measurements about the smooth law behind a published table of Burgers laws."""
-    from asphalt_nscd.rheology.reconstruct import reconstruct_table
+    from asphalt_nscd.rheology.reconstruct import Sampling, reconstruct_table
 
-    reconstruct_table(
-        laws_table,
-        options.pop("geometry"),
-        output,
-        frequencies=frequencies_hz,
-        amplitude=amplitude_m,
-        **options,
-    )
+    reconstruct_table(laws_table, geometry, output, Sampling(**sampling), law_output)

@@ -15,3 +15,4 @@ def command(model: Path, output: Path) -> None:
     from asphalt_nscd.diagnosis.simulated import reduce_model
 
     reduce_model(model, output)
+    click.echo(f"{output}: for diagnose --specimen {output}")

@@ -31,13 +31,24 @@ class Part(click.ParamType):
     help="A figure (PNG) or page (HTML) and the part of the report that shows it; repeatable.",
 )
 @click.option(
+    "--source",
+    "sources",
+    multiple=True,
+    type=Part(),
+    help="Name of a figure or page, and a file with its data that the report links; repeatable.",
+)
+@click.option(
     "--captions", required=True, type=_options.File, help="Folder of captions, an .rst file for each entry."
 )
 @_options.output
 def command(
-    data: tuple[tuple[str, Path], ...], study: str, entries: tuple[tuple[str, Path], ...], captions: Path,
+    data: tuple[tuple[str, Path], ...],
+    study: str,
+    entries: tuple[tuple[str, Path], ...],
+    sources: tuple[tuple[str, Path], ...],
+    captions: Path,
     output: Path,
-) -> None:  # fmt: skip
+) -> None:
     """Put all results of a study into one HTML file. Its first page is made from measured=CSV
     simulations=CSV samples=CSV diagnosis=JSON map=PNG."""
     from asphalt_nscd.files.store import atomic_path
@@ -45,6 +56,9 @@ def command(
     from asphalt_nscd.reporting.pages.first_page import first_page
 
     page = _data.made_from(data, first_page)
-    content = assemble(study, page, [Entry(part, path) for part, path in entries], captions)
+    shown = [
+        Entry(part, path, [source for name, source in sources if name == path.stem]) for part, path in entries
+    ]
+    content = assemble(study, page, shown, captions, output.parent)
     with atomic_path(output) as path:
         path.write_text(content, encoding="utf-8")

@@ -39,7 +39,12 @@ from asphalt_nscd.cli import _options, _progress
     type=_options.POSITIVE,
     help="Frequency of the head, Hz; repeatable, each with an --output of its own.",
 )
-@click.option("--amplitude-m", default=63e-6, type=_options.POSITIVE, help="Amplitude of the head, m.")
+@click.option(
+    "--amplitude-m",
+    default=None,
+    type=_options.POSITIVE,
+    help="Amplitude of the head, m; else the strain of the paper, whose specimen is moved by 63 um.",
+)
 @click.option("--cycles", default=5.0, type=_options.Number(low=1.0), help="Number of cycles.")
 @click.option("--time-step-s", default=5e-5, type=_options.POSITIVE, help="Time step, s.")
 @click.option(
@@ -79,6 +84,13 @@ from asphalt_nscd.cli import _options, _progress
     "--energy", is_flag=True, help="Keep the energy balance of a reduced run; condensed runs always keep it."
 )
 @click.option(
+    "--frames",
+    default=0,
+    type=click.IntRange(0),
+    help="Instants of the last cycle of which to keep the motion of all spheres and the forces of all bonds; 24 bytes "
+    "a sphere and 12 a bond each, before they are packed.",
+)
+@click.option(
     "--checkpoint",
     default=None,
     type=_options.File,
@@ -88,7 +100,7 @@ from asphalt_nscd.cli import _options, _progress
     "--checkpoint-every", default=100, type=click.IntRange(1), help="Steps between two checkpoints."
 )
 @_options.outputs
-@_options.gather("case", amplitude="amplitude_m", cycles="cycles")
+@_options.gather("case", amplitude_m="amplitude_m", cycles="cycles", frames="frames")
 @_options.gather(
     "numerics",
     time_step="time_step_s",
@@ -99,14 +111,23 @@ from asphalt_nscd.cli import _options, _progress
     most_sweeps="most_sweeps",
 )
 @_options.gather(
-    "files", model="model", rig="rig", checkpoint="checkpoint", checkpoint_every="checkpoint_every",
+    "files",
+    model="model",
+    rig="rig",
+    checkpoint="checkpoint",
+    checkpoint_every="checkpoint_every",
     law_source="law_source",
-)  # fmt: skip
+)
 @_options.gather("tests", laws="laws", frequencies="frequencies", outputs="outputs")
 def command(
-    tests: dict[str, Any], case: dict[str, Any], numerics: dict[str, Any], files: dict[str, Any],
-    temperature_c: float, excerpt: Path | None, energy: bool,
-) -> None:  # fmt: skip
+    tests: dict[str, Any],
+    case: dict[str, Any],
+    numerics: dict[str, Any],
+    files: dict[str, Any],
+    temperature_c: float,
+    excerpt: Path | None,
+    energy: bool,
+) -> None:
     """Simulate complex modulus tests at one temperature and write a file for each frequency."""
     laws, frequencies, outputs = tests["laws"], tests["frequencies"], tests["outputs"]
     count = len(frequencies)
@@ -117,17 +138,25 @@ def command(
         )
     if files["checkpoint"] is not None and count > 1:
         raise click.UsageError("--checkpoint keeps one test; give one --frequency-hz.")
-    from asphalt_nscd.bending.bending_test import TestFiles, read_subject, simulate
-    from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
+    from asphalt_nscd.bending.bending_test import TestFiles, damage, read_subject, simulate, told
+    from asphalt_nscd.bending.case import Load, Numerics, RunOptions
 
-    specimen = read_subject(files["model"], excerpt)
+    specimen, load = read_subject(files["model"], excerpt), Load(**case)
     for law, frequency, output in zip(laws * (count // len(laws)), frequencies, outputs, strict=True):
         with _progress.bars("steps") as report:
             options = RunOptions(
                 lambda done, total: report(f"testing at {frequency:g} Hz", done, total),  # noqa: B023
-                energy,
+                energy=energy,
+                frames=load.frames,
             )
-            simulate(
-                TestFiles(law=law, output=output, **files), temperature_c, LoadCase(frequency, **case),
-                Numerics(**numerics), options, specimen,
-            )  # fmt: skip
+            columns = simulate(
+                TestFiles(law=law, output=output, **files),
+                temperature_c,
+                load.at(frequency, specimen.geometry),
+                Numerics(**numerics),
+                options,
+                specimen,
+            )
+        click.echo(told(columns))
+        if columns["broken_bonds"]:
+            click.echo(f"warning: {damage(columns)}", err=True)

@@ -32,8 +32,12 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(
     deposit: Path, geometry: Any, volume_reduction: float, area: str, gap_max_mm: float, output: Path
-) -> None:  # fmt: skip
+) -> None:
     """Cut the specimen from a deposit, turn it upright, shrink its spheres and bond them."""
+    from asphalt_nscd.files.words import counted
     from asphalt_nscd.specimen.preparation import trim_deposit
 
-    trim_deposit(deposit, geometry, volume_reduction, gap_max_mm * 1e-3, output, area)
+    said = trim_deposit(deposit, geometry, volume_reduction, gap_max_mm * 1e-3, output, area)
+    click.echo(
+        f"{output}: {counted(int(said['spheres']), 'sphere')}, {counted(int(said['bonds']), 'bond')} by {area}"
+    )

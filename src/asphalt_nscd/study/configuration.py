@@ -20,11 +20,15 @@ from asphalt_nscd.files.paths import is_file, require_readable
 # YAML 1.1 reads 5e-5 as text, because it has no decimal point; the author meant a number.
 _SCIENTIFIC = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
 _TYPES = {
-    "object": "a mapping", "array": "a list", "string": "text",
-    "number": "a number", "integer": "a whole number",
-}  # fmt: skip
+    "object": "a mapping",
+    "array": "a list",
+    "string": "text",
+    "number": "a number",
+    "integer": "a whole number",
+}
 # Folders of results/ that belong to no study.
 RESERVED = ("benchmark", "cluster", "faults", "fuzz", "mapping", "published", "verification")
+POURED = ("seeds", "counts_table", "box_m")  # what pouring needs
 _OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
 
 
@@ -46,7 +50,10 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
         raise InputError(
             f"{source}: study {study['study']!r} is a folder of other results; give it another name."
         )
+    _settle_origin(study, source)
     _fill(study, rules, rules)
+    if "packings" in study["specimens"]:
+        del study["specimens"]["deposit"]
     _check(study, source)
     return study
 
@@ -160,6 +167,31 @@ def _fill(value: Any, schema: Mapping[str, Any], root: Mapping[str, Any]) -> Non
                 _fill(value[key], rule, root)
 
 
+def _settle_origin(study: dict[str, Any], source: str) -> None:
+    """Samples are poured or given; given ones are numbered as if by seeds, from 1."""
+    specimens = study["specimens"]
+    if "packings" not in specimens:
+        for key in POURED:
+            if key not in specimens:
+                raise InputError(
+                    f"{source}: key {key!r} is missing from specimens; add it, or give packings instead."
+                )
+        for key in ("packing_unit", "packing_up"):
+            if key in specimens:
+                raise InputError(f"{source}: specimens.{key} is for packings; leave it out.")
+        return
+    numbers = list(range(1, len(specimens["packings"]) + 1))
+    for key in (*POURED, "deposit"):
+        if key in specimens and (key, specimens[key]) != ("seeds", numbers):  # as of a study completed before
+            raise InputError(
+                f"{source}: specimens.{key} is for pouring, and packings are poured already; leave out one of them."
+            )
+    for key in ("packing_study", "published"):
+        if key in study:
+            raise InputError(f"{source}: {key} needs spheres that the study pours; leave out it or packings.")
+    specimens["seeds"] = numbers
+
+
 def _check(study: dict[str, Any], source: str) -> None:
     """What a schema cannot say: values against each other, and files."""
     for path, value in _leaves(study):
@@ -190,7 +222,8 @@ def _check(study: dict[str, Any], source: str) -> None:
         "measurements.table": study["measurements"].get("table"),
         "geometry": study["geometry"] if isinstance(study["geometry"], str) else None,
         "laws.published.table": published and published["table"],
-        "specimens.counts_table": study["specimens"]["counts_table"],
+        "specimens.counts_table": study["specimens"].get("counts_table"),
+        **{f"specimens.packings[{n}]": path for n, path in enumerate(study["specimens"].get("packings", []))},
         **{f"published.{key}": path for key, path in study.get("published", {}).items()},
     }.items():
         if path is not None and not is_file(path):
@@ -202,7 +235,7 @@ def _check_geometry(study: dict[str, Any], source: str) -> None:
     if "geometry" not in study["specimens"]:
         if isinstance(study["geometry"], str):
             raise InputError(
-                f"{source}: geometry is a table and the simulated trapezoid unknown; add specimens.geometry."
+                f"{source}: geometry is a table, which does not say what to simulate; add specimens.geometry."
             )
         study["specimens"]["geometry"] = dict(study["geometry"])
     for where, holder in (("geometry", study), ("specimens.geometry", study["specimens"])):

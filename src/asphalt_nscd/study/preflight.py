@@ -16,6 +16,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.geometry import read_geometry, require_within
 from asphalt_nscd.measurements.reduction import require_enough, tests_measured
 from asphalt_nscd.measurements.signals import require_steps
+from asphalt_nscd.packings.incoming import as_deposit, read_packing
 from asphalt_nscd.reporting.tables import table2, table4
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.specimen.counts import read_counts
@@ -53,7 +54,18 @@ def _at(where: str) -> Iterator[None]:
 
 def _check_specimens(specimens: Mapping[str, Any], source: str) -> None:
     with _at(f"{source}: specimens"):
-        require_within(read_geometry(specimens["geometry"], ["s"])["s"], specimens["box_m"])
+        geometry = read_geometry(specimens["geometry"], ["s"])["s"]
+    for path in specimens.get("packings", []):
+        with _at(f"{source}: specimens.packings"):
+            given, _ = as_deposit(
+                read_packing(path), specimens.get("packing_unit"), specimens.get("packing_up", "z")
+            )
+        with _at(f"{source}: specimens.packings: {path}"):
+            require_within(geometry, given[0]["box"].tolist())
+    if "packings" in specimens:
+        return
+    with _at(f"{source}: specimens"):
+        require_within(geometry, specimens["box_m"])
     with _at(f"{source}: specimens.counts_table"):
         read_counts(specimens["counts_table"])
 
