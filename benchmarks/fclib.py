@@ -11,7 +11,7 @@ from pathlib import Path
 import pandas as pd
 from rows import write_rows
 
-from asphalt_nscd.verification.fclib import solve_files
+from asphalt_nscd.contact_problems.fclib import solve_files
 
 TOPIC = "FCLIB to 1e-8"
 SICONOS = Path(__file__).with_name("siconos.csv")

@@ -26,14 +26,14 @@ from rows import Clock, write_rows
 
 from asphalt_nscd.bending.bending_test import bond_law, run_test
 from asphalt_nscd.bending.case import LoadCase, Numerics
-from asphalt_nscd.bending.model import condense, read_model
+from asphalt_nscd.bending.model import Bonds, condense, read_model
 from asphalt_nscd.measurements.signals import harmonic_response
 from asphalt_nscd.measurements.twopoint import complex_modulus
 from asphalt_nscd.nscd.bonds.implicit_operator import LARGEST_FACTORED
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.rheology.laws_io import read_bond_law
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.preparation import deposit, trim_deposit
+from asphalt_nscd.specimen.preparation import Pouring, Vibration, deposit, trim_deposit
 
 BOX = (0.25, 0.025, 0.64)  # m; the paper's 1.6 m high lattice is mostly empty, and its fall long
 GEOMETRY = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250}
@@ -68,9 +68,8 @@ def prepare(spheres: int, counts_table: str, specimen: str) -> list[Row]:
         scaled = pd.DataFrame({"diameter_mm": 1e3 * diameters, "count": np.rint(counts * share).astype(int)})
         scaled.to_csv(folder / "counts.csv", index=False)
         clock = Clock()
-        deposit(
-            folder / "counts.csv", box, 1, 0.2, 6e-3, 30.0, VIBRATION, 4e-4, folder / "deposit.h5", progress
-        )
+        pouring = Pouring(box, seed=1, vibration=Vibration(duration=VIBRATION))
+        deposit(folder / "counts.csv", pouring, folder / "deposit.h5", progress)
         deposited, clock = clock.row(), Clock()
         trim_deposit(folder / "deposit.h5", geometry, 0.1, 2e-3, specimen)
     vibrating = left["vibrating"] - left["settling"]
@@ -87,7 +86,7 @@ def prepare(spheres: int, counts_table: str, specimen: str) -> list[Row]:
 def reduce(specimen: str, model: str) -> list[Row]:
     """The static solution and the vectors of the reduced form."""
     clock = Clock()
-    condense(specimen, "free", 0.35, 2.7e6, 0.7, model)
+    condense(specimen, Bonds(), model)
     return [{"case": CONDENSE} | clock.row()]
 
 

@@ -25,7 +25,7 @@ import pandas as pd
 from blind.score import rate
 
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
-from asphalt_nscd.diagnosis.run import run
+from asphalt_nscd.diagnosis.run import conclude
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
@@ -58,7 +58,7 @@ def tried(seed: int) -> Outcome:
         folder = Path(name)
         table.to_csv(folder / "measured.csv", index=False)
         try:
-            summary = run(folder / "measured.csv", folder, PAPER_GEOMETRY)
+            summary = conclude(folder / "measured.csv", PAPER_GEOMETRY).written(folder)
             assert summary.strip(), "no summary"
             _require_finite(json.loads((folder / "diagnosis.json").read_text(encoding="utf-8")))
             read_diagnosis([folder / "diagnosis.json"])

@@ -16,6 +16,7 @@ import yaml
 from reporting.figures.tiny_results import Results
 
 from asphalt_nscd.bending.rig import Rig, read_rig, write_rig
+from asphalt_nscd.contact_problems import fclib
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.files.csvinput import read_csv
@@ -30,10 +31,8 @@ from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 from asphalt_nscd.specimen.counts import read_counts
 from asphalt_nscd.study.configuration import complete_study, refuse_repeated_keys
-from asphalt_nscd.table_import.cells import read_cells
+from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.spheres import read_grading
-from asphalt_nscd.table_import.understand import understand
-from asphalt_nscd.verification import fclib
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = ROOT / "workflow/schemas/study.schema.yaml"
@@ -69,7 +68,7 @@ def _record(path: Path) -> None:
 
 
 def _understood(path: Path) -> None:
-    understand(read_cells(path))
+    read_campaign([path])
 
 
 def _study(path: Path) -> None:
@@ -123,7 +122,14 @@ def _diagnosis() -> bytes:
         return Results(Path(folder)).diagnosis()["diagnosis"][0].read_bytes()
 
 
-LAW = {"law": "burgers", "Em_Pa": 2e10, "eta_m_Pa_s": 1e9, "Ek_Pa": 3e10, "eta_k_Pa_s": 1e8}
+LAW = {
+    "law": "burgers",
+    "temperature_C": 20.0,
+    "Em_Pa": 2e10,
+    "eta_m_Pa_s": 1e9,
+    "Ek_Pa": 3e10,
+    "eta_k_Pa_s": 1e8,
+}
 CHAIN = _written(
     lambda path: write_chain(
         path, KelvinChain(1e10, 1e9, (1e10, 2e10), (1e8, 1e7)), source="fuzz", temperature=0.0, error=0.1,

@@ -1,32 +1,37 @@
-"""What the look at a report finds, and that a report of ours has none of it."""
+"""What the look at a page and its use find, and that pages of ours have none of it."""
 
 from __future__ import annotations
 
 from base64 import b64encode
 from io import BytesIO
 
+import pandas as pd
 import pytest
 from browser.chromium import Page, find
 from browser.look import WIDTHS, look
+from browser.use import show, use
 from matplotlib.figure import Figure
 
 from asphalt_nscd.reporting.pages.assemble import Entry, assemble
+from asphalt_nscd.reporting.pages.diagnosis_page import render, sections
+from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE
+from asphalt_nscd.reporting.pages.style import page as page_of
 
 pytestmark = pytest.mark.skipif(
     find() is None, reason="no Chromium on PATH (Debian: apt install chromium); CHROMIUM names another"
 )
 
 
-def png(colour="white"):
-    figure = Figure(figsize=(4, 3), facecolor=colour)
+def png(colour="white", width=4):
+    figure = Figure(figsize=(width, 3), facecolor=colour)
     figure.add_subplot(facecolor=colour).plot([1, 2])
     figure.savefig(stream := BytesIO())
     return stream.getvalue()
 
 
-def found(path, width=WIDTHS[0]):
+def found(path, width=WIDTHS[0], how=look):
     with Page(find()) as page:
-        return look(page, path, width)
+        return how(page, path, width)
 
 
 @pytest.mark.parametrize("width", WIDTHS)
@@ -35,10 +40,12 @@ def test_report_has_nothing_to_complain_of(tmp_path, width):
         (tmp_path / name.replace("html", "rst").replace("png", "rst")).write_text(
             f"**{text}**\n\nWith |E*| and ``code``.\n"
         )
-    (tmp_path / "a.png").write_bytes(png())
+    (tmp_path / "a.png").write_bytes(png(width=14))
     row = "".join(f"<td>{number}</td>" for number in range(1000, 1040))
     for name in ("t", "diagnosis"):
-        (tmp_path / f"{name}.html").write_text(f"<html><body><table><tr>{row}</tr></table></body></html>")
+        (tmp_path / f"{name}.html").write_text(
+            f"<html><body><table><caption>{name}</caption><tr>{row}</tr></table></body></html>"
+        )
     (tmp_path / "workflow.html").touch()
     sentence = ["A sentence about 120 moduli."]
     page = {
@@ -48,11 +55,61 @@ def test_report_has_nothing_to_complain_of(tmp_path, width):
         "notes": sentence, "gained": [("error of |E*|, %", "2", "1")], "held_out": None,
         "map": b64encode(png()).decode(),
     }  # fmt: skip
-    entries = [Entry(f"{place} Part", tmp_path / name) for place, name in enumerate(("a.png", "t.html"))]
+    entries = [
+        Entry(f"{place} Part {place}", tmp_path / name) for place, name in enumerate(("a.png", "t.html"))
+    ]
     (tmp_path / "report.html").write_text(
         assemble("tiny", page, [*entries, Entry("2 Last", tmp_path / "diagnosis.html")], tmp_path)
     )
     assert found(tmp_path / "report.html", width) == []
+    assert found(tmp_path / "report.html", width, use) == []
+    with Page(find()) as shown:  # a broad figure keeps its letters and scrolls in its own box
+        show(shown, tmp_path / "report.html", width, "light")
+        assert shown.evaluate("document.querySelector('#a img').getBoundingClientRect().width") > 500
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_page_of_a_diagnosis_can_be_used(results, tmp_path, width):
+    made = results.diagnosis() | {"causality": results.causality()}
+    for name in ("residuals.csv", "diagnosis.json"):
+        assert (tmp_path / name).exists()
+    (tmp_path / "page.html").write_text(render(sections(**made), "A diagnosis", ["residuals.csv"]))
+    assert found(tmp_path / "page.html", width) == []
+    assert found(tmp_path / "page.html", width, use) == []
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_page_of_few_tests_has_no_empty_chart(results, tmp_path, width):
+    """Of isotherms with fewer than four tests, which are not held against causality."""
+    paths = results.causality()
+    table = pd.read_csv(paths[0]).assign(phase_required_deg=None, std_error_deg=None)
+    table.to_csv(paths[0], index=False)
+    made = results.diagnosis() | {"causality": paths}
+    html = render(sections(**made), "A diagnosis")
+    assert html.count('class="chart"') == html.count('class="said"') < html.count("<figure")
+    (tmp_path / "page.html").write_text(html)
+    assert found(tmp_path / "page.html", width, use) == []
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_a_wide_table_scrolls_inside_its_own_box(tmp_path, width):
+    """A table of its own page, of 40 columns and a cell of many words: the page stays as wide as the window."""
+    names = ",".join(["T", *(f"column_{number}" for number in range(39))])
+    cells = ",".join(["s1 at rest", *["12345.6"] * 38, "a sentence of many words " * 12])
+    (tmp_path / "t.csv").write_text(f"# a note\n#  that goes on\n{names}\n" + f"{cells}\n" * 60)
+    (tmp_path / "t.html").write_text(page_of(tmp_path / "t.csv", "A table"))
+    assert found(tmp_path / "t.html", width) == []
+    with Page(find()) as page:
+        show(page, tmp_path / "t.html", width, "light")
+        assert page.evaluate("document.querySelector('td.words').getBoundingClientRect().width") > 200
+        lines = (
+            "(r => { r.selectNodeContents(document.querySelector('td')); return r.getClientRects().length; })"
+        )
+        # a short cell is not torn on a telephone
+        assert width > 600 or page.evaluate(f"{lines}(document.createRange())") == 1
+        page.evaluate("document.querySelector('.wide').scrollTop = 500")
+        top = "document.querySelector('SELECT').getBoundingClientRect().top"
+        assert page.evaluate(top.replace("SELECT", "th")) == page.evaluate(top.replace("SELECT", ".wide"))
 
 
 @pytest.mark.parametrize(
@@ -77,3 +134,45 @@ def test_what_is_wrong_is_found(tmp_path, body, told):
     path = tmp_path / "page.html"
     path.write_text(f"<!DOCTYPE html><html><body style='margin: 0'>{body}</body></html>")
     assert any(told in one for one in found(path)), found(path)
+
+
+TABLE = (
+    "<table aria-label='t'><thead><tr><th scope='col'>a</th><th scope='col'>b</th></tr></thead><tbody>"
+    "<tr><td>2</td><td></td></tr><tr><td>10</td><td></td></tr><tr><td>1</td><td></td></tr></tbody></table>"
+)
+CHART = (
+    "<figure class='chart'><svg aria-label='c' tabindex='0' width='300' height='90'>POINTS</svg>"
+    "<p class='said'></p></figure>"
+)
+POINTS = "".join(
+    f"<circle cx='{40 * n + 20}' cy='40' r='9'><title>{n} °C, 3 Hz</title></circle>" for n in range(5)
+)
+
+
+@pytest.mark.parametrize(
+    ("body", "script", "told"),
+    [
+        ("<p style='color: #999'>pale</p>", SCRIPT, "light: contrast 2.8 of 'pale'"),
+        ("<p style='color: #444'>dim</p>", SCRIPT, "dark: contrast"),
+        ("<style>body { background: #fff !important }</style>", SCRIPT, "the page is not dark"),
+        ("<table><tr><td>1</td></tr></table>", SCRIPT, "a table has no name"),
+        ("<h1>a</h1><h3>b</h3>", SCRIPT, "a heading 3 below 1"),
+        ("<input type='checkbox'>", SCRIPT, "no label"),
+        ("<p id='a'></p><p id='a'></p>", SCRIPT, "a second id"),
+        (TABLE, SCRIPT.replace("x - y", "y - x"), "a column sorted ascending says 'ascending' and reads [10, 2"),
+        (TABLE, SCRIPT.replace("x - y", "a.localeCompare(b)"), "a column sorted ascending"),
+        (TABLE, SCRIPT.replace('"aria-sort", down', '"data-sort", down'), "says None"),
+        (TABLE, SCRIPT.replace('join("\\t")', 'join(" ")'), "a copied table of 2 columns: 'Copied', 1 columns"),
+        (CHART.replace("POINTS", POINTS), SCRIPT.replace("at + 1", "at + 2"), "ArrowRight says '1 °C"),
+        (CHART.replace("POINTS", POINTS), SCRIPT.replace("pointerover", "nothing"), "the pointer at '3 °C"),
+        (CHART.replace("POINTS", POINTS.replace("°C", "deg")), SCRIPT, "ArrowRight says '0 deg"),
+        ("<div style='height: 4000px'>long</div>", SCRIPT, "prints on"),
+    ],
+)  # fmt: skip
+def test_what_fails_in_use_is_found(tmp_path, body, script, told):
+    path = tmp_path / "page.html"
+    path.write_text(
+        f"<!DOCTYPE html><html lang='en'><style>{STYLE}</style><script>{script}</script><body>{body}</body></html>"
+    )
+    said = found(path, how=use)
+    assert any(told in one for one in said), said

@@ -62,10 +62,10 @@ def test_a_few_are_diagnosed_or_refused_in_one_sentence(seed):
 
 
 def ended_by(monkeypatch, error: BaseException):
-    def run(*_):
+    def conclude(*_):
         raise error
 
-    monkeypatch.setattr(diagnoses, "run", run)
+    monkeypatch.setattr(diagnoses, "conclude", conclude)
     return diagnoses.tried(0)
 
 
@@ -76,11 +76,12 @@ def test_what_is_no_refusal_is_a_traceback(monkeypatch):
 
 
 def test_a_diagnosis_with_infinity_in_its_file_is_none(monkeypatch):
-    def run(_, folder, __):
-        (folder / "diagnosis.json").write_text('{"ladder": [{"p_value": Infinity}]}')
-        return "summary"
+    class Infinite:
+        def written(self, folder):
+            (folder / "diagnosis.json").write_text('{"ladder": [{"p_value": Infinity}]}')
+            return "summary"
 
-    monkeypatch.setattr(diagnoses, "run", run)
+    monkeypatch.setattr(diagnoses, "conclude", lambda *_: Infinite())
     outcome = diagnoses.tried(0)
     assert outcome.ended == "traceback" and outcome.said.endswith("diagnosis.ladder.0.p_value")
 
@@ -99,3 +100,9 @@ def test_rates_count_the_ends_and_time_the_diagnosed():
     short, long = (row for name, row in table.iterrows() if name.startswith("CPU"))
     assert (short["n"], short["median"], short["largest"]) == (3, 1.0, 2.0)
     assert (long["n"], long["median"], long["largest"]) == (3, 4.0, 5.0)
+
+
+@pytest.mark.parametrize("seed", [541, 599])
+def test_tables_that_once_ended_in_a_traceback(seed):
+    """541: each specimen at frequencies of its own, which leaves no interaction to test; 599: metal, without loss."""
+    assert diagnoses.tried(seed).ended == "diagnosed"
