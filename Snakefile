@@ -39,8 +39,12 @@ include: "workflow/rules/report.smk"  # figures, tables, report
 include: "workflow/rules/stages.smk"  # each stage by its name
 include: "workflow/rules/publish.smk"  # what is committed
 include: "workflow/rules/verification.smk"  # is the core right
-include: "workflow/rules/benchmark.smk"  # how fast is it beside its peers
-include: "workflow/rules/mapping.smk"  # how bonds carry the law, by size and packing
+
+if POURED:
+
+    include: "workflow/rules/benchmark.smk"  # how fast is it beside its peers
+    include: "workflow/rules/mapping.smk"  # how bonds carry the law, by size and packing
+
 
 if STUDY["study"] == "blind":
 

@@ -120,7 +120,7 @@ def test_every_mapping_of_the_schema_refuses_unknown_keys():
         ({"measurements": {"reconstruct": {"seed": 1}}}, "laws.published is missing"),
         ({"laws": {"simulate": "published"}}, "laws.published is missing"),
         ({"geometry": 25}, "geometry is 25, but must be a mapping or text"),
-        ({"geometry": "gone.csv"}, "geometry is a table and the simulated trapezoid unknown"),
+        ({"geometry": "gone.csv"}, "geometry is a table, which does not say what to simulate"),
         ({"geometry": {**TRAPEZOID, "b_mm": 60}}, "geometry.b_mm must not be larger than B_mm"),
         ({"geometry": {**TRAPEZOID, "H_mm": 1}}, "unknown key 'H_mm' in geometry; did you mean 'h_mm'?"),
         ({"geometry": {"b_mm": 25}}, "key 'B_mm' is missing from geometry; add it."),
@@ -175,3 +175,42 @@ def test_file_names_and_tables_hold_the_very_numbers_of_the_study(config, tmp_pa
     assert [float(label(value)) for value in values] == values
     write_table(tmp_path / "t.csv", pd.DataFrame({"frequency_Hz": [10 / 3, 1e-4 / 3, 1e3 / 3, 3.3333333]}))
     assert read_csv(tmp_path / "t.csv").numbers("frequency_Hz").tolist() == values
+
+
+def packed(config, tmp_path, **others):
+    for name in ("one.csv", "two.csv"):
+        (tmp_path / name).touch()
+    files = [str(tmp_path / name) for name in ("one.csv", "two.csv")]
+    return config | {"specimens": {"packings": files, **others}}
+
+
+def test_packings_are_numbered_as_if_by_seeds(config, tmp_path):
+    given = complete(packed(config, tmp_path, packing_unit="mm"))
+    assert given["specimens"]["seeds"] == [1, 2] and "deposit" not in given["specimens"]
+    assert complete(given) == given
+    steps = {
+        "temperature_C": 15,
+        "frequency_Hz": 3,
+        "sweeps_frequency_Hz": 10,
+        "time_steps_s": [1e-4],
+        "sweeps": 5,
+    }
+    assert "is not in specimens.seeds" in refusal(
+        packed(config, tmp_path) | {"time_step_study": steps | {"seed": 3}}
+    )
+
+
+def test_packings_and_pouring_exclude_each_other(config, tmp_path):
+    for key, value in {"seeds": [4], "counts_table": "counts.csv", "deposit": {"friction": 0.3}}.items():
+        sentence = f"specimens.{key} is for pouring, and packings are poured already; leave out one of them."
+        assert sentence in refusal(packed(config, tmp_path, **{key: value}))
+    study = {"frictions": [0.5], "seed": 1, "temperature_C": 15, "frequency_Hz": 10}
+    assert "packing_study needs spheres that the study pours" in refusal(
+        packed(config, tmp_path) | {"packing_study": study}
+    )
+    sentence = "key 'box_m' is missing from specimens; add it, or give packings instead."
+    assert sentence in refusal(config | {"specimens": {"seeds": [1], "counts_table": "c.csv"}})
+    gone = refusal(config | {"specimens": {"packings": ["gone.csv"]}})
+    assert "specimens.packings[0] is 'gone.csv', but there is no such file" in gone
+    units = config | {"specimens": config["specimens"] | {"packing_up": "y"}}
+    assert "specimens.packing_up is for packings; leave it out." in refusal(units)

@@ -162,3 +162,20 @@ def test_published_tables_that_cannot_be_read(check):
         Path("t.csv").write_text("a,b\n1,2\n")
         with pytest.raises(InputError, match="t.csv: column '.*' is missing"):
             check(published=published | {key: "t.csv"})
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("x,y,z,radius\n1,2,3,-1\n", "pile.csv: sphere 1 has a radius of zero or less"),
+        ("x_mm,y_mm,z_mm,radius_mm\n1,1,1,1\n2,1,1,1\n", "pile.csv: spheres 1 and 2 overlap by 100 %"),
+        ("x_mm,y_mm,z_mm,radius_mm\n1,1,1,1\n4,1,1,1\n", "pile.csv: .*box"),
+        ("nothing\n", "pile.csv: "),
+    ],
+)
+def test_packings_that_cannot_be_used(check, text, sentence):
+    Path("pile.csv").write_text(text)
+    left_out = dict.fromkeys(("sensitivity", "time_step_study", "packing_study", "audit", "published"))
+    with pytest.raises(InputError, match=f"my.yaml: specimens.packings: .*{sentence}") as refused:
+        check(specimens={"packings": ["pile.csv"]}, **left_out)
+    assert "\n" not in str(refused.value)

@@ -6,7 +6,7 @@ import glob
 
 SIZES = os.environ.get("SIZES", "1000 3000 10000").split()
 PROBLEMS = sorted(glob.glob(os.environ.get("FCLIB", "")))
-DIAGNOSED_TESTS = [54, 90, 1000]
+DIAGNOSED_TESTS = [54, 120, 1000]
 METHODS = ["sweeps", "condensed", "reduced", "chain", "yade"]
 MEASURE = f"env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 {sys.executable} benchmarks"
 PEERS = ["liggghts", "yade"]
@@ -82,6 +82,23 @@ rule benchmark_preparation:
         MEASURE + "/growth.py prepare {wildcards.size} {input.counts} --specimen {output.specimen} --output {output.row} > {log} 2>&1"
 
 
+rule benchmark_threads:
+    # Pouring on two threads beside one. By wall time, on two cores with nothing else to do: only on request.
+    input:
+        compiled="<results>/compiled/deposit",
+        counts=STUDY["specimens"]["counts_table"],
+        code=["benchmarks/threads.py", code("deposit")],
+    output:
+        "results/benchmark/threads.csv",
+    threads: 2
+    log:
+        "results/benchmark/logs/threads.log",
+    message:
+        "Pour 30 000 spheres on one thread and on two"
+    shell:
+        MEASURE + "/threads.py 30000 {input.counts} --output {output} > {log} 2>&1"
+
+
 rule benchmark_growth:
     # A test on them: condensed, reduced.
     input:
@@ -133,13 +150,26 @@ rule benchmark_diagnosis:
     input:
         code=["benchmarks/diagnosis.py", code("diagnose")],
     output:
-        "results/benchmark/rows/diagnosis-{tests}.csv",
+        "results/benchmark/diagnosis.csv",
+    params:
+        tests=DIAGNOSED_TESTS,
     log:
-        "results/benchmark/logs/diagnosis-{tests}.log",
+        "results/benchmark/logs/diagnosis.log",
     message:
-        "Diagnose {wildcards.tests} tests"
+        "Diagnose {params.tests} tests"
     shell:
-        MEASURE + "/diagnosis.py {wildcards.tests} --output {output} > {log} 2>&1"
+        MEASURE + "/diagnosis.py {params.tests} --output {output} > {log} 2>&1"
+
+
+rule publish_diagnosis_times:
+    # What is committed of them, and their table in docs. Only on request: snakemake --cores 1 publish_diagnosis_times
+    input:
+        table="results/benchmark/diagnosis.csv",
+        code=code("publish"),
+    message:
+        "Copy the times of a diagnosis, and fill their table in docs"
+    shell:
+        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark --document docs --block diagnosis_times={input.table}"
 
 
 rule benchmark:
@@ -152,7 +182,7 @@ rule benchmark:
             *expand("results/benchmark/rows/{part}-{size}.csv", part=["preparation", "growth"], size=SIZES),
             "results/benchmark/rows/fclib.csv",
             "results/benchmark/rows/law.csv",
-            *expand("results/benchmark/rows/diagnosis-{tests}.csv", tests=DIAGNOSED_TESTS),
+            "results/benchmark/diagnosis.csv",
         ],
         code="benchmarks/collect.py",
     output:
@@ -165,6 +195,33 @@ rule benchmark:
         "Collect the benchmarks"
     shell:
         MEASURE + "/collect.py {input.rows} --output {output.table} --beside {output.beside} --growth {output.growth} > {log} 2>&1"
+
+
+rule benchmark_outside:
+    # Packings of LIGGGHTS and ours, bonded and bent alike. At small size: what is compared does not depend on it.
+    input:
+        compiled=["<results>/compiled/deposit", "<results>/compiled/simulate"],
+        counts=os.path.relpath(Path(workflow.basedir, "config/smoke_counts.csv")),
+        code=["benchmarks/outside.py", "benchmarks/pour.liggghts", code("deposit"), code("trim"), code("simulate")],
+    output:
+        "results/benchmark/outside.csv",
+    log:
+        "results/benchmark/logs/outside.log",
+    message:
+        "Bend beams of spheres that LIGGGHTS poured, and of ours"
+    shell:
+        MEASURE + "/outside.py {input.counts} --box 0.06,0.01,0.2 --seeds 1,2,3 --output {output} > {log} 2>&1"
+
+
+rule publish_outside:
+    # What is committed of them, and their table in docs. Only on request: snakemake --cores 1 publish_outside
+    input:
+        table="results/benchmark/outside.csv",
+        code=code("publish"),
+    message:
+        "Copy the comparison of packings, and fill its table in docs"
+    shell:
+        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark --document docs --block outside={input.table}"
 
 
 rule benchmark_provenance:

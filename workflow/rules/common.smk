@@ -13,6 +13,7 @@ from asphalt_nscd.workflow_support.failures import failures
 from asphalt_nscd.study.preflight import require_feasible
 from asphalt_nscd.workflow_support.lock import release_stale_locks, hold_own_locks
 from asphalt_nscd.files.paths import require_writable
+from asphalt_nscd.nscd.cores import cores
 from asphalt_nscd.workflow_support.sources import PACKAGE, modules_of, source_files, stamp, stamp_of_row
 from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
 
@@ -56,6 +57,13 @@ TEMPERATURES = [label(value) for value in STUDY["temperatures_C"]]
 FREQUENCIES = [label(value) for value in STUDY["frequencies_Hz"]]
 SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
 
+# Of a sample's pouring: more than one where the study has fewer samples than cores. `workflow.cores` raises where none
+# are given, as by `snakemake --report`.
+THREADS = max(1, min(workflow.resource_settings.cores or 1, cores()) // len(SAMPLES))
+
+POURED = "packings" not in STUDY["specimens"]
+COUNTS = STUDY["specimens"].get("counts_table", [])  # none where packings are given
+
 
 wildcard_constraints:
     seed=r"\d+",
@@ -65,7 +73,7 @@ wildcard_constraints:
     head="free|blocked",
     parameter="Em|eta_m|Ek|eta_k",
     factor=r"[\d.]+(e[+-]?\d+)?",
-    family=r"[a-z_]+",
+    family=r"[a-z_]+\d*",
     friction=r"[\d.]+(e[+-]?\d+)?",
     time_step=r"[\d.]+(e[+-]?\d+)?",
 
@@ -74,6 +82,11 @@ def code(step, *modules):
     """What stands for the source behind a step of the command line and modules that it picks by name."""
     files = source_files(f"cli.{step.replace('-', '_')}", *modules)
     return stamp(".snakemake/code", "-".join([step, *modules[:1]]), files).as_posix()
+
+
+def page_files(*names):
+    """Templates behind a page, with what gives all pages their look and their buttons."""
+    return [os.path.relpath(PACKAGE / "reporting/pages" / name) for name in (*names, "page.css", "page.js")]
 
 
 def row_at(table):
@@ -101,7 +114,10 @@ def options(values, *keys):
 
 def title(name):
     """First line of a caption; numbers padded, because the report sorts by it."""
-    line = Path(workflow.basedir, f"workflow/report/{name}.rst").read_text(encoding="utf-8").splitlines()[0]
+    caption = Path(workflow.basedir, f"workflow/report/{name}.rst")
+    if not caption.exists():
+        sys.exit(f"error: workflow/report/{name}.rst: no caption of {name}; write it, its title in ** on the first line.")
+    line = caption.read_text(encoding="utf-8").splitlines()[0]
     return re.sub(r"Fig\. (\d):", r"Fig. 0\1:", line.strip("*").replace("\\", ""))
 
 

@@ -26,11 +26,6 @@ FIGURES = {
     "fig_master": ("0 Diagnosis", RESIDUALS),
     "fig_limits": ("0 Diagnosis", {"diagnosis": RESIDUALS["diagnosis"]}),
     "fig01": ("1 Measurements and laws", {"study": ["<results>/study.json"]}),
-    "fig05": (
-        "2 Preparation",
-        {"deposit": [f"<results>/deposits/{FIRST}.h5"], "specimen": [f"<results>/specimens/{FIRST}.h5"]},
-    ),
-    "fig_compaction": ("2 Preparation", {"deposit": expand("<results>/deposits/{sample}.h5", sample=SAMPLES)}),
     "fig07": (
         "3 Bending tests",
         {"test": expand(TESTS, sample=FIRST, temperature=TYPICAL, frequency=max(FREQUENCIES, key=float))},
@@ -52,7 +47,6 @@ FIGURES = {
 }
 DEPOSITS = expand("<results>/deposits/{sample}.h5", sample=SAMPLES)
 TABLES = {
-    "preparation": {"deposits": DEPOSITS},
     "samples": {"simulations": SIMULATIONS, "deposits": DEPOSITS},
     "table3": {
         "fitted": FITTED_LAWS,
@@ -78,19 +72,26 @@ PAGES = {
     "ladder": "0 Diagnosis",
     "measured": "1 Measurements and laws",
     "table3": "1 Measurements and laws",
-    "preparation": "2 Preparation",
     "samples": "2 Preparation",
     "simulations": "3 Bending tests",
     "table4": "3 Bending tests",
     "timings": "7 About this run",
 }
 
+if POURED:
+    FIGURES["fig05"] = (
+        "2 Preparation",
+        {"deposit": [f"<results>/deposits/{FIRST}.h5"], "specimen": [f"<results>/specimens/{FIRST}.h5"]},
+    )
+    FIGURES["fig_compaction"] = ("2 Preparation", {"deposit": DEPOSITS})
+    PAGES["preparation"] = "2 Preparation"
+    TABLES["preparation"] = {"deposits": DEPOSITS}
 if "published" in STUDY:
     PAGES["table2"] = "2 Preparation"
     TABLES["table2"] = {
         "grading": [STUDY["published"]["grading_table"]],
         "published": [STUDY["published"]["counts_table"]],
-        "used": [STUDY["specimens"]["counts_table"]],
+        "used": [COUNTS],
     }
 if "time_step_study" in STUDY:
     FIGURES["fig06"] = (
@@ -113,6 +114,11 @@ if "sensitivity" in STUDY:
 if "audit" in STUDY:
     PAGES["readings"] = "6 Audit"
     FIGURES["fig_readings"] = ("6 Audit", {"readings": ["<results>/readings.csv"], "simulations": SIMULATIONS})
+    PAGES["bond_readings"] = "6 Audit"
+    TABLES["bond_readings"] = {
+        "deposit": [f"<results>/deposits/s{AUDIT['seed']}.h5"],
+        "specimen": [f"<results>/specimens/s{AUDIT['seed']}.h5"],
+    }
 if "packing_study" in STUDY:
     PAGES["packing"] = "2 Preparation"
     FIGURES["fig_packing"] = ("2 Preparation", {"packing": ["<results>/packing.csv"]})
@@ -127,6 +133,7 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
         "simulations": SIMULATIONS,
         "sensitivity": ["<results>/sensitivity.csv"],
         "readings": ["<results>/readings.csv"],
+        "bond_readings": ["<results>/bond_readings.csv"],
         "packing": ["<results>/packing.csv"],
         "facets": FACET_SIMULATIONS,
         "ladder": ["<results>/ladder.csv"],

@@ -55,13 +55,12 @@ rule diagnosis_page:
     # What to make of it, for who has to act on it.
     input:
         diagnosis=DIAGNOSED[0],
-        map="<results>/figures/fig_residual_map.png",
-        specimens="<results>/figures/fig_specimens.png",
-        causality="<results>/figures/fig_causality_map.png",
+        residuals=DIAGNOSED[1],
+        causality=DIAGNOSED[2],
         table4="<results>/table4.csv",
         ladder="<results>/ladder.csv",
         code=code("diagnosis-page"),
-        template=os.path.relpath(PACKAGE / "reporting/pages/diagnosis_page.html"),
+        template=page_files("diagnosis_page.html", "charts.html"),
     output:
         report(
             "<results>/pages/diagnosis.html",
@@ -71,7 +70,7 @@ rule diagnosis_page:
         ),
     params:
         title=title("diagnosis"),
-        data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "map", "specimens", "causality", "table4", "ladder")],
+        data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "residuals", "causality", "table4", "ladder")],
     log:
         "<results>/logs/page/diagnosis.log",
     benchmark:

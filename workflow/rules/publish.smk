@@ -3,6 +3,7 @@
 
 BLOCKS = {"samples": "<results>/samples.csv", "table4": "<results>/table4.csv", "timings": "<results>/timings.md"}
 BLOCKS |= {name: "<results>/ladder.csv" for name in ("ladder", "gain")} if COMMON_LAW else {}
+BLOCKS |= {"families": "<results>/families.csv"} if FAMILIES else {}
 BLOCKS |= {"outputs": "<results>/outputs.csv"} if "outputs" in TABLES else {}
 
 
@@ -39,6 +40,47 @@ if STUDY["study"] == "paper":
             "Put the reduced specimen into the package"
         shell:
             "cp {input} src/asphalt_nscd/diagnosis/specimen.h5"
+
+
+rule simulate_frames:
+    # One test that keeps what all spheres and bonds do in its last cycle.
+    input:
+        compiled="<results>/compiled/simulate",
+        model=FACET_MODEL,
+        law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
+        code=code("simulate"),
+    output:
+        "<results>/frames/{sample}/T{temperature}/f{frequency}.h5",
+    params:
+        test=lambda wildcards: f"--temperature-c {wildcards.temperature} --frequency-hz {wildcards.frequency}",
+        amplitude=STUDY["test"]["amplitude_m"],
+    log:
+        "<results>/logs/frames/{sample}/T{temperature}/f{frequency}.log",
+    message:
+        "Test sample {wildcards.sample} and keep 12 instants of a cycle"
+    shell:
+        "asphalt-nscd simulate {input.model} --law {input.law} {params.test} --amplitude-m {params.amplitude} --frames 12 --output {output} > {log} 2>&1"
+
+
+rule specimen_picture:
+    # A specimen and the forces in its bonds, for docs/packings.md; needs VTK. Only on request:
+    #   snakemake --cores 1 specimen_picture --configfile config/smoke.yaml
+    input:
+        test=f"<results>/frames/{SAMPLES[0]}/T{TEMPERATURES[-1]}/f{FREQUENCIES[-1]}.h5",
+        tool=os.path.relpath(Path(workflow.basedir, "tools/picture.py")),
+        code=code("export"),
+    output:
+        "docs/specimen_forces.png",
+    params:
+        series=lambda wildcards, input: input.test.removesuffix("h5") + "pvd",
+        python=sys.executable,
+    log:
+        "<results>/logs/specimen_picture.log",
+    message:
+        "Draw a specimen and the forces in its bonds"
+    shell:
+        "bash -c 'asphalt-nscd export {input.test} --format vtk --output {params.series} && "
+        "{params.python} {input.tool} {params.series} --output {output}' > {log} 2>&1"
 
 
 rule first_page:
@@ -80,9 +122,9 @@ rule publish_fuzz:
         files=["results/fuzz/wild_failures.csv", "results/fuzz/provenance.json"],
         code=code("publish"),
     message:
-        "Copy how wild tables ended"
+        "Copy how wild tables ended, and fill the table into docs"
     shell:
-        "asphalt-nscd publish {input.table} {input.files} --root results/fuzz --output results/published/fuzz --document README.md"
+        "asphalt-nscd publish {input.table} {input.files} --root results/fuzz --output results/published/fuzz --document docs --block wild={input.table}"
 
 
 rule publish_cluster:

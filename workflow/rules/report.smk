@@ -68,6 +68,7 @@ for name, category in PAGES.items():
         input:
             table=f"<results>/{name}.csv",
             code=code("page"),
+            template=page_files(),
         output:
             report(
                 f"<results>/pages/{name}.html",
@@ -158,6 +159,16 @@ rule provenance:
         "asphalt-nscd provenance {input.study} --output {output} > {log} 2>&1"
 
 
+def sources_of_entries():
+    """Name of each figure or page, and the tables that it shows."""
+    tables = {name: [path for paths in data.values() for path in paths] for name, (_, data) in FIGURES.items()}
+    tables |= {"diagnosis": DIAGNOSED} | {name: [f"<results>/{name}.csv"] for name in PAGES}
+    for name, paths in tables.items():
+        for path in sorted(set(paths)):
+            if path.endswith(".csv"):
+                yield name, path.replace("<results>", f"results/{STUDY['study']}")
+
+
 rule results:
     # Everything but the report about it.
     input:
@@ -178,7 +189,7 @@ rule report:
         ladder="<results>/ladder.csv",
         map="<results>/figures/fig_residual_map.png",
         code=code("report"),
-        template=os.path.relpath(PACKAGE / "reporting/pages/report.html"),
+        template=page_files("report.html"),
     output:
         "<results>/report.html",
     params:
@@ -192,6 +203,7 @@ rule report:
         entries=lambda wildcards, input: [
             f"--entry={PARTS[Path(path).stem]}={path}" for path in [*input.pages, *input.figures]
         ],
+        sources=lambda wildcards: [f"--source={name}={path}" for name, path in sources_of_entries()],
         captions=lambda wildcards, input: os.path.dirname(input.captions[0]),
     log:
         "<results>/logs/report.log",
@@ -200,7 +212,7 @@ rule report:
     message:
         "Put figures and tables into one report: {output}"
     shell:
-        "asphalt-nscd report {params.data:q} --study {params.study} {params.entries:q} --captions {params.captions} --output {output} > {log} 2>&1"
+        "asphalt-nscd report {params.data:q} --study {params.study} {params.entries:q} {params.sources:q} --captions {params.captions} --output {output} > {log} 2>&1"
 
 
 rule workflow_report:

@@ -21,14 +21,15 @@ rule deposit:
     # Table 2's spheres rain into the box and are vibrated by the top wall.
     input:
         compiled="<results>/compiled/deposit",
-        counts=STUDY["specimens"]["counts_table"],
+        counts=COUNTS,
         code=code("deposit"),
     output:
         "<results>/deposits/s{seed}.h5",
     params:
-        box=text(STUDY["specimens"]["box_m"]),
-        pouring=options(STUDY["specimens"]["deposit"]),
+        box=text(STUDY["specimens"].get("box_m")),
+        pouring=options(STUDY["specimens"].get("deposit", {})),
     priority: 10  # the longest jobs first
+    threads: THREADS  # which change no number
     log:
         "<results>/logs/deposit/s{seed}.log",
     benchmark:
@@ -36,7 +37,34 @@ rule deposit:
     message:
         "Pour and vibrate sample s{wildcards.seed}; to watch: tail -f {log}"
     shell:
-        "asphalt-nscd deposit --counts {input.counts:q} --box-m {params.box} --seed {wildcards.seed} {params.pouring} --output {output} > {log} 2>&1"
+        "asphalt-nscd deposit --counts {input.counts:q} --box-m {params.box} --seed {wildcards.seed} {params.pouring} --threads {threads} --output {output} > {log} 2>&1"
+
+
+if not POURED:
+
+    rule import_packing:
+        # Spheres that another program poured, in place of ours.
+        input:
+            packing=lambda wildcards: STUDY["specimens"]["packings"][int(wildcards.seed) - 1],
+            code=code("import-packing"),
+        output:
+            "<results>/deposits/s{seed}.h5",
+        params:
+            read=" ".join(
+                f"--{key} {STUDY['specimens'][f'packing_{key}']}"
+                for key in ("unit", "up")
+                if f"packing_{key}" in STUDY["specimens"]
+            ),
+        log:
+            "<results>/logs/import_packing/s{seed}.log",
+        benchmark:
+            "<results>/benchmarks/import_packing/s{seed}.tsv"
+        message:
+            "Take the packing {input.packing} as sample s{wildcards.seed}"
+        shell:
+            "asphalt-nscd import-packing {input.packing:q} {params.read} --output {output} > {log} 2>&1"
+
+    ruleorder: import_packing > deposit
 
 
 rule trim:
@@ -87,7 +115,7 @@ use rule deposit as deposit_loose with:
     output:
         "<results>/deposits/s{seed}-friction{friction}.h5",
     params:
-        box=text(STUDY["specimens"]["box_m"]),
+        box=text(STUDY["specimens"].get("box_m")),
         pouring=lambda wildcards: options(STUDY["specimens"]["deposit"] | {"friction": wildcards.friction}),
     log:
         "<results>/logs/deposit/s{seed}-friction{friction}.log",
