@@ -32,7 +32,7 @@ REDONE = {
     "diagnosis/law.json": 1e-3,
 }
 RULES = ("reconstruct", "reduce", "published_law", "fit", "table2", "table3", "table4", "diagnose", "ladder")
-PUBLISHED = ("benchmark", "blind", "cluster", "faults", "mapping", "paper", "verification")
+PUBLISHED = ("benchmark", "blind", "cluster", "faults", "fuzz", "mapping", "paper", "verification")
 TAKEN = ("simulations.csv", "facets.csv", "extended.csv")  # of full simulations
 
 

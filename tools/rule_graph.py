@@ -15,9 +15,12 @@ from matplotlib.patches import FancyArrowPatch
 
 # Rules of one kind are one box, else half of them would be figures and pages.
 KINDS = [
-    (r"fig\w+|table\d|samples|gain|audit", "figures and tables"),
+    (r"fig\w+|table\d|samples|preparation|ladder|fracture|families|audit", "figures and tables"),
+    (r"export_\w+", "export_abaqus, ..."),
+    (r"(draw|reduce|diagnose)_family", "draw_, reduce_,\ndiagnose_family"),
     (r"\w+_page|report|workflow_report|timings|provenance", "pages, report"),
-    (r"simulate_(packed|blocked|pascal)", "simulate_packed,\n_blocked, _pascal"),
+    (r"simulate_(packed\w*|blocked|pascal)", "simulate_packed,\n_blocked, _pascal"),
+    (r"(trim|condense)_facets", "trim_facets,\ncondense_facets"),
     (r"simulate_(step|sweeps)", "simulate_step,\n_sweeps"),
     (r"packing|readings", "packing, readings"),
     (r"deposit_loose", "deposit"),

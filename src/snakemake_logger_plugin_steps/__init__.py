@@ -71,9 +71,15 @@ class LogHandler(LogHandlerBase):
         )
         self.steps = Steps()
         self._progress = Progress(
-            TextColumn("steps"), MofNCompleteColumn(), BarColumn(), TimeElapsedColumn(), TextColumn("gone,"),
-            TimeRemainingColumn(), TextColumn("left"), console=self.console,
-        )  # fmt: skip
+            TextColumn("steps"),
+            MofNCompleteColumn(),
+            BarColumn(),
+            TimeElapsedColumn(),
+            TextColumn("gone,"),
+            TimeRemainingColumn(),
+            TextColumn("left"),
+            console=self.console,
+        )
         self._bar = self._progress.add_task("", total=None)
         self._live: Live | None = None
 

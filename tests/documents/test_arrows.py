@@ -15,6 +15,7 @@ ARROWS = {
     "files": [],
     "workflow_support": ["files"],
     "nscd": [],
+    "contact_problems": ["files", "nscd"],
     "measurements": ["files"],
     "rheology": ["files", "measurements"],
     "specimen": ["files", "measurements", "nscd"],
@@ -23,16 +24,18 @@ ARROWS = {
     "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
     "exports": ["files", "measurements", "rheology", "diagnosis"],
     "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis"],
-    "study": ["files", "measurements", "rheology", "specimen", "reporting"],
+    "study": ["files", "measurements", "rheology", "specimen", "packings", "reporting"],
     "table_import": ["files", "measurements", "study", "reporting"],
-    "verification": ["files", "workflow_support", "measurements", "nscd", "rheology", "specimen", "bending"],
+    "verification": [
+        "files", "workflow_support", "measurements", "nscd", "contact_problems", "rheology", "specimen", "bending",
+    ],
     "api": [
         "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
         "table_import", "packings",
     ],
     "cli": [
         "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "study", "table_import", "verification", "nscd", "api",
+        "study", "table_import", "verification", "nscd", "api", "contact_problems",
     ],
 }  # fmt: skip
 

@@ -126,6 +126,18 @@ def test_stages_of_growth(tmp_path, beam):
     assert 0.2 < ratio < 2.0
 
 
+def test_pouring_on_two_threads_beside_one(tmp_path):
+    """A row in the rain and one under the wall; the numbers are the same or the script fails."""
+    (tmp_path / "counts.csv").write_text("diameter_mm,count\n3,100\n5,20\n")
+    run(tmp_path, "threads.py", 240, "counts.csv", "--output", "rows.csv")
+    rows = pd.read_csv(tmp_path / "rows.csv")
+    assert rows.case.tolist() == ["falling, 2 threads", "vibrating, 2 threads"]
+    assert (rows.topic == "threads").all() and (rows.spheres == 240).all() and (rows.cpu_s > 0.0).all()
+    assert rows.remark.str.fullmatch(
+        r"\d.* times as fast as one thread, .* in 5 pairs of runs; .*; equal bits"
+    ).all()
+
+
 def test_fits_of_a_law(tmp_path):
     """A row for each size and band; only hot tests leave parameters to the prior."""
     run(tmp_path, "law.py", "--output", "rows.csv")

@@ -12,9 +12,10 @@ import asphalt_nscd
 
 ROOT = Path(__file__).parents[2]
 MODULES = [
-    "api.bending", "api.contacts", "api.diagnosis", "api.exporting", "api.laws", "api.reading", "api.specimens",
-    "measurements.signals", "measurements.twopoint", "nscd.contacts.friction", "rheology.burgers",
-    "rheology.chain", "rheology.fitting", "rheology.shift", "rheology.spectrum",
+    "api.arguments", "api.bending", "api.contacts", "api.diagnosis", "api.exporting", "api.laws", "api.reading",
+    "api.specimens", "bending.case", "bending.model", "bending.rig", "diagnosis.run", "files.errors", "files.words",
+    "measurements.signals", "measurements.twopoint", "nscd.contacts.friction", "rheology.burgers", "rheology.chain",
+    "rheology.fitting", "rheology.shift", "rheology.spectrum", "specimen.preparation",
 ]  # fmt: skip
 
 
