@@ -63,6 +63,24 @@ def test_targets_of_the_machine_decide():
     assert nominal_temperatures(given, np.array(measured)).tolist() == [20.0, 21.0, 20.0, 21.9]
 
 
+@pytest.mark.parametrize(
+    ("specimens", "readings", "isotherm"),
+    [
+        ("AABB", (21.0, 21.1, 20.9, 21.0), [21.0] * 4),  # two operators, one bath
+        ("AAAB", (21.0, 21.1, 20.9, 21.0), [20.0, 20.0, 21.0, 21.0]),  # A was tested at both
+        ("AABB", (20.1, 20.0, 20.9, 21.0), [20.0, 20.0, 21.0, 21.0]),  # and so was the bath
+    ],
+)
+def test_two_targets_held_at_one_temperature_are_one(specimens, readings, isotherm):
+    given = table(
+        specimen=specimens,
+        frequency_Hz=[10, 1, 10, 1],
+        temperature_C=readings,
+        nominal_temperature_C=[20, 20, 21, 21],
+    )
+    assert nominal_temperatures(given, np.array(readings)).tolist() == isotherm
+
+
 def test_notes_say_what_was_put_together_and_what_is_off_its_target():
     measured, nominal = np.array([4.0, 4.1, 20.0, 36.2]), np.array([4.0, 4.0, 20.0, 37.0])
     together, off = isotherm_notes(measured, nominal)

@@ -54,7 +54,8 @@ def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> ND
 def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
     """Isotherm (n,) [degC] of each row of a table: its target where the table gives one, else by `isotherms`.
 
-    A row without a target belongs to that within READINGS_APART of it. temperature (n,): as measured [degC].
+    A row without a target belongs to that within READINGS_APART of it. Targets of two operators that were held at
+    one temperature are one (`_one_target`). temperature (n,): as measured [degC].
     """
     names = ("specimen", "replicate", "frequency_Hz", "amplitude_m", "order", "cycles")
     tests = list(zip(*(table.columns[name] for name in names if name in table.columns), strict=True))
@@ -62,6 +63,7 @@ def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDAr
     told = np.isfinite(target)
     if not told.any():
         return isotherms(temperature, tests)
+    target = _one_target(target, temperature, np.array(table.columns.get("specimen", [""] * target.size)))
     nominal = np.where(told, target, temperature)
     for row in np.flatnonzero(~told):
         near = np.unique(target[told])
@@ -69,6 +71,27 @@ def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDAr
         if near.size:
             nominal[row] = near[np.argmin(np.abs(near - temperature[row]))]
     return nominal
+
+
+def _one_target(
+    target: NDArray[np.float64], temperature: NDArray[np.float64], specimen: NDArray[np.str_]
+) -> NDArray[np.float64]:
+    """Targets (n,) [degC], two of them made one where both were held at one temperature: 20 and 21 in a bath at 21.
+
+    They are at most WIDEST_ISOTHERM apart, their mean readings at most READINGS_APART, and no specimen has both.
+    """
+    out = target.copy()
+    values = np.unique(target[np.isfinite(target)])
+    for low, high in zip(values[:-1], values[1:], strict=True):
+        below, above = out == low, target == high
+        if not below.any() or high - low > WIDEST_ISOTHERM + 1e-9:
+            continue
+        apart = abs(temperature[below].mean() - temperature[above].mean()) > READINGS_APART + 1e-9
+        if not apart and not np.isin(specimen[below], specimen[above]).any():
+            both = below | above
+            held = temperature[both].mean()
+            out[both] = low if abs(held - low) < abs(held - high) else high
+    return out
 
 
 def isotherm_notes(temperature: NDArray[np.float64], nominal: NDArray[np.float64]) -> list[str]:
