@@ -326,6 +326,14 @@ def test_all_sheets_of_one_layout_are_read_as_specimens(tmp_path):
     assert len(alone.table.lines) == 4 and alone.files == (tmp_path / "t.xlsx",)
 
 
+def test_each_sheet_may_have_its_line_of_units(tmp_path):
+    units = [["T", "f", "E*", "phi"], ["°C", "Hz", "MPa", "°"]]
+    sheets = {f"{name}1": [*units, *rows[1:]] for name, rows in by_specimen().items()}
+    columns = read(tmp_path, sheets, "t.xlsx").table.columns
+    whole = as_is(tmp_path)
+    assert columns == whole | {"specimen": [f"{name}1" for name in whole["specimen"]]}
+
+
 def test_a_sheet_of_all_tests_is_not_read_twice(tmp_path):
     campaign = read(tmp_path, by_specimen(("All", [HEADER, *ROWS])), "t.xlsx")
     assert campaign.table.columns == as_is(tmp_path)

@@ -13,7 +13,7 @@ from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, as_cells, read_sheets
 from asphalt_nscd.table_import.exports import blocks
-from asphalt_nscd.table_import.headings import headed, require_rows
+from asphalt_nscd.table_import.headings import headed, require_rows, with_units
 from asphalt_nscd.table_import.parts import Part, without_copies, without_repeated
 from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
 from asphalt_nscd.table_import.understand import (
@@ -117,7 +117,8 @@ def _sheet(path: Path, sheet: Sheet, chosen: Mapping[str, str] | None, alone: bo
             raise NotTests(
                 f"{path}: its name says that it was computed of others; give it with --sheet if it holds tests."
             )
-        cells = told_by_sheet(cells, str(sheet.name), chosen or {})
+        # Units first: a column that the name of the sheet fills would be a number in their line.
+        cells = told_by_sheet(with_units(cells), str(sheet.name), chosen or {})
     return [Part(path, understand(cells, chosen), False)]
 
 
