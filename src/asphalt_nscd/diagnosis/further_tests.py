@@ -47,7 +47,7 @@ class Costs:
     @property
     def sentence(self) -> str:
         return (
-            f"Counted: {self.mounting:g} h to mount a specimen, {self.conditioning:g} h to bring it to a temperature "
+            f"Hours: {self.mounting:g} h to mount a specimen, {self.conditioning:g} h to bring it to a temperature "
             f"outside {self.room[0]:g} to {self.room[1]:g} degC, {self.new_specimen:g} h to prepare a new one, "
             f"{self.cycles:g} cycles and one minute at each frequency."
         )

@@ -436,9 +436,9 @@ def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"The estimates of causes without a name spread {spread:.1f} times as far as their standard errors: "
-        "these tests hold more structure than the diagnosis describes. "
-        f"Rely on a detection limit from {spread:.1f} times its value."
+        f"Effects that got no name scatter {spread:.1f} times as far as their standard errors allow: these tests hold "
+        "more structure than the diagnosis describes. "
+        f"Trust a detection limit only at {spread:.1f} times its value."
     ]
 
 

@@ -81,6 +81,6 @@ def _scatter(content: Content) -> list[str]:
         return []
     table = tabulate(rows, sentences.SCATTER_HEAD, disable_numparse=True)
     return [
-        "Coefficient of variation between specimens at one condition, and within specimens (level of each taken off):",
+        "Coefficient of variation at one condition: between specimens, and within each once its level is taken off:",
         *table.splitlines(),
     ]
