@@ -10,7 +10,7 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from asphalt_nscd.files.store import load, save
-from asphalt_nscd.nscd.stepping.break_modes import FOLLOWED, StandBy
+from asphalt_nscd.nscd.stepping.break_modes import StandBy
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.projection import Projection
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
@@ -68,7 +68,6 @@ def test_bonds_are_kept_ready_in_the_order_in_which_they_would_break(beam_system
         weight[3 * bond : 3 * bond + 3] = 0.0
     order = np.argsort(-unbroken, kind="stable")
     assert not np.isin(stand_by.bonds[:3], order[:20]).all()  # redistribution brings others forward
-    assert np.isin(order[: READY - FOLLOWED], stand_by.bonds).all()
     assert np.isfinite(beam_system.strength[stand_by.bonds]).all()
 
 
@@ -112,20 +111,47 @@ def test_breaks_without_a_factorisation(beam_system, quick_law, basis, stand_by)
     assert certificate.largest_residual <= 1e-6 and certificate.largest_utilisation <= 1.0
 
 
-def test_a_bond_without_directions_is_factorised_for(beam_system, quick_law, basis, stand_by):
-    """The directions of the first bond to break are kept ready, those of the next are not."""
-    reference, complete = in_full(beam_system, quick_law)
-    keep = np.flatnonzero(stand_by.bonds == complete.state.broken[0])
-    chosen = np.flatnonzero(stand_by.owner == keep[0])
-    directions, bonds = stand_by.directions[:, chosen], stand_by.bonds[keep]
-    projection = Projection.of(beam_system, np.hstack([basis, directions]), [], bonds)
-    fewer = replace(
-        stand_by, bonds=bonds, owner=np.zeros(chosen.size, int), directions=directions, projection=projection
+def keeping(stand_by, system, basis, bonds):
+    """With the directions of these bonds only."""
+    places = [np.flatnonzero(stand_by.bonds == bond)[0] for bond in bonds]
+    blocks = [stand_by.directions[:, stand_by.owner == place] for place in places]
+    directions = np.hstack([np.empty((basis.shape[0], 0), np.float32), *blocks])
+    owner = np.repeat(np.arange(len(bonds)), [block.shape[1] for block in blocks])
+    projection = Projection.of(system, np.hstack([basis, directions]), [], bonds)
+    return replace(
+        stand_by, bonds=np.array(bonds, int), owner=owner, directions=directions, projection=projection
     )
+
+
+@pytest.mark.parametrize("kept", [0, 1])
+def test_directions_are_found_when_a_bond_without_them_breaks(beam_system, quick_law, basis, stand_by, kept):
+    """With those of the next to break; then it goes on as if they had been there from the beginning."""
+    reference, complete = in_full(beam_system, quick_law)
+    fewer = keeping(stand_by, beam_system, basis, complete.state.broken[:kept])
     force, stepper = run(beam_system, quick_law, basis, fewer)
-    assert stepper._operator is not None
+    assert stepper._operator is None and stepper._shifted is not None
+    assert stepper._stand_by.bonds.size > kept + 1
+    assert np.isin(complete.state.broken, stepper._stand_by.bonds).all()
     assert stepper.state.broken == complete.state.broken
+    assert stepper.enrichments == len(complete.state.broken)
     np.testing.assert_allclose(force, reference, rtol=0, atol=1e-7 * np.abs(reference).max())
+
+
+def test_directions_found_on_the_way_survive_a_checkpoint(beam_system, quick_law, basis, stand_by):
+    none = keeping(stand_by, beam_system, basis, [])
+    never_stopped = run(beam_system, quick_law, basis, none)[1]
+    stepper, again = (
+        ReducedStepper(none.model(beam_system, basis, []), quick_law, DT, 1e-6, stand_by=none)
+        for _ in range(2)
+    )
+    done = 0
+    while not stepper.state.broken:
+        stepper.run(DRIVEN[done : done + 10])
+        done += 10
+    again.put({name: value.copy() for name, value in stepper.arrays().items()})
+    np.testing.assert_array_equal(again._stand_by.bonds, stepper._stand_by.bonds)
+    np.testing.assert_array_equal(again.run(DRIVEN[done:])[0], stepper.run(DRIVEN[done:])[0])
+    assert again.state.broken == never_stopped.state.broken
 
 
 def test_through_a_file(stand_by, tmp_path):

@@ -7,6 +7,7 @@ hand; taking them in is then a matter of small matrices.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,8 +18,8 @@ from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.projection import Projection, rows_of
 from asphalt_nscd.nscd.stepping.reduced_model import Columns, ReducedModel
 
-BONDS = 7  # each costs half a second to find; for others, that break all the same, the test factorises
-FOLLOWED = 5  # of them: in the paper's tests no others break
+BONDS = 16  # kept ready; each costs half a second to find
+AHEAD = 8  # found at once when another one breaks, which costs a factorisation
 DEPTH = 2  # blocks of the Krylov space: residuals of 1e-6 with one, 2e-8 with two, 3e-10 with three
 
 
@@ -36,29 +37,26 @@ class StandBy:
 
     @classmethod
     def of(cls, system: BondedSystem, basis: np.ndarray, shifted: SuperLU, most: int = BONDS) -> StandBy:
-        """For the bonds, at `most` so many, that the driven motion alone, either way, brings nearest to yield.
+        """For the bonds, at `most` so many, that the driven motion alone, either way, breaks one after another."""
+        search = _Search(system, basis, shifted, {})
+        return cls._of(search, search.following([], most))
 
-        First those FOLLOWED from break to break, then the most stressed of the unbroken system.
-        """
-        bonds: list[int] = []
-        blocks: list[np.ndarray] = []
-        opening = system.operator @ basis
-        columns = Columns(system, basis)
-        stress = _stress_without([], system, opening)
-        unbroken = stress.copy()
-        while len(bonds) < most and stress.any():
-            bonds.append(int(np.argmax(stress)))
-            blocks.append(_directions(system, columns, shifted, bonds[-1]))
-            if len(bonds) < FOLLOWED:
-                opening = np.hstack([opening, system.operator @ blocks[-1]])
-                stress = _stress_without(bonds, system, opening)
-            else:
-                stress = unbroken
-            stress[bonds] = 0.0
-        directions = np.hstack([np.empty((system.mass.size, 0)), *blocks]).astype(np.float32)
+    @classmethod
+    def _of(cls, search: _Search, bonds: Sequence[int]) -> StandBy:
+        system = search.system
+        blocks = [search.directions(bond).astype(np.float32) for bond in bonds]
+        directions = np.hstack([np.empty((system.mass.size, 0), np.float32), *blocks])
         owner = np.repeat(np.arange(len(bonds)), [block.shape[1] for block in blocks])
-        projection = Projection.of(system, np.hstack([basis, directions]), [], bonds)
+        projection = Projection.of(system, np.hstack([search.basis, directions]), [], bonds)
         return cls(np.array(bonds, int), owner, directions, projection)
+
+    def with_those_of(
+        self, bonds: Sequence[int], system: BondedSystem, basis: np.ndarray, shifted: SuperLU, ahead: int
+    ) -> StandBy:
+        """With the directions of `bonds` (m,) too, and of the next, `ahead` so many, that break once these have."""
+        known = {int(bond): self.directions[:, self.owner == place] for place, bond in enumerate(self.bonds)}
+        search = _Search(system, basis, shifted, known)
+        return self._of(search, list(dict.fromkeys([*known, *bonds, *search.following(bonds, ahead)])))
 
     def arrays(self) -> dict[str, np.ndarray]:
         """By name, for a file."""
@@ -104,17 +102,64 @@ class StandBy:
         return ReducedModel(system, np.hstack([basis, extra]), broken, small)
 
 
-def _stress_without(broken: list[int], system: BondedSystem, opening: np.ndarray) -> np.ndarray:
-    """Utilisation (b,) of each bond, either way, per unit of the driven motion at rest; zero where broken.
+class _Search:
+    """Which bonds break one after another under the driven motion at rest, and their directions."""
 
-    opening (3 b, k): of columns, the first of which moves the driven degree of freedom and the others leave it.
-    """
-    weight = system.weight.copy()
-    weight[rows_of(broken)] = 0.0
-    stiffness = opening.T @ (weight[:, None] * opening)
-    others = np.linalg.lstsq(stiffness[1:, 1:], -stiffness[1:, 0], rcond=None)[0]
-    reaction = weight * (opening @ np.concatenate([[1.0], others]))
-    return np.maximum(system.utilisation(reaction), system.utilisation(-reaction))
+    def __init__(
+        self, system: BondedSystem, basis: np.ndarray, shifted: SuperLU, known: dict[int, np.ndarray]
+    ) -> None:
+        """basis (d, k): column 0 moves the driven degree of freedom. known: directions (d, any) of some bonds."""
+        self.system, self.basis, self._shifted = system, basis, shifted
+        self._columns, self._found = Columns(system, basis), dict(known)
+
+    def directions(self, bond: int) -> np.ndarray:
+        """What the Krylov space of one bond's forces adds to the basis, orthonormal in the stiffness."""
+        if bond not in self._found:
+            self._found[bond] = _directions(self.system, self._columns, self._shifted, bond)
+        return self._found[bond]
+
+    def following(self, broken: Sequence[int], most: int) -> list[int]:
+        """The bonds, at `most` so many, that break one after another once `broken` have."""
+        network = _Network(self.system, self.basis)
+        for bond in broken:
+            network.remove(bond, self.directions(bond))
+        bonds: list[int] = []
+        while len(bonds) < most and (stress := network.stress()).any():
+            bonds.append(int(np.argmax(stress)))
+            network.remove(bonds[-1], self.directions(bonds[-1]))
+        return bonds
+
+
+class _Network:
+    """The bonds under the driven motion at rest, from which one after another is removed."""
+
+    def __init__(self, system: BondedSystem, basis: np.ndarray) -> None:
+        """basis (d, k): of columns, the first moves the driven degree of freedom and the others leave it."""
+        self._system, self._weight = system, system.weight.copy()
+        self._openings = [system.operator @ basis]
+        self._stiffness = self._openings[0].T @ (self._weight[:, None] * self._openings[0])
+
+    def remove(self, bond: int, directions: np.ndarray) -> None:
+        """Let the bond break, and the motion answer in its `directions` (d, any) too."""
+        new = self._system.operator @ directions.astype(float)
+        weighted = self._weight[:, None] * new
+        across = np.vstack([part.T @ weighted for part in self._openings])
+        self._stiffness = np.block([[self._stiffness, across], [across.T, new.T @ weighted]])
+        self._openings.append(new)
+        rows = rows_of([bond])
+        gone = np.hstack([part[rows] for part in self._openings])
+        self._stiffness -= gone.T @ (self._weight[rows, None] * gone)
+        self._weight[rows] = 0.0
+
+    def stress(self) -> np.ndarray:
+        """Utilisation (b,) of each bond, either way, per unit of the driven motion; zero where broken."""
+        others = np.linalg.lstsq(self._stiffness[1:, 1:], -self._stiffness[1:, 0], rcond=None)[0]
+        shares = np.split(
+            np.concatenate([[1.0], others]), np.cumsum([o.shape[1] for o in self._openings])[:-1]
+        )
+        opening = sum(part @ share for part, share in zip(self._openings, shares, strict=True))
+        reaction = self._weight * opening
+        return np.maximum(self._system.utilisation(reaction), self._system.utilisation(-reaction))
 
 
 def _directions(system: BondedSystem, columns: Columns, shifted: SuperLU, bond: int) -> np.ndarray:

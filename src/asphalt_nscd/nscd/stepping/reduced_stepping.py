@@ -27,6 +27,8 @@ from asphalt_nscd.nscd.stepping.reduced_steps import (
 )
 
 if TYPE_CHECKING:  # sparse matrices, which take as long to import as a test without breaks to run
+    from scipy.sparse.linalg import SuperLU
+
     from asphalt_nscd.nscd.bonds.implicit_operator import ShiftedOperator
     from asphalt_nscd.nscd.stepping.break_modes import StandBy
     from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
@@ -114,6 +116,7 @@ class ReducedStepper:
         self._reached_sigma, self._reached_motion = np.zeros(k), np.zeros(k)
         self._stand_by, self._ritz = stand_by, None if isinstance(model, Excerpt) else model.basis
         self._operator: ShiftedOperator | None = None
+        self._shifted: SuperLU | None = None  # for directions that were not kept ready
         self._watch(np.zeros(k), np.zeros(k))
 
     @property
@@ -180,6 +183,7 @@ class ReducedStepper:
         found |= {name: getattr(self, "_" + name) for name in _REACHED}
         found |= {"broken": np.array(self.state.broken, np.int64), "enrichments": self.enrichments}
         found |= {"smallest_gap": self._smallest_gap, "stands_by": self._stand_by is not None}
+        found |= {"standing_by": np.empty(0, int) if self._stand_by is None else self._stand_by.bonds}
         return {name: np.asarray(value) for name, value in found.items()}
 
     def put(self, arrays: dict[str, np.ndarray]) -> None:
@@ -197,8 +201,11 @@ class ReducedStepper:
         for name in _REACHED:
             setattr(self, "_" + name, arrays[name])
         self.enrichments, self._smallest_gap = arrays["enrichments"].item(), arrays["smallest_gap"].item()
+        ready = arrays["standing_by"]
         if not arrays["stands_by"]:
             self._stand_by = None
+        elif self._stand_by is not None and not np.isin(ready, self._stand_by.bonds).all():
+            self._stand_by_for(ready.tolist(), 0)
         self._look_at()
 
     def certify(self, full: CondensedStepper) -> None:
@@ -317,11 +324,14 @@ class ReducedStepper:
 
     def _enrich(self, code: int) -> None:
         """Widen the basis until it holds the step just refused, at the head velocity just tried."""
+        from asphalt_nscd.nscd.stepping.break_modes import AHEAD
         from asphalt_nscd.nscd.stepping.reduced_model import append_columns
 
         self.enrichments += 1
         whole, model = self.model, None
         if code == YIELD and self._stand_by is not None and self._ritz is not None:
+            if not np.isin(self.state.broken, self._stand_by.bonds).all():
+                self._stand_by_for(self.state.broken, AHEAD)
             model = self._stand_by.model(whole.system, self._ritz, self.state.broken)
         if model is None:
             self._stand_by = None  # its projection knows nothing of the directions now found
@@ -333,6 +343,15 @@ class ReducedStepper:
         self._reached_sigma = _widened(self._reached_sigma, more)
         self._reached_motion = _widened(self._reached_motion, more)
         self._watch(_widened(self._sigma_envelope, more), _widened(self._motion_envelope, more))
+
+    def _stand_by_for(self, bonds: list[int], ahead: int) -> None:
+        """Find directions for `bonds` too, and for the next to break, `ahead` so many."""
+        from asphalt_nscd.nscd.stepping.reduced_model import shifted_factor
+
+        system = self.model.system
+        assert self._stand_by is not None and self._ritz is not None
+        self._shifted = self._shifted or shifted_factor(system)
+        self._stand_by = self._stand_by.with_those_of(bonds, system, self._ritz, self._shifted, ahead)
 
     def _corrections(self) -> np.ndarray:
         """What the refused step misses of the full solution, and what its inertia will need (d, columns)."""
