@@ -61,4 +61,4 @@ def test_specimen_is_the_function_although_a_folder_has_its_name(before):
         "except an.InputError as error: print(error)"
     )
     said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout
-    assert said == "packing\n10000000\nno.h5: no such file; make it with its rule or check the path.\n"
+    assert said == "packing\n10000000\nno.h5: no such file; run the rule that makes it, or check the path.\n"

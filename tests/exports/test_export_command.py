@@ -70,7 +70,7 @@ def test_the_command_says_what_it_wrote(folder, capsys):
             ["--format", "ansys", "--output", "law.mac", "--poisson", "-1"],
             "greater than -1 and less than 0.5",
         ),
-        (["--format", "abaqus", "--output", "law.inp", "--name", "2nd"], "begin with a letter"),
+        (["--format", "abaqus", "--output", "law.inp", "--name", "2nd"], "first a letter"),
         (["--format", "csv", "--output", "law.csv", "--temperatures-c", "-300,0"], "greater than -273.15"),
         (
             ["--format", "csv", "--output", "law.csv", "--error-percent", "1e-9"],

@@ -106,7 +106,7 @@ def changed(name, value, index=100):
         ((*record(), 0.0), "not positive"),
         ((*record(), -3.0), "not positive"),
         ((*record(), np.nan), "not positive"),
-        ((*record(), 11.0), "not a sinusoid of 11 Hz"),
+        ((*record(), 11.0), "a sinusoid of 11 Hz explains only"),
         ((*changed("force", np.nan), FREQUENCY), "force of sample 101 is not a finite number"),
         ((*changed("time", np.inf), FREQUENCY), "time of sample 101 is not a finite number"),
         ((*changed("time", 0.0), FREQUENCY), "does not increase at sample 101"),

@@ -140,8 +140,8 @@ MM = 1e3 * TABLE
     [
         (MM[:1], "holds one sphere alone; give the whole packing"),
         (0.1 * MM, "radii from 0.2.* are those of sand in mm and of gravel in cm; state the unit with --unit"),
-        (np.vstack([MM, [0, 0, 2000, 2.5]]), "1 sphere apart from the others, with 19.* mm of nothing .* the height"),
-        (MM * [4, 1, 1, 1], "apart from the others, with .* mm of nothing between along the length"),
+        (np.vstack([MM, [0, 0, 2000, 2.5]]), "an empty gap of 19.* mm along the height parts .* from the others"),
+        (MM * [4, 1, 1, 1], "an empty gap of .* mm along the length parts .* from the others"),
         (MM + [1e16, 0, 0, 0], "positions up to 1e.13 m leave no digits for radii of 0.002"),
         (np.column_stack([np.round(MM[:, :3] + 5e6, -1), MM[:, 3]]), "so far from the origin may have been rounded"),
     ],
@@ -206,5 +206,5 @@ def test_a_deposit_that_is_a_table_says_which_command_reads_it(tmp_path):
 
 def test_a_deposit_of_this_program_is_told_where_to_go(tmp_path):
     (tmp_path / "deposit.h5").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(64))
-    with pytest.raises(an.InputError, match="a deposit of this program goes straight to `asphalt-nscd trim`"):
+    with pytest.raises(an.InputError, match="give a deposit of this program to `asphalt-nscd trim` itself"):
         an.read_packing(tmp_path / "deposit.h5")

@@ -86,7 +86,7 @@ def test_tables_of_a_specimen_and_a_test(beam, tmp_path):
     assert np.allclose(pd.read_csv(tmp_path / "s.csv")["radius_m"], beam.radius_m)
     assert len(pd.read_csv(tmp_path / "s-bonds.csv")) == len(beam.bonds)
     assert np.allclose(pd.read_csv(tmp_path / "t.csv"), test.history, rtol=1e-8)
-    with pytest.raises(an.InputError, match=r"keeps no motion of spheres.*Load\(frames=24\)"):
+    with pytest.raises(an.InputError, match=r"holds no motion of spheres.*Load\(frames=24\)"):
         an.export(test, tmp_path / "t.pvd", "vtk")
 
 

@@ -55,7 +55,7 @@ def test_sizes_and_places_are_mixed():
 
 def test_too_many_spheres_are_refused():
     """One more than fits: 24 cells, 4 large spheres, 160 small ones in the octants of the 20 others."""
-    with pytest.raises(InputError, match="its 24 lattice cells cannot hold 165 spheres; raise the box"):
+    with pytest.raises(InputError, match="its 24 lattice cells cannot hold 165 spheres; enlarge the box"):
         random_lattice(
             np.array([2e-3, 4e-3]), np.array([161, 4]), MIXES["crowded"][2], np.random.default_rng(1)
         )

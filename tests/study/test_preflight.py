@@ -69,11 +69,11 @@ def test_every_test_needs_a_measurement(check, tests, sentence):
 
 
 def test_too_few_tests_for_a_diagnosis_are_refused_before_anything_is_poured(check):
-    few = "a diagnosis needs at least 4 tests and 2 frequencies, and these are"
+    few = "are too few for a diagnosis; measure at least 4 tests at 2 frequencies."
     alone = dict.fromkeys(("time_step_study", "packing_study", "audit", "sensitivity"))
-    with pytest.raises(InputError, match=f"my.yaml: mine.csv: {few} 2 at 2; measure more."):
+    with pytest.raises(InputError, match=f"my.yaml: mine.csv: 2 tests at 2 frequencies {few}"):
         check(measurements=measure(*FOUR[:2]), temperatures_C=[0], **alone)
-    with pytest.raises(InputError, match=f"my.yaml: frequencies_Hz: {few} 4 at 1; measure more."):
+    with pytest.raises(InputError, match=f"my.yaml: frequencies_Hz: 4 tests at 1 frequency {few}"):
         check(frequencies_Hz=[10], **alone)
 
 

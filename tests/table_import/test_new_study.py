@@ -98,7 +98,7 @@ def test_a_table_too_short_for_a_diagnosis_is_refused_at_once():
     )
     with pytest.raises(
         InputError,
-        match="two.csv: a diagnosis needs at least 4 tests and 2 frequencies, and these are 2 at 2",
+        match="two.csv: 2 tests at 2 frequencies are too few for a diagnosis; measure at least 4 tests at 2 frequencies",
     ):
         new_study("mine", [Path("two.csv")], Wishes())
     assert not Path("data/mine").exists()
@@ -125,7 +125,9 @@ def peaks():
 
 
 def test_peaks_need_a_geometry_and_set_the_amplitude():
-    with pytest.raises(InputError, match="would be --geometry b_mm=25,B_mm=56,e_mm=25,h_mm=250"):
+    with pytest.raises(
+        InputError, match="give it, the paper's as --geometry b_mm=25,B_mm=56,e_mm=25,h_mm=250"
+    ):
         new_study("mine", peaks(), Wishes())
     with pytest.raises(InputError, match="of a direct test are not reduced here"):
         new_study("mine", peaks(), Wishes(measured_in="tension-compression"))

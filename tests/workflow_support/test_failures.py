@@ -43,7 +43,7 @@ def test_run_without_a_failed_job_or_without_a_log(tmp_path):
 def test_a_file_that_one_job_set_aside_is_not_said_to_be_missing_by_another(tmp_path):
     words = {
         "one": "error: results/a/m.h5: damaged; it was set aside as .m.h5.damaged, run the workflow again.",
-        "two": "error: results/a/m.h5: no such file; make it with its rule or check the path.",
+        "two": "error: results/a/m.h5: no such file; run the rule that makes it, or check the path.",
         "three": "error: mine.csv: no such file; check the path.",
     }
     for name, sentence in words.items():

@@ -209,6 +209,6 @@ def _row(observed: Observations, specimen: int, temperature: float, frequency: f
     found = own if own.size else np.flatnonzero(near)
     if not found.size:
         raise InputError(
-            f"no measurement at {temperature:g} degC, {frequency:g} Hz to extend the test by; add it."
+            f"the extended test at {temperature:g} degC, {frequency:g} Hz has no measurement; add one to the table."
         )
     return int(found[0])

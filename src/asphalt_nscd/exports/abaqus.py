@@ -20,8 +20,8 @@ def text(card: Card) -> str:
     name, series = card.settings.name, card.series
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name) or len(name) > LONGEST_NAME:
         raise InputError(
-            f"material name {name!r}: begin with a letter, then letters, digits, - and _, "
-            f"at most {LONGEST_NAME} characters."
+            f"material name {name!r}: give at most {LONGEST_NAME} characters, first a letter, then letters, digits, "
+            "- and _."
         )
     lines = [
         *card.comment("**"),

@@ -72,7 +72,7 @@ def write_json(path: str | Path, content: Any) -> None:
 
 def read_json(path: str | Path) -> Any:
     """Read JSON, naming the file when it cannot be parsed."""
-    require_readable(path, "make it with its rule or check the path")
+    require_readable(path, "run the rule that makes it, or check the path")
     try:
         return json.loads(Path(path).read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as error:  # no JSON, no UTF-8, a number or nesting without end
@@ -123,7 +123,7 @@ def load(path: str | Path, kind: str) -> Record:
     import h5py
 
     if not Path(path).is_file():
-        raise InputError(f"{path}: no such file; make it with its rule or check the path.")
+        raise InputError(f"{path}: no such file; run the rule that makes it, or check the path.")
     arrays: dict[str, np.ndarray] = {}
     try:
         with h5py.File(path, "r") as file:
@@ -136,7 +136,7 @@ def load(path: str | Path, kind: str) -> Record:
     except Exception as error:  # h5py raises nearly any exception on a damaged file
         if Path(path).suffix.lower() in _OF_OTHERS:
             raise InputError(
-                f"{path}: not an HDF5 file; `asphalt-nscd import-packing` makes one of a packing."
+                f"{path}: not an HDF5 file; convert a packing with `asphalt-nscd import-packing`."
             ) from None
         raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None
     found, format_version = attributes.pop("kind", None), attributes.pop("format_version", None)
@@ -160,7 +160,7 @@ def kind_of(path: str | Path) -> str:
     import h5py
 
     if not Path(path).is_file():
-        raise InputError(f"{path}: no such file; make it with its rule or check the path.")
+        raise InputError(f"{path}: no such file; run the rule that makes it, or check the path.")
     try:
         with h5py.File(path, "r") as file:
             return str(file.attrs.get("kind", "nothing of ours"))

@@ -14,6 +14,7 @@ from asphalt_nscd.files.csvinput import Table, read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import inside
 from asphalt_nscd.files.store import write_table
+from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements import signals, twopoint
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.limits import LIMITS, least_modulus
@@ -99,8 +100,8 @@ def require_enough(tests: int, frequencies: int) -> None:
     """Refuse what is too little for a diagnosis; frequencies: how many different ones."""
     if tests < LEAST_TESTS or frequencies < LEAST_FREQUENCIES:
         raise InputError(
-            f"a diagnosis needs at least {LEAST_TESTS} tests and {LEAST_FREQUENCIES} frequencies, and these are "
-            f"{tests} at {frequencies}; measure more."
+            f"{counted(tests, 'test')} at {frequencies} {'frequency' if frequencies == 1 else 'frequencies'} are too "
+            f"few for a diagnosis; measure at least {LEAST_TESTS} tests at {LEAST_FREQUENCIES} frequencies."
         )
 
 

@@ -175,6 +175,6 @@ def _require_sinusoid(values: Vector, basis: NDArray[np.float64], solution: Vect
     explained = 1.0 - left / varying
     if explained < SINUSOID_SHARE:
         raise InputError(
-            f"the displacement is not a sinusoid of {frequency:g} Hz (which explains "
-            f"{100 * max(0.0, explained):.0f} % of its variation); check the frequency and the channel."
+            f"a sinusoid of {frequency:g} Hz explains only {100 * max(0.0, explained):.0f} % of the variation of the "
+            "displacement; check the frequency and the channel."
         )

@@ -134,8 +134,8 @@ def _require_whole(path: Path, position: NDArray[np.float64], radius: NDArray[np
         if empty[k] > 2.0 * radius.max():
             apart = counted(min(k + 1, radius.size - k - 1), "sphere")
             raise InputError(
-                f"{path}: {apart} apart from the others, with {1e3 * empty[k]:.4g} mm of nothing between along the "
-                f"{name}; remove what is no part of the packing, or give one at rest."
+                f"{path}: an empty gap of {1e3 * empty[k]:.4g} mm along the {name} parts {apart} from the others; "
+                "remove what does not belong to the packing, or give a packing at rest."
             )
 
 

@@ -99,7 +99,7 @@ def _series(record: Record, output: Path) -> str:
     kept = {name.removeprefix(FRAMES): a for name, a in record.arrays.items() if name.startswith(FRAMES)}
     if "strength_N" not in kept:
         raise InputError(
-            f"{output}: the test keeps no motion of spheres, or is of an older version; simulate it again with "
+            f"{output}: the test holds no motion of spheres, or an older version wrote it; simulate it again with "
             "--frames 24 (in Python Load(frames=24)), or give --format csv."
         )
     position, times = kept["position_m"], kept["time_s"]

@@ -23,7 +23,7 @@ def read_text(path: Path) -> Spheres:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
-        mend = "a deposit of this program goes straight to `asphalt-nscd trim`"
+        mend = "give a deposit of this program to `asphalt-nscd trim` itself"
         if not path.read_bytes().startswith(b"\x89HDF"):
             mend = "give CSV, a dump, YADE's text or VTK"
         raise InputError(f"{path}: neither text nor VTK; {mend}.") from None

@@ -36,7 +36,7 @@ def random_lattice(
     if room < 0 or grouped.size > 8 * room:
         raise InputError(
             f"box of {box} m: its {cells.size} lattice cells cannot hold {radii.size} spheres; "
-            "raise the box or lower the counts."
+            "enlarge the box or lower the counts."
         )
     position = np.empty((radii.size, 3))
     position[alone] = _place(cells[: alone.size], shape, cell, radii[alone], 1, np.zeros(3), rng)

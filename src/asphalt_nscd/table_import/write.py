@@ -177,7 +177,7 @@ def _geometry(form: str, direct: bool, wishes: Wishes) -> Mapping[str, float] | 
     if form == "peaks":
         given = ",".join(f"{key}={value:g}" for key, value in _as_mapping(PAPER).items())
         raise InputError(
-            f"forces and displacements need the specimens' geometry; the paper's would be --geometry {given}."
+            f"forces and displacements need the geometry of the specimens; give it, the paper's as --geometry {given}."
         )
     return _as_mapping(PAPER)
 

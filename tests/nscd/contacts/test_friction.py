@@ -263,7 +263,7 @@ def test_no_motion_no_impulse():
     [
         (np.eye(6), np.zeros(3), 0.5, "three rows for each contact"),
         (np.eye(4), np.zeros(4), 0.5, "three rows for each contact"),
-        (np.eye(6), np.zeros(6), [0.5], "one number for each of 2 contacts"),
+        (np.eye(6), np.zeros(6), [0.5], "one for each of the 2 contacts"),
         (np.eye(3), [np.nan, 0, 0], 0.5, "finite"),
         (np.eye(3), np.zeros(3), -0.5, "negative"),
         (1j * np.eye(3), np.zeros(3), 0.5, "real"),

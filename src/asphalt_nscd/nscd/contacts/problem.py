@@ -46,7 +46,9 @@ class ContactProblem:
         if np.shape(W) != (3 * contacts, 3 * contacts) or q.size % 3:
             raise ValueError(f"W {np.shape(W)} and q ({q.size},) are not of three rows for each contact")
         if np.ndim(mu) and np.shape(mu) != (contacts,):
-            raise ValueError(f"mu {np.shape(mu)} is not one number for each of {contacts} contacts")
+            raise ValueError(
+                f"mu has the shape {np.shape(mu)}; give one number, or one for each of the {contacts} contacts"
+            )
         if np.iscomplexobj(W if not sparse.issparse(W) else W.data):
             raise ValueError("W must be real")
         friction = np.broadcast_to(np.asarray(mu, float), contacts).copy()
