@@ -13,7 +13,7 @@ package under test.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -50,6 +50,17 @@ class Background:
     known_law: Law | None = None
     geometry: Mapping[str, float] = field(default_factory=lambda: dict(GEOMETRY))
     test_type: str = "bending"
+
+    def without(self, tests: Collection[tuple[str, float, float]]) -> pd.DataFrame:
+        """The table without these tests: specimen, isotherm [degC], frequency [Hz]."""
+        table, drop = self.table, np.zeros(len(self.table), bool)
+        for specimen, isotherm, frequency in tests:
+            drop |= (
+                (table["specimen"].astype(str) == specimen)
+                & (abs(table["temperature_C"] - isotherm) < ISOTHERM)
+                & np.isclose(table["frequency_Hz"], frequency)
+            )
+        return table[~drop]
 
     @classmethod
     def read(cls, path: str | Path) -> Background:

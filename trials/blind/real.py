@@ -28,6 +28,7 @@ def run(group: list[Task]) -> Iterator[dict[str, Any]]:
     for task in group:
         background, odd = _background(task)
         own = _diagnosed(background, background.table)
+        alike = {real_score.left_out(own): own}  # the same on other tests, by those left out
         if task.counted:
             # What a real table holds is not known, so that none of its names is known to be false.
             unknown = {"wrong": None} if task.path else {}
@@ -37,7 +38,7 @@ def run(group: list[Task]) -> Iterator[dict[str, Any]]:
             if limit is None or background.lacks(cause):
                 yield _common(task) | {"cause": cause, "not_drawn": "no limit"}
                 continue
-            yield from _hidden(task, background, own, cause, odd)
+            yield from _hidden(task, background, own, alike, cause, odd)
 
 
 def _background(task: Task) -> tuple[Background, str | None]:
@@ -53,8 +54,9 @@ def _common(task: Task) -> dict[str, Any]:
 
 
 def _hidden(
-    task: Task, background: Background, own: Mapping[str, Any], cause: str, odd: str | None
-) -> Iterator[dict[str, Any]]:
+    task: Task, background: Background, own: Mapping[str, Any], alike: dict[frozenset, Mapping[str, Any]], cause: str,
+    odd: str | None,
+) -> Iterator[dict[str, Any]]:  # fmt: skip
     """One row for each amplitude of a cause, at a place drawn among those where five limits are physical."""
     effect, limit = background.effect(cause), own["detection_limits"][cause]
     rng = np.random.default_rng([task.seed, list(CATALOGUE).index(cause)])
@@ -80,14 +82,20 @@ def _hidden(
             except ArithmeticError:  # the warmth of self-heating does not settle
                 yield row | {"not_drawn": "not physical"}
                 continue
-            yield row | real_score.row(seal, limit["unit"], value, own, _diagnosed(background, table), odd)
+            after = _diagnosed(background, table)
+            left_out = real_score.left_out(after)
+            if left_out not in alike:
+                alike[left_out] = _diagnosed(background, background.without(left_out), use_suspects=True)
+            yield row | real_score.row(seal, limit["unit"], value, own, after, odd, alike[left_out])
 
 
-def _diagnosed(background: Background, table: pd.DataFrame) -> dict[str, Any]:
+def _diagnosed(background: Background, table: pd.DataFrame, use_suspects: bool = False) -> dict[str, Any]:
     """The diagnosis of a table, with its CPU seconds; a refusal or a failure is one without names."""
     began = time.process_time()
     try:
-        found = sealed.open_case(table, sealed.generator.GEOMETRY, test_type=background.test_type)
+        found = sealed.open_case(
+            table, sealed.generator.GEOMETRY, test_type=background.test_type, use_suspects=use_suspects
+        )
     except InputError:
         found = dict(sealed.REFUSED)
     except Exception as error:  # counted, and to be mended in the diagnosis

@@ -44,13 +44,17 @@ def row(
     before: Diagnosis,
     after: Diagnosis,
     odd: str | None = None,
+    alike: Diagnosis | None = None,
 ) -> dict[str, Any]:
     """Row of one effect. limit: its detection limit [unit] stated for the table as it was; odd: as of `untouched`.
 
+    alike: the diagnosis of the untouched table on the tests that the later one used; `before` if None.
+
     named: by some rung, in the right place or in a group that cannot be told apart; established: with confidence;
-    covered: whether the size grew by what was put in, within its 95 % interval; added: confident names that are
-    not true and were not there before; instead: such a name, and not the right one; own_over_limit: the table's
-    own value.
+    covered: whether the size grew by what was put in, within its 95 % interval; covered_alike: the same over its
+    size on the same tests, for a table's own size may hang on tests that are no longer left out; added: confident
+    names that are not true and were not there before; instead: such a name, and not the right one; own_over_limit:
+    the table's own value.
     """
     telling = [entry for entry in names(after) if score.tells(entry, effect, after)]
     confident = names(after, confident=True)
@@ -65,13 +69,22 @@ def row(
         "elsewhere": not telling and any(entry["cause"] == effect["cause"] for entry in confident),
         "added": len(added), "instead": bool(added) and not telling, "wrong_names": _told(added),
         "own_over_limit": np.nan if own is None else abs(own[0]) / limit, "covered": None, "error_sigma": np.nan,
+        "covered_alike": None, "error_sigma_alike": np.nan,
     }  # fmt: skip
     if telling and found is not None and found[1]:
-        grown = found[0] - (own[0] if own else 0.0)
-        result["error_sigma"] = (grown - effect["equivalents"][unit]) / found[1]
-        low, high = (bound - (own[0] if own else 0.0) for bound in found[2])
-        result["covered"] = bool(low <= effect["equivalents"][unit] <= high)
+        same = own if alike is None else _estimate(alike, effect, unit)
+        for name, taken_off in (("", own), ("_alike", same)):
+            missing = found[0] - (taken_off[0] if taken_off else 0.0) - effect["equivalents"][unit]
+            low, high = (bound - found[0] for bound in found[2])
+            result[f"error_sigma{name}"] = missing / found[1]
+            result[f"covered{name}"] = bool(low <= -missing <= high)
     return result
+
+
+def left_out(diagnosis: Diagnosis) -> frozenset[tuple[str, float, float]]:
+    """Tests that a diagnosis did not use: specimen, isotherm [degC], frequency [Hz]."""
+    suspects = (one for one in diagnosis.get("suspect_tests", []) if not one["used"])
+    return frozenset((one["specimen"], one["temperature_C"], one["frequency_Hz"]) for one in suspects)
 
 
 def _state(diagnosis: Diagnosis) -> dict[str, Any]:

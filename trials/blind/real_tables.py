@@ -13,8 +13,8 @@ from .tables import judge
 
 COLUMNS = (
     "table", "kind", "seed", "cause", "ratio", "sign", "verdict", "named", "established", "named_before", "elsewhere",
-    "added", "instead", "covered", "error_sigma", "own_over_limit", "any_name", "wrong", "odd_named", "wrong_names",
-    "not_drawn", "failed", "error", "cpu_s",
+    "added", "instead", "covered", "error_sigma", "covered_alike", "error_sigma_alike", "own_over_limit", "any_name",
+    "wrong", "odd_named", "wrong_names", "not_drawn", "failed", "error", "cpu_s",
 )  # fmt: skip
 CHANNELS = ("channel_delay", "phase_offset")
 CHANNEL_RATIOS = (3.0, 6.0)
@@ -100,10 +100,12 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
     lines = [
         judge("real tables, offset and delay at 3 and 6 limits: named", ">= 95 %", channels["named"], low=0.95),
         judge("the same: size grew by what was put in, within its interval", ">= 90 %", channels["covered"], low=0.90),
+        judge("the same, over its size on the same tests", ">= 90 %", channels["covered_alike"], low=0.90),
         judge("the same: a wrong name instead", "none", channels["instead"], high=0.0),
         judge(f"all causes at {JUDGED:g} times the limit: named", ">= 90 %", judged["named"], low=0.90),
         judge("the same: named with confidence", "reported", judged["established"]),
         judge("the same: size grew by what was put in, within its interval", "reported", judged["covered"]),
+        judge("the same, over its size on the same tests", "reported", judged["covered_alike"]),
         judge("false names added, any cause and ratio", "<= 3 %", put["added"] > 0, high=0.03),
         judge("tables without a cause: misnamed with confidence", "<= 5 %", bare["wrong"] > 0, high=0.05),
         judge("the same: any name, with confidence or without", "reported", bare["any_name"] > 0),

@@ -27,7 +27,7 @@ from .plan import AT_LIMIT, Case, design_of
 
 KEPT = (
     "verdict", "ladder", "withdrawn", "indistinguishable", "detection_limits", "lack_of_fit_p_value",
-    "largest_pattern_left", "scatter", "notes", "estimates",
+    "largest_pattern_left", "scatter", "notes", "estimates", "suspect_tests",
 )  # fmt: skip
 # Some records of a wrong frequency are refused before any diagnosis.
 REFUSED = {"verdict": score.REFUSED, "ladder": [], "detection_limits": {}, "indistinguishable": []}
@@ -112,7 +112,7 @@ def at_limit(
 
 def open_case(
     table: pd.DataFrame, geometry: Mapping[str, float], records: Mapping[str, pd.DataFrame] | None = None,
-    removed: str = "", static_modulus: float | None = None, test_type: str = "bending",
+    removed: str = "", static_modulus: float | None = None, test_type: str = "bending", use_suspects: bool = False,
 ) -> dict[str, Any]:  # fmt: skip
     """The diagnosis of a table, by the functions behind `asphalt-nscd diagnose`, shortened to what is judged."""
     with tempfile.TemporaryDirectory() as folder:
@@ -123,5 +123,7 @@ def open_case(
         observed, _ = reading.read_observations(path, dict(geometry), static_modulus)
     observed = replace(observed, test_type=test_type)
     catalogue = tuple(cause for cause in NAMEABLE if cause.name != removed)
-    content = report.as_json(diagnose(observed, catalogue=catalogue), read_specimen())
+    content = report.as_json(
+        diagnose(observed, catalogue=catalogue, use_suspects=use_suspects), read_specimen()
+    )
     return {name: content[name] for name in KEPT if name in content}

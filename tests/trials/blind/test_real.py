@@ -62,6 +62,36 @@ def test_the_size_is_judged_after_the_own_value_of_the_table_is_taken_off():
     assert not scored(diagnosis(), diagnosis(rung("phase_offset", -3.0, 0.2)))["covered"]
 
 
+def test_the_own_value_is_that_of_the_same_tests():
+    """A bad test set aside before, and used after, is no part of what was put in."""
+    before, alike = diagnosis(estimates=own(0.1)), diagnosis(estimates=own(1.6))
+    hidden = effect()
+    after = diagnosis(rung("phase_offset", 4.6, 0.2, established=True))
+    row = real_score.row(hidden, hidden["unit"], 1.0, before, after, alike=alike)
+    assert not row["covered"] and row["error_sigma"] == pytest.approx(7.5)
+    assert row["covered_alike"] and row["error_sigma_alike"] == pytest.approx(0.0)
+    after = diagnosis(rung("phase_offset", 3.1, 0.2, established=True))
+    row = real_score.row(hidden, hidden["unit"], 1.0, before, after, alike=alike)
+    assert row["covered"] and not row["covered_alike"]
+
+
+def test_tests_that_were_left_out_are_taken_from_the_table():
+    tests = [("A", 4.0, 25.0, False), ("A", 21.0, 25.0, True)]
+    names = ("specimen", "temperature_C", "frequency_Hz", "used")
+    found = {"suspect_tests": [dict(zip(names, one, strict=True)) for one in tests]}
+    gone = real_score.left_out(found)
+    assert gone == {("A", 4.0, 25.0)}
+    table = pd.DataFrame(
+        [(s, t, f, 9e3, 15.0) for s in "AB" for t in (4.1, 21.0) for f in (10.0, 25.0)],
+        columns=["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"],
+    )
+    left = Background(table).without(gone)
+    assert (
+        len(left) == 7
+        and not ((left.specimen == "A") & (left.temperature_C < 5) & (left.frequency_Hz > 20)).any()
+    )
+
+
 def test_an_interval_that_is_not_symmetric_is_used():
     entry = rung("phase_offset", 3.5, 0.1)
     entry["parameters"]["size"]["interval_95"] = [2.9, 3.7]
@@ -160,7 +190,7 @@ LIMITS = {
 }  # fmt: skip
 
 
-def perfect(table, geometry, test_type="bending"):
+def perfect(table, geometry, test_type="bending", use_suspects=False):
     """A diagnosis that measures an offset by what it knows of the untouched table."""
     base = Background.read(real_plan.real_tables()[0])
     turned = np.degrees(np.angle(Background(table).modulus / base.modulus))
@@ -209,7 +239,7 @@ def test_rows_of_a_real_table_hold_rates_and_nothing_of_the_table(folder, monkey
 
 
 def test_a_diagnosis_that_fails_is_counted_and_stops_nothing(folder, monkeypatch):
-    def broken(table, geometry, test_type="bending"):
+    def broken(table, geometry, test_type="bending", use_suspects=False):
         if len(calls) > 0:
             raise np.linalg.LinAlgError("array must not contain infs or NaNs")
         calls.append(1)
