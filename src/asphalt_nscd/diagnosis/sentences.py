@@ -65,8 +65,11 @@ def _fault(rung: Content) -> str:
     return f"{who} {sure}{'carries' if one else 'carry'} {words} of {size(rung)}"
 
 
-def on_simulation(content: Content) -> str:
-    """One sentence: what the simulation misses with the paper's laws, and with what was found."""
+def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:
+    """One sentence: what the simulation misses with the paper's laws, and with what was found.
+
+    left: errors in percent of "E" and "phase" that tests simulated with it have left; else those of the diagnosis.
+    """
     ladder = content["ladder"]
     if not ladder:
         if content["verdict"] != "nothing_to_explain":
@@ -75,9 +78,11 @@ def on_simulation(content: Content) -> str:
             return f"{CANNOT_JUDGE}."
         return f"{SIMPLER} fits these data to within their scatter; nothing is to be explained."
     first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
+    names = ("mre_E_percent", "mre_phase_percent")
+    missed = [last[name]["after"] for name in names] if left is None else [left["E"], left["phase"]]
     before, after = (
-        [f"{three_digits(gain[name][when])} %" for name in ("mre_E_percent", "mre_phase_percent")]
-        for gain, when in ((first, "before"), (last, "after"))
+        [f"{three_digits(error)} %" for error in errors]
+        for errors in ([first[name]["before"] for name in names], missed)
     )
     facets = ["facets for bonds" for rung in ladder if rung["cause"] == BOND_MAPPING]
     found = joined([*facets, *(an(cause_words(rung)) for rung in ladder if rung["cause"] != BOND_MAPPING)])

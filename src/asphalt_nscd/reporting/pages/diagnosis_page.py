@@ -25,7 +25,7 @@ from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.pages import plots, specimen_plots
 from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE, environment
-from asphalt_nscd.reporting.pages.way import QUANTITIES, read_ladder
+from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_ladder
 
 TEMPLATE = "diagnosis_page.html"
 LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
@@ -83,7 +83,7 @@ def sections(
     content = read_diagnosis(diagnosis)
     rungs = content["ladder"]
     return {
-        "first": first(content),
+        "first": first(content, ladder),
         "specimens": specimen_plots.charts(causality, diagnosis),
         "origin": origin(content["origin"]),
         "scatter": scatter(content),
@@ -108,13 +108,14 @@ def sections(
     }
 
 
-def first(content: dict[str, Any]) -> dict[str, Any]:
-    """What a laboratory reads first, as the terminal says it."""
+def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any]:
+    """What a laboratory reads first, as the terminal says it; of a study, with the errors of its own campaigns."""
+    left = left_by_the_last(read_ladder(ladder)) if ladder else None
     found = content.get("instructions", {"orders": [], "costs": ""})
     return {
         "test": sentences.test_type(content),
         "data": sentences.on_data(content),
-        "simulation": sentences.on_simulation(content),
+        "simulation": sentences.on_simulation(content, left),
         "not_used": [(sentences.place_of_test(one), one["reasons"]) for one in sentences.not_used(content)],
         "with_suspects": sentences.with_suspects(content),
         "doubtful": sentences.on_doubtful(content),

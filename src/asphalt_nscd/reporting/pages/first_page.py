@@ -34,7 +34,7 @@ def first_page(
     map: PNG picture of the residuals; ladder: ladder.csv, the errors of each campaign.
     """
     content = read_diagnosis(diagnosis)
-    told = first(content)
+    told = first(content, ladder)
     way = read_ladder(ladder)
     moduli, tests = _frame(measured, "measured"), _frame(simulations, "simulations")
     return {

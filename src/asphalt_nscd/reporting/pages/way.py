@@ -29,6 +29,12 @@ def means(ladder: pd.DataFrame) -> pd.DataFrame:
     return ladder.groupby("rung", sort=False).agg(lambda errors: errors.mean(skipna=False))
 
 
+def left_by_the_last(ladder: pd.DataFrame) -> dict[str, float]:
+    """Errors in percent after the last rung, mean over temperatures, by quantity."""
+    last = means(ladder).iloc[-1]
+    return {quantity: float(last[f"mre_{quantity}_percent"]) for quantity in QUANTITIES}
+
+
 def inner_held_out(ladder: pd.DataFrame) -> dict[str, float]:
     """Errors of the last rung at temperatures left out of the fit, mean over those between others; may be empty."""
     last = ladder[ladder["rung"] == ladder["rung"].iloc[-1]]
