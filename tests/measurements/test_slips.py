@@ -62,6 +62,20 @@ def test_each_slip_is_the_first_thing_said(table, said):
     assert said in next(slips(table))
 
 
+@pytest.mark.parametrize("frequencies", [FREQUENCIES, FREQUENCIES[2:]])
+def test_frequencies_of_one_sweep_in_reverse_order(frequencies):
+    table = campaign()
+    table = table[table["frequency_Hz"].isin(frequencies)]
+    sweep = (table["specimen"] == "B") & (table["temperature_C"] == 21.0)
+    table.loc[sweep, "frequency_Hz"] = frequencies[::-1]
+    (said,) = slips(table)
+    assert said.startswith("|E*| of specimen B at 21 degC falls by ") and "reverse order" in said
+    table.loc[sweep, "frequency_Hz"] = np.roll(
+        frequencies, 1
+    )  # one step up: no order, and another's work to find
+    assert not list(slips(table))
+
+
 def test_exchanged_isotherms_of_one_specimen():
     table = campaign()
     table.loc[table["specimen"] == "B", "temperature_C"] = table["temperature_C"].replace(

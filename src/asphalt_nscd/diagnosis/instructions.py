@@ -191,12 +191,14 @@ def _on_metal(model: Possible, k: int, amplitude: float) -> str:
     """What a cause does on metal where it does most."""
     metal = np.arange(model.table.size, model.linear.nuisance.shape[0])
     effect = amplitude * model.linear.effects[metal, k]
-    at = int(np.argmax(np.abs(effect)))
+    most = np.flatnonzero(np.abs(effect) > 0.99 * np.abs(effect).max())
+    at = most[np.argmax(model.metal_frequencies[most])]
     if abs(effect[at].imag) > abs(effect[at].real):
         size = f"{three_digits(float(f'{np.degrees(effect[at].imag):.2g}'))} deg of phase"
     else:
         size = f"{three_digits(float(f'{100.0 * effect[at].real:.2g}'))} % of the modulus"
-    return f"{size} at {model.metal_frequencies[at]:g} Hz"
+    every = most.size == effect.size > 1
+    return f"{size} at {'every frequency' if every else f'{model.metal_frequencies[at]:g} Hz'}"
 
 
 def _amplitude(candidate: Candidate) -> float:

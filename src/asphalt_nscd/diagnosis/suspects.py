@@ -22,6 +22,7 @@ from scipy.special import logsumexp, stdtr
 from asphalt_nscd.diagnosis import quality, within_isotherm
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.within_isotherm import BEND_WEIGHTS, BENDS, Held
+from asphalt_nscd.files.words import counted
 
 STRONG = 6e-3  # chance, times the number of values, below which causality alone takes a test out
 NOTABLE = 0.1  # the same for a test that is listed and used
@@ -259,4 +260,5 @@ def _replicate_reason(observed: Observations, apart: NDArray, row: int, column: 
         f"{100.0 * abs(apart[row, 0]):.1f} %" if column == 0 else f"{np.degrees(abs(apart[row, 1])):.1f} deg"
     )
     what = "|E*|" if column == 0 else "phase"
-    return f"{what} differs from {others} replicates by {size}, beyond what the specimens differ by on this isotherm"
+    replicates = counted(int(others), "replicate")
+    return f"{what} differs from {replicates} by {size}, beyond what the specimens differ by on this isotherm"

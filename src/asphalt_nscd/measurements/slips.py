@@ -18,6 +18,9 @@ ALIKE = 0.35  # of ln |E*|: how far that ratio may vary over conditions
 STIFFER = np.log(1.8)  # by which no mix grows stiffer as it warms, whatever else is wrong with a test
 LEAST_STEP = 3.0  # K between two isotherms that are compared
 LEAST = 3  # shared conditions
+FALLING = (
+    0.2  # of ln |E*|: over four frequencies and more, each step down, no mix and no machine lowers it so
+)
 LEAST_SLOPE = 0.05  # of ln |E*| over ln f that is no scatter: a phase of 4.5 deg
 FULL_CIRCLE = 2.0 * np.pi
 # On the cold side |E*| is the glassy modulus x exp(-0.062 phase), within 30 %, in 2S2P1D, Huet-Sayegh, Havriliak-Negami
@@ -68,6 +71,15 @@ def _order_of_frequencies(table: pd.DataFrame) -> Iterator[str]:
             "|E*| falls as the frequency rises, while the phases say that it rises: the frequencies look listed in "
             "reverse order; correct them."
         )
+        return
+    for (specimen, temperature), tests in table.groupby(["specimen", "temperature_C"]):
+        steps = np.diff(np.log(tests.groupby("frequency_Hz")["E_MPa"].mean()))
+        if steps.size >= LEAST and (steps < 0.0).all() and steps.sum() < -FALLING:
+            fall = -100.0 * np.expm1(steps.sum())
+            yield (
+                f"|E*| of specimen {specimen} at {temperature:g} degC falls by {fall:.0f} % as the frequency rises: "
+                "its frequencies look listed in reverse order; correct them."
+            )
 
 
 def _radians(table: pd.DataFrame) -> Iterator[str]:
