@@ -16,12 +16,16 @@ def content(used: int, out: int, **then):
     "used,out,told",
     [
         (0, 2, ""),
-        (1, 0, "1 test is doubtful but used; suspect_tests in diagnosis.json says why."),
-        (2, 1, "2 more tests are doubtful but used; suspect_tests in diagnosis.json says why."),
+        (1, 1, "Doubtful but used: A, 4 degC, 25 Hz; suspect_tests"),
+        (
+            5,
+            0,
+            "Doubtful but used: A, 4 degC, 25 Hz; A, 4 degC, 25 Hz; A, 4 degC, 25 Hz; and 2 more; suspect_tests",
+        ),
     ],
 )
-def test_doubtful_tests_are_counted(used, out, told):
-    assert on_doubtful(content(used, out)) == told
+def test_doubtful_tests_are_named(used, out, told):
+    assert on_doubtful(content(used, out)) == (told and f"{told} in diagnosis.json says why.")
 
 
 @pytest.mark.parametrize(

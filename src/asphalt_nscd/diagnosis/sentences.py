@@ -131,14 +131,15 @@ def with_suspects(content: Content) -> str:
 
 
 def on_doubtful(content: Content) -> str:
-    """How many doubtful tests are used, and what is named without them; empty where there are none."""
-    kept = len(doubtful(content))
+    """Which doubtful tests are used, and what is named without them; empty where there are none."""
+    kept = doubtful(content)
     if not kept:
         return ""
-    more = " more" if not_used(content) else ""
-    told = f"{counted(kept, f'{more} test'.lstrip())} {'is' if kept == 1 else 'are'} doubtful but used"
-    changed = _changed(content, "without_doubtful", f"Without {'it' if kept == 1 else 'them'}")
-    return f"{told}; suspect_tests in diagnosis.json says why. {changed}".rstrip()
+    places = "; ".join(place_of_test(one) for one in kept[:3]) + (
+        f"; and {len(kept) - 3} more" if kept[3:] else ""
+    )
+    changed = _changed(content, "without_doubtful", f"Without {'it' if len(kept) == 1 else 'them'}")
+    return f"Doubtful but used: {places}; suspect_tests in diagnosis.json says why. {changed}".rstrip()
 
 
 def _changed(content: Content, key: str, when: str) -> str:
