@@ -118,8 +118,8 @@ WRONG = {
     "GPa": (lambda t: t.assign(E_MPa=t["E_MPa"] / 1000.0), "E_MPa looks like GPa, multiply by 1000"),
     "Pa": (lambda t: t.assign(E_MPa=t["E_MPa"] * 1e6), r"give \|E\*\| in MPa, greater than zero"),
     "repeated rows": (lambda t: pd.concat([t, t]), "line 122: repeats the test of line 2"),
-    "three tests": (lambda t: t.head(3), "at least 4 tests and 2 frequencies"),
-    "one frequency": (lambda t: t[t["frequency_Hz"] == 10.0], "at least 4 tests and 2 frequencies"),
+    "three tests": (lambda t: t.head(3), "are too few for a diagnosis; measure at least 4"),
+    "one frequency": (lambda t: t[t["frequency_Hz"] == 10.0], "are too few for a diagnosis; measure at least 4"),
     "the same everywhere": (lambda t: t.assign(E_MPa=1e4, phase_deg=10.0), "copies are not replicates"),
 }  # fmt: skip
 
