@@ -84,6 +84,32 @@ def test_delay_common_to_all_tests_leaves_them_in_use():
     assert not out(altered(observed, slice(None), phase_deg=360.0 * 2e-3 * observed.frequency))
 
 
+def delayed(observed, delay, rows=slice(None)):
+    """The same with a delay [s] between the channels in some rows."""
+    return altered(observed, rows, phase_deg=360.0 * delay * observed.frequency[rows])
+
+
+@pytest.mark.parametrize("delay", [-1.7e-3, -0.8e-3, 0.8e-3, 1.7e-3])
+def test_delay_neither_hides_a_fault_of_the_majority_nor_moves_it(delay):
+    observed = campaign()
+    wrong = [row_of(observed, specimen, 4.0, 25.0) for specimen in (0, 2)]
+    found = suspects.find(delayed(altered(observed, wrong, phase_deg=4.0), delay))
+    assert [one.row for one in found if not one.used] == wrong
+    reason = next(reason for reason in found[0].reasons if reason.startswith("phase is"))
+    assert f"with the delay of {1e3 * delay:.1f}"[:-1] in reason
+    required = float(reason.split("require ")[1].split(" deg")[0])
+    right = np.degrees(observed.logarithm.imag[wrong[0]]) + 360.0 * delay * 25.0
+    assert required == pytest.approx(right, abs=1.5)
+
+
+def test_delay_is_that_of_all_isotherms_or_none():
+    observed = campaign()
+    assert within_isotherm.hold(observed).delay == 0.0
+    assert within_isotherm.hold(delayed(observed, 1e-3)).delay == pytest.approx(1e-3, rel=0.1)
+    assert within_isotherm.hold(delayed(observed, 1e-3, observed.specimen == 1)).delay == 0.0
+    assert within_isotherm.hold(delayed(observed, 1e-3, observed.temperature == 4.0)).delay == 0.0
+
+
 def test_specimen_that_differs_as_a_whole_is_no_suspect():
     observed = campaign()
     assert not out(altered(observed, observed.specimen == 1, modulus=-0.3, phase_deg=1.0))

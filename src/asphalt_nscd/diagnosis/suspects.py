@@ -248,9 +248,10 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
         )
     phase = np.degrees(observed.logarithm.imag[row])
     required, alone = np.degrees(held.required[row]), np.degrees(held.required_error[row])
+    delayed = f", with the delay of {1e3 * held.delay:.2g} ms that most isotherms show" if held.delay else ""
     return (
         f"phase is {phase:.1f} deg; its |E*| and {rest} require {np.degrees(expected):.1f} deg "
-        f"+- {np.degrees(error):.1f} (|E*| alone: {required:.1f} deg +- {alone:.1f})"
+        f"+- {np.degrees(error):.1f}{delayed} (|E*| alone: {required:.1f} deg +- {alone:.1f})"
     )
 
 

@@ -5,6 +5,9 @@ tests; a constant by which all phases may be off; and a smooth departure from ca
 chooses, since the response of a hot isotherm is often not linear. What is left of one value, after all others of its
 isotherm have said what it should be, is scatter or a fault. No other specimen is asked what is right. The other
 specimens and isotherms only tell how large scatter, departure and ripple of the law usually are.
+
+A delay between the channels turns the phase of all tests, most at the highest frequency. It would hide a fault there,
+or make one. Each isotherm gives a delay of its own; their weighted median is taken off first, where it is sure.
 """
 
 from __future__ import annotations
@@ -34,6 +37,8 @@ CLIP = 2.0  # standard deviations, beyond which a value does not widen the scatt
 NORMAL_CLIPPED = 0.9205  # mean of min(z^2, 4) of a normal z
 ROUNDS = 8, 5  # of the scatter's iteration: at first, and when doubtful values are set aside
 DOUBTFUL = 1e-2  # chance below which a value does not judge its neighbours
+LEAST_DELAYED = 4  # isotherms that must tell of a delay, at two temperatures at least
+SURE = 3.0  # standard errors of a delay that is taken off
 MOST_DOUBTFUL = 3  # one of so many tests of an isotherm at most
 ASIDE = 100.0  # variance that takes a value out
 
@@ -45,7 +50,8 @@ class Held:
     judged (n,): whether the isotherm has tests enough; expected, std_error (n, 2): what the rest of the isotherm asks
     for, the scatter of one test included; chance (n, 3): of a departure as large in ln|E*|, in the phase, or in both,
     where neither is asked for the other; required, required_error (n,) [rad]: phase that |E*| alone requires;
-    bent (n, 4, 5): ln evidence of each ripple and bend; scatter (n, 2): of single tests.
+    bent (n, 4, 5): ln evidence of each ripple and bend; scatter (n, 2): of single tests; delay [s]: between the
+    channels, common to all tests, which the expected phase holds.
     """
 
     judged: NDArray[np.bool_]
@@ -56,6 +62,7 @@ class Held:
     required_error: Vector
     bent: NDArray
     scatter: NDArray
+    delay: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -152,6 +159,36 @@ class _Table:
         freedom = self.freedom[group.rows].min(axis=2)[:, None]
         return (share * fdtrc(2.0, freedom, 0.5 * squares)).sum(axis=1)
 
+    def common_delay(self, omega: Vector) -> float:
+        """Delay [s] between the channels that most isotherms show, zero where it is not sure; omega (n,) [rad/s]."""
+        delay, error = np.hstack([self._delays(group, omega) for group in self.groups])
+        first = np.concatenate([group.first for group in self.groups])
+        if first.size < LEAST_DELAYED or np.unique(self.isotherm[first]).size < 2:
+            return 0.0
+        order, weight = np.argsort(delay), 1.0 / error
+        below = np.cumsum(weight[order])
+        median = float(delay[order][np.searchsorted(below, 0.5 * below[-1])])
+        apart = 1.4826 * float(np.median(np.abs(delay - median) / error))  # 1 if the errors are true
+        of_median = np.sqrt(0.5 * np.pi) * max(apart, 1.0) / np.sqrt((error**-2).sum())
+        return median if abs(median) > SURE * of_median else 0.0
+
+    def _delays(self, group: _Group, omega: Vector) -> NDArray:
+        """Delay of each isotherm and its standard error (2, b) [s]."""
+        rows, k = group.rows, group.rows.shape[1]
+        values = _side_by_side(self.values - np.array([self.values[self.judged, 0].mean(), 0.0]), rows)
+        variance = _side_by_side(self.scatter**2, rows)
+        precision = np.linalg.inv(group.covariance + variance[:, None, :, None] * np.eye(2 * k))
+        pull = np.einsum("bmij,bj->bmi", precision, np.hstack([np.zeros(rows.shape), omega[rows]]))
+        information = np.einsum("bmi,bi->bm", pull[:, :, k:], omega[rows])
+        delay = np.einsum("bmi,bi->bm", pull, values) / information
+        evidence = np.linalg.slogdet(precision)[1] - np.einsum("bi,bmij,bj->bm", values, precision, values)
+        evidence += delay**2 * information - np.log(information)
+        weighed = 0.5 * evidence + self.weights[group.first].reshape(rows.shape[0], -1)
+        share = np.exp(weighed - logsumexp(weighed, axis=1, keepdims=True))
+        mean = (share * delay).sum(axis=1)
+        spread = (share * (1.0 / information + (delay - mean[:, None]) ** 2)).sum(axis=1)
+        return np.array([mean, np.sqrt(spread)])
+
     def learn(self, rounds: int) -> None:
         """Scatter of each isotherm, and how common each ripple and bend is, from all values.
 
@@ -222,9 +259,16 @@ def hold(observed: Observations) -> Held:
     if not table.groups:
         return table.hold()
     table.learn(ROUNDS[0])
+    delay = table.common_delay(observed.omega)
+    if delay:
+        table = _Table(observed)
+        table.values[:, 1] -= delay * observed.omega
+        table.learn(ROUNDS[0])
     table.set_doubtful_aside()
     table.learn(ROUNDS[1])
     held = table.hold()
+    held.delay = delay
+    held.expected[:, 1] += delay * observed.omega
     for rows in (rows for group in table.groups for rows in group.rows):
         required = required_phase(
             observed.frequency[rows], table.values[rows, 0], float(table.scatter[rows[0], 0])
