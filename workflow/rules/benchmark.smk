@@ -99,6 +99,36 @@ rule benchmark_threads:
         MEASURE + "/threads.py 30000 {input.counts} --output {output} > {log} 2>&1"
 
 
+rule benchmark_layer:
+    # A layer of 200 000 spheres, poured on two threads, vibrated for the whole second and tested. An hour: only on request.
+    input:
+        compiled=["<results>/compiled/deposit", "<results>/compiled/simulate"],
+        counts=STUDY["specimens"]["counts_table"],
+        law=f"<results>/laws/{LAWS}/T20.json",
+        code=["benchmarks/layer.py", code("deposit"), code("trim"), code("condense"), code("simulate")],
+    output:
+        table="results/benchmark/layer.csv",
+        files=directory("results/benchmark/layer"),
+    threads: 2
+    log:
+        "results/benchmark/logs/layer.log",
+    message:
+        "Pour, bond and test 200 000 spheres"
+    shell:
+        MEASURE + "/layer.py 200000 {input.counts} {input.law} --threads {threads} --output {output.table} > {log} 2>&1"
+
+
+rule publish_layer:
+    # What is committed of it, and its table in docs. Only on request: snakemake --cores 1 publish_layer
+    input:
+        table="results/benchmark/layer.csv",
+        code=code("publish"),
+    message:
+        "Copy the costs of the large layer, and fill their table in docs"
+    shell:
+        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark --document docs --block layer={input.table}"
+
+
 rule benchmark_growth:
     # A test on them: condensed, reduced.
     input:

@@ -114,7 +114,7 @@ def states(members: int) -> str:
             told += [pile.position.copy(), pile.velocity.copy(), pile.impulse.copy()]
     assert slabs >= 12
     assert pressed > 60
-    assert pile.sweeps > 2000
+    assert pile.sweeps > 1000
     return hashlib.sha256(b"".join(array.tobytes() for array in told)).hexdigest()
 
 
