@@ -25,6 +25,7 @@ _COMMIT = {
 }
 _ROW = re.compile(rb"<tr>.*?</tr>", re.DOTALL)
 _CELL = re.compile(rb"<t[hd][ >].*?</t[hd]>", re.DOTALL)
+_TAG = re.compile(rb"<[^>]*>")
 
 
 def differences(first: Path, second: Path) -> list[str]:
@@ -65,7 +66,7 @@ def _content(path: Path) -> object:
 
 def _without_seconds(rows: list[list[bytes]]) -> list[list[bytes]]:
     """Rows of a table without the column of that name, nothing if there is none. A row of other length stays whole."""
-    head = [cell.removeprefix(b"<th>").removesuffix(b"</th>") for cell in rows[0]] if rows else []
+    head = [_TAG.sub(b"", cell) for cell in rows[0]] if rows else []
     if _COLUMN_OF_A_RUN not in head:
         return []
     column = head.index(_COLUMN_OF_A_RUN)

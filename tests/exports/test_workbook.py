@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from datetime import datetime
+from zipfile import ZipFile
 
 import numpy as np
 import openpyxl
@@ -45,6 +47,14 @@ def test_the_workbook_comes_back(folder):
     np.testing.assert_allclose(measured["measured phase - law [°]"], 0.3, rtol=1e-6)
     shift = sheets["Shift factors"].set_index("temperature [°C]")["log10 a_T [decades]"]
     assert shift[21.0] == 0.0 and shift[-10.0] == pytest.approx(np.log10(law.shift.factor(-10.0)))
+
+
+def test_no_time_of_day_is_written(folder):
+    export_law(read_law_file(folder / "law.json"), Settings(), "xlsx", folder / "law.xlsx")
+    with ZipFile(folder / "law.xlsx") as parts:
+        assert {part.date_time for part in parts.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+    properties = openpyxl.load_workbook(folder / "law.xlsx").properties
+    assert properties.created == properties.modified == datetime(1980, 1, 1)
 
 
 def test_suspect_tests_and_notes_of_a_diagnosis_stand_in_the_workbook(folder, monkeypatch):

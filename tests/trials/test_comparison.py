@@ -10,15 +10,12 @@ import numpy as np
 import pytest
 from comparison import differences
 
+from asphalt_nscd.reporting.pages.style import page
+
 TEXTS = {
     "diagnosis/diagnosis.json": '{\n  "x": 0.125,\n  "git_commit": "%s"\n}\n',
     "pages/diagnosis.html": "<p>At 0.125, commit %s.</p>\n",
     "study.json": '{"a": 1, "b": 2}\n',
-    "simulations.csv": "E_MPa,cpu_s,phase_deg\n12.5,%s,3\n11.5,%s,4\n",
-    "pages/simulations.html": (
-        "<caption>All tests</caption>\n<tr><th>E_MPa</th><th>cpu_s</th></tr>\n"
-        '<tr><td class="number">12.5</td><td class="number">%s</td></tr>\n'
-    ),
     "figures/fig01.svg": "<path d='M 0.125'/>\n",
     "provenance.json": '{"git_commit": "%s", "python": "3.11"}\n',
 }
@@ -29,13 +26,16 @@ def _run(folder: Path, of_run: str) -> Path:
     for name, text in TEXTS.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text.replace("%s", of_run))
+    seconds = float(len(of_run))
+    (folder / "simulations.csv").write_text(f"E_MPa,cpu_s,phase_deg\n12.5,{seconds},3\n11.5,{seconds},4\n")
+    (folder / "pages/simulations.html").write_text(page(folder / "simulations.csv", "All tests"))
     (folder / TEST).parent.mkdir()
     with h5py.File(folder / TEST, "w") as file:
         file["record/force"] = np.array([1.0, 0.125])
         file["record/force"].attrs["unit"] = "N"
         file["record"].attrs["steps"] = 3
         file.attrs["E_MPa"] = np.nan
-        file.attrs["cpu_s"] = float(len(of_run))
+        file.attrs["cpu_s"] = seconds
         file.attrs["provenance"] = of_run
     for name in ("logs/a.log", "benchmarks/a.tsv", "timings.csv"):
         (folder / name).parent.mkdir(exist_ok=True)

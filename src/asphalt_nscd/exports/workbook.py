@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+from io import BytesIO
 from pathlib import Path
 from typing import Any
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import numpy as np
 import pandas as pd
@@ -19,6 +22,7 @@ from asphalt_nscd.files.paths import is_file
 IN_A_DECADE = 8  # frequencies of the master curve
 STEP = 5.0  # K, of the shift factors
 WIDEST = 90  # characters of a column
+DATE = b"1980-01-01T00:00:00Z"  # where the dates of zip archives begin
 
 HEADINGS = {
     "specimen": "specimen",
@@ -57,7 +61,7 @@ def write(card: Card, path: Path) -> None:
         _fill(book, "Residuals", tests.rename(columns=HEADINGS))
         if is_file(folder / "diagnosis.json"):
             _diagnosis(book, read_diagnosis([folder / "diagnosis.json"]))
-    book.save(path)
+    _save(book, path)
 
 
 def _law(card: Card) -> pd.DataFrame:
@@ -144,6 +148,18 @@ def _diagnosis(book: Workbook, content: dict[str, Any]) -> None:
             _fill(book, title, frame.rename(columns=_heading))
     if content.get("notes"):
         _fill(book, "Notes", pd.DataFrame({"note of the diagnosis": content["notes"]}))
+
+
+def _save(book: Workbook, path: Path) -> None:
+    """Write a workbook without the time of day, which openpyxl puts into it and into its archive."""
+    made = BytesIO()
+    book.save(made)
+    with ZipFile(made) as timed, ZipFile(path, "w", ZIP_DEFLATED) as timeless:
+        for name in timed.namelist():
+            part = timed.read(name)
+            if name == "docProps/core.xml":
+                part = re.sub(rb"(<dcterms:(created|modified)[^>]*>)[^<]*", rb"\g<1>" + DATE, part)
+            timeless.writestr(ZipInfo(name), part, ZIP_DEFLATED)
 
 
 def _heading(name: str) -> str:

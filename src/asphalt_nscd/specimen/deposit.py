@@ -98,7 +98,9 @@ def vibrate(
     The lower half of the stroke would pass through rigid grains once they lie dense. So the wall is a light
     plate between rails: its drive pushes with a pressure of at most `shaking.pressure`.
     """
-    numerics = replace(numerics, falling_sweeps=numerics.most_sweeps)
+    numerics = replace(
+        numerics, falling_sweeps=numerics.most_sweeps, falling_penetration=numerics.penetration
+    )
     n, dt = granulate.radius.size, numerics.time_step
     omega = 2.0 * np.pi * shaking.frequency
     length, width = granulate.plane_point[3, 0], granulate.plane_point[4, 1]

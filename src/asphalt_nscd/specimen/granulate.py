@@ -19,7 +19,7 @@ FALLING = 0.01  # m/s, mean speed
 FALLING_SWEEPS = 9
 MOST_SWEEPS = 300
 TOLERANCE = 2e-3
-PENETRATION = 0.1  # of the smallest radius
+PENETRATION, FALLING_PENETRATION = 0.02, 0.1  # of the smallest radius
 ALLOWED_OVERLAP = 0.005  # of the smallest radius
 
 
@@ -34,6 +34,7 @@ class PouringNumerics:
         1_000_000  # after so many the tolerance is waived while the mean speed is above FALLING
     )
     penetration: float = np.inf  # m, sweeps go on while the step would deepen an overlap by more
+    falling_penetration: float = np.inf  # m, the same while the mean speed is above FALLING
     skin: float = 4e-4  # m, pairs are searched again when a sphere has moved half of it
     margin: float = (
         2e-5  # m, gap below which a resting pair takes part in a step; of moving pairs see _search
@@ -47,7 +48,8 @@ class PouringNumerics:
 
         The sweeps of a step leave small overlaps everywhere in a layer. Undone at once, they would keep it
         in motion for ever; so those below ALLOWED_OVERLAP stay. An impact may need many sweeps, most steps
-        need few: they end when the impulses hardly change and no step deepens an overlap by PENETRATION.
+        need few: they end when the impulses hardly change and no step deepens an overlap by PENETRATION. A
+        falling grain may enter another for a moment, which changes nothing of the layer.
         """
         smallest = float(radius.min())
         return cls(
@@ -56,6 +58,7 @@ class PouringNumerics:
             most_sweeps=MOST_SWEEPS,
             falling_sweeps=FALLING_SWEEPS,
             penetration=PENETRATION * smallest,
+            falling_penetration=FALLING_PENETRATION * smallest,
             allowed_overlap=ALLOWED_OVERLAP * smallest,
         )
 
@@ -139,7 +142,9 @@ class Granulate:
             self.velocity[n:, :3] = plane_velocity
         self._involve(dt)
         speed = np.sqrt((self.velocity[:n, :3] ** 2).sum(axis=1))
-        enough = numerics.falling_sweeps if speed.mean() > FALLING else numerics.most_sweeps
+        enough, penetration = numerics.most_sweeps, numerics.penetration
+        if speed.mean() > FALLING:
+            enough, penetration = numerics.falling_sweeps, numerics.falling_penetration
         meeting = self._search(numerics, speed)
         sweeps, change, overlap = self.team.run(
             granular.step,
@@ -161,7 +166,7 @@ class Granulate:
             numerics.allowed_overlap,
             meeting,
             numerics.tolerance,
-            numerics.penetration,
+            penetration,
             enough,
             numerics.most_sweeps,
         )[0]

@@ -390,7 +390,7 @@ def test_naive_twin(restitution, recovery_speed, allowed_overlap, penetration, l
         most_sweeps=40,
         tolerance=1e-6 if penetration == np.inf else 1e-12,
         falling_sweeps=1_000_000 if penetration == np.inf else 6,
-        penetration=penetration,
+        falling_penetration=penetration,
         recovery_speed=recovery_speed,
         allowed_overlap=allowed_overlap,
         margin=1e-4,
@@ -409,7 +409,7 @@ def test_naive_twin(restitution, recovery_speed, allowed_overlap, penetration, l
             dt=settings.time_step, friction=0.4, restitution=restitution, recovery_speed=recovery_speed,
             allowed_overlap=allowed_overlap,
             margin=meeting_gap(settings, velocity, plane_velocity), tolerance=settings.tolerance, most_sweeps=40,
-            penetration=settings.penetration, enough_sweeps=settings.falling_sweeps, slabs=slabs,
+            penetration=settings.falling_penetration, enough_sweeps=settings.falling_sweeps, slabs=slabs,
         )  # fmt: skip
         points = points + settings.time_step * plane_velocity
         np.testing.assert_allclose(pile.position, position, rtol=0, atol=1e-14)
