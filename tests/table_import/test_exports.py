@@ -211,21 +211,6 @@ def test_frequency_without_a_result_is_left_out_and_said(tmp_path):
     assert "frequencies without a modulus left out: 1" in campaign.notes
 
 
-def test_temperature_of_the_name_where_no_other_is_given(tmp_path):
-    text = EXPORT.replace("Target test temperature,4\n", "").replace(
-        " Average temperature  (°C),4.1,4.0,3.9\n", ""
-    )
-    campaign = read(tmp_path, text)
-    assert campaign.table.columns["temperature_C"] == ["4"] * 3
-    assert "temperature taken from the name of the specimen" in campaign.notes
-
-
-def test_a_name_that_contradicts_the_header_is_said(tmp_path):
-    campaign = read(tmp_path, EXPORT.replace("Mix-7-4C", "Mix-7-21C"))
-    assert campaign.table.columns["nominal_temperature_C"] == ["4"] * 3
-    assert any("says 21 °C, the header 4; the header is taken" in note for note in campaign.notes)
-
-
 def test_synthetic_exports_say_so(tmp_path):
     assert (
         read(tmp_path, EXPORT.replace("Comments\n", "Comments,Synthetic: drawn\n")).table.columns["origin"]
@@ -259,15 +244,6 @@ def test_what_is_ambiguous_is_refused_in_one_sentence(tmp_path, old, new, senten
         assert sentence in refusal(tmp_path, EXPORT.replace(old, new))
     else:  # an unreadable target is no target: the measured temperature stands
         assert "nominal_temperature_C" not in read(tmp_path, EXPORT.replace(old, new)).table.columns
-
-
-def test_no_temperature_at_all_is_refused(tmp_path):
-    text = EXPORT.replace("Target test temperature,4\n", "").replace(
-        " Average temperature  (°C),4.1,4.0,3.9\n", ""
-    )
-    assert "no temperature; add a line 'Target test temperature (°C)'" in refusal(
-        tmp_path, text.replace("-4C", "")
-    )
 
 
 @pytest.mark.parametrize(

@@ -535,14 +535,3 @@ def test_a_table_of_means_alone_and_a_specimen_called_standard(tmp_path):
     assert set(read_campaign([tmp_path / "t.csv"])[0].table.columns["specimen"]) == {"Mean"}
     (tmp_path / "t.csv").write_text(f"{head}\nStandard 1,5,1,9000,20\nB,5,10,12000,15\n")
     assert set(read_campaign([tmp_path / "t.csv"])[0].table.columns["specimen"]) == {"Standard 1", "B"}
-
-
-def test_a_target_far_from_what_was_measured_is_refused(tmp_path):
-    text = (EXPORTS / "Mix-A-4C_Sum.csv").read_text(encoding="cp1252")
-    assert "Target test temperature,4\n" in text
-    wrong = text.replace("Target test temperature,4\n", "Target test temperature,37\n")
-    (tmp_path / "Mix-A_Sum.csv").write_text(wrong, encoding="cp1252")
-    with pytest.raises(
-        InputError, match="the target temperature is 37 C and 4 C was measured; correct the target"
-    ):
-        read_campaign([tmp_path / "Mix-A_Sum.csv"])
