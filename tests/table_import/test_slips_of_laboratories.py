@@ -154,6 +154,25 @@ def test_a_retest_of_some_frequencies_replaces_these_only(tmp_path):
     assert said(campaign, "b.csv is taken instead of a.csv for 2 of its 3 tests")
 
 
+@pytest.mark.parametrize("mark", ["", "-Repeated"])
+def test_a_retest_that_must_be_another_material_is_refused(tmp_path, mark):
+    soft = EXPORT.format(f"A-4C{mark}", DECEMBER_8, 10, 2600).replace("9100", "3000").replace("5000", "1700")
+    with pytest.raises(InputError) as error:
+        exports(tmp_path, a=EXPORT.format("A", DECEMBER_7, 10, 8000), b=soft)
+    assert str(error.value) == (
+        "b.csv and a.csv both hold specimen Mix-A at 4 degC, but |E*| in the first is 0.33 times that in the second, "
+        "which is too far apart for a retest: leave the wrong one out, or, if it is another specimen or temperature, "
+        "correct the name and the header of its file."
+    )
+
+
+def test_a_retest_may_mend_one_frequency(tmp_path):
+    campaign = exports(
+        tmp_path, a=EXPORT.format("A", DECEMBER_7, 10, 2000), b=EXPORT.format("A", DECEMBER_8, 10, 8000)
+    )
+    assert columns(campaign, "E_MPa") == [["9100", "8000", "5000"]]
+
+
 def test_a_mark_that_the_date_contradicts_is_said(tmp_path):
     marked = EXPORT.format("A-4C-Repeated", DECEMBER_7, 10, 7000)
     campaign = exports(tmp_path, a=EXPORT.format("A", DECEMBER_8, 10, 8000), b=marked)

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import combinations
+from math import exp, log
 from pathlib import Path
+from statistics import median
 
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
@@ -11,6 +14,8 @@ from asphalt_nscd.table_import.dates import later
 from asphalt_nscd.table_import.understand import Understood
 
 _FIGURES = 4  # digits in which two files that hold the same tests agree
+_RETEST = log(1.5)  # of |E*|, median over frequencies; specimens of a mix differ by a tenth or so
+_LEAST = 2  # frequencies for that: of one, the retest may be the mend
 
 
 @dataclass(frozen=True)
@@ -56,6 +61,7 @@ def without_copies(parts: list[Part], notes: list[str]) -> list[Part]:
 
 def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
     """Parts in which no two files or sheets give one test: that of the later date, or marked as repeated, is kept."""
+    _require_alike(parts)
     taken: dict[tuple[str, ...], int] = {}
     dropped: dict[tuple[int, int], list[tuple[str, ...]]] = {}  # by the part that lost and the one that won
     for place, part in enumerate(parts):
@@ -75,6 +81,38 @@ def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
         if rows:
             kept.append(part if not lost else replace(part, read=_only(part.read, rows)))
     return kept
+
+
+def _require_alike(parts: list[Part]) -> None:
+    """Refuse two files that give one specimen at one temperature moduli too far apart for a retest."""
+    sweeps: dict[tuple[str, ...], dict[int, dict[tuple[str, ...], str]]] = {}
+    for place, part in enumerate(parts):
+        moduli = part.read.table.columns.get("E_MPa", [])
+        for (specimen, temperature, *test), modulus in zip(_tests(part), moduli, strict=bool(moduli)):
+            sweep = sweeps.setdefault((specimen, temperature), {}).setdefault(place, {})
+            sweep[tuple(test)] = modulus
+    for (specimen, temperature), held in sweeps.items():
+        for one, other in combinations(held, 2):
+            first, second = parts[one], parts[other]
+            common = held[one].keys() & held[other].keys()
+            if len(common) < _LEAST or (first.path, first.source) == (second.path, second.source):
+                continue
+            ratio = median(_ratio(held[other][test], held[one][test]) for test in common)
+            if abs(ratio) > _RETEST:
+                raise InputError(
+                    f"{second.source} and {first.source} both hold specimen {specimen} at {temperature} degC, but "
+                    f"|E*| in the first is {exp(ratio):.2g} times that in the second, which is too far apart for a "
+                    "retest: leave the wrong one out, or, if it is another specimen or temperature, correct the name "
+                    "and the header of its file."
+                )
+
+
+def _ratio(modulus: str, other: str) -> float:
+    """ln of a ratio; 0 for what is refused further on."""
+    try:
+        return log(float(modulus) / float(other))
+    except (ValueError, ZeroDivisionError):
+        return 0.0
 
 
 def _is_later(first: Part, second: Part, test: tuple[str, ...]) -> bool:
