@@ -148,8 +148,23 @@ def test_quality_flag_alone_is_listed_and_the_test_used():
     row = row_of(observed, 1, 4.0, 25.0)
     (found,) = suspects.find(flagged(observed, row))
     assert found == suspects.Suspect(
-        row, ("phase uniformity 7.9 deg, limit 3 deg (AASHTO T 378, TP 132)",), True
+        row,
+        ("phase uniformity 7.9 deg, limit 3 deg (AASHTO T 378, TP 132)", suspects.ONE_WITNESS),
+        True,
     )
+
+
+def test_of_one_specimen_a_flag_and_causality_take_a_test_out():
+    observed = campaign(3, scatter=(0.01, 0.3))
+    observed = observed.subset(observed.specimen == 1)
+    row = row_of(observed, 1, 4.0, 25.0)
+    doubtful = altered(observed, row, phase_deg=4.0)
+    assert not out(doubtful)
+    (found,) = suspects.find(flagged(doubtful, row))
+    assert not found.used
+    assert "phase is" in found.reasons[0] and "phase uniformity" in found.reasons[1]
+    (found,) = suspects.find(flagged(observed, row))
+    assert found.used and found.reasons[-1] == suspects.ONE_WITNESS
 
 
 def test_flag_of_a_whole_isotherm_singles_no_test_out():

@@ -27,12 +27,14 @@ from asphalt_nscd.files.words import counted
 STRONG = 6e-3  # chance, times the number of values, below which causality alone takes a test out
 NOTABLE = 0.1  # the same for a test that is listed and used
 SUPPORTED = 1e-2  # chance of one value, below which it is taken out where a witness agrees
+ALONE = 0.03  # the same for a flagged test of one specimen alone, whose scatter is known less
 FAR = 5e-3  # chance, times the number of values, below which replicates are a witness
 LEANING, VERY_FAR = 0.1, 1e-5  # both limits where replicates say more: at the ends causality knows little
 BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1.5 deg or more
 BREAKS = BENDS > np.radians(1.0)
 LEAST_FREEDOM = 4  # of the replicates of an isotherm
 SHARED = "every specimen contradicts its isotherm here in the same way: look for a common cause, not for a bad test"
+ONE_WITNESS = "its modulus and phase do not contradict the other frequencies, so the test is used"
 IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may be no more than nearly smooth
 
 
@@ -83,12 +85,14 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
     flags = _singled_out(observed)
     worst, single = held.chance.min(axis=1), held.chance[:, :2]
     doubtful = single < SUPPORTED
+    alone = np.bincount(observed.cell)[observed.cell] == 1
+    against = single < np.where(alone, ALONE, SUPPORTED)[:, None]
     flagged = np.array([bool(sentences) for sentences in flags])
     logarithm = observed.logarithm
     left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
     strong = worst < STRONG * limit
     shared = _shared(observed, held, strong, left)
-    out = (strong & ~shared) | (doubtful.any(axis=1) & flagged)
+    out = (strong & ~shared) | (against.any(axis=1) & flagged)
     # What is already out is no replicate of the others.
     apart, chance = _from_replicates(observed, ~out)
     far = chance * values < FAR
@@ -103,7 +107,7 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
             _causal_reason(observed, held, int(row), int(column))
             for column in np.flatnonzero(contradicts[row])
         ]
-        reasons += flags[row]
+        reasons += flags[row] + [ONE_WITNESS] * bool(flagged[row] and held.judged[row] and not listed[row])
         reasons += [
             _replicate_reason(observed, apart, int(row), int(column)) for column in np.flatnonzero(far[row])
         ]
