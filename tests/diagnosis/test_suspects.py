@@ -94,12 +94,20 @@ def test_reason_gives_what_was_measured_and_what_the_isotherm_requires():
     row = row_of(observed, 1, 4.0, 25.0)
     expected = np.degrees(observed.logarithm.imag[row])
     (found,) = suspects.find(altered(observed, row, phase_deg=5.0))
-    (reason,) = [reason for reason in found.reasons if reason.startswith("phase is")]
-    assert (
-        f"phase is {expected + 5.0:.1f} deg" in reason and "other tests of this specimen at 4 degC" in reason
-    )
-    required = float(reason.split("require ")[1].split(" deg")[0])
-    assert required == pytest.approx(expected, abs=1.5)
+    (reason,) = found.reasons
+    assert reason.startswith(f"phase is {expected + 5.0:.1f} deg, ")
+    assert "deg above what its |E*| and the other frequencies of this specimen at 4 degC allow: " in reason
+    allowed = float(reason.split("allow: ")[1].split(" deg")[0])
+    assert allowed == pytest.approx(expected, abs=1.5)
+
+
+def test_one_reading_is_called_wrong_and_not_each_beside_the_other():
+    observed = campaign()
+    row = row_of(observed, 1, 4.0, 5.0)
+    (found,) = suspects.find(altered(observed, row, modulus=np.log(1.12)))
+    causal = [reason for reason in found.reasons if "allow: " in reason]
+    assert len(causal) == 1 and causal[0].startswith("|E*| is ")
+    assert "% above what its phase and the other frequencies of this specimen at 4 degC allow" in causal[0]
 
 
 def test_isotherm_that_breaks_as_a_whole_is_reported_and_its_tests_are_used():

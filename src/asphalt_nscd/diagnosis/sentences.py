@@ -135,11 +135,10 @@ def on_doubtful(content: Content) -> str:
     kept = doubtful(content)
     if not kept:
         return ""
-    places = "; ".join(place_of_test(one) for one in kept[:3]) + (
-        f"; and {len(kept) - 3} more" if kept[3:] else ""
-    )
+    places = "; ".join(f"{place_of_test(one)} ({', '.join(one['reasons'])})" for one in kept[:3])
+    more = f"; and {len(kept) - 3} more, see suspect_tests in diagnosis.json" if kept[3:] else ""
     changed = _changed(content, "without_doubtful", f"Without {'it' if len(kept) == 1 else 'them'}")
-    return f"Doubtful but used: {places}; suspect_tests in diagnosis.json says why. {changed}".rstrip()
+    return f"Doubtful but used: {places}{more}. {changed}".rstrip()
 
 
 def _changed(content: Content, key: str, when: str) -> str:

@@ -100,13 +100,11 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
     supported = agree & ((doubtful & far) | ((single < LEANING) & (chance * values < VERY_FAR)))
     out |= supported.any(axis=1)
     listed = out | (worst < NOTABLE * limit)
-    contradicts = listed[:, None] & (doubtful | supported | (single == single.min(axis=1, keepdims=True)))
+    # Beside a wrong phase the modulus seems wrong too: the less likely of the two is named, or the one with a witness.
+    wrong = np.where(supported | ~supported.any(axis=1, keepdims=True), single, 1.0).argmin(axis=1)
     found = []
     for row in np.flatnonzero(listed | flagged | far.any(axis=1)):
-        reasons = [
-            _causal_reason(observed, held, int(row), int(column))
-            for column in np.flatnonzero(contradicts[row])
-        ]
+        reasons = [_causal_reason(observed, held, int(row), int(wrong[row]))] if listed[row] else []
         reasons += flags[row] + [ONE_WITNESS] * bool(flagged[row] and held.judged[row] and not listed[row])
         reasons += [
             _replicate_reason(observed, apart, int(row), int(column)) for column in np.flatnonzero(far[row])
@@ -243,19 +241,24 @@ def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[N
 
 
 def _causal_reason(observed: Observations, held: Held, row: int, column: int) -> str:
-    rest = f"the other tests of this specimen at {observed.isotherm[row]:g} degC"
+    rest = f"the other frequencies of this specimen at {observed.isotherm[row]:g} degC allow"
     expected, error = held.expected[row, column], held.std_error[row, column]
     if column == 0:
+        modulus = abs(observed.modulus[row])
+        apart = 100.0 * (modulus / np.exp(expected) - 1.0)
         return (
-            f"|E*| is {abs(observed.modulus[row]) / 1e6:.0f} MPa; its phase and {rest} require "
-            f"{np.exp(expected) / 1e6:.0f} MPa +- {100.0 * error:.1f} %"
+            f"|E*| is {modulus / 1e6:.0f} MPa, {abs(apart):.1f} % {_way(apart)} what its phase and {rest}: "
+            f"{np.exp(expected) / 1e6:.0f} MPa, standard error {100.0 * error:.1f} %"
         )
-    phase = np.degrees(observed.logarithm.imag[row])
-    required, alone = np.degrees(held.required[row]), np.degrees(held.required_error[row])
+    phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
     return (
-        f"phase is {phase:.1f} deg; its |E*| and {rest} require {np.degrees(expected):.1f} deg "
-        f"+- {np.degrees(error):.1f} (|E*| alone: {required:.1f} deg +- {alone:.1f})"
+        f"phase is {phase:.1f} deg, {abs(phase - allowed):.1f} deg {_way(phase - allowed)} what its |E*| and {rest}: "
+        f"{allowed:.1f} deg, standard error {np.degrees(error):.1f} deg"
     )
+
+
+def _way(apart: float) -> str:
+    return "above" if apart > 0.0 else "below"
 
 
 def _replicate_reason(observed: Observations, apart: NDArray, row: int, column: int) -> str:
