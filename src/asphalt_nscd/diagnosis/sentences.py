@@ -135,7 +135,7 @@ def on_doubtful(content: Content) -> str:
     kept = doubtful(content)
     if not kept:
         return ""
-    places = "; ".join(f"{place_of_test(one)} ({', '.join(one['reasons'])})" for one in kept[:3])
+    places = "; ".join(f"{place_of_test(one)} ({'; '.join(one['reasons'])})" for one in kept[:3])
     more = f"; and {len(kept) - 3} more, see suspect_tests in diagnosis.json" if kept[3:] else ""
     changed = _changed(content, "without_doubtful", f"Without {'it' if len(kept) == 1 else 'them'}")
     return f"Doubtful but used: {places}{more}. {changed}".rstrip()

@@ -34,7 +34,7 @@ BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1
 BREAKS = BENDS > np.radians(1.0)
 LEAST_FREEDOM = 4  # of the replicates of an isotherm
 SHARED = "every specimen contradicts its isotherm here in the same way: look for a common cause, not for a bad test"
-ONE_WITNESS = "its modulus and phase do not contradict the other frequencies, so the test is used"
+ONE_WITNESS = "its modulus and phase do not contradict the other frequencies"
 IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may be no more than nearly smooth
 
 
