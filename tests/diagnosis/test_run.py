@@ -8,19 +8,23 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
+from jsonschema import Draft202012Validator
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis import report, run
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.diagnosis.suspects import Suspect
-from asphalt_nscd.diagnosis.written import read_diagnosis
+from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.table_import.campaign import read_campaign
 
 PUBLISHED = Path(__file__).parents[2] / "results/published/paper"
 EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
 FEW = run.Draws(500)
+SCHEMA = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8"))
 
 
 def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
@@ -41,6 +45,17 @@ def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
     assert quality == (
         "Phase uniformity above 3 deg (AASHTO T 378, TP 132) in 1 of 72 tests: Mix-B at 4 degC, 25 Hz: 6.4 deg."
     )
+
+
+def test_the_verdict_names_files_without_tests(tmp_path):
+    for path in EXPORTS.glob("*.csv"):
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    (tmp_path / "Mix-C-50C_Sum.csv").write_text("")
+    outcome = run.conclude(read_campaign([tmp_path])[0], PAPER_GEOMETRY, draws=FEW)
+    told = "1 of 12 files held no test: Mix-C-50C_Sum.csv (holds no table)."
+    Draft202012Validator(SCHEMA).validate(outcome.content)
+    assert outcome.content["reading"]["files_without_tests"] == [told]
+    assert f"Files: {told}\nData: " in summary(outcome.content)
 
 
 def test_estimates_that_spread_further_than_their_errors_widen_the_limits():

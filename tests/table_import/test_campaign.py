@@ -70,6 +70,8 @@ def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
     assert said(campaign, "skipped scan.pdf (neither CSV, TSV, TXT nor XLSX)")
     assert said(campaign, "skipped old (a folder;") and said(campaign, "skipped empty.csv (holds no table)")
     assert not said(campaign, "hidden")
+    (sentence,) = campaign.without_tests
+    assert sentence.startswith("2 of 3 files held no test: empty.csv (holds no table), sieves.csv (no column")
 
 
 def test_folder_without_tests_is_refused(tmp_path):

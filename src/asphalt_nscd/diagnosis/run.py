@@ -157,10 +157,10 @@ def conclude(
     if fit is not None:
         content["notes"] += law_notes(diagnosis, fit.law) + prior_notes(fit)
     done.step()
-    notes = [] if campaign is None else [*campaign.notes]
+    notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
     if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:
         notes.append(OF_THE_PAPER)
-    content["reading"] = reading(observed, notes)
+    content["reading"] = reading(observed, notes, without_tests)
     if simulated.campaign is not None:
         content["numerics"]["campaign"] = of_campaign(
             simulated.campaign, observed.temperature, observed.frequency
@@ -273,7 +273,9 @@ def _named(other: Diagnosis) -> dict[str, Any]:
     return {"verdict": other.verdict, "causes": [*law, *named]}
 
 
-def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
+def reading(
+    observed: Observations, notes: Sequence[str], without_tests: Sequence[str] = ()
+) -> dict[str, Any]:
     """How the measurements were read: test type, isotherms, quality limits exceeded; notes of the import."""
     specimen = [observed.names[place] for place in observed.specimen]
     above = [
@@ -301,6 +303,7 @@ def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
             *together,
             *_quality_notes(above, observed.size),
         ],
+        **({"files_without_tests": list(without_tests)} if without_tests else {}),
     }
 
 

@@ -115,6 +115,11 @@ def test_type(content: Content) -> str:
     return f"{TEST_TYPES[read['test_type']]}, {counted(len(read['specimens']), 'specimen')}, {at} degC"
 
 
+def files(content: Content) -> str:
+    """Which files of a folder held no test; empty where all did."""
+    return " ".join(content.get("reading", {}).get("files_without_tests", []))
+
+
 def not_used(content: Content) -> list[Content]:
     """Suspect tests that the diagnosis left out."""
     return [one for one in content.get("suspect_tests", []) if not one["used"]]

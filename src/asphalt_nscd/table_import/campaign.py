@@ -41,8 +41,14 @@ def read_campaign(
     """
     notes: list[str] = []
     parts: list[Part] = []
+    without_tests: list[str] = []
     for path in paths:
-        parts += (_folder if path.is_dir() else _file)(path, notes, sheet, chosen)
+        if path.is_dir():
+            found, said = _folder(path, notes, sheet, chosen)
+            without_tests += [said] if said else []
+        else:
+            found = _file(path, notes, sheet, chosen)
+        parts += found
     parts = without_copies(sorted(parts, key=lambda part: not part.exported), notes)
     parts = without_repeated(parts, notes)
     _require_one_mix(parts)
@@ -65,7 +71,8 @@ def read_campaign(
         f"{counted(len(specimens), 'specimen')}: {', '.join(specimens[:12])}{', ...' if len(specimens) > 12 else ''}"
     )
     files = tuple(dict.fromkeys(part.path for part in parts))
-    return Campaign(table, files, kind, (*_said(parts), *notes)), forms[0]
+    notes = [*_said(parts), *notes]
+    return Campaign(table, files, kind, tuple(notes), tuple(without_tests)), forms[0]
 
 
 def _require_one_mix(parts: Sequence[Part]) -> None:
@@ -124,13 +131,14 @@ def _sheet(path: Path, sheet: Sheet, chosen: Mapping[str, str] | None, alone: bo
 
 def _folder(
     folder: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, str] | None
-) -> list[Part]:
-    """Tests of the files in a folder; a file that holds none is passed over, with the reason in the notes."""
+) -> tuple[list[Part], str]:
+    """Tests of the files in a folder, and a sentence on those that hold none, which the notes name too."""
     inside = sorted(path for path in folder.iterdir() if not path.name.startswith((".", "~$")))
     if len(inside) > MOST_FILES:
         raise InputError(f"{folder}: more than {MOST_FILES} files; give the folder of one campaign.")
     parts: list[Part] = []
     skipped: list[str] = []
+    empty: list[str] = []
     for path in inside:
         if path.is_dir():
             skipped.append(f"{path.name} (a folder; name it too if it belongs to the campaign)")
@@ -142,14 +150,18 @@ def _folder(
             except InputError as error:
                 if not isinstance(error, NotTests) and _meant(path, sheet):
                     raise
-                skipped.append(f"{path.name} ({_reason(error, path)})")
+                empty.append(f"{path.name} ({_reason(error, path)})")
+    files, skipped = len({part.path for part in parts}) + len(empty), skipped + empty
     if not parts:
         held = "; it holds " + ", ".join(skipped) if skipped else ""
         raise InputError(
             f"{folder}: no file with tests{held}; give the machine's exports or a table of moduli."
         )
     notes += [f"skipped {one}" for one in skipped]
-    return parts
+    if not empty:
+        return parts, ""
+    named = ", ".join(empty[:3]) + (f" and {len(empty) - 3} more" if len(empty) > 3 else "")
+    return parts, f"{len(empty)} of {files} files held no test: {named}."
 
 
 def _reason(error: InputError, path: Path) -> str:
