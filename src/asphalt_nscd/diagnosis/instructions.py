@@ -117,8 +117,7 @@ def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
         alike.specimens = [
             name for name in model.table.names if name in (*alike.specimens, sweep.specimen)
         ] or [METAL]
-        if sweep.specimen == METAL:  # once it is mounted, that sweep is all that metal has to say
-            waiting = [other for other in waiting if other.specimen != METAL]
+        waiting = [other for other in waiting if not _again(other, sweep)]
         alike.hours, alike.nats = alike.hours + sweep.hours, alike.nats + nats
         for k in helped:
             alike.helps[k] = alike.helps.get(k, (before[k], 0.0))[0], after[k]
@@ -131,6 +130,18 @@ def _same(one: Sweep, other: Sweep) -> bool:
         other.frequencies,
         other.half_strain,
     ) and METAL not in (one.specimen, other.specimen)
+
+
+def _again(one: Sweep, other: Sweep) -> bool:
+    """Whether a sweep repeats tests of another; once metal is mounted, one sweep is all that it has to say."""
+    if METAL in (one.specimen, other.specimen):
+        return one.specimen == other.specimen
+    same = (one.specimen, one.temperature, one.half_strain) == (
+        other.specimen,
+        other.temperature,
+        other.half_strain,
+    )
+    return same and not set(one.frequencies).isdisjoint(other.frequencies)
 
 
 def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
@@ -228,7 +239,12 @@ def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
         k: strengths for k, strengths in order.helps.items() if questions[k].kind not in ("repeat", "linear")
     }
     kinds = {questions[k].kind for k in order.helps}
-    again = sorted(questions[k].about for k in order.helps if questions[k].kind == "repeat")
+    repeated = {
+        f"{name} at {order.sweep.temperature:g} degC, {f:g} Hz"
+        for name in order.specimens
+        for f in order.sweep.frequencies
+    }
+    again = sorted(repeated & {questions[k].about for k in order.helps if questions[k].kind == "repeat"})
     reasons = []
     if again:
         reasons.append(
