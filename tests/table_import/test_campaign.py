@@ -71,7 +71,7 @@ def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
     assert said(campaign, "skipped old (a folder;") and said(campaign, "skipped empty.csv (holds no table)")
     assert not said(campaign, "hidden")
     (sentence,) = campaign.without_tests
-    assert sentence.startswith("2 of 3 files held no test: empty.csv (holds no table), sieves.csv (no column")
+    assert sentence.startswith("2 of 3 files held no test: empty.csv (holds no table); sieves.csv (no column")
 
 
 def test_folder_without_tests_is_refused(tmp_path):
@@ -80,6 +80,17 @@ def test_folder_without_tests_is_refused(tmp_path):
     (tmp_path / "scan.pdf").write_bytes(b"%PDF")
     with pytest.raises(InputError, match=r"no file with tests; it holds scan\.pdf \(neither"):
         read_campaign([tmp_path])
+
+
+def test_one_reason_of_many_files_is_said_once(tmp_path):
+    for n in range(9):
+        save(tmp_path, **{f"e{n}": export("A", 4, 1.0 + n).replace(" (MPa)", "")})
+    with pytest.raises(InputError) as error:
+        read_campaign([tmp_path])
+    assert str(error.value) == (
+        f"{tmp_path}: no file with tests; it holds e0.csv, e1.csv, e2.csv and 6 more (column 'Dynamic modulus' does "
+        "not say its unit); write it after the name, as in E (MPa)."
+    )
 
 
 def test_damaged_results_in_a_folder_are_refused_not_passed_over(tmp_path):

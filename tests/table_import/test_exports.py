@@ -211,6 +211,40 @@ def test_frequency_without_a_result_is_left_out_and_said(tmp_path):
     assert "frequencies without a modulus left out: 1" in campaign.notes
 
 
+@pytest.mark.parametrize(
+    ("last", "sentence"),
+    [
+        (
+            ",25 Hz,10 Hz,0.5 Hz",
+            ": the file ends early, without a row of moduli and of phases; export it anew.",
+        ),
+        (
+            " Dynamic modulus (MPa),9100,8000,5000",
+            ": the file ends early, without a row of phases; export it anew.",
+        ),
+        (
+            " Phase angle (Degrees),12.5",
+            ", line 16: the file ends early: Phase angle (Degrees) has no value for 10, 0.5 Hz; export it anew.",
+        ),
+        (
+            " Average temperature  (°C),4.1,4.0",
+            "Average temperature (°C) has no value for 0.5 Hz; export it anew.",
+        ),
+    ],
+)
+def test_an_export_that_ends_early_says_so(tmp_path, last, sentence):
+    assert last in EXPORT
+    assert refusal(tmp_path, EXPORT[: EXPORT.index(last) + len(last)]).endswith(sentence)
+
+
+def test_an_export_may_end_with_its_phases(tmp_path):
+    assert moduli(read(tmp_path, EXPORT[: EXPORT.index(" Average temperature")]))[1] == [
+        "12.5",
+        "13.25",
+        "19",
+    ]
+
+
 def test_synthetic_exports_say_so(tmp_path):
     assert (
         read(tmp_path, EXPORT.replace("Comments\n", "Comments,Synthetic: drawn\n")).table.columns["origin"]

@@ -15,6 +15,7 @@ from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, as_cells, read
 from asphalt_nscd.table_import.exports import blocks
 from asphalt_nscd.table_import.headings import headed, require_rows, with_units
 from asphalt_nscd.table_import.parts import Part, without_copies, without_repeated
+from asphalt_nscd.table_import.passed_over import PassedOver, common_mend, listed, refused
 from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
 from asphalt_nscd.table_import.understand import (
     FURTHER,
@@ -91,7 +92,7 @@ def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, 
     if len(sheets) == 1:
         return _sheet(path, sheets[0], chosen)
     parts: list[Part] = []
-    skipped: list[str] = []
+    skipped: list[PassedOver] = []
     for one in sheets:
         # Errors and notes name the sheet as a part of the file's name.
         place = path.with_name(f"{path.name}, sheet {one.name}")
@@ -100,14 +101,14 @@ def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, 
         except InputError as error:
             if not isinstance(error, NotTests) and _names_tests(one.rows):
                 raise
-            skipped.append(f"sheet {one.name} of {path.name} ({_reason(error, place)})")
+            skipped.append(refused(f"sheet {one.name} of {path.name}", error, place))
     if not parts:
-        raise NotTests(f"{path}: no sheet holds tests; it has {', '.join(skipped)}; give a table of moduli.")
+        raise NotTests(f"{path}: no sheet holds tests; it has {listed(skipped)}; give a table of moduli.")
     read = list(dict.fromkeys(part.source.rpartition(", sheet ")[2] for part in parts))
     notes.append(
         f"{counted(len(read), 'sheet')} of {path.name} read: {', '.join(read)}; --sheet takes one alone"
     )
-    notes += [f"skipped {one}" for one in skipped]
+    notes += [f"skipped {listed([one])}" for one in skipped]
     return [replace(part, path=path) for part in parts]
 
 
@@ -137,35 +138,27 @@ def _folder(
     if len(inside) > MOST_FILES:
         raise InputError(f"{folder}: more than {MOST_FILES} files; give the folder of one campaign.")
     parts: list[Part] = []
-    skipped: list[str] = []
-    empty: list[str] = []
+    others: list[PassedOver] = []
+    empty: list[PassedOver] = []
     for path in inside:
         if path.is_dir():
-            skipped.append(f"{path.name} (a folder; name it too if it belongs to the campaign)")
+            others.append(PassedOver(path.name, "a folder; name it too if it belongs to the campaign"))
         elif path.suffix.lower() not in TABLES:
-            skipped.append(f"{path.name} (neither CSV, TSV, TXT nor XLSX)")
+            others.append(PassedOver(path.name, "neither CSV, TSV, TXT nor XLSX"))
         else:
             try:
                 parts += _file(path, notes, sheet, chosen)
             except InputError as error:
                 if not isinstance(error, NotTests) and _meant(path, sheet):
                     raise
-                empty.append(f"{path.name} ({_reason(error, path)})")
-    files, skipped = len({part.path for part in parts}) + len(empty), skipped + empty
+                empty.append(refused(path.name, error, path))
     if not parts:
-        held = "; it holds " + ", ".join(skipped) if skipped else ""
-        raise InputError(
-            f"{folder}: no file with tests{held}; give the machine's exports or a table of moduli."
-        )
-    notes += [f"skipped {one}" for one in skipped]
-    if not empty:
-        return parts, ""
-    named = ", ".join(empty[:3]) + (f" and {len(empty) - 3} more" if len(empty) > 3 else "")
-    return parts, f"{len(empty)} of {files} files held no test: {named}."
-
-
-def _reason(error: InputError, path: Path) -> str:
-    return str(error).removeprefix(f"{path}: ").partition(" (found:")[0].partition("; ")[0]
+        held = f"; it holds {listed([*empty, *others])}" if empty or others else ""
+        mend = common_mend(empty) or "give the machine's exports or a table of moduli."
+        raise InputError(f"{folder}: no file with tests{held}; {mend}")
+    notes += [f"skipped {listed([one])}" for one in (*others, *empty)]
+    files = len({part.path for part in parts}) + len(empty)
+    return parts, f"{len(empty)} of {files} files held no test: {listed(empty)}." if empty else ""
 
 
 def _meant(path: Path, sheet: str | None) -> bool:

@@ -24,6 +24,7 @@ _IDENTIFICATION = (
 )
 _TARGET = ("target test temperature", "target temperature", "set temperature", "nominal temperature")
 _CONSTANT = ("test temperature", "temperature", "chamber temperature")
+_NEEDED = {"E_MPa": "moduli", "phase_deg": "phases"}
 _COMMENTS = ("comments", "comment", "remarks")
 _DATE = (
     "test date and time",
@@ -86,6 +87,7 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
         frequencies = _frequencies(cells)
         if frequencies:
             taken = _results(path, rows[at + 1 :], len(frequencies))
+            _require_whole(path, frequencies, taken, rows[at + 1 + len(taken) :])
             said = list(notes)
             table = _turned(path, line, cells, taken, said)
             found.append(_as_block(path, header, table, said, called, several))
@@ -100,8 +102,8 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
             at += 1
     if not found and header.first(_IDENTIFICATION) and header.first(_TARGET):
         raise InputError(
-            f"{path}: a machine export without its line of frequencies; export it anew, or write a line such as "
-            "`,25 Hz,10 Hz,1 Hz` above the moduli."
+            f"{path}: a machine export without its line of frequencies; if the file ends early, export it anew, else "
+            "write a line such as `,25 Hz,10 Hz,1 Hz` above the moduli."
         )
     return found
 
@@ -153,6 +155,28 @@ def _results(path: Path, rows: list[Row], count: int) -> list[Row]:
             )
         taken.append((line, cells))
     return taken
+
+
+def _require_whole(path: Path, frequencies: list[str], taken: list[Row], rest: list[Row]) -> None:
+    """Refuse the results with which a file ends if they lack a row, or a part of the last one: it was cut off."""
+    if len(rest) > 1 or (rest and len(rest[0][1]) > len(frequencies)):
+        return
+    named = {column.quantity for _, cells in taken if (column := _recognised(cells[0]))}
+    line, last = (taken + rest)[-1] if taken or rest else (0, [""])
+    quantity = column.quantity if (column := _recognised(last[0])) else ""
+    missing = frequencies[len(last) - 1 :]
+    longer = any(len(cells) > len(last) for _, cells in taken)
+    if quantity in (*_NEEDED, "temperature_C") and missing and longer:
+        raise InputError(
+            f"{path}, line {line}: the file ends early: {last[0]} has no value for {', '.join(missing)} Hz; export "
+            "it anew."
+        )
+    lacking = [word for name, word in _NEEDED.items() if name not in named]
+    unknown = any(_recognised(cells[0]) is None for _, cells in taken)  # which may stand for it
+    if lacking and not unknown and "F0_N" not in named:
+        raise InputError(
+            f"{path}: the file ends early, without a row of {' and of '.join(lacking)}; export it anew."
+        )
 
 
 def _turned(path: Path, line: int, frequencies: list[str], rows: list[Row], notes: list[str]) -> Cells:
