@@ -2,7 +2,8 @@
 
 import pytest
 
-from asphalt_nscd.diagnosis.sentences import causes, on_doubtful, with_suspects
+from asphalt_nscd.diagnosis.instructions import _names
+from asphalt_nscd.diagnosis.sentences import cause_words, causes, left, on_doubtful, with_suspects
 
 
 def content(used: int, out: int, **then):
@@ -80,3 +81,22 @@ def test_why_a_name_is_only_likely(hangs_on, as_good, sure):
     ((told, meaning),) = causes({"ladder": [rung]})
     assert told == "temperature bias at 4 degC: 8 K or more (the search ends there)"
     assert meaning.endswith(sure)
+
+
+def test_a_specimen_called_specimen_is_not_called_so_twice():
+    rung = {"cause": "loose_clamp", "where": "Specimen 1"}
+    assert cause_words(rung) == "loose clamp of Specimen 1"
+    assert cause_words(rung | {"where": "S1"}) == "loose clamp of specimen S1"
+    found = {"specimen Specimen 1, spectrum": 2.0, "specimen S2, modulus": 1.5, "37 degC, phase": 1.0}
+    scatter = {"modulus_percent": 1.0, "phase_deg": 0.5}
+    assert left({"discrepancy": found, "scatter": scatter}) == [
+        "Specimen 1 does not follow the common master curve: 2 % in |E*|",
+        "specimen S2, modulus: 1.5 % in |E*|",
+        "37 degC, phase: 0.5 deg",
+    ]
+    assert [_names(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
+        "Specimen 1 and Specimen 2",
+        "specimens A and B",
+        "specimen A",
+        "Specimen 1",
+    ]

@@ -25,6 +25,7 @@ from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.sentences import an, joined
 from asphalt_nscd.diagnosis.written import shown, three_digits
+from asphalt_nscd.files.words import specimen_named
 
 MOST, REASONS = 5, 3
 NOTICEABLE = 10.0  # percent of cases
@@ -192,7 +193,7 @@ def _parts(table: Observations, rows: int) -> Iterator[tuple[str, NDArray[np.boo
     for values, words in (
         (table.isotherm, lambda t: f"{t:g} degC"),
         (table.frequency, lambda f: f"{f:g} Hz"),
-        (np.array(table.names)[table.specimen], lambda name: f"specimen {name}"),
+        (np.array(table.names)[table.specimen], specimen_named),
     ):
         for value in np.unique(values):
             yield words(value), np.concatenate([values != value, np.ones(rows - table.size, bool)])
@@ -302,7 +303,9 @@ def _text(one: Order) -> str:
 def _names(specimens: Sequence[str]) -> str:
     own = [name for name in specimens if name not in (METAL, NEW)]
     others = [name for name in specimens if name in (METAL, NEW)]
-    return joined([*([f"specimen{'s' if len(own) > 1 else ''} {joined(own)}"] if own else []), *others])
+    if len(own) > 1 and specimen_named(own[0]) != own[0]:
+        return joined([f"specimens {joined(own)}", *others])
+    return joined([*map(specimen_named, own), *others])
 
 
 def _band(f: Sequence[float]) -> str:

@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.chance import CHANCE
 from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
-from asphalt_nscd.files.words import counted
+from asphalt_nscd.files.words import counted, specimen_named
 
 Content = Mapping[str, Any]
 TEST_TYPES = {
@@ -47,8 +47,8 @@ def on_data(content: Content) -> str:
             f"specimens differ by {spread['E_percent']:.1f} % in |E*| and {spread['phase_deg']:.1f} deg in phase"
         )
     parts += [
-        f"|E*| of specimen {one['specimen']} at {one['temperature_C']:g} degC is {one['factor']:.2g} times what the "
-        "others say"
+        f"|E*| of {specimen_named(one['specimen'])} at {one['temperature_C']:g} degC is "
+        f"{one['factor']:.2g} times what the others say"
         for one in content.get("odd_levels", [])[:LARGEST]
     ]
     broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
@@ -60,7 +60,7 @@ def on_data(content: Content) -> str:
 def _fault(rung: Content) -> str:
     words = an(rung["cause"].replace("_", " "))
     one = isinstance(rung["where"], str)
-    who = f"specimen {rung['where']}" if one else "they"
+    who = specimen_named(rung["where"]) if one else "they"
     sure = "" if rung.get("established", True) else "probably "
     return f"{who} {sure}{'carries' if one else 'carry'} {words} of {size(rung)}"
 
@@ -238,8 +238,9 @@ def left(content: Content) -> list[str]:
 
 def _place(name: str) -> str:
     """`specimen A, spectrum` in words; `37 degC, phase` says it already."""
-    place, part = name.rsplit(", ", 1)
-    return f"{place} does not follow the common master curve" if part == "spectrum" else name
+    place, part = name.removeprefix("specimen ").rsplit(", ", 1)
+    place = specimen_named(place) if name.startswith("specimen ") else place
+    return f"{place} does not follow the common master curve" if part == "spectrum" else f"{place}, {part}"
 
 
 def _in_units(name: str, value: float, scatter: Content) -> str:
@@ -313,7 +314,7 @@ def cause_words(rung: Content) -> str:
     words, where = rung["cause"].replace("_", " "), rung["where"]
     if where is None:
         return words
-    return f"{words} of specimen {where}" if isinstance(where, str) else f"{words} at {where:g} degC"
+    return f"{words} of {specimen_named(where)}" if isinstance(where, str) else f"{words} at {where:g} degC"
 
 
 def an(words: str) -> str:

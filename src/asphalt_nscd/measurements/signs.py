@@ -10,6 +10,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from asphalt_nscd.files.words import specimen_named
+
 LEAST = 6.0  # deg below zero that neither scatter nor an offset of a stiff mix is
 NEAR = 2.0, 0.2  # deg, or share of the phase expected, within which the phase with its sign changed must come
 LEAST_SWEEP = 3  # tests of a sweep
@@ -24,7 +26,7 @@ def wrong_sign(table: pd.DataFrame) -> tuple[int, str] | None:
         frequency, phase = tests["frequency_Hz"].to_numpy(float), tests["phase_deg"].to_numpy(float)
         if np.unique(frequency).size < LEAST_SWEEP or not (phase < -LEAST).any():
             continue
-        place = f"specimen {specimen} at {temperature:g} degC"
+        place = f"{specimen_named(str(specimen))} at {temperature:g} degC"
         if (phase < 0.0).all():
             slope = np.polyfit(np.log(frequency), np.log(tests["E_MPa"].to_numpy(float)), 1)[0]
             required = 90.0 * slope  # deg, by Kramers and Kronig to first order

@@ -10,6 +10,7 @@ from statistics import median
 
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.table_import.dates import later
 from asphalt_nscd.table_import.understand import Understood
 
@@ -100,8 +101,8 @@ def _require_alike(parts: list[Part]) -> None:
             ratio = median(_ratio(held[other][test], held[one][test]) for test in common)
             if abs(ratio) > _RETEST:
                 raise InputError(
-                    f"{second.source} and {first.source} both hold specimen {specimen} at {temperature} degC, but "
-                    f"|E*| in the first is {exp(ratio):.2g} times that in the second, which is too far apart for a "
+                    f"{second.source} and {first.source} both hold {specimen_named(specimen)} at {temperature} degC, "
+                    f"but |E*| in the first is {exp(ratio):.2g} times that in the second, which is too far apart for a "
                     "retest: leave the wrong one out, or, if it is another specimen or temperature, correct the name "
                     "and the header of its file."
                 )
@@ -124,9 +125,9 @@ def _is_later(first: Part, second: Part, test: tuple[str, ...]) -> bool:
         specimen, temperature, frequency, *_ = test
         dates = "their dates do not tell" if first.tested and second.tested else "no date in both tells"
         raise InputError(
-            f"{first.source} and {second.source} both hold specimen {specimen} at {temperature} degC, {frequency} Hz, "
-            f"and {dates} which was tested later. The choice is yours: leave one of them out, end the specimen's name "
-            "in the later one with 'Repeated', or, if they are two specimens, rename one."
+            f"{first.source} and {second.source} both hold {specimen_named(specimen)} at {temperature} degC, "
+            f"{frequency} Hz, and {dates} which was tested later. The choice is yours: leave one of them out, "
+            "end the specimen's name in the later one with 'Repeated', or, if they are two specimens, rename one."
         )
     return second.repeated
 
