@@ -1,6 +1,7 @@
 """What diagnosis.json says of how the measurements were read, and of the files they came from."""
 
 import json
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from types import SimpleNamespace
@@ -45,6 +46,23 @@ def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
     assert quality == (
         "Phase uniformity above 3 deg (AASHTO T 378, TP 132) in 1 of 72 tests: Mix-B at 4 degC, 25 Hz: 6.4 deg."
     )
+
+
+def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
+    observed, _ = read_observations(read_campaign([EXPORTS])[0], PAPER_GEOMETRY)
+    uneven = np.where(observed.specimen == 0, 40.0, 10.0)
+    uneven[np.flatnonzero(observed.specimen == 1)[0]] = 35.0
+    for values, these in (
+        (uneven, "In 24"),
+        (np.where(observed.specimen == 0, 40.0, 10.0), "In all"),
+    ):
+        notes = run.reading(replace(observed, quality={"deformation_uniformity_percent": values}), [])[
+            "notes"
+        ]
+        assert notes[-1].endswith(
+            f"{these} of them at least half of the specimen's tests at that temperature exceed it: the specimen or its "
+            "gauges are uneven, and no single test stands out. These tests are used."
+        )
 
 
 def test_the_verdict_names_files_without_tests(tmp_path):

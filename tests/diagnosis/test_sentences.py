@@ -3,7 +3,14 @@
 import pytest
 
 from asphalt_nscd.diagnosis.instructions import _names
-from asphalt_nscd.diagnosis.sentences import cause_words, causes, left, on_doubtful, with_suspects
+from asphalt_nscd.diagnosis.sentences import (
+    cause_words,
+    causes,
+    left,
+    on_doubtful,
+    on_simulation,
+    with_suspects,
+)
 
 
 def content(used: int, out: int, **then):
@@ -81,6 +88,21 @@ def test_why_a_name_is_only_likely(hangs_on, as_good, sure):
     ((told, meaning),) = causes({"ladder": [rung]})
     assert told == "temperature bias at 4 degC: 8 K or more (the search ends there)"
     assert meaning.endswith(sure)
+
+
+@pytest.mark.parametrize(
+    "specimens,replicated,said",
+    [
+        (["A"], False, "One specimen cannot judge the simulation: nothing was found, but the scatter from test to "
+         "test is not known. Test a second one at the same conditions, or state the scatter."),
+        (["A", "B"], False, "Specimens without a common temperature and frequency cannot judge the simulation"),
+        (["A", "B"], True, "Two frequencies cannot judge the simulation"),
+    ],
+)  # fmt: skip
+def test_what_cannot_judge_the_simulation_says_why_and_what_to_add(specimens, replicated, said):
+    found = content(0, 0, verdict="nothing_to_explain", tested=False, provenance={"scatter_stated": None})
+    found |= {"ladder": [], "reading": {"specimens": specimens}, "scatter": {"from_replicates": replicated}}
+    assert on_simulation(found).startswith(said)
 
 
 def test_a_specimen_called_specimen_is_not_called_so_twice():

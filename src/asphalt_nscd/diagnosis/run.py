@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
@@ -301,14 +302,24 @@ def reading(
         "notes": [
             *notes,
             *together,
-            *_quality_notes(above, observed.size),
+            *_quality_notes(above, observed.size, _shared(observed)),
         ],
         **({"files_without_tests": list(without_tests)} if without_tests else {}),
     }
 
 
-def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int) -> list[str]:
-    """A sentence for each quality limit that some tests exceed, with the worst of them."""
+def _shared(observed: Observations) -> Counter[str]:
+    """By quality column, in how many tests it exceeds its limit as in half of their isotherm and specimen or more."""
+    above, block = quality.exceeded(observed), within_isotherm.blocks(observed)
+    alike = Counter((one.column, block[one.row]) for one in above)
+    size = Counter(block.tolist())
+    return Counter(
+        one.column for one in above if 2 * alike[one.column, block[one.row]] >= size[block[one.row]]
+    )
+
+
+def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int, shared: Mapping[str, int]) -> list[str]:
+    """A sentence for each quality limit that some tests exceed, with the worst of them; what follows if it is usual."""
     notes = []
     for name, limit in quality.LIMITS.items():
         found = sorted((one for one in above if one["column"] == name), key=lambda one: -one["value"])
@@ -321,8 +332,19 @@ def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int) -> list[str]:
             notes.append(
                 f"{limit.label.capitalize()} above {limit.limit:g} {limit.unit} ({limit.source}) in {len(found)} of "
                 f"{tests} tests: {worst}{'; and others' if len(found) > 3 else ''}."
+                + _used_all_the_same(shared.get(name, 0), len(found))
             )
     return notes
+
+
+def _used_all_the_same(shared: int, found: int) -> str:
+    if not shared:
+        return ""
+    these = "In all" if shared == found else f"In {shared}"
+    return (
+        f" {these} of them at least half of the specimen's tests at that temperature exceed it: the specimen or its "
+        "gauges are uneven, and no single test stands out. These tests are used."
+    )
 
 
 def _checksums(files: Sequence[Path]) -> dict[str, Any]:

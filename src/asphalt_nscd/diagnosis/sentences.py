@@ -30,7 +30,6 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {
 }
 SIMPLER = "one Burgers law for each temperature"
 LARGEST = 4  # parts of what stays unexplained that are listed
-CANNOT_JUDGE = "Nothing was found, but these data cannot judge the simulation"
 
 
 def on_data(content: Content) -> str:
@@ -75,7 +74,7 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
         if content["verdict"] != "nothing_to_explain":
             return f"{SIMPLER} leaves more than scatter, and no cause of the catalogue explains it."
         if not content["tested"]:
-            return f"{CANNOT_JUDGE}."
+            return _cannot_judge(content)
         return f"{SIMPLER} fits these data to within their scatter; nothing is to be explained."
     first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
     names = ("mre_E_percent", "mre_phase_percent")
@@ -90,6 +89,22 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     return (
         f"{simpler} misses |E*| by {before[0]} and the phase by {before[1]}; with {found} the simulation misses them "
         f"by {after[0]} and {after[1]}, {_beyond_bonds(content)}."
+    )
+
+
+def _cannot_judge(content: Content) -> str:
+    """Why tests without a finding do not say that the simulation is right, and what to add."""
+    if content["scatter"]["from_replicates"] or content["provenance"].get("scatter_stated"):
+        return (
+            "Two frequencies cannot judge the simulation: a Burgers law fits them exactly, whatever is wrong. Test at "
+            "three frequencies or more."
+        )
+    alone = len(content.get("reading", {}).get("specimens", [])) == 1
+    lacking = "One specimen" if alone else "Specimens without a common temperature and frequency"
+    add = "Test a second one at the same conditions" if alone else "Test two at the same conditions"
+    return (
+        f"{lacking} cannot judge the simulation: nothing was found, but the scatter from test to test is not known. "
+        f"{add}, or state the scatter."
     )
 
 

@@ -94,7 +94,7 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
         worst = worst.sort_values(["temperature_C", "frequency_Hz"])
         every = [_cell(row) for row in worst.to_dict("records")]
         if every:
-            label = f"Specimen {name}, {counted(len(every), 'test')}"
+            label = f"{specimen_named(str(name))}, {counted(len(every), 'test')}"
             plots.append(cells(f"{name}: phase less phase required (°)", label, every, largest))
     return Chart(
         "causality",
