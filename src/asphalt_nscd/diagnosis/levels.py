@@ -51,8 +51,8 @@ def notes(found: list[dict[str, Any]], between_percent: float | None) -> list[st
     """Sentences on odd levels, and on specimens that differ by this much in |E*| [percent]."""
     out = [
         f"At {one['temperature_C']:g} degC |E*| of {specimen_named(one['specimen'])} is {one['factor']:.2g} "
-        "times what its other isotherms and the other specimens say. Modulus and phase may agree all the same. Check dimensions, "
-        "gain and unit of these tests."
+        "times what its other isotherms and the other specimens say. Modulus and phase may agree all the same. "
+        "Check dimensions, gain and unit of these tests."
         for one in found
     ]
     if between_percent is not None and between_percent > ONE_MIX:
