@@ -71,7 +71,7 @@ def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
     assert said(campaign, "skipped old (a folder;") and said(campaign, "skipped empty.csv (holds no table)")
     assert not said(campaign, "hidden")
     (sentence,) = campaign.without_tests
-    assert sentence.startswith("2 of 3 files held no test: empty.csv (holds no table); sieves.csv (no column")
+    assert sentence.startswith("2 of 3 files gave no test: empty.csv (holds no table); sieves.csv (no column")
 
 
 def test_folder_without_tests_is_refused(tmp_path):
@@ -79,6 +79,28 @@ def test_folder_without_tests_is_refused(tmp_path):
         read_campaign([tmp_path])
     (tmp_path / "scan.pdf").write_bytes(b"%PDF")
     with pytest.raises(InputError, match=r"no file with tests; it holds scan\.pdf \(neither"):
+        read_campaign([tmp_path])
+
+
+def test_a_table_with_another_ending_is_named_in_the_verdict(tmp_path):
+    save(tmp_path, a=export("A", 4))
+    (tmp_path / "b.csv.bak").write_text(export("B", 4))
+    (tmp_path / "c.xls").write_bytes(b"\xd0\xcf\x11\xe0")
+    (tmp_path / "notes.txt").write_text("Tested in May.\n")
+    (tmp_path / "scan.pdf").write_bytes(b"%PDF")
+    campaign, _ = read_campaign([tmp_path])
+    assert campaign.without_tests == (
+        "2 of 3 files gave no test: b.csv.bak, c.xls (neither CSV, TSV, TXT nor XLSX).",
+    )
+    assert said(campaign, "skipped notes.txt") and said(campaign, "skipped scan.pdf")
+
+
+def test_a_folder_of_folders_says_to_give_these(tmp_path):
+    (tmp_path / "A").mkdir()
+    save(tmp_path / "A", a=export("A", 4))
+    with pytest.raises(
+        InputError, match=r"no file with tests; it holds A \(a folder.*give the folders in it by"
+    ):
         read_campaign([tmp_path])
 
 

@@ -260,6 +260,7 @@ def test_synthetic_exports_say_so(tmp_path):
     ("old", "new", "sentence"),
     [
         (",25 Hz,10 Hz,0.5 Hz\n", "", "a machine export without its line of frequencies"),
+        (",10 Hz,0.5 Hz", ",10 Hz,0,5 Hz", "'0' stands among the frequencies and is none; if decimals"),
         ("modulus (MPa)", "modulus", "'Dynamic modulus' does not say its unit; write it after the name"),
         ("modulus (MPa)", "modulus (m)", "'m' is not a unit of E_MPa; give one of Pa, kPa, MPa"),
         (" Phase angle (Degrees),12.5,13.25,19\n", "", "no column for phase_deg"),

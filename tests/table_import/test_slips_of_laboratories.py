@@ -10,6 +10,7 @@ import pytest
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.dates import later
+from asphalt_nscd.table_import.names import one_of_another
 from asphalt_nscd.table_import.quantities import recognise
 
 EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
@@ -164,6 +165,33 @@ def test_a_retest_that_must_be_another_material_is_refused(tmp_path, mark):
         "which is too far apart for a retest: leave the wrong one out, or, if it is another specimen or temperature, "
         "correct the name and the header of its file."
     )
+
+
+def test_a_file_called_after_another_specimen_is_no_retest(tmp_path):
+    first, second = EXPORT.format("A", DECEMBER_7, 10, 8000), EXPORT.format("A", DECEMBER_8, 10, 7900)
+    with pytest.raises(InputError) as error:
+        exports(tmp_path, **{"Mix-A-4C": first, "Mix-B-4C_Sum": second})
+    assert str(error.value) == (
+        "Mix-B-4C_Sum.csv and Mix-A-4C.csv both hold specimen Mix-A at 4 degC, but the first is called Mix-B: correct "
+        "the specimen in its header, or the name of the file."
+    )
+    (tmp_path / "Mix-B-4C_Sum.csv").rename(tmp_path / "Mix-A-4C-Repeated_Sum.csv")
+    assert columns(read_campaign([tmp_path])[0], "E_MPa") == [["9100", "7900", "5000"]]
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "other"),
+    [
+        ("Mix-B", "Mix-C", True),
+        ("K10", "K11", True),
+        ("Mix-B", "mix_b", False),
+        ("Mix-B", "retest", False),
+        ("core1", "test2", False),
+        ("Mix-B", "Mix-B2", False),
+    ],
+)
+def test_names_of_one_series(first, second, other):
+    assert one_of_another(first, second) is other
 
 
 def test_a_retest_may_mend_one_frequency(tmp_path):

@@ -12,6 +12,7 @@ from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.chance import CHANCE
+from asphalt_nscd.diagnosis.levels import ONE_MIX
 from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
 from asphalt_nscd.files.words import counted, specimen_named
 
@@ -44,6 +45,7 @@ def on_data(content: Content) -> str:
         spread = repeated["between"]
         parts.append(
             f"specimens differ by {spread['E_percent']:.1f} % in |E*| and {spread['phase_deg']:.1f} deg in phase"
+            + (", more than those of one mix do" if spread["E_percent"] > ONE_MIX else "")
         )
     parts += [
         f"|E*| of {specimen_named(one['specimen'])} at {one['temperature_C']:g} degC is "
@@ -131,7 +133,7 @@ def test_type(content: Content) -> str:
 
 
 def files(content: Content) -> str:
-    """Which files of a folder held no test; empty where all did."""
+    """Which files of a folder gave no test; empty where all did."""
     return " ".join(content.get("reading", {}).get("files_without_tests", []))
 
 

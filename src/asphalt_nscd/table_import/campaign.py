@@ -24,7 +24,10 @@ from asphalt_nscd.table_import.understand import (
     understand,
 )
 
-TABLES = (".csv", ".tsv", ".txt", ".dat", ".xlsx", ".xlsm")
+TEXTS = (".txt", ".dat")  # which may hold running text
+OTHER_TABLES = (".xls", ".xlsb", ".ods")
+SAVE_AS = "save it as CSV or XLSX."
+TABLES = (".csv", ".tsv", *TEXTS, ".xlsx", ".xlsm")
 MOST_FILES = 500
 _MEASURED = ("temperature_C", "nominal_temperature_C", "E_MPa", "phase_deg")
 
@@ -144,21 +147,26 @@ def _folder(
         if path.is_dir():
             others.append(PassedOver(path.name, "a folder; name it too if it belongs to the campaign"))
         elif path.suffix.lower() not in TABLES:
-            others.append(PassedOver(path.name, "neither CSV, TSV, TXT nor XLSX"))
+            table = path.suffix.lower() in OTHER_TABLES or _holds_tests(path, sheet)
+            known = PassedOver(path.name, "neither CSV, TSV, TXT nor XLSX", SAVE_AS)
+            (empty if table else others).append(known)
         else:
             try:
                 parts += _file(path, notes, sheet, chosen)
             except InputError as error:
                 if not isinstance(error, NotTests) and _meant(path, sheet):
                     raise
-                empty.append(refused(path.name, error, path))
+                text = isinstance(error, NotTests) and path.suffix.lower() in TEXTS
+                (others if text else empty).append(refused(path.name, error, path))
     if not parts:
         held = f"; it holds {listed([*empty, *others])}" if empty or others else ""
         mend = common_mend(empty) or "give the machine's exports or a table of moduli."
+        if not empty and any(path.is_dir() for path in inside):
+            mend = "give the folders in it by their own names."
         raise InputError(f"{folder}: no file with tests{held}; {mend}")
     notes += [f"skipped {listed([one])}" for one in (*others, *empty)]
     files = len({part.path for part in parts}) + len(empty)
-    return parts, f"{len(empty)} of {files} files held no test: {listed(empty)}." if empty else ""
+    return parts, f"{len(empty)} of {files} files gave no test: {listed(empty)}." if empty else ""
 
 
 def _meant(path: Path, sheet: str | None) -> bool:
@@ -167,10 +175,17 @@ def _meant(path: Path, sheet: str | None) -> bool:
     A CSV or XLSX file that cannot even be opened may hold tests; running text may not.
     """
     try:
-        sheets = read_sheets(path, sheet)
+        return any(_names_tests(one.rows) for one in read_sheets(path, sheet))
     except InputError:
-        return path.suffix.lower() not in (".txt", ".dat")
-    return any(_names_tests(one.rows) for one in sheets)
+        return path.suffix.lower() not in TEXTS
+
+
+def _holds_tests(path: Path, sheet: str | None) -> bool:
+    """Whether a file with an unknown ending is a table that names a modulus or a force with its unit all the same."""
+    try:
+        return any(_names_tests(one.rows) for one in read_sheets(path, sheet))
+    except InputError:
+        return False
 
 
 def _names_tests(rows: list[Row]) -> bool:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells, Row
-from asphalt_nscd.table_import.names import celsius, specimen_of
+from asphalt_nscd.table_import.names import celsius, of_file, specimen_of
 from asphalt_nscd.table_import.quantities import ABSENT, Column, recognise, unit_in
 from asphalt_nscd.table_import.targets import Header, decided, median_reading
 
@@ -101,6 +101,13 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
                 header.take(cells)
             at += 1
     if not found and header.first(_IDENTIFICATION) and header.first(_TARGET):
+        for line, cells in rows:
+            if sum("hz" in cell.casefold() for cell in cells) > 1:
+                wrong = next((cell for cell in cells[1:] if not _frequencies(["", cell])), "")
+                raise InputError(
+                    f"{path}, line {line}: {wrong!r} stands among the frequencies and is none; if decimals are "
+                    "written with a comma, separate the columns with semicolons."
+                )
         raise InputError(
             f"{path}: a machine export without its line of frequencies; if the file ends early, export it anew, else "
             "write a line such as `,25 Hz,10 Hz,1 Hz` above the moduli."
@@ -234,7 +241,7 @@ def _as_block(
         notes.append(f"frequencies without a modulus left out: {len(results.rows) - len(rows)}")
     reading = columns[held["temperature_C"]] if "temperature_C" in held else None
     known = header.first(_IDENTIFICATION)
-    stem = re.sub(r"[_\s-]*Sum(mary)?$", "", called, flags=re.IGNORECASE)
+    stem = of_file(called)
     text = known[1] if known else stem
     reached = median_reading(rows, held.get("temperature_C"), reading.unit if reading else None)
     # The name of a file with several blocks says no more than where it begins.

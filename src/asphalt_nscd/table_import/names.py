@@ -50,6 +50,24 @@ def _is(match: re.Match[str], target: float) -> bool:
     return min(abs(value - target), abs(abs(value) - abs(target))) <= _SAME
 
 
+def of_file(stem: str) -> str:
+    """What an export's file is called, without the machine's mark of a summary."""
+    return re.sub(r"[_\s-]*Sum(mary)?$", "", stem, flags=re.IGNORECASE)
+
+
+def one_of_another(first: str, second: str) -> bool:
+    """Whether two names are of two specimens of one series: `Mix-B` and `Mix-C`, `K10` and `K11`."""
+    return _plain(first) != _plain(second) and _series(first) == _series(second)
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[\W_]+", "-", name.casefold())
+
+
+def _series(name: str) -> str:
+    return re.sub(r"\d+|\b[^\W\d_]\b", "#", _plain(name))
+
+
 def _degrees(match: re.Match[str]) -> float:
     return celsius(match[1].replace("−", "-"), match[2])
 

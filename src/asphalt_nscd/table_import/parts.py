@@ -12,6 +12,7 @@ from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.table_import.dates import later
+from asphalt_nscd.table_import.names import of_file, one_of_another, specimen_of
 from asphalt_nscd.table_import.understand import Understood
 
 _FIGURES = 4  # digits in which two files that hold the same tests agree
@@ -98,6 +99,7 @@ def _require_alike(parts: list[Part]) -> None:
             common = held[one].keys() & held[other].keys()
             if len(common) < _LEAST or (first.path, first.source) == (second.path, second.source):
                 continue
+            _require_one_specimen(first, second, specimen, temperature)
             ratio = median(_ratio(held[other][test], held[one][test]) for test in common)
             if abs(ratio) > _RETEST:
                 raise InputError(
@@ -106,6 +108,19 @@ def _require_alike(parts: list[Part]) -> None:
                     "retest: leave the wrong one out, or, if it is another specimen or temperature, correct the name "
                     "and the header of its file."
                 )
+
+
+def _require_one_specimen(first: Part, second: Part, specimen: str, temperature: str) -> None:
+    """Refuse two files with one test if one of them is called after another specimen of the series."""
+    names = [specimen_of(of_file(part.path.stem), None).specimen for part in (first, second)]
+    others = [one_of_another(name, specimen) for name in names]
+    if others[0] == others[1] or not (first.exported and second.exported):
+        return
+    (wrong, name), right = ((first, names[0]), second) if others[0] else ((second, names[1]), first)
+    raise InputError(
+        f"{wrong.source} and {right.source} both hold {specimen_named(specimen)} at {temperature} degC, but the first "
+        f"is called {name}: correct the specimen in its header, or the name of the file."
+    )
 
 
 def _ratio(modulus: str, other: str) -> float:
