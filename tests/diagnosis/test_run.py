@@ -65,6 +65,17 @@ def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
         )
 
 
+def test_a_specimen_that_lacks_a_temperature_of_the_others_is_named():
+    observed, _ = read_observations(read_campaign([EXPORTS])[0], PAPER_GEOMETRY)
+    assert not any("Not tested" in note for note in run.reading(observed, [])["notes"])
+    lacking = (observed.specimen == 1) & (observed.isotherm == 20)
+    notes = run.reading(observed.subset(np.flatnonzero(~lacking)), [])["notes"]
+    assert "Not tested: Mix-B at 20 degC." in notes
+    alone = observed.isotherm != 20
+    alone |= observed.specimen == 1
+    assert not any("Not" in note for note in run.reading(observed.subset(np.flatnonzero(alone)), [])["notes"])
+
+
 def test_the_verdict_names_files_without_tests(tmp_path):
     for path in EXPORTS.glob("*.csv"):
         (tmp_path / path.name).write_bytes(path.read_bytes())

@@ -7,6 +7,7 @@ from asphalt_nscd.diagnosis.sentences import (
     cause_words,
     causes,
     left,
+    on_data,
     on_doubtful,
     on_simulation,
     with_suspects,
@@ -103,6 +104,12 @@ def test_what_cannot_judge_the_simulation_says_why_and_what_to_add(specimens, re
     found = content(0, 0, verdict="nothing_to_explain", tested=False, provenance={"scatter_stated": None})
     found |= {"ladder": [], "reading": {"specimens": specimens}, "scatter": {"from_replicates": replicated}}
     assert on_simulation(found).startswith(said)
+
+
+@pytest.mark.parametrize("percent,more", [(60.6, ", more than those of one mix do."), (3.3, ".")])
+def test_specimens_that_are_hardly_of_one_mix_are_said_in_the_verdict(percent, more):
+    found = content(0, 0, tests=72, repeatability={"between": {"E_percent": percent, "phase_deg": 0.2}})
+    assert on_data(found | {"ladder": []}).endswith(f"{percent} % in |E*| and 0.2 deg in phase{more}")
 
 
 def test_a_specimen_called_specimen_is_not_called_so_twice():

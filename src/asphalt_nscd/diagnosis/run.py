@@ -43,6 +43,7 @@ OF_THE_PAPER = (
 )
 STEPS = 5  # read, causes, law, second opinion, next tests
 FEW_DRAWS = 1000  # where a second opinion is asked for
+LISTED = 4  # gaps of a table that are named
 MATTERING = 0.02  # share of the tests that doubtful ones must have for one
 
 
@@ -302,10 +303,24 @@ def reading(
         "notes": [
             *notes,
             *together,
+            *_gaps(observed),
             *_quality_notes(above, observed.size, _shared(observed)),
         ],
         **({"files_without_tests": list(without_tests)} if without_tests else {}),
     }
+
+
+def _gaps(observed: Observations) -> list[str]:
+    """A sentence on specimens that were not tested at a temperature at which most others were."""
+    tested = {(int(k), float(t)) for k, t in zip(observed.specimen, observed.isotherm, strict=True)}
+    missing = [
+        f"{name} at {t:g} degC"
+        for k, name in enumerate(observed.names)
+        for t in map(float, observed.isotherms)
+        if (k, t) not in tested and 2 * sum(at == t for _, at in tested) > len(observed.names)
+    ]
+    more = f" and {len(missing) - LISTED} more" if len(missing) > LISTED else ""
+    return [f"Not tested: {', '.join(missing[:LISTED])}{more}."] if missing else []
 
 
 def _shared(observed: Observations) -> Counter[str]:
