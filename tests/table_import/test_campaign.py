@@ -95,6 +95,14 @@ def test_a_table_with_another_ending_is_named_in_the_verdict(tmp_path):
     assert said(campaign, "skipped notes.txt") and said(campaign, "skipped scan.pdf")
 
 
+def test_one_specimen_in_several_spellings_is_one(tmp_path):
+    save(tmp_path, a=export(temperature=4, name="Mix-A"), b=export(temperature=20, name="mix a"))
+    save(tmp_path, c=export(temperature=35, name="MIX_A"), d=export("B", 4, 1.1))
+    campaign, _ = read_campaign([tmp_path])
+    assert set(campaign.table.columns["specimen"]) == {"Mix-A", "Mix-B"}
+    assert said(campaign, "mix a, MIX_A taken for specimen Mix-A, spelt otherwise")
+
+
 def test_a_folder_of_folders_says_to_give_these(tmp_path):
     (tmp_path / "A").mkdir()
     save(tmp_path / "A", a=export("A", 4))

@@ -14,7 +14,7 @@ from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, as_cells, read_sheets
 from asphalt_nscd.table_import.exports import blocks
 from asphalt_nscd.table_import.headings import headed, require_rows, with_units
-from asphalt_nscd.table_import.parts import Part, without_copies, without_repeated
+from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
 from asphalt_nscd.table_import.passed_over import PassedOver, common_mend, listed, refused
 from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
 from asphalt_nscd.table_import.understand import (
@@ -54,7 +54,7 @@ def read_campaign(
             found = _file(path, notes, sheet, chosen)
         parts += found
     parts = without_copies(sorted(parts, key=lambda part: not part.exported), notes)
-    parts = without_repeated(parts, notes)
+    parts = without_repeated(with_one_spelling(parts, notes), notes)
     _require_one_mix(parts)
     forms = sorted({part.read.form for part in parts})
     if len(forms) > 1:

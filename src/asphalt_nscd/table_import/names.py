@@ -57,15 +57,16 @@ def of_file(stem: str) -> str:
 
 def one_of_another(first: str, second: str) -> bool:
     """Whether two names are of two specimens of one series: `Mix-B` and `Mix-C`, `K10` and `K11`."""
-    return _plain(first) != _plain(second) and _series(first) == _series(second)
+    return spelling(first) != spelling(second) and _series(first) == _series(second)
 
 
-def _plain(name: str) -> str:
+def spelling(name: str) -> str:
+    """A name without what people write now one way and now another: capitals, blanks, hyphens."""
     return re.sub(r"[\W_]+", "-", name.casefold())
 
 
 def _series(name: str) -> str:
-    return re.sub(r"\d+|\b[^\W\d_]\b", "#", _plain(name))
+    return re.sub(r"\d+|\b[^\W\d_]\b", "#", spelling(name))
 
 
 def _degrees(match: re.Match[str]) -> float:

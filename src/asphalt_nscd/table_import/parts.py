@@ -12,7 +12,7 @@ from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.table_import.dates import later
-from asphalt_nscd.table_import.names import of_file, one_of_another, specimen_of
+from asphalt_nscd.table_import.names import of_file, one_of_another, specimen_of, spelling
 from asphalt_nscd.table_import.understand import Understood
 
 _FIGURES = 4  # digits in which two files that hold the same tests agree
@@ -58,6 +58,24 @@ def without_copies(parts: list[Part], notes: list[str]) -> list[Part]:
             notes.append(f"skipped {part.source} (holds the same tests as {names}{more})")
         else:
             kept.append(part)
+    return kept
+
+
+def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
+    """Parts in which exports that spell one specimen differently, `Mix-A` and `mix a`, give it one name."""
+    first: dict[str, str] = {}
+    others: dict[str, list[str]] = {}
+    kept = []
+    for part in parts:
+        table = part.read.table
+        names = table.columns["specimen"]
+        one = [first.setdefault(spelling(name), name) for name in names] if part.exported else names
+        if one != names:
+            others.setdefault(one[0], []).append(names[0])
+            table = replace(table, columns=table.columns | {"specimen": one})
+        kept.append(part if one == names else replace(part, read=replace(part.read, table=table)))
+    for name, spelt in others.items():
+        notes.append(f"{', '.join(dict.fromkeys(spelt))} taken for specimen {name}, spelt otherwise")
     return kept
 
 

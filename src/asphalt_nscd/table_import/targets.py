@@ -53,9 +53,15 @@ def decided(
     other = _contradicting(path, header, names)
     if other is None:
         if measured is not None and abs(measured - header.value) > FAR:
+            named = any(specimen_of(text, header.value).temperature for text in names)
+            mend = (
+                "correct the readings, or leave their cells empty if nothing was recorded"
+                if named
+                else "correct the target in the header"
+            )
             raise InputError(
-                f"{path}: the target temperature is {header.text} {header.unit} and {measured:.3g} C was measured; "
-                "correct the target in the header."
+                f"{path}: the target temperature is {header.text} {_unit(header)}{', as the name says,' * named} and "
+                f"{measured:.3g} degC was measured; {mend}."
             )
         return header.text, header.column
     text, said = other
