@@ -61,7 +61,7 @@ def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
         ]
         assert notes[-1].endswith(
             f"{these} of them at least half of the specimen's tests at that temperature exceed it: the specimen or its "
-            "gauges are uneven, and no single test stands out. These tests are used."
+            "gauges are uneven. No single test stands out, so this limit takes none out."
         )
 
 

@@ -358,7 +358,7 @@ def _used_all_the_same(shared: int, found: int) -> str:
     these = "In all" if shared == found else f"In {shared}"
     return (
         f" {these} of them at least half of the specimen's tests at that temperature exceed it: the specimen or its "
-        "gauges are uneven, and no single test stands out. These tests are used."
+        "gauges are uneven. No single test stands out, so this limit takes none out."
     )
 
 
