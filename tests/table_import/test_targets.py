@@ -136,3 +136,25 @@ def test_units_of_the_target(tmp_path, unit, celsius):
         InputError, match="'bar' is no unit of the target test temperature; give one of C, K, F"
     ):
         read_campaign([tmp_path / "e.csv"])
+
+
+def test_moduli_of_the_other_specimens_judge_readings_that_contradict_the_name(tmp_path):
+    def save(file, header, specimen, measured, factor):
+        text = EXPORT.format(header=header, specimen=specimen, readings=READINGS.format(measured))
+        for modulus in (9100, 8000, 5000):
+            text = text.replace(f",{modulus}", f",{factor * modulus:g}")
+        (tmp_path / file).write_text(text, "utf-8")
+
+    for number, specimen in enumerate(("A", "B")):
+        save(f"{specimen}4.csv", 4, f"Mix-{specimen}", 4, 1.0 + 0.1 * number)
+        save(f"{specimen}21.csv", 21, f"Mix-{specimen}", 21, 0.5 + 0.05 * number)
+    save("Mix-C_21C.csv", 4, "Mix-C", 4, 0.95)
+    assert any("so the header is taken" in note for note in read_campaign([tmp_path])[0].notes)
+    save("Mix-C_21C.csv", 4, "Mix-C", 4, 0.53)
+    with pytest.raises(InputError) as error:
+        read_campaign([tmp_path])
+    assert str(error.value) == (
+        f"{tmp_path / 'Mix-C_21C.csv'}: its name and its header say 21 and 4 degC, and the measured temperature speaks "
+        "for 4 degC; but |E*| is 0.5 times that of the other specimens at 4 degC and 1 times at 21 degC: correct "
+        "header, readings or name."
+    )

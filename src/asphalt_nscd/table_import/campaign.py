@@ -12,6 +12,7 @@ from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, as_cells, read_sheets
+from asphalt_nscd.table_import.contested import refuse_mislabelled
 from asphalt_nscd.table_import.exports import blocks
 from asphalt_nscd.table_import.headings import headed, require_rows, with_units
 from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
@@ -54,7 +55,9 @@ def read_campaign(
             found = _file(path, notes, sheet, chosen)
         parts += found
     parts = without_copies(sorted(parts, key=lambda part: not part.exported), notes)
-    parts = without_repeated(with_one_spelling(parts, notes), notes)
+    parts = with_one_spelling(parts, notes)
+    refuse_mislabelled(parts)
+    parts = without_repeated(parts, notes)
     _require_one_mix(parts)
     forms = sorted({part.read.form for part in parts})
     if len(forms) > 1:
@@ -121,7 +124,10 @@ def _sheet(path: Path, sheet: Sheet, chosen: Mapping[str, str] | None, alone: bo
     require_rows(path, sheet.rows)
     exported = blocks(path, sheet.rows, notes, path.stem if alone else str(sheet.name))
     if exported:
-        return [Part(path, understand(one.cells, chosen), True, one.repeated, one.tested) for one in exported]
+        return [
+            Part(path, understand(one.cells, chosen), True, one.repeated, one.tested, one.contested)
+            for one in exported
+        ]
     cells = as_cells(path, headed(sheet.rows, notes), notes)
     if not alone:
         if of_other_sheets(str(sheet.name), cells):

@@ -43,11 +43,13 @@ class Block:
     """The tests of one specimen at one temperature, as a table with one row for each test.
 
     repeated: the operator marked the file or the specimen as a repetition. tested: when, as the header has it.
+    contested: the temperature [degC] that its name or its header says beside the one taken.
     """
 
     cells: Cells
     repeated: bool = False
     tested: str = ""
+    contested: str = ""
 
 
 @dataclass
@@ -247,12 +249,13 @@ def _as_block(
     # The name of a file with several blocks says no more than where it begins.
     names = [text] if several else list(dict.fromkeys([text, stem]))
     target = decided(path, _target(path, header, reading), names, reached, notes)
-    name = specimen_of(text, None if target is None else celsius(target[0], target[1].rstrip(")")[-1:]))
+    unit = "" if target is None else target.column.rstrip(")")[-1:]
+    name = specimen_of(text, None if target is None else celsius(target.text, unit))
     comments = header.first(_COMMENTS)
     synthetic = comments is not None and comments[1].casefold().startswith("synthetic")
     constants = {"specimen": name.specimen}
     if target is not None:
-        constants[target[1]] = target[0]
+        constants[target.column] = target.text
     if synthetic:
         constants["origin"] = "synthetic"
     repeated = name.repeated or specimen_of(called, None).repeated
@@ -263,7 +266,8 @@ def _as_block(
         notes,
     )
     day, time = header.first(_DATE), header.first(("test time", "time"))
-    return Block(cells, repeated, " ".join(said[1] for said in (day, time) if said) if day else "")
+    when = " ".join(said[1] for said in (day, time) if said) if day else ""
+    return Block(cells, repeated, when, "" if target is None else target.contested)
 
 
 def _target(path: Path, header: _Header, reading: Column | None) -> Header | None:

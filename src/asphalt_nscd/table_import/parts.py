@@ -24,7 +24,7 @@ _LEAST = 2  # frequencies for that: of one, the retest may be the mend
 class Part:
     """Tests of one file or sheet, or of one block of an export.
 
-    tested: when, as the header has it. repeated: whether it was marked as a repetition.
+    tested: when, as the header has it. repeated: whether it was marked as a repetition. contested: see `Block`.
     """
 
     path: Path
@@ -32,6 +32,7 @@ class Part:
     exported: bool
     repeated: bool = False
     tested: str = ""
+    contested: str = ""
 
     @property
     def source(self) -> str:

@@ -28,6 +28,15 @@ class Header:
         return celsius(self.text, self.unit)
 
 
+@dataclass(frozen=True)
+class Target:
+    """The target taken and the name of its column; contested: what a name or the header says beside it [degC]."""
+
+    text: str
+    column: str
+    contested: str = ""
+
+
 def median_reading(rows: Sequence[Row], place: int | None, unit: str | None) -> float | None:
     """The middle one of the temperatures measured [degC]; None if a cell is no number, or no unit is known."""
     unit = (unit or "")[-1:]
@@ -42,8 +51,8 @@ def median_reading(rows: Sequence[Row], place: int | None, unit: str | None) -> 
 
 def decided(
     path: Path, header: Header | None, names: Sequence[str], measured: float | None, notes: list[str]
-) -> tuple[str, str] | None:
-    """Target and name of its column; None if there is neither a target nor a name that must stand for one.
+) -> Target | None:
+    """The target; None if there is neither a target nor a name that must stand for one.
 
     names: texts that may say a temperature. measured: the middle reading [degC]. A name or a header that is far from
     the readings gives way to the other; without readings two that are far apart are refused.
@@ -63,7 +72,7 @@ def decided(
                 f"{path}: the target temperature is {header.text} {_unit(header)}{', as the name says,' * named} and "
                 f"{measured:.3g} degC was measured; {mend}."
             )
-        return header.text, header.column
+        return Target(header.text, header.column)
     text, said = other
     both = f"the name {text!r} says {said} degC and the header {header.text} {_unit(header)}"
     if measured is None and abs(float(said) - header.value) > FAR:
@@ -73,7 +82,7 @@ def decided(
         )
     if measured is None:
         notes.append(f"{both}; the header is taken")
-        return header.text, header.column
+        return Target(header.text, header.column)
     of_name, of_header = abs(measured - float(said)), abs(measured - header.value)
     if min(of_name, of_header) > FAR:
         raise InputError(
@@ -82,9 +91,9 @@ def decided(
         )
     if of_header <= of_name:
         notes.append(f"{both}; {measured:.3g} degC was measured, so the header is taken")
-        return header.text, header.column
+        return Target(header.text, header.column, said)
     notes.append(f"{both}; {measured:.3g} degC was measured, so the name is taken")
-    return said, "target temperature (°C)"
+    return Target(said, "target temperature (°C)", f"{header.value:.4g}")
 
 
 def _unit(header: Header) -> str:
@@ -93,7 +102,7 @@ def _unit(header: Header) -> str:
 
 def _without_header(
     path: Path, names: Sequence[str], measured: float | None, notes: list[str]
-) -> tuple[str, str] | None:
+) -> Target | None:
     told = [(text, said) for text in names if (said := specimen_of(text, None).temperature) is not None]
     if measured is not None:
         for text, said in told:
@@ -114,7 +123,7 @@ def _without_header(
                 "temperature decides between them; rename the file or its specimen."
             )
     notes.append(f"temperature taken from the name {text!r}")
-    return said, "target temperature (°C)"
+    return Target(said, "target temperature (°C)")
 
 
 def _contradicting(path: Path, header: Header, names: Sequence[str]) -> tuple[str, str] | None:
