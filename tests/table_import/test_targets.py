@@ -150,11 +150,13 @@ def test_moduli_of_the_other_specimens_judge_readings_that_contradict_the_name(t
         save(f"{specimen}21.csv", 21, f"Mix-{specimen}", 21, 0.5 + 0.05 * number)
     save("Mix-C_21C.csv", 4, "Mix-C", 4, 0.95)
     assert any("so the header is taken" in note for note in read_campaign([tmp_path])[0].notes)
+    save("Mix-C_21C.csv", 4, "Mix-C", 4, 0.0)  # refused further on
+    read_campaign([tmp_path])
     save("Mix-C_21C.csv", 4, "Mix-C", 4, 0.53)
     with pytest.raises(InputError) as error:
         read_campaign([tmp_path])
     assert str(error.value) == (
         f"{tmp_path / 'Mix-C_21C.csv'}: its name and its header say 21 and 4 degC, and the measured temperature speaks "
-        "for 4 degC; but |E*| is 0.5 times that of the other specimens at 4 degC and 1 times at 21 degC: correct "
+        "for 4 degC; but |E*| is 0.51 times that of the other specimens at 4 degC and 1.01 times at 21 degC: correct "
         "header, readings or name."
     )

@@ -20,13 +20,15 @@ def refuse_mislabelled(parts: Sequence[Part]) -> None:
         if not part.contested:
             continue
         others = [one for one in parts if _specimens(one).isdisjoint(_specimens(part))]
-        (taken, *_), contested = (temperature for temperature, *_ in _tests(part)), float(part.contested)
+        columns = part.read.table.columns
+        taken = float(columns.get("nominal_temperature_C", columns["temperature_C"])[0])
+        contested = float(part.contested)
         off, other = _apart(part, others, taken), _apart(part, others, contested)
         if off is not None and other is not None and abs(off) > OFF and abs(other) < NEARER * abs(off):
             raise InputError(
                 f"{part.path}: its name and its header say {contested:g} and {taken:g} degC, and the measured "
-                f"temperature speaks for {taken:g} degC; but |E*| is {exp(off):.2g} times that of the other specimens "
-                f"at {taken:g} degC and {exp(other):.2g} times at {contested:g} degC: correct header, readings or name."
+                f"temperature speaks for {taken:g} degC; but |E*| is {exp(off):.2f} times that of the other specimens "
+                f"at {taken:g} degC and {exp(other):.2f} times at {contested:g} degC: correct header, readings or name."
             )
 
 
