@@ -10,7 +10,7 @@ from test_diagnose import SCATTER, table
 
 from asphalt_nscd.diagnosis import instructions
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.further_tests import METAL, Costs, possible
+from asphalt_nscd.diagnosis.further_tests import METAL, Costs, Sweep, possible
 from asphalt_nscd.diagnosis.information import Knowledge, Question
 from asphalt_nscd.diagnosis.observations import Observations
 
@@ -53,6 +53,18 @@ def test_metal_is_ordered_once_and_each_order_says_why(delayed, monkeypatch):
     orders = instructions.instructions(delayed)["orders"]
     assert sum(one["specimens"] == [METAL] for one in orders) == 1
     assert all(one["why"] for one in orders)
+
+
+def test_no_test_is_ordered_twice(delayed, monkeypatch):
+    monkeypatch.setattr(instructions, "LEAST", 1e-9)
+    monkeypatch.setattr(instructions, "MOST", 40)
+    ordered = [
+        (specimen, one["temperature_C"], frequency, one["half_strain"])
+        for one in instructions.instructions(delayed)["orders"]
+        for specimen in one["specimens"]
+        for frequency in one["frequencies_Hz"]
+    ]
+    assert len(ordered) == len(set(ordered)) > 0
 
 
 @pytest.mark.parametrize("column", ["order", "cycles"])
@@ -98,6 +110,14 @@ def test_odds_are_told_where_a_test_would_change_them(before, alike, said):
     asked = instructions.Open("apart", None, "channel delay", "phase offset", alike)
     assert instructions._reason(asked, before, 30.0).endswith(said)
     assert bool(instructions._reason(asked, before, 30.0)) == bool(said)
+
+
+def test_a_test_at_another_temperature_repeats_nothing():
+    asked = [instructions.Open("repeat", None, "a at 4 degC, 25 Hz")]
+    for temperature, reasons in ((4.0, 1), (-6.0, 0)):
+        sweep = Sweep("a", temperature, (10.0, 25.0), False, None, 1.0)
+        order = instructions.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
+        assert len(instructions._reasons(order, asked)) == reasons
 
 
 def test_a_test_that_cannot_be_used_is_to_be_repeated():

@@ -19,7 +19,7 @@ def test_one_isotherm_of_one_specimen_is_named(factor):
     assert (one["specimen"], one["temperature_C"]) == (specimen, t)
     assert one["factor"] == pytest.approx(factor, rel=0.1)
     (sentence,) = levels.notes([one], None)
-    assert sentence.startswith(f"Specimen {specimen} at {t:g} degC: |E*| is {one['factor']:.2g} times what")
+    assert sentence.startswith(f"At {t:g} degC |E*| of specimen {specimen} is {one['factor']:.2g} times what")
 
 
 def test_a_stiffer_specimen_and_usual_scatter_are_not_odd():

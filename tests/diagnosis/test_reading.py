@@ -114,3 +114,19 @@ def test_forces_of_a_cylinder_are_not_reduced_as_bending(tmp_path):
     path = table(tmp_path, "specimen,temperature_C,frequency_Hz,F0_N,z0_m,psi_deg", rows)
     with pytest.raises(InputError, match="give the moduli of a tension-compression test"):
         read_observations(Campaign(read_csv(path), (path,), "tension-compression"), PAPER_GEOMETRY)
+
+
+def test_a_phase_with_the_wrong_sign_is_refused_with_its_line(tmp_path):
+    rows = [
+        f"A,{t},{f},{round(9000 * f**0.2)},{phase}"
+        for t in (0, 10)
+        for f, phase in ((1, 20), (3, 19), (10, 18))
+    ]
+    rows[1] = rows[1].replace(",19", ",-19")
+    path = table(tmp_path, "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg", rows)
+    with pytest.raises(InputError) as error:
+        read_observations(path, PAPER_GEOMETRY)
+    assert str(error.value) == (
+        f"{path}, line 3: the phase at 3 Hz is -19 deg, and the other frequencies of specimen A at 0 degC say about "
+        "+19 deg: the sign is wrong; correct it."
+    )

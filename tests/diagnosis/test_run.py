@@ -1,6 +1,7 @@
 """What diagnosis.json says of how the measurements were read, and of the files they came from."""
 
 import json
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from types import SimpleNamespace
@@ -8,19 +9,23 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
+from jsonschema import Draft202012Validator
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis import report, run
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.diagnosis.suspects import Suspect
-from asphalt_nscd.diagnosis.written import read_diagnosis
+from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.table_import.campaign import read_campaign
 
 PUBLISHED = Path(__file__).parents[2] / "results/published/paper"
 EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
 FEW = run.Draws(500)
+SCHEMA = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8"))
 
 
 def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
@@ -41,6 +46,45 @@ def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
     assert quality == (
         "Phase uniformity above 3 deg (AASHTO T 378, TP 132) in 1 of 72 tests: Mix-B at 4 degC, 25 Hz: 6.4 deg."
     )
+
+
+def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
+    observed, _ = read_observations(read_campaign([EXPORTS])[0], PAPER_GEOMETRY)
+    uneven = np.where(observed.specimen == 0, 40.0, 10.0)
+    uneven[np.flatnonzero(observed.specimen == 1)[0]] = 35.0
+    for values, these in (
+        (uneven, "In 24"),
+        (np.where(observed.specimen == 0, 40.0, 10.0), "In all"),
+    ):
+        notes = run.reading(replace(observed, quality={"deformation_uniformity_percent": values}), [])[
+            "notes"
+        ]
+        assert notes[-1].endswith(
+            f"{these} of them at least half of the specimen's tests at that temperature exceed it: the specimen or its "
+            "gauges are uneven. No single test stands out, so this limit takes none out."
+        )
+
+
+def test_a_specimen_that_lacks_a_temperature_of_the_others_is_named():
+    observed, _ = read_observations(read_campaign([EXPORTS])[0], PAPER_GEOMETRY)
+    assert not any("Not tested" in note for note in run.reading(observed, [])["notes"])
+    lacking = (observed.specimen == 1) & (observed.isotherm == 20)
+    notes = run.reading(observed.subset(np.flatnonzero(~lacking)), [])["notes"]
+    assert "Not tested: Mix-B at 20 degC." in notes
+    alone = observed.isotherm != 20
+    alone |= observed.specimen == 1
+    assert not any("Not" in note for note in run.reading(observed.subset(np.flatnonzero(alone)), [])["notes"])
+
+
+def test_the_verdict_names_files_without_tests(tmp_path):
+    for path in EXPORTS.glob("*.csv"):
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    (tmp_path / "Mix-C-50C_Sum.csv").write_text("")
+    outcome = run.conclude(read_campaign([tmp_path])[0], PAPER_GEOMETRY, draws=FEW)
+    told = "1 of 12 files gave no test: Mix-C-50C_Sum.csv (holds no table)."
+    Draft202012Validator(SCHEMA).validate(outcome.content)
+    assert outcome.content["reading"]["files_without_tests"] == [told]
+    assert f"Files: {told}\nData: " in summary(outcome.content)
 
 
 def test_estimates_that_spread_further_than_their_errors_widen_the_limits():

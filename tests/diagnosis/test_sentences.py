@@ -2,7 +2,16 @@
 
 import pytest
 
-from asphalt_nscd.diagnosis.sentences import causes, on_doubtful, with_suspects
+from asphalt_nscd.diagnosis.instructions import _names
+from asphalt_nscd.diagnosis.sentences import (
+    cause_words,
+    causes,
+    left,
+    on_data,
+    on_doubtful,
+    on_simulation,
+    with_suspects,
+)
 
 
 def content(used: int, out: int, **then):
@@ -16,16 +25,16 @@ def content(used: int, out: int, **then):
     "used,out,told",
     [
         (0, 2, ""),
-        (1, 1, "Doubtful but used: A, 4 degC, 25 Hz; suspect_tests"),
+        (1, 1, "Doubtful but used: A, 4 degC, 25 Hz (x)."),
         (
             5,
             0,
-            "Doubtful but used: A, 4 degC, 25 Hz; A, 4 degC, 25 Hz; A, 4 degC, 25 Hz; and 2 more; suspect_tests",
+            f"Doubtful but used: {'A, 4 degC, 25 Hz (x); ' * 3}and 2 more, see suspect_tests in diagnosis.json.",
         ),
     ],
 )
 def test_doubtful_tests_are_named(used, out, told):
-    assert on_doubtful(content(used, out)) == (told and f"{told} in diagnosis.json says why.")
+    assert on_doubtful(content(used, out)) == told
 
 
 @pytest.mark.parametrize(
@@ -41,7 +50,7 @@ def test_doubtful_tests_are_named(used, out, told):
 )
 def test_what_is_named_without_the_doubtful_tests_is_told(named, changed):
     then = {"verdict": "explained", "causes": named}
-    assert on_doubtful(content(1, 0, without_doubtful=then)).endswith(f"says why. {changed}")
+    assert on_doubtful(content(1, 0, without_doubtful=then)).endswith(f"(x). {changed}")
     assert with_suspects(content(1, 1, with_suspects=then)) == changed.replace(
         "Without it", "With these tests used"
     )
@@ -80,3 +89,43 @@ def test_why_a_name_is_only_likely(hangs_on, as_good, sure):
     ((told, meaning),) = causes({"ladder": [rung]})
     assert told == "temperature bias at 4 degC: 8 K or more (the search ends there)"
     assert meaning.endswith(sure)
+
+
+@pytest.mark.parametrize(
+    "specimens,replicated,said",
+    [
+        (["A"], False, "One specimen cannot judge the simulation: nothing was found, but the scatter from test to "
+         "test is not known. Test a second one at the same conditions, or state the scatter."),
+        (["A", "B"], False, "Specimens without a common temperature and frequency cannot judge the simulation"),
+        (["A", "B"], True, "Two frequencies cannot judge the simulation"),
+    ],
+)  # fmt: skip
+def test_what_cannot_judge_the_simulation_says_why_and_what_to_add(specimens, replicated, said):
+    found = content(0, 0, verdict="nothing_to_explain", tested=False, provenance={"scatter_stated": None})
+    found |= {"ladder": [], "reading": {"specimens": specimens}, "scatter": {"from_replicates": replicated}}
+    assert on_simulation(found).startswith(said)
+
+
+@pytest.mark.parametrize("percent,more", [(60.6, ", more than those of one mix do."), (3.3, ".")])
+def test_specimens_that_are_hardly_of_one_mix_are_said_in_the_verdict(percent, more):
+    found = content(0, 0, tests=72, repeatability={"between": {"E_percent": percent, "phase_deg": 0.2}})
+    assert on_data(found | {"ladder": []}).endswith(f"{percent} % in |E*| and 0.2 deg in phase{more}")
+
+
+def test_a_specimen_called_specimen_is_not_called_so_twice():
+    rung = {"cause": "loose_clamp", "where": "Specimen 1"}
+    assert cause_words(rung) == "loose clamp of Specimen 1"
+    assert cause_words(rung | {"where": "S1"}) == "loose clamp of specimen S1"
+    found = {"specimen Specimen 1, spectrum": 2.0, "specimen S2, modulus": 1.5, "37 degC, phase": 1.0}
+    scatter = {"modulus_percent": 1.0, "phase_deg": 0.5}
+    assert left({"discrepancy": found, "scatter": scatter}) == [
+        "Specimen 1 does not follow the common master curve: 2 % in |E*|",
+        "specimen S2, modulus: 1.5 % in |E*|",
+        "37 degC, phase: 0.5 deg",
+    ]
+    assert [_names(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
+        "Specimen 1 and Specimen 2",
+        "specimens A and B",
+        "specimen A",
+        "Specimen 1",
+    ]

@@ -96,8 +96,8 @@ def test_delay_neither_hides_a_fault_of_the_majority_nor_moves_it(delay):
     found = suspects.find(delayed(altered(observed, wrong, phase_deg=4.0), delay))
     assert [one.row for one in found if not one.used] == wrong
     reason = next(reason for reason in found[0].reasons if reason.startswith("phase is"))
-    assert f"with the delay of {1e3 * delay:.1f}"[:-1] in reason
-    required = float(reason.split("require ")[1].split(" deg")[0])
+    assert "with the delay of " in reason
+    required = float(reason.split("show: ")[1].split(" deg")[0])
     right = np.degrees(observed.logarithm.imag[wrong[0]]) + 360.0 * delay * 25.0
     assert required == pytest.approx(right, abs=1.5)
 
@@ -120,12 +120,20 @@ def test_reason_gives_what_was_measured_and_what_the_isotherm_requires():
     row = row_of(observed, 1, 4.0, 25.0)
     expected = np.degrees(observed.logarithm.imag[row])
     (found,) = suspects.find(altered(observed, row, phase_deg=5.0))
-    (reason,) = [reason for reason in found.reasons if reason.startswith("phase is")]
-    assert (
-        f"phase is {expected + 5.0:.1f} deg" in reason and "other tests of this specimen at 4 degC" in reason
-    )
-    required = float(reason.split("require ")[1].split(" deg")[0])
-    assert required == pytest.approx(expected, abs=1.5)
+    (reason,) = found.reasons
+    assert reason.startswith(f"phase is {expected + 5.0:.1f} deg, ")
+    assert "deg above what its |E*| and the other frequencies of this specimen at 4 degC allow: " in reason
+    allowed = float(reason.split("allow: ")[1].split(" deg")[0])
+    assert allowed == pytest.approx(expected, abs=1.5)
+
+
+def test_one_reading_is_called_wrong_and_not_each_beside_the_other():
+    observed = campaign()
+    row = row_of(observed, 1, 4.0, 5.0)
+    (found,) = suspects.find(altered(observed, row, modulus=np.log(1.12)))
+    causal = [reason for reason in found.reasons if "allow: " in reason]
+    assert len(causal) == 1 and causal[0].startswith("|E*| is ")
+    assert "% above what its phase and the other frequencies of this specimen at 4 degC allow" in causal[0]
 
 
 def test_isotherm_that_breaks_as_a_whole_is_reported_and_its_tests_are_used():
@@ -174,8 +182,23 @@ def test_quality_flag_alone_is_listed_and_the_test_used():
     row = row_of(observed, 1, 4.0, 25.0)
     (found,) = suspects.find(flagged(observed, row))
     assert found == suspects.Suspect(
-        row, ("phase uniformity 7.9 deg, limit 3 deg (AASHTO T 378, TP 132)",), True
+        row,
+        ("phase uniformity 7.9 deg, limit 3 deg (AASHTO T 378, TP 132)", suspects.ONE_WITNESS),
+        True,
     )
+
+
+def test_of_one_specimen_a_flag_and_causality_take_a_test_out():
+    observed = campaign(3, scatter=(0.01, 0.3))
+    observed = observed.subset(observed.specimen == 1)
+    row = row_of(observed, 1, 4.0, 25.0)
+    doubtful = altered(observed, row, phase_deg=4.0)
+    assert not out(doubtful)
+    (found,) = suspects.find(flagged(doubtful, row))
+    assert not found.used
+    assert "phase is" in found.reasons[0] and "phase uniformity" in found.reasons[1]
+    (found,) = suspects.find(flagged(observed, row))
+    assert found.used and found.reasons[-1] == suspects.ONE_WITNESS
 
 
 def test_flag_of_a_whole_isotherm_singles_no_test_out():

@@ -70,6 +70,8 @@ def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
     assert said(campaign, "skipped scan.pdf (neither CSV, TSV, TXT nor XLSX)")
     assert said(campaign, "skipped old (a folder;") and said(campaign, "skipped empty.csv (holds no table)")
     assert not said(campaign, "hidden")
+    (sentence,) = campaign.without_tests
+    assert sentence.startswith("2 of 3 files gave no test: empty.csv (holds no table); sieves.csv (no column")
 
 
 def test_folder_without_tests_is_refused(tmp_path):
@@ -78,6 +80,47 @@ def test_folder_without_tests_is_refused(tmp_path):
     (tmp_path / "scan.pdf").write_bytes(b"%PDF")
     with pytest.raises(InputError, match=r"no file with tests; it holds scan\.pdf \(neither"):
         read_campaign([tmp_path])
+
+
+def test_a_table_with_another_ending_is_named_in_the_verdict(tmp_path):
+    save(tmp_path, a=export("A", 4))
+    (tmp_path / "b.csv.bak").write_text(export("B", 4))
+    (tmp_path / "c.xls").write_bytes(b"\xd0\xcf\x11\xe0")
+    (tmp_path / "notes.txt").write_text("Tested in May.\n")
+    (tmp_path / "scan.pdf").write_bytes(b"%PDF")
+    campaign, _ = read_campaign([tmp_path])
+    assert campaign.without_tests == (
+        "2 of 3 files gave no test: b.csv.bak, c.xls (neither CSV, TSV, TXT nor XLSX).",
+    )
+    assert said(campaign, "skipped notes.txt") and said(campaign, "skipped scan.pdf")
+
+
+def test_one_specimen_in_several_spellings_is_one(tmp_path):
+    save(tmp_path, a=export(temperature=4, name="Mix-A"), b=export(temperature=20, name="mix a"))
+    save(tmp_path, c=export(temperature=35, name="MIX_A"), d=export("B", 4, 1.1))
+    campaign, _ = read_campaign([tmp_path])
+    assert set(campaign.table.columns["specimen"]) == {"Mix-A", "Mix-B"}
+    assert said(campaign, "mix a, MIX_A taken for specimen Mix-A, spelt otherwise")
+
+
+def test_a_folder_of_folders_says_to_give_these(tmp_path):
+    (tmp_path / "A").mkdir()
+    save(tmp_path / "A", a=export("A", 4))
+    with pytest.raises(
+        InputError, match=r"no file with tests; it holds A \(a folder.*give the folders in it by"
+    ):
+        read_campaign([tmp_path])
+
+
+def test_one_reason_of_many_files_is_said_once(tmp_path):
+    for n in range(9):
+        save(tmp_path, **{f"e{n}": export("A", 4, 1.0 + n).replace(" (MPa)", "")})
+    with pytest.raises(InputError) as error:
+        read_campaign([tmp_path])
+    assert str(error.value) == (
+        f"{tmp_path}: no file with tests; it holds e0.csv, e1.csv, e2.csv and 6 more (column 'Dynamic modulus' does "
+        "not say its unit); write it after the name, as in E (MPa)."
+    )
 
 
 def test_damaged_results_in_a_folder_are_refused_not_passed_over(tmp_path):

@@ -211,19 +211,38 @@ def test_frequency_without_a_result_is_left_out_and_said(tmp_path):
     assert "frequencies without a modulus left out: 1" in campaign.notes
 
 
-def test_temperature_of_the_name_where_no_other_is_given(tmp_path):
-    text = EXPORT.replace("Target test temperature,4\n", "").replace(
-        " Average temperature  (°C),4.1,4.0,3.9\n", ""
-    )
-    campaign = read(tmp_path, text)
-    assert campaign.table.columns["temperature_C"] == ["4"] * 3
-    assert "temperature taken from the name of the specimen" in campaign.notes
+@pytest.mark.parametrize(
+    ("last", "sentence"),
+    [
+        (
+            ",25 Hz,10 Hz,0.5 Hz",
+            ": the file ends early, without a row of moduli and of phases; export it anew.",
+        ),
+        (
+            " Dynamic modulus (MPa),9100,8000,5000",
+            ": the file ends early, without a row of phases; export it anew.",
+        ),
+        (
+            " Phase angle (Degrees),12.5",
+            ", line 16: the file ends early: Phase angle (Degrees) has no value for 10, 0.5 Hz; export it anew.",
+        ),
+        (
+            " Average temperature  (°C),4.1,4.0",
+            "Average temperature (°C) has no value for 0.5 Hz; export it anew.",
+        ),
+    ],
+)
+def test_an_export_that_ends_early_says_so(tmp_path, last, sentence):
+    assert last in EXPORT
+    assert refusal(tmp_path, EXPORT[: EXPORT.index(last) + len(last)]).endswith(sentence)
 
 
-def test_a_name_that_contradicts_the_header_is_said(tmp_path):
-    campaign = read(tmp_path, EXPORT.replace("Mix-7-4C", "Mix-7-21C"))
-    assert campaign.table.columns["nominal_temperature_C"] == ["4"] * 3
-    assert any("says 21 °C, the header 4; the header is taken" in note for note in campaign.notes)
+def test_an_export_may_end_with_its_phases(tmp_path):
+    assert moduli(read(tmp_path, EXPORT[: EXPORT.index(" Average temperature")]))[1] == [
+        "12.5",
+        "13.25",
+        "19",
+    ]
 
 
 def test_synthetic_exports_say_so(tmp_path):
@@ -241,6 +260,7 @@ def test_synthetic_exports_say_so(tmp_path):
     ("old", "new", "sentence"),
     [
         (",25 Hz,10 Hz,0.5 Hz\n", "", "a machine export without its line of frequencies"),
+        (",10 Hz,0.5 Hz", ",10 Hz,0,5 Hz", "'0' stands among the frequencies and is none; if decimals"),
         ("modulus (MPa)", "modulus", "'Dynamic modulus' does not say its unit; write it after the name"),
         ("modulus (MPa)", "modulus (m)", "'m' is not a unit of E_MPa; give one of Pa, kPa, MPa"),
         (" Phase angle (Degrees),12.5,13.25,19\n", "", "no column for phase_deg"),
@@ -259,15 +279,6 @@ def test_what_is_ambiguous_is_refused_in_one_sentence(tmp_path, old, new, senten
         assert sentence in refusal(tmp_path, EXPORT.replace(old, new))
     else:  # an unreadable target is no target: the measured temperature stands
         assert "nominal_temperature_C" not in read(tmp_path, EXPORT.replace(old, new)).table.columns
-
-
-def test_no_temperature_at_all_is_refused(tmp_path):
-    text = EXPORT.replace("Target test temperature,4\n", "").replace(
-        " Average temperature  (°C),4.1,4.0,3.9\n", ""
-    )
-    assert "no temperature; add a line 'Target test temperature (°C)'" in refusal(
-        tmp_path, text.replace("-4C", "")
-    )
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.quantities import SIEVES, recognise
 from asphalt_nscd.table_import.understand import understand
@@ -168,3 +169,14 @@ def test_columns_can_be_named():
     assert "no column 'Temp'" in refusal(header, row, temperature_C="Temp")
     with pytest.raises(InputError, match="--column stiffness: not known"):
         columns(header, row, stiffness="Steifigkeit")
+
+
+def test_records_without_a_column_of_specimens_are_asked_for_it(tmp_path):
+    path = tmp_path / "r.csv"
+    path.write_text("record,temperature_C,frequency_Hz\na.csv,20,10\n")
+    with pytest.raises(
+        InputError, match=r"r\.csv: column 'specimen' is missing \(found: record, temp.*add it"
+    ):
+        read_campaign([path])
+    path.write_text("record,replicate,temperature_C,frequency_Hz\na.csv,B,20,10\n")
+    assert read_campaign([path])[0].table.columns["specimen"] == ["B"]

@@ -21,6 +21,7 @@ from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, R
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.start import of_likeliest_roughness
+from asphalt_nscd.files.words import specimen_named
 
 Vector = NDArray[np.float64]
 RUNGS = 4
@@ -287,7 +288,7 @@ def hangs_on(state: State, candidate: Candidate) -> list[str]:
 def _parts(observed: Observations) -> Iterator[tuple[str, NDArray, Callable[[Any], str]]]:
     yield "isotherm", observed.isotherm, lambda t: f"{t:g} degC"
     yield "frequency", observed.frequency, lambda f: f"{f:g} Hz"
-    yield "specimen", observed.specimen, lambda s: f"specimen {observed.names[s]}"
+    yield "specimen", observed.specimen, lambda s: specimen_named(observed.names[s])
 
 
 def _enough(rest: Observations, name: str) -> bool:

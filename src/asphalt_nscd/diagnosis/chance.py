@@ -19,6 +19,7 @@ from scipy.special import ndtr
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.files.words import specimen_named
 
 Vector = NDArray[np.float64]
 ABSORBED = 3e-3  # share of a direction's square that the law must leave for it to be seen at all
@@ -145,9 +146,9 @@ def specimen_structures(observed: Observations) -> list[Structure]:
     patterns = {}
     for k, name in enumerate(observed.names):
         at = observed.specimen == k
-        patterns[f"specimen {name}"] = at
-        patterns[f"specimen {name}, slope over frequency"] = at * log_f
-        patterns[f"specimen {name}, slope over temperature"] = at * above
+        patterns[specimen_named(name)] = at
+        patterns[f"{specimen_named(name)}, slope over frequency"] = at * log_f
+        patterns[f"{specimen_named(name)}, slope over temperature"] = at * above
     return _both(patterns)
 
 

@@ -25,6 +25,7 @@ from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.sentences import an, joined
 from asphalt_nscd.diagnosis.written import shown, three_digits
+from asphalt_nscd.files.words import specimen_named
 
 MOST, REASONS = 5, 3
 NOTICEABLE = 10.0  # percent of cases
@@ -117,8 +118,7 @@ def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
         alike.specimens = [
             name for name in model.table.names if name in (*alike.specimens, sweep.specimen)
         ] or [METAL]
-        if sweep.specimen == METAL:  # once it is mounted, that sweep is all that metal has to say
-            waiting = [other for other in waiting if other.specimen != METAL]
+        waiting = [other for other in waiting if not _again(other, sweep)]
         alike.hours, alike.nats = alike.hours + sweep.hours, alike.nats + nats
         for k in helped:
             alike.helps[k] = alike.helps.get(k, (before[k], 0.0))[0], after[k]
@@ -131,6 +131,18 @@ def _same(one: Sweep, other: Sweep) -> bool:
         other.frequencies,
         other.half_strain,
     ) and METAL not in (one.specimen, other.specimen)
+
+
+def _again(one: Sweep, other: Sweep) -> bool:
+    """Whether a sweep repeats tests of another; once metal is mounted, one sweep is all that it has to say."""
+    if METAL in (one.specimen, other.specimen):
+        return one.specimen == other.specimen
+    same = (one.specimen, one.temperature, one.half_strain) == (
+        other.specimen,
+        other.temperature,
+        other.half_strain,
+    )
+    return same and not set(one.frequencies).isdisjoint(other.frequencies)
 
 
 def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
@@ -181,7 +193,7 @@ def _parts(table: Observations, rows: int) -> Iterator[tuple[str, NDArray[np.boo
     for values, words in (
         (table.isotherm, lambda t: f"{t:g} degC"),
         (table.frequency, lambda f: f"{f:g} Hz"),
-        (np.array(table.names)[table.specimen], lambda name: f"specimen {name}"),
+        (np.array(table.names)[table.specimen], specimen_named),
     ):
         for value in np.unique(values):
             yield words(value), np.concatenate([values != value, np.ones(rows - table.size, bool)])
@@ -228,7 +240,12 @@ def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
         k: strengths for k, strengths in order.helps.items() if questions[k].kind not in ("repeat", "linear")
     }
     kinds = {questions[k].kind for k in order.helps}
-    again = sorted(questions[k].about for k in order.helps if questions[k].kind == "repeat")
+    repeated = {
+        f"{name} at {order.sweep.temperature:g} degC, {f:g} Hz"
+        for name in order.specimens
+        for f in order.sweep.frequencies
+    }
+    again = sorted(repeated & {questions[k].about for k in order.helps if questions[k].kind == "repeat"})
     reasons = []
     if again:
         reasons.append(
@@ -286,7 +303,9 @@ def _text(one: Order) -> str:
 def _names(specimens: Sequence[str]) -> str:
     own = [name for name in specimens if name not in (METAL, NEW)]
     others = [name for name in specimens if name in (METAL, NEW)]
-    return joined([*([f"specimen{'s' if len(own) > 1 else ''} {joined(own)}"] if own else []), *others])
+    if len(own) > 1 and specimen_named(own[0]) != own[0]:
+        return joined([f"specimens {joined(own)}", *others])
+    return joined([*map(specimen_named, own), *others])
 
 
 def _band(f: Sequence[float]) -> str:

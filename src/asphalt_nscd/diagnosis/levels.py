@@ -12,6 +12,7 @@ import numpy as np
 
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.scatter import median_by
+from asphalt_nscd.files.words import specimen_named
 
 LEAST = 3  # specimens of an isotherm, and isotherms of a specimen: of two, neither is the odd one
 FAR, DEVIATIONS = 0.2, 5.0  # of ln|E*|, and times the usual deviation, above which a level is odd
@@ -49,9 +50,9 @@ def odd(observed: Observations) -> list[dict[str, Any]]:
 def notes(found: list[dict[str, Any]], between_percent: float | None) -> list[str]:
     """Sentences on odd levels, and on specimens that differ by this much in |E*| [percent]."""
     out = [
-        f"Specimen {one['specimen']} at {one['temperature_C']:g} degC: |E*| is {one['factor']:.2g} times what its "
-        "other isotherms and the other specimens say. Modulus and phase may agree all the same. Check dimensions, "
-        "gain and unit of these tests."
+        f"At {one['temperature_C']:g} degC |E*| of {specimen_named(one['specimen'])} is {one['factor']:.2g} "
+        "times what its other isotherms and the other specimens say. Modulus and phase may agree all the same. "
+        "Check dimensions, gain and unit of these tests."
         for one in found
     ]
     if between_percent is not None and between_percent > ONE_MIX:

@@ -16,6 +16,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, REDUCED_COLUMNS, reduced_frame
+from asphalt_nscd.measurements.signs import wrong_sign
 from asphalt_nscd.measurements.slips import slips
 from asphalt_nscd.measurements.twopoint import form_factor, mass_factor
 
@@ -110,7 +111,10 @@ def read_observations(
         quality={name: table.numbers_or_nan(name) for name in quality.COLUMNS if name in table.columns},
         test_type=test_type,
     )
-    found = next(slips(frame.assign(temperature_C=isotherm, frequency_Hz=observed.frequency)), None)
+    labelled = frame.assign(temperature_C=isotherm, frequency_Hz=observed.frequency)
+    if (turned := wrong_sign(labelled)) is not None:
+        raise table.error(*turned)
+    found = next(slips(labelled), None)
     if found is not None:
         raise InputError(f"{path}: {found}")
     softest = float(observed.modulus.real.min())

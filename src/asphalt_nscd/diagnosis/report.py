@@ -436,9 +436,9 @@ def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"Effects that got no name scatter {spread:.1f} times as far as their standard errors allow: these tests hold "
-        "more structure than the diagnosis describes. "
-        f"Trust a detection limit only at {spread:.1f} times its value."
+        f"The causes that got no name have estimates {spread:.1f} times their standard errors, where 1 is expected: "
+        "these tests hold more structure than the diagnosis describes. "
+        f"Multiply each detection limit by {spread:.1f}."
     ]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
@@ -42,6 +43,7 @@ OF_THE_PAPER = (
 )
 STEPS = 5  # read, causes, law, second opinion, next tests
 FEW_DRAWS = 1000  # where a second opinion is asked for
+LISTED = 4  # gaps of a table that are named
 MATTERING = 0.02  # share of the tests that doubtful ones must have for one
 
 
@@ -157,10 +159,10 @@ def conclude(
     if fit is not None:
         content["notes"] += law_notes(diagnosis, fit.law) + prior_notes(fit)
     done.step()
-    notes = [] if campaign is None else [*campaign.notes]
+    notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
     if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:
         notes.append(OF_THE_PAPER)
-    content["reading"] = reading(observed, notes)
+    content["reading"] = reading(observed, notes, without_tests)
     if simulated.campaign is not None:
         content["numerics"]["campaign"] = of_campaign(
             simulated.campaign, observed.temperature, observed.frequency
@@ -273,7 +275,9 @@ def _named(other: Diagnosis) -> dict[str, Any]:
     return {"verdict": other.verdict, "causes": [*law, *named]}
 
 
-def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
+def reading(
+    observed: Observations, notes: Sequence[str], without_tests: Sequence[str] = ()
+) -> dict[str, Any]:
     """How the measurements were read: test type, isotherms, quality limits exceeded; notes of the import."""
     specimen = [observed.names[place] for place in observed.specimen]
     above = [
@@ -299,13 +303,38 @@ def reading(observed: Observations, notes: Sequence[str]) -> dict[str, Any]:
         "notes": [
             *notes,
             *together,
-            *_quality_notes(above, observed.size),
+            *_gaps(observed),
+            *_quality_notes(above, observed.size, _shared(observed)),
         ],
+        **({"files_without_tests": list(without_tests)} if without_tests else {}),
     }
 
 
-def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int) -> list[str]:
-    """A sentence for each quality limit that some tests exceed, with the worst of them."""
+def _gaps(observed: Observations) -> list[str]:
+    """A sentence on specimens that were not tested at a temperature at which most others were."""
+    tested = {(int(k), float(t)) for k, t in zip(observed.specimen, observed.isotherm, strict=True)}
+    missing = [
+        f"{name} at {t:g} degC"
+        for k, name in enumerate(observed.names)
+        for t in map(float, observed.isotherms)
+        if (k, t) not in tested and 2 * sum(at == t for _, at in tested) > len(observed.names)
+    ]
+    more = f" and {len(missing) - LISTED} more" if len(missing) > LISTED else ""
+    return [f"Not tested: {', '.join(missing[:LISTED])}{more}."] if missing else []
+
+
+def _shared(observed: Observations) -> Counter[str]:
+    """By quality column, in how many tests it exceeds its limit as in half of their isotherm and specimen or more."""
+    above, block = quality.exceeded(observed), within_isotherm.blocks(observed)
+    alike = Counter((one.column, block[one.row]) for one in above)
+    size = Counter(block.tolist())
+    return Counter(
+        one.column for one in above if 2 * alike[one.column, block[one.row]] >= size[block[one.row]]
+    )
+
+
+def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int, shared: Mapping[str, int]) -> list[str]:
+    """A sentence for each quality limit that some tests exceed, with the worst of them; what follows if it is usual."""
     notes = []
     for name, limit in quality.LIMITS.items():
         found = sorted((one for one in above if one["column"] == name), key=lambda one: -one["value"])
@@ -318,8 +347,19 @@ def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int) -> list[str]:
             notes.append(
                 f"{limit.label.capitalize()} above {limit.limit:g} {limit.unit} ({limit.source}) in {len(found)} of "
                 f"{tests} tests: {worst}{'; and others' if len(found) > 3 else ''}."
+                + _used_all_the_same(shared.get(name, 0), len(found))
             )
     return notes
+
+
+def _used_all_the_same(shared: int, found: int) -> str:
+    if not shared:
+        return ""
+    these = "In all" if shared == found else f"In {shared}"
+    return (
+        f" {these} of them at least half of the specimen's tests at that temperature exceed it: the specimen or its "
+        "gauges are uneven. No single test stands out, so this limit takes none out."
+    )
 
 
 def _checksums(files: Sequence[Path]) -> dict[str, Any]:

@@ -12,8 +12,9 @@ from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.chance import CHANCE
+from asphalt_nscd.diagnosis.levels import ONE_MIX
 from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
-from asphalt_nscd.files.words import counted
+from asphalt_nscd.files.words import counted, specimen_named
 
 Content = Mapping[str, Any]
 TEST_TYPES = {
@@ -30,7 +31,6 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {
 }
 SIMPLER = "one Burgers law for each temperature"
 LARGEST = 4  # parts of what stays unexplained that are listed
-CANNOT_JUDGE = "Nothing was found, but these data cannot judge the simulation"
 
 
 def on_data(content: Content) -> str:
@@ -45,10 +45,11 @@ def on_data(content: Content) -> str:
         spread = repeated["between"]
         parts.append(
             f"specimens differ by {spread['E_percent']:.1f} % in |E*| and {spread['phase_deg']:.1f} deg in phase"
+            + (", more than those of one mix do" if spread["E_percent"] > ONE_MIX else "")
         )
     parts += [
-        f"|E*| of specimen {one['specimen']} at {one['temperature_C']:g} degC is {one['factor']:.2g} times what the "
-        "others say"
+        f"|E*| of {specimen_named(one['specimen'])} at {one['temperature_C']:g} degC is "
+        f"{one['factor']:.2g} times what the others say"
         for one in content.get("odd_levels", [])[:LARGEST]
     ]
     broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
@@ -60,7 +61,7 @@ def on_data(content: Content) -> str:
 def _fault(rung: Content) -> str:
     words = an(rung["cause"].replace("_", " "))
     one = isinstance(rung["where"], str)
-    who = f"specimen {rung['where']}" if one else "they"
+    who = specimen_named(rung["where"]) if one else "they"
     sure = "" if rung.get("established", True) else "probably "
     return f"{who} {sure}{'carries' if one else 'carry'} {words} of {size(rung)}"
 
@@ -75,7 +76,7 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
         if content["verdict"] != "nothing_to_explain":
             return f"{SIMPLER} leaves more than scatter, and no cause of the catalogue explains it."
         if not content["tested"]:
-            return f"{CANNOT_JUDGE}."
+            return _cannot_judge(content)
         return f"{SIMPLER} fits these data to within their scatter; nothing is to be explained."
     first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
     names = ("mre_E_percent", "mre_phase_percent")
@@ -90,6 +91,22 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     return (
         f"{simpler} misses |E*| by {before[0]} and the phase by {before[1]}; with {found} the simulation misses them "
         f"by {after[0]} and {after[1]}, {_beyond_bonds(content)}."
+    )
+
+
+def _cannot_judge(content: Content) -> str:
+    """Why tests without a finding do not say that the simulation is right, and what to add."""
+    if content["scatter"]["from_replicates"] or content["provenance"].get("scatter_stated"):
+        return (
+            "Two frequencies cannot judge the simulation: a Burgers law fits them exactly, whatever is wrong. Test at "
+            "three frequencies or more."
+        )
+    alone = len(content.get("reading", {}).get("specimens", [])) == 1
+    lacking = "One specimen" if alone else "Specimens without a common temperature and frequency"
+    add = "Test a second one at the same conditions" if alone else "Test two at the same conditions"
+    return (
+        f"{lacking} cannot judge the simulation: nothing was found, but the scatter from test to test is not known. "
+        f"{add}, or state the scatter."
     )
 
 
@@ -115,6 +132,11 @@ def test_type(content: Content) -> str:
     return f"{TEST_TYPES[read['test_type']]}, {counted(len(read['specimens']), 'specimen')}, {at} degC"
 
 
+def files(content: Content) -> str:
+    """Which files of a folder gave no test; empty where all did."""
+    return " ".join(content.get("reading", {}).get("files_without_tests", []))
+
+
 def not_used(content: Content) -> list[Content]:
     """Suspect tests that the diagnosis left out."""
     return [one for one in content.get("suspect_tests", []) if not one["used"]]
@@ -135,11 +157,10 @@ def on_doubtful(content: Content) -> str:
     kept = doubtful(content)
     if not kept:
         return ""
-    places = "; ".join(place_of_test(one) for one in kept[:3]) + (
-        f"; and {len(kept) - 3} more" if kept[3:] else ""
-    )
+    places = "; ".join(f"{place_of_test(one)} ({'; '.join(one['reasons'])})" for one in kept[:3])
+    more = f"; and {len(kept) - 3} more, see suspect_tests in diagnosis.json" if kept[3:] else ""
     changed = _changed(content, "without_doubtful", f"Without {'it' if len(kept) == 1 else 'them'}")
-    return f"Doubtful but used: {places}; suspect_tests in diagnosis.json says why. {changed}".rstrip()
+    return f"Doubtful but used: {places}{more}. {changed}".rstrip()
 
 
 def _changed(content: Content, key: str, when: str) -> str:
@@ -234,8 +255,9 @@ def left(content: Content) -> list[str]:
 
 def _place(name: str) -> str:
     """`specimen A, spectrum` in words; `37 degC, phase` says it already."""
-    place, part = name.rsplit(", ", 1)
-    return f"{place} does not follow the common master curve" if part == "spectrum" else name
+    place, part = name.removeprefix("specimen ").rsplit(", ", 1)
+    place = specimen_named(place) if name.startswith("specimen ") else place
+    return f"{place} does not follow the common master curve" if part == "spectrum" else f"{place}, {part}"
 
 
 def _in_units(name: str, value: float, scatter: Content) -> str:
@@ -309,7 +331,7 @@ def cause_words(rung: Content) -> str:
     words, where = rung["cause"].replace("_", " "), rung["where"]
     if where is None:
         return words
-    return f"{words} of specimen {where}" if isinstance(where, str) else f"{words} at {where:g} degC"
+    return f"{words} of {specimen_named(where)}" if isinstance(where, str) else f"{words} at {where:g} degC"
 
 
 def an(words: str) -> str:

@@ -16,10 +16,11 @@ def summary(content: Content) -> str:
     """The first page as text, one part after another; parts with nothing to say are left out."""
     read = content.get("reading", {"notes": []})
     verdict = [f"Data: {sentences.on_data(content)}", f"Simulation: {sentences.on_simulation(content)}"]
-    test, named = sentences.test_type(content), sentences.causes(content)
+    test, named, files = sentences.test_type(content), sentences.causes(content), sentences.files(content)
+    head = [*([f"Test: {test}."] if test else []), *([f"Files: {files}"] if files else [])]
     parts = [
         ("What was read", read["notes"]),
-        ("Verdict", [*([f"Test: {test}."] if test else []), *verdict]),
+        ("Verdict", [*head, *verdict]),
         ("Tests not to be used" if sentences.not_used(content) else "Doubtful tests", _suspects(content)),
         (
             "Causes",

@@ -27,12 +27,14 @@ from asphalt_nscd.files.words import counted
 STRONG = 6e-3  # chance, times the number of values, below which causality alone takes a test out
 NOTABLE = 0.1  # the same for a test that is listed and used
 SUPPORTED = 1e-2  # chance of one value, below which it is taken out where a witness agrees
+ALONE = 0.03  # the same for a flagged test of one specimen alone, whose scatter is known less
 FAR = 5e-3  # chance, times the number of values, below which replicates are a witness
 LEANING, VERY_FAR = 0.1, 1e-5  # both limits where replicates say more: at the ends causality knows little
 BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1.5 deg or more
 BREAKS = BENDS > np.radians(1.0)
 LEAST_FREEDOM = 4  # of the replicates of an isotherm
 SHARED = "every specimen contradicts its isotherm here in the same way: look for a common cause, not for a bad test"
+ONE_WITNESS = "its modulus and phase do not contradict the other frequencies"
 IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may be no more than nearly smooth
 
 
@@ -83,12 +85,14 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
     flags = _singled_out(observed)
     worst, single = held.chance.min(axis=1), held.chance[:, :2]
     doubtful = single < SUPPORTED
+    alone = np.bincount(observed.cell)[observed.cell] == 1
+    against = single < np.where(alone, ALONE, SUPPORTED)[:, None]
     flagged = np.array([bool(sentences) for sentences in flags])
     logarithm = observed.logarithm
     left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
     strong = worst < STRONG * limit
     shared = _shared(observed, held, strong, left)
-    out = (strong & ~shared) | (doubtful.any(axis=1) & flagged)
+    out = (strong & ~shared) | (against.any(axis=1) & flagged)
     # What is already out is no replicate of the others.
     apart, chance = _from_replicates(observed, ~out)
     far = chance * values < FAR
@@ -96,14 +100,12 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
     supported = agree & ((doubtful & far) | ((single < LEANING) & (chance * values < VERY_FAR)))
     out |= supported.any(axis=1)
     listed = out | (worst < NOTABLE * limit)
-    contradicts = listed[:, None] & (doubtful | supported | (single == single.min(axis=1, keepdims=True)))
+    # Beside a wrong phase the modulus seems wrong too: the less likely of the two is named, or the one with a witness.
+    wrong = np.where(supported | ~supported.any(axis=1, keepdims=True), single, 1.0).argmin(axis=1)
     found = []
     for row in np.flatnonzero(listed | flagged | far.any(axis=1)):
-        reasons = [
-            _causal_reason(observed, held, int(row), int(column))
-            for column in np.flatnonzero(contradicts[row])
-        ]
-        reasons += flags[row]
+        reasons = [_causal_reason(observed, held, int(row), int(wrong[row]))] if listed[row] else []
+        reasons += flags[row] + [ONE_WITNESS] * bool(flagged[row] and held.judged[row] and not listed[row])
         reasons += [
             _replicate_reason(observed, apart, int(row), int(column)) for column in np.flatnonzero(far[row])
         ]
@@ -239,20 +241,25 @@ def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[N
 
 
 def _causal_reason(observed: Observations, held: Held, row: int, column: int) -> str:
-    rest = f"the other tests of this specimen at {observed.isotherm[row]:g} degC"
+    rest = f"the other frequencies of this specimen at {observed.isotherm[row]:g} degC allow"
     expected, error = held.expected[row, column], held.std_error[row, column]
     if column == 0:
+        modulus = abs(observed.modulus[row])
+        apart = 100.0 * (modulus / np.exp(expected) - 1.0)
         return (
-            f"|E*| is {abs(observed.modulus[row]) / 1e6:.0f} MPa; its phase and {rest} require "
-            f"{np.exp(expected) / 1e6:.0f} MPa +- {100.0 * error:.1f} %"
+            f"|E*| is {modulus / 1e6:.0f} MPa, {abs(apart):.1f} % {_way(apart)} what its phase and {rest}: "
+            f"{np.exp(expected) / 1e6:.0f} MPa, standard error {100.0 * error:.1f} %"
         )
-    phase = np.degrees(observed.logarithm.imag[row])
-    required, alone = np.degrees(held.required[row]), np.degrees(held.required_error[row])
-    delayed = f", with the delay of {1e3 * held.delay:.2g} ms that most isotherms show" if held.delay else ""
+    phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
+    delayed = f" with the delay of {1e3 * held.delay:.2g} ms that most isotherms show" if held.delay else ""
     return (
-        f"phase is {phase:.1f} deg; its |E*| and {rest} require {np.degrees(expected):.1f} deg "
-        f"+- {np.degrees(error):.1f}{delayed} (|E*| alone: {required:.1f} deg +- {alone:.1f})"
+        f"phase is {phase:.1f} deg, {abs(phase - allowed):.1f} deg {_way(phase - allowed)} what its |E*| and {rest}"
+        f"{delayed}: {allowed:.1f} deg, standard error {np.degrees(error):.1f} deg"
     )
+
+
+def _way(apart: float) -> str:
+    return "above" if apart > 0.0 else "below"
 
 
 def _replicate_reason(observed: Observations, apart: NDArray, row: int, column: int) -> str:

@@ -16,6 +16,7 @@ from jsonschema.exceptions import best_match
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json
+from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.measurements.tables import averages, the_only
 
 SCHEMA_VERSION = 2
@@ -125,14 +126,11 @@ def three_digits(value: float) -> str:
     return f"{float(f'{value:.3g}'):.10g}"
 
 
-UNJUDGED = "nothing found, but these data cannot judge the Burgers laws themselves"
-
-
 def place_name(where: str | float | None) -> str:
     """Where a cause sits, in words; empty for all tests."""
     if where is None:
         return ""
-    return f"specimen {where}" if isinstance(where, str) else f"{where:g} °C".replace("-", "\N{MINUS SIGN}")
+    return specimen_named(where) if isinstance(where, str) else f"{where:g} °C".replace("-", "\N{MINUS SIGN}")
 
 
 def limits_by_place(limit: dict[str, Any]) -> dict[str, float]:

@@ -3,6 +3,15 @@
 from __future__ import annotations
 
 
+def specimen_named(name: str) -> str:
+    """A specimen by its name, without saying the word twice.
+
+    >>> specimen_named("A3"), specimen_named("Specimen 1")
+    ('specimen A3', 'Specimen 1')
+    """
+    return name if name.casefold().startswith("specimen") else f"specimen {name}"
+
+
 def counted(number: int, word: str) -> str:
     """A number with its word, in the plural but for one.
 

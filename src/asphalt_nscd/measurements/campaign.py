@@ -21,13 +21,14 @@ OFF_TARGET = 0.5  # K that T 378 lets the mean temperature of a test stray from 
 class Campaign:
     """Tests of a campaign in our columns, the files they came from, and sentences on how they were read.
 
-    test_type: one of TEST_TYPES.
+    test_type: one of TEST_TYPES. without_tests: a sentence for each folder some of whose files hold no test.
     """
 
     table: Table
     files: tuple[Path, ...]
     test_type: str = "bending"
     notes: tuple[str, ...] = field(default=())
+    without_tests: tuple[str, ...] = ()
 
 
 def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> NDArray[np.float64]:

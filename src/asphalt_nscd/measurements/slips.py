@@ -11,6 +11,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from asphalt_nscd.files.words import specimen_named
+
 # What |E*| in another unit is of |E*| in MPa.
 FACTORS = {"psi": 145.038, "ksi": 0.145038, "GPa": 1e-3, "kPa": 1e3, "kgf/cm2": 10.1972}
 NEAR = 0.25  # of ln |E*|: a specimen is within a quarter of the others
@@ -77,8 +79,8 @@ def _order_of_frequencies(table: pd.DataFrame) -> Iterator[str]:
         if steps.size >= LEAST and (steps < 0.0).all() and steps.sum() < -FALLING:
             fall = -100.0 * np.expm1(steps.sum())
             yield (
-                f"|E*| of specimen {specimen} at {temperature:g} degC falls by {fall:.0f} % as the frequency rises: "
-                "its frequencies look listed in reverse order; correct them."
+                f"|E*| of {specimen_named(str(specimen))} at {temperature:g} degC falls by {fall:.0f} % as the "
+                "frequency rises: its frequencies look listed in reverse order; correct them."
             )
 
 
@@ -87,8 +89,8 @@ def _radians(table: pd.DataFrame) -> Iterator[str]:
         required = 90.0 * slope  # deg, by Kramers and Kronig to first order
         if slope > LEAST_SLOPE and phase < 0.2 * required and 0.5 < np.degrees(phase) / required < 2.0:
             yield (
-                f"the phases of specimen {specimen} at {temperature:g} degC (median {phase:.3g}) look like radians: "
-                f"its moduli require about {required:.0f} deg; multiply them by 180/pi."
+                f"the phases of {specimen_named(str(specimen))} at {temperature:g} degC (median {phase:.3g}) look "
+                f"like radians: its moduli require about {required:.0f} deg; multiply them by 180/pi."
             )
 
 
@@ -106,8 +108,8 @@ def _units_of_moduli(table: pd.DataFrame) -> Iterator[str]:
                 continue
             place = where if isinstance(where, str) else f"{where:g} degC"
             yield (
-                f"at {place} |E*| of specimen {specimen} is {FACTORS[unit]:.3g} times that of the others, as it "
-                f"would be in {unit}; give it in MPa."
+                f"at {place} |E*| of {specimen_named(str(specimen))} is {FACTORS[unit]:.3g} times that of the "
+                f"others, as it would be in {unit}; give it in MPa."
             )
         if whole and logarithm.shape[1] == 2:
             return  # the other one is as far from it, and one sentence says so
@@ -121,8 +123,9 @@ def _order_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
                 gain = (rows[warm] - rows[cold]).dropna()
                 if len(gain) >= LEAST and (gain > STIFFER).all():
                     yield (
-                        f"specimen {specimen} is {np.exp(gain.median()):.3g} times as stiff at {warm:g} degC as at "
-                        f"{cold:g} degC: a temperature or a unit is wrong, or the two are exchanged; correct it."
+                        f"{specimen_named(str(specimen))} is {np.exp(gain.median()):.3g} times as stiff at "
+                        f"{warm:g} degC as at {cold:g} degC: a temperature or a unit is wrong, or the two are "
+                        "exchanged; correct it."
                     )
 
 
@@ -140,8 +143,8 @@ def _unit_of_all_moduli(table: pd.DataFrame) -> Iterator[str]:
         modulus = float(tests["E_MPa"].median())
         glassy.append(modulus * np.exp(FALL * seen))
         told = told or (
-            f"at {temperature:g} degC |E*| of specimen {specimen} is {float(f'{modulus:.3g}'):g} MPa at a phase of "
-            f"{phase:.2g} deg"
+            f"at {temperature:g} degC |E*| of {specimen_named(str(specimen))} is {float(f'{modulus:.3g}'):g} MPa "
+            f"at a phase of {phase:.2g} deg"
         )
     low, high = GLASSY_OF_MIXES
     if 2 * len(glassy) < table["specimen"].nunique() or not (max(glassy) < low or min(glassy) > high):

@@ -12,9 +12,11 @@ from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, as_cells, read_sheets
+from asphalt_nscd.table_import.contested import refuse_mislabelled
 from asphalt_nscd.table_import.exports import blocks
 from asphalt_nscd.table_import.headings import headed, require_rows, with_units
-from asphalt_nscd.table_import.parts import Part, without_copies, without_repeated
+from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
+from asphalt_nscd.table_import.passed_over import PassedOver, common_mend, listed, refused
 from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
 from asphalt_nscd.table_import.understand import (
     FURTHER,
@@ -23,7 +25,10 @@ from asphalt_nscd.table_import.understand import (
     understand,
 )
 
-TABLES = (".csv", ".tsv", ".txt", ".dat", ".xlsx", ".xlsm")
+TEXTS = (".txt", ".dat")  # which may hold running text
+OTHER_TABLES = (".xls", ".xlsb", ".ods")
+SAVE_AS = "save it as CSV or XLSX."
+TABLES = (".csv", ".tsv", *TEXTS, ".xlsx", ".xlsm")
 MOST_FILES = 500
 _MEASURED = ("temperature_C", "nominal_temperature_C", "E_MPa", "phase_deg")
 
@@ -41,9 +46,17 @@ def read_campaign(
     """
     notes: list[str] = []
     parts: list[Part] = []
+    without_tests: list[str] = []
     for path in paths:
-        parts += (_folder if path.is_dir() else _file)(path, notes, sheet, chosen)
+        if path.is_dir():
+            found, said = _folder(path, notes, sheet, chosen)
+            without_tests += [said] if said else []
+        else:
+            found = _file(path, notes, sheet, chosen)
+        parts += found
     parts = without_copies(sorted(parts, key=lambda part: not part.exported), notes)
+    parts = with_one_spelling(parts, notes)
+    refuse_mislabelled(parts)
     parts = without_repeated(parts, notes)
     _require_one_mix(parts)
     forms = sorted({part.read.form for part in parts})
@@ -65,7 +78,8 @@ def read_campaign(
         f"{counted(len(specimens), 'specimen')}: {', '.join(specimens[:12])}{', ...' if len(specimens) > 12 else ''}"
     )
     files = tuple(dict.fromkeys(part.path for part in parts))
-    return Campaign(table, files, kind, (*_said(parts), *notes)), forms[0]
+    notes = [*_said(parts), *notes]
+    return Campaign(table, files, kind, tuple(notes), tuple(without_tests)), forms[0]
 
 
 def _require_one_mix(parts: Sequence[Part]) -> None:
@@ -84,7 +98,7 @@ def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, 
     if len(sheets) == 1:
         return _sheet(path, sheets[0], chosen)
     parts: list[Part] = []
-    skipped: list[str] = []
+    skipped: list[PassedOver] = []
     for one in sheets:
         # Errors and notes name the sheet as a part of the file's name.
         place = path.with_name(f"{path.name}, sheet {one.name}")
@@ -93,14 +107,14 @@ def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, 
         except InputError as error:
             if not isinstance(error, NotTests) and _names_tests(one.rows):
                 raise
-            skipped.append(f"sheet {one.name} of {path.name} ({_reason(error, place)})")
+            skipped.append(refused(f"sheet {one.name} of {path.name}", error, place))
     if not parts:
-        raise NotTests(f"{path}: no sheet holds tests; it has {', '.join(skipped)}; give a table of moduli.")
+        raise NotTests(f"{path}: no sheet holds tests; it has {listed(skipped)}; give a table of moduli.")
     read = list(dict.fromkeys(part.source.rpartition(", sheet ")[2] for part in parts))
     notes.append(
         f"{counted(len(read), 'sheet')} of {path.name} read: {', '.join(read)}; --sheet takes one alone"
     )
-    notes += [f"skipped {one}" for one in skipped]
+    notes += [f"skipped {listed([one])}" for one in skipped]
     return [replace(part, path=path) for part in parts]
 
 
@@ -110,7 +124,10 @@ def _sheet(path: Path, sheet: Sheet, chosen: Mapping[str, str] | None, alone: bo
     require_rows(path, sheet.rows)
     exported = blocks(path, sheet.rows, notes, path.stem if alone else str(sheet.name))
     if exported:
-        return [Part(path, understand(one.cells, chosen), True, one.repeated, one.tested) for one in exported]
+        return [
+            Part(path, understand(one.cells, chosen), True, one.repeated, one.tested, one.contested)
+            for one in exported
+        ]
     cells = as_cells(path, headed(sheet.rows, notes), notes)
     if not alone:
         if of_other_sheets(str(sheet.name), cells):
@@ -124,36 +141,38 @@ def _sheet(path: Path, sheet: Sheet, chosen: Mapping[str, str] | None, alone: bo
 
 def _folder(
     folder: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, str] | None
-) -> list[Part]:
-    """Tests of the files in a folder; a file that holds none is passed over, with the reason in the notes."""
+) -> tuple[list[Part], str]:
+    """Tests of the files in a folder, and a sentence on those that hold none, which the notes name too."""
     inside = sorted(path for path in folder.iterdir() if not path.name.startswith((".", "~$")))
     if len(inside) > MOST_FILES:
         raise InputError(f"{folder}: more than {MOST_FILES} files; give the folder of one campaign.")
     parts: list[Part] = []
-    skipped: list[str] = []
+    others: list[PassedOver] = []
+    empty: list[PassedOver] = []
     for path in inside:
         if path.is_dir():
-            skipped.append(f"{path.name} (a folder; name it too if it belongs to the campaign)")
+            others.append(PassedOver(path.name, "a folder; name it too if it belongs to the campaign"))
         elif path.suffix.lower() not in TABLES:
-            skipped.append(f"{path.name} (neither CSV, TSV, TXT nor XLSX)")
+            table = path.suffix.lower() in OTHER_TABLES or _holds_tests(path, sheet)
+            known = PassedOver(path.name, "neither CSV, TSV, TXT nor XLSX", SAVE_AS)
+            (empty if table else others).append(known)
         else:
             try:
                 parts += _file(path, notes, sheet, chosen)
             except InputError as error:
                 if not isinstance(error, NotTests) and _meant(path, sheet):
                     raise
-                skipped.append(f"{path.name} ({_reason(error, path)})")
+                text = isinstance(error, NotTests) and path.suffix.lower() in TEXTS
+                (others if text else empty).append(refused(path.name, error, path))
     if not parts:
-        held = "; it holds " + ", ".join(skipped) if skipped else ""
-        raise InputError(
-            f"{folder}: no file with tests{held}; give the machine's exports or a table of moduli."
-        )
-    notes += [f"skipped {one}" for one in skipped]
-    return parts
-
-
-def _reason(error: InputError, path: Path) -> str:
-    return str(error).removeprefix(f"{path}: ").partition(" (found:")[0].partition("; ")[0]
+        held = f"; it holds {listed([*empty, *others])}" if empty or others else ""
+        mend = common_mend(empty) or "give the machine's exports or a table of moduli."
+        if not empty and any(path.is_dir() for path in inside):
+            mend = "give the folders in it by their own names."
+        raise InputError(f"{folder}: no file with tests{held}; {mend}")
+    notes += [f"skipped {listed([one])}" for one in (*others, *empty)]
+    files = len({part.path for part in parts}) + len(empty)
+    return parts, f"{len(empty)} of {files} files gave no test: {listed(empty)}." if empty else ""
 
 
 def _meant(path: Path, sheet: str | None) -> bool:
@@ -162,10 +181,17 @@ def _meant(path: Path, sheet: str | None) -> bool:
     A CSV or XLSX file that cannot even be opened may hold tests; running text may not.
     """
     try:
-        sheets = read_sheets(path, sheet)
+        return any(_names_tests(one.rows) for one in read_sheets(path, sheet))
     except InputError:
-        return path.suffix.lower() not in (".txt", ".dat")
-    return any(_names_tests(one.rows) for one in sheets)
+        return path.suffix.lower() not in TEXTS
+
+
+def _holds_tests(path: Path, sheet: str | None) -> bool:
+    """Whether a file with an unknown ending is a table that names a modulus or a force with its unit all the same."""
+    try:
+        return any(_names_tests(one.rows) for one in read_sheets(path, sheet))
+    except InputError:
+        return False
 
 
 def _names_tests(rows: list[Row]) -> bool:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells, Row
-from asphalt_nscd.table_import.names import celsius, specimen_of
-from asphalt_nscd.table_import.quantities import ABSENT, Column, recognise
+from asphalt_nscd.table_import.names import celsius, of_file, specimen_of
+from asphalt_nscd.table_import.quantities import ABSENT, Column, recognise, unit_in
+from asphalt_nscd.table_import.targets import Header, decided, median_reading
 
-FAR_FROM_TARGET = 3.0  # K; T 378 lets a test stray by 0.5 K
 _HERTZ = re.compile(r"(\d+(?:[.,]\d+)?)\s*(?:Hz)?", re.IGNORECASE)
 _IDENTIFICATION = (
     "identification",
@@ -24,6 +24,7 @@ _IDENTIFICATION = (
 )
 _TARGET = ("target test temperature", "target temperature", "set temperature", "nominal temperature")
 _CONSTANT = ("test temperature", "temperature", "chamber temperature")
+_NEEDED = {"E_MPa": "moduli", "phase_deg": "phases"}
 _COMMENTS = ("comments", "comment", "remarks")
 _DATE = (
     "test date and time",
@@ -42,11 +43,13 @@ class Block:
     """The tests of one specimen at one temperature, as a table with one row for each test.
 
     repeated: the operator marked the file or the specimen as a repetition. tested: when, as the header has it.
+    contested: the temperature [degC] that its name or its header says beside the one taken.
     """
 
     cells: Cells
     repeated: bool = False
     tested: str = ""
+    contested: str = ""
 
 
 @dataclass
@@ -80,26 +83,36 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
     called: name of the file or the sheet, which stands for that of the specimen if the header has none.
     """
     header, found, at = _Header(), [], 0
+    several = sum(bool(_frequencies(cells)) or _names_columns(cells) for _, cells in rows) > 1
     while at < len(rows):
         line, cells = rows[at]
         frequencies = _frequencies(cells)
         if frequencies:
             taken = _results(path, rows[at + 1 :], len(frequencies))
+            _require_whole(path, frequencies, taken, rows[at + 1 + len(taken) :])
             said = list(notes)
-            found.append(_as_block(path, header, _turned(path, line, cells, taken, said), said, called))
+            table = _turned(path, line, cells, taken, said)
+            found.append(_as_block(path, header, table, said, called, several))
             at += 1 + len(taken)
         elif _names_columns(cells) and header.first((*_IDENTIFICATION, *_TARGET)):
             table = _listed(path, cells, rows[at + 1 :])
-            found.append(_as_block(path, header, table, notes, called))
+            found.append(_as_block(path, header, table, notes, called, several))
             at += 1 + len(table.rows)
         else:
             if not _names_columns(cells):
                 header.take(cells)
             at += 1
     if not found and header.first(_IDENTIFICATION) and header.first(_TARGET):
+        for line, cells in rows:
+            if sum("hz" in cell.casefold() for cell in cells) > 1:
+                wrong = next((cell for cell in cells[1:] if not _frequencies(["", cell])), "")
+                raise InputError(
+                    f"{path}, line {line}: {wrong!r} stands among the frequencies and is none; if decimals are "
+                    "written with a comma, separate the columns with semicolons."
+                )
         raise InputError(
-            f"{path}: a machine export without its line of frequencies; export it anew, or write a line such as "
-            "`,25 Hz,10 Hz,1 Hz` above the moduli."
+            f"{path}: a machine export without its line of frequencies; if the file ends early, export it anew, else "
+            "write a line such as `,25 Hz,10 Hz,1 Hz` above the moduli."
         )
     return found
 
@@ -153,6 +166,28 @@ def _results(path: Path, rows: list[Row], count: int) -> list[Row]:
     return taken
 
 
+def _require_whole(path: Path, frequencies: list[str], taken: list[Row], rest: list[Row]) -> None:
+    """Refuse the results with which a file ends if they lack a row, or a part of the last one: it was cut off."""
+    if len(rest) > 1 or (rest and len(rest[0][1]) > len(frequencies)):
+        return
+    named = {column.quantity for _, cells in taken if (column := _recognised(cells[0]))}
+    line, last = (taken + rest)[-1] if taken or rest else (0, [""])
+    quantity = column.quantity if (column := _recognised(last[0])) else ""
+    missing = frequencies[len(last) - 1 :]
+    longer = any(len(cells) > len(last) for _, cells in taken)
+    if quantity in (*_NEEDED, "temperature_C") and missing and longer:
+        raise InputError(
+            f"{path}, line {line}: the file ends early: {last[0]} has no value for {', '.join(missing)} Hz; export "
+            "it anew."
+        )
+    lacking = [word for name, word in _NEEDED.items() if name not in named]
+    unknown = any(_recognised(cells[0]) is None for _, cells in taken)  # which may stand for it
+    if lacking and not unknown and "F0_N" not in named:
+        raise InputError(
+            f"{path}: the file ends early, without a row of {' and of '.join(lacking)}; export it anew."
+        )
+
+
 def _turned(path: Path, line: int, frequencies: list[str], rows: list[Row], notes: list[str]) -> Cells:
     """The results with one line for each frequency, which stands above two columns only if these are equal."""
     header = ["frequency (Hz)", *(cells[0] for _, cells in rows)]
@@ -189,7 +224,9 @@ def _listed(path: Path, names: list[str], rows: list[Row]) -> Cells:
     return Cells(path, names, taken)
 
 
-def _as_block(path: Path, header: _Header, results: Cells, notes: list[str], called: str) -> Block:
+def _as_block(
+    path: Path, header: _Header, results: Cells, notes: list[str], called: str, several: bool
+) -> Block:
     """The results with what the header says of all of them: specimen, target temperature, origin."""
     notes = [note for note in notes if not note.startswith("columns separated")]
     columns = [_recognised(name) for name in results.header]
@@ -205,38 +242,20 @@ def _as_block(path: Path, header: _Header, results: Cells, notes: list[str], cal
     if len(rows) < len(results.rows):
         notes.append(f"frequencies without a modulus left out: {len(results.rows) - len(rows)}")
     reading = columns[held["temperature_C"]] if "temperature_C" in held else None
-    target, temperature_label = _temperature(header, reading)
     known = header.first(_IDENTIFICATION)
-    text = known[1] if known else re.sub(r"[_\s-]*Sum(mary)?$", "", called, flags=re.IGNORECASE)
-    unit = temperature_label.rstrip(")")[-1:]  # as `_temperature` writes it
-    name = specimen_of(text, None if target is None else celsius(target, unit))
-    if target is None and reading is None:
-        if name.temperature is None:
-            raise InputError(
-                f"{path}: no temperature; add a line 'Target test temperature (°C)' above the frequencies."
-            )
-        target, temperature_label = name.temperature, "target temperature (°C)"
-        notes.append("temperature taken from the name of the specimen")
-    if (
-        name.contradicts
-        and target
-        and unit == "C"
-        and not specimen_of(text, celsius(target, "F")).contradicts
-    ):
-        raise InputError(
-            f"{path}: the name {text!r} says {name.temperature} °C and the header {target}, which is the same in "
-            "degrees Fahrenheit; write the unit (F) behind the temperature in the header."
-        )
-    _require_near(path, target, unit, reading, held, rows)
-    if name.contradicts:
-        notes.append(
-            f"the name {text!r} says {name.temperature} °C, the header {target}; the header is taken"
-        )
+    stem = of_file(called)
+    text = known[1] if known else stem
+    reached = median_reading(rows, held.get("temperature_C"), reading.unit if reading else None)
+    # The name of a file with several blocks says no more than where it begins.
+    names = [text] if several else list(dict.fromkeys([text, stem]))
+    target = decided(path, _target(path, header, reading), names, reached, notes)
+    unit = "" if target is None else target.column.rstrip(")")[-1:]
+    name = specimen_of(text, None if target is None else celsius(target.text, unit))
     comments = header.first(_COMMENTS)
     synthetic = comments is not None and comments[1].casefold().startswith("synthetic")
     constants = {"specimen": name.specimen}
     if target is not None:
-        constants[temperature_label] = target
+        constants[target.column] = target.text
     if synthetic:
         constants["origin"] = "synthetic"
     repeated = name.repeated or specimen_of(called, None).repeated
@@ -247,45 +266,20 @@ def _as_block(path: Path, header: _Header, results: Cells, notes: list[str], cal
         notes,
     )
     day, time = header.first(_DATE), header.first(("test time", "time"))
-    return Block(cells, repeated, " ".join(said[1] for said in (day, time) if said) if day else "")
+    when = " ".join(said[1] for said in (day, time) if said) if day else ""
+    return Block(cells, repeated, when, "" if target is None else target.contested)
 
 
-def _require_near(
-    path: Path,
-    target: str | None,
-    unit: str,
-    reading: Column | None,
-    held: Mapping[str, int],
-    rows: list[Row],
-) -> None:
-    """Refuse a target that the measured temperatures are far from: the header of another test was left in it."""
-    if target is None or reading is None or (reading.unit or "")[-1:] not in ("C", "F", "K"):
-        return
-    of_reading = str(reading.unit)[-1:]
-    texts = [row[held["temperature_C"]] for _, row in rows]
-    if not all(re.fullmatch(r"[-−]?\d+(?:[.,]\d+)?", text) for text in texts):
-        return  # refused further on
-    measured = sorted(celsius(text.replace("−", "-"), of_reading) for text in texts)
-    middle = measured[len(measured) // 2]
-    if abs(middle - celsius(target, unit)) > FAR_FROM_TARGET:
-        raise InputError(
-            f"{path}: the target temperature is {target} {unit} and {middle:.3g} C was measured; correct the target "
-            "in the header."
-        )
-
-
-def _temperature(header: _Header, reading: Column | None) -> tuple[str | None, str]:
-    """Target temperature as the header has it, and the name of a column for it.
-
-    A target without a unit is in that of the measured temperature, or else in degC.
-    """
+def _target(path: Path, header: _Header, reading: Column | None) -> Header | None:
+    """Target temperature as the header has it; without a unit it is in that of the measured one, or else in degC."""
     found = header.first(_TARGET) or header.first(_CONSTANT)
-    if found is None:
-        return None, ""
-    label, value = found
-    match = re.fullmatch(r"([-−]?\d+(?:[.,]\d+)?)\s*[°º]?\s*([CFK])?", value)
-    if match is None:
-        return None, ""
-    unit = header.units.get(label) or match[2] or (reading.unit if reading and reading.unit else "C")
-    name = f"{label} ({unit})" if label in _TARGET else f"target temperature ({unit})"
-    return match[1].replace("−", "-"), name
+    match = re.fullmatch(r"([-−]?\d+(?:[.,]\d+)?)\s*[°º]?\s*([CFK])?", found[1]) if found else None
+    if found is None or match is None:
+        return None
+    label = found[0]
+    said = header.units.get(label) or match[2] or (reading.unit if reading and reading.unit else "C")
+    unit = unit_in(f"x ({said})")
+    if unit not in ("C", "F", "K"):
+        raise InputError(f"{path}: {said!r} is no unit of the {label}; give one of C, K, F in the header.")
+    name = label if label in _TARGET else "target temperature"
+    return Header(match[1].replace("−", "-"), unit, f"{name} ({unit})")

@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-_TEMPERATURE = re.compile(r"[-_ ,]+([-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\s*)?([CF])(?![A-Za-z0-9])")
+_TEMPERATURE = re.compile(  # not the grade of a binder, `PG64-28C`
+    r"(?<!PG\d\d)(?<!PG \d\d)[-_ ,]+([-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\s*)?([CF])(?![A-Za-z0-9])"
+)
 _REPEATED = re.compile(
     r"[-_ ]*\b(?:repeat(?:ed)?|rerun|re-?test(?:ed)?|redo(?:ne)?)\b[-_ \d]*$", re.IGNORECASE
 )
@@ -14,7 +16,7 @@ _SAME = 1.0  # K between a temperature in a name and the target it means
 
 @dataclass(frozen=True)
 class Name:
-    """A specimen, the temperature that stood in its name (as text), and what the operator remarked.
+    """A specimen, the temperature that stood in its name ([degC], as text), and what the operator remarked.
 
     contradicts: the name gives another temperature than the header.
     """
@@ -39,13 +41,36 @@ def specimen_of(text: str, target: float | None) -> Name:
     repeated = _REPEATED.search(tail) is not None
     stem = plain if match is None else plain[: match.start()]
     stem = _REPEATED.sub("", stem).strip("-_ ,") or plain
-    temperature = None if match is None else match[1].replace("−", "-")
+    temperature = None if match is None else f"{_degrees(match):.4g}"
     return Name(stem, temperature, repeated, bool(match and target is not None and not same))
 
 
 def _is(match: re.Match[str], target: float) -> bool:
-    value = celsius(match[1].replace("−", "-").replace(",", "."), match[2])
+    value = _degrees(match)
     return min(abs(value - target), abs(abs(value) - abs(target))) <= _SAME
+
+
+def of_file(stem: str) -> str:
+    """What an export's file is called, without the machine's mark of a summary."""
+    return re.sub(r"[_\s-]*Sum(mary)?$", "", stem, flags=re.IGNORECASE)
+
+
+def one_of_another(first: str, second: str) -> bool:
+    """Whether two names are of two specimens of one series: `Mix-B` and `Mix-C`, `K10` and `K11`."""
+    return spelling(first) != spelling(second) and _series(first) == _series(second)
+
+
+def spelling(name: str) -> str:
+    """A name without what people write now one way and now another: capitals, blanks, hyphens."""
+    return re.sub(r"[\W_]+", "-", name.casefold())
+
+
+def _series(name: str) -> str:
+    return re.sub(r"\d+|\b[^\W\d_]\b", "#", spelling(name))
+
+
+def _degrees(match: re.Match[str]) -> float:
+    return celsius(match[1].replace("−", "-"), match[2])
 
 
 def celsius(text: str, unit: str) -> float:

@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import combinations
+from math import exp, log
 from pathlib import Path
+from statistics import median
 
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.table_import.dates import later
+from asphalt_nscd.table_import.names import of_file, one_of_another, specimen_of, spelling
 from asphalt_nscd.table_import.understand import Understood
 
 _FIGURES = 4  # digits in which two files that hold the same tests agree
+_RETEST = log(1.5)  # of |E*|, median over frequencies; specimens of a mix differ by a tenth or so
+_LEAST = 2  # frequencies for that: of one, the retest may be the mend
 
 
 @dataclass(frozen=True)
 class Part:
     """Tests of one file or sheet, or of one block of an export.
 
-    tested: when, as the header has it. repeated: whether it was marked as a repetition.
+    tested: when, as the header has it. repeated: whether it was marked as a repetition. contested: see `Block`.
     """
 
     path: Path
@@ -25,6 +32,7 @@ class Part:
     exported: bool
     repeated: bool = False
     tested: str = ""
+    contested: str = ""
 
     @property
     def source(self) -> str:
@@ -54,8 +62,27 @@ def without_copies(parts: list[Part], notes: list[str]) -> list[Part]:
     return kept
 
 
+def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
+    """Parts in which exports that spell one specimen differently, `Mix-A` and `mix a`, give it one name."""
+    first: dict[str, str] = {}
+    others: dict[str, list[str]] = {}
+    kept = []
+    for part in parts:
+        table = part.read.table
+        names = table.columns["specimen"]
+        one = [first.setdefault(spelling(name), name) for name in names] if part.exported else names
+        if one != names:
+            others.setdefault(one[0], []).append(names[0])
+            table = replace(table, columns=table.columns | {"specimen": one})
+        kept.append(part if one == names else replace(part, read=replace(part.read, table=table)))
+    for name, spelt in others.items():
+        notes.append(f"{', '.join(dict.fromkeys(spelt))} taken for specimen {name}, spelt otherwise")
+    return kept
+
+
 def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
     """Parts in which no two files or sheets give one test: that of the later date, or marked as repeated, is kept."""
+    _require_alike(parts)
     taken: dict[tuple[str, ...], int] = {}
     dropped: dict[tuple[int, int], list[tuple[str, ...]]] = {}  # by the part that lost and the one that won
     for place, part in enumerate(parts):
@@ -77,6 +104,52 @@ def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
     return kept
 
 
+def _require_alike(parts: list[Part]) -> None:
+    """Refuse two files that give one specimen at one temperature moduli too far apart for a retest."""
+    sweeps: dict[tuple[str, ...], dict[int, dict[tuple[str, ...], str]]] = {}
+    for place, part in enumerate(parts):
+        moduli = part.read.table.columns.get("E_MPa", [])
+        for (specimen, temperature, *test), modulus in zip(_tests(part), moduli, strict=bool(moduli)):
+            sweep = sweeps.setdefault((specimen, temperature), {}).setdefault(place, {})
+            sweep[tuple(test)] = modulus
+    for (specimen, temperature), held in sweeps.items():
+        for one, other in combinations(held, 2):
+            first, second = parts[one], parts[other]
+            common = held[one].keys() & held[other].keys()
+            if len(common) < _LEAST or (first.path, first.source) == (second.path, second.source):
+                continue
+            _require_one_specimen(first, second, specimen, temperature)
+            ratio = median(_ratio(held[other][test], held[one][test]) for test in common)
+            if abs(ratio) > _RETEST:
+                raise InputError(
+                    f"{second.source} and {first.source} both hold {specimen_named(specimen)} at {temperature} degC, "
+                    f"but |E*| in the first is {exp(ratio):.2g} times that in the second, which is too far apart for a "
+                    "retest: leave the wrong one out, or, if it is another specimen or temperature, correct the name "
+                    "and the header of its file."
+                )
+
+
+def _require_one_specimen(first: Part, second: Part, specimen: str, temperature: str) -> None:
+    """Refuse two files with one test if one of them is called after another specimen of the series."""
+    names = [specimen_of(of_file(part.path.stem), None).specimen for part in (first, second)]
+    others = [one_of_another(name, specimen) for name in names]
+    if others[0] == others[1] or not (first.exported and second.exported):
+        return
+    (wrong, name), right = ((first, names[0]), second) if others[0] else ((second, names[1]), first)
+    raise InputError(
+        f"{wrong.source} and {right.source} both hold {specimen_named(specimen)} at {temperature} degC, but the first "
+        f"is called {name}: correct the specimen in its header, or the name of the file."
+    )
+
+
+def _ratio(modulus: str, other: str) -> float:
+    """ln of a ratio; 0 for what is refused further on."""
+    try:
+        return log(float(modulus) / float(other))
+    except (ValueError, ZeroDivisionError):
+        return 0.0
+
+
 def _is_later(first: Part, second: Part, test: tuple[str, ...]) -> bool:
     """Whether of two parts with one test the second is to be used: by its date, else by the operator's mark."""
     after = later(first.tested, second.tested)
@@ -86,9 +159,9 @@ def _is_later(first: Part, second: Part, test: tuple[str, ...]) -> bool:
         specimen, temperature, frequency, *_ = test
         dates = "their dates do not tell" if first.tested and second.tested else "no date in both tells"
         raise InputError(
-            f"{first.source} and {second.source} both hold specimen {specimen} at {temperature} degC, {frequency} Hz, "
-            f"and {dates} which was tested later. The choice is yours: leave one of them out, end the specimen's name "
-            "in the later one with 'Repeated', or, if they are two specimens, rename one."
+            f"{first.source} and {second.source} both hold {specimen_named(specimen)} at {temperature} degC, "
+            f"{frequency} Hz, and {dates} which was tested later. The choice is yours: leave one of them out, "
+            "end the specimen's name in the later one with 'Repeated', or, if they are two specimens, rename one."
         )
     return second.repeated
 

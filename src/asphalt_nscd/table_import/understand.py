@@ -93,7 +93,10 @@ def _own(cells: Cells) -> Understood | None:
         return None
     columns = {name: [row[place] for _, row in cells.rows] for place, name in enumerate(cells.header)}
     form = "records" if "record" in names else "moduli"
+    if "specimen" not in names and "replicate" in names:
+        columns["specimen"] = columns.pop("replicate")
     table = Table(cells.path, columns, [line for line, _ in cells.rows])
+    table.require(("specimen",))
     return Understood(table, form, [*cells.notes, "columns as `asphalt-nscd reduce` names them"])
 
 

@@ -125,7 +125,8 @@ def test_without_replicates_nothing_is_called_right_or_established(page, results
     assert "scatter by 1 % and 0.5°. Everything" in page()
     html = page(verdict="nothing_to_explain", ladder=[], tested=False, scatter=alone)
     assert (
-        "Nothing was found, but these data cannot judge the simulation." in html
+        "cannot judge the simulation: nothing was found, but the scatter from test to test is not known. Test"
+        in html
         and "fits these data" not in html
     )
     assert "scatter by 1 % and 0.5° as far as a smooth law can tell, for nothing was repeated." in html

@@ -22,6 +22,7 @@ from asphalt_nscd.diagnosis.written import (
     three_digits,
 )
 from asphalt_nscd.files.csvinput import read_csv
+from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.pages import plots, specimen_plots
 from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE, environment
@@ -114,6 +115,7 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
     found = content.get("instructions", {"orders": [], "costs": ""})
     return {
         "test": sentences.test_type(content),
+        "files": sentences.files(content),
         "data": sentences.on_data(content),
         "simulation": sentences.on_simulation(content, left),
         "not_used": [(sentences.place_of_test(one), one["reasons"]) for one in sentences.not_used(content)],
@@ -225,7 +227,7 @@ def _baseline(baseline: dict[str, Any]) -> list[list[str]]:
 
 def _unexplained(row: dict[str, Any]) -> list[str]:
     numbers = ("frequency_Hz", "residual_E_percent", "residual_phase_deg", "z")
-    specimen = f"specimen {row['specimen']}, set aside" if "specimen" in row else "mean"
+    specimen = f"{specimen_named(row['specimen'])}, set aside" if "specimen" in row else "mean"
     return [place_name(row["temperature_C"]), *(_number(row[name]) for name in numbers), specimen]
 
 

@@ -17,7 +17,7 @@ from asphalt_nscd.diagnosis.written import (
     read_residuals,
     three_digits,
 )
-from asphalt_nscd.files.words import counted
+from asphalt_nscd.files.words import counted, specimen_named
 from asphalt_nscd.reporting.figures.numbers import celsius, minus
 from asphalt_nscd.reporting.pages.svg import (
     HINT,
@@ -153,7 +153,7 @@ def _map(tests: pd.DataFrame, means: pd.DataFrame, quantity: str, when: str) -> 
 def _words(test: dict[str, float | str]) -> str:
     modulus, phase = (f"{three_digits(float(test[name]))}" for name in ("E_MPa", "phase_deg"))
     return (
-        f"specimen {test['specimen']}, {celsius(float(test['temperature_C']))}, {test['frequency_Hz']:g} Hz: "
-        f"|E*| {modulus} MPa, phase {minus(phase)}°; measured less simulated "
+        f"{specimen_named(str(test['specimen']))}, {celsius(float(test['temperature_C']))}, "
+        f"{test['frequency_Hz']:g} Hz: |E*| {modulus} MPa, phase {minus(phase)}°; measured less simulated "
         f"{signed(float(test['residual_E_after_percent']))} %, {signed(float(test['residual_phase_after_deg']))}°"
     )

@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 
 from asphalt_nscd.diagnosis.written import read_causality, read_diagnosis, three_digits
-from asphalt_nscd.files.words import counted
+from asphalt_nscd.files.words import counted, specimen_named
 from asphalt_nscd.reporting.figures.numbers import celsius, minus
 from asphalt_nscd.reporting.pages.svg import (
     MODULUS,
@@ -94,7 +94,7 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
         worst = worst.sort_values(["temperature_C", "frequency_Hz"])
         every = [_cell(row) for row in worst.to_dict("records")]
         if every:
-            label = f"Specimen {name}, {counted(len(every), 'test')}"
+            label = f"{specimen_named(str(name))}, {counted(len(every), 'test')}"
             plots.append(cells(f"{name}: phase less phase required (°)", label, every, largest))
     return Chart(
         "causality",
@@ -124,7 +124,7 @@ def _cell(row: dict) -> Cell:
 def _words(row: dict) -> str:
     modulus, phase = three_digits(float(row["E_MPa"])), minus(f"{row['phase_deg']:.1f}")
     words = (
-        f"specimen {row['specimen']}, {celsius(row['temperature_C'])}, {row['frequency_Hz']:g} Hz: "
+        f"{specimen_named(str(row['specimen']))}, {celsius(row['temperature_C'])}, {row['frequency_Hz']:g} Hz: "
         f"|E*| {modulus} MPa, phase {phase}°"
     )
     if pd.notna(row["phase_required_deg"]):

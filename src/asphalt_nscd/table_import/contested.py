@@ -1,0 +1,60 @@
+"""Exports whose name and header say two temperatures: their moduli beside those of the other specimens at each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import exp, log
+from statistics import median
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.parts import Part
+from asphalt_nscd.table_import.targets import FAR
+
+OFF = log(1.3)  # of |E*|, by which specimens of a mix hardly differ
+NEARER = 0.5  # of that, at the other temperature
+
+
+def refuse_mislabelled(parts: Sequence[Part]) -> None:
+    """Refuse an export whose moduli belong to the temperature that was not taken for it."""
+    for part in parts:
+        if not part.contested:
+            continue
+        others = [one for one in parts if _specimens(one).isdisjoint(_specimens(part))]
+        columns = part.read.table.columns
+        taken = float(columns.get("nominal_temperature_C", columns["temperature_C"])[0])
+        contested = float(part.contested)
+        off, other = _apart(part, others, taken), _apart(part, others, contested)
+        if off is not None and other is not None and abs(off) > OFF and abs(other) < NEARER * abs(off):
+            raise InputError(
+                f"{part.path}: its name and its header say {contested:g} and {taken:g} degC, and the measured "
+                f"temperature speaks for {taken:g} degC; but |E*| is {exp(off):.2f} times that of the other specimens "
+                f"at {taken:g} degC and {exp(other):.2f} times at {contested:g} degC: correct header, readings or name."
+            )
+
+
+def _specimens(part: Part) -> set[str]:
+    return set(part.read.table.columns["specimen"])
+
+
+def _tests(part: Part) -> Iterator[tuple[float, float, float]]:
+    """Temperature [degC], frequency [Hz] and |E*| [MPa] of each test; none where a cell is refused further on."""
+    columns = part.read.table.columns
+    temperature = columns.get("nominal_temperature_C", columns["temperature_C"])
+    for test in zip(temperature, columns["frequency_Hz"], columns.get("E_MPa", []), strict=False):
+        try:
+            t, f, modulus = map(float, test)
+        except ValueError:
+            continue
+        if modulus > 0.0:
+            yield t, f, modulus
+
+
+def _apart(part: Part, others: Sequence[Part], at: float) -> float | None:
+    """Median ln |E*| of a part over that of the others at a temperature; None if they were not tested there."""
+    known: dict[float, list[float]] = {}
+    for one in others:
+        for t, f, modulus in _tests(one):
+            if abs(t - at) <= FAR:
+                known.setdefault(f, []).append(log(modulus))
+    apart = [log(modulus) - median(known[f]) for _, f, modulus in _tests(part) if f in known]
+    return median(apart) if apart else None

@@ -1,0 +1,63 @@
+"""Phases with the wrong sign are found; negative phases that a machine or a stiff mix makes are left alone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from test_slips import FREQUENCIES, campaign
+
+from asphalt_nscd.measurements.signs import wrong_sign
+
+SWEEP = "specimen == 'B' and temperature_C == 21.0"
+
+
+def with_phases(phases, rows=SWEEP):
+    table = campaign()
+    table.loc[table.eval(rows), "phase_deg"] = phases
+    return table
+
+
+def test_a_right_table_has_none():
+    assert wrong_sign(campaign()) is None
+
+
+@pytest.mark.parametrize("place", range(6))
+def test_one_phase_with_the_wrong_sign(place):
+    phases = np.array([30.0, 29.0, 28.0, 26.0, 25.0, 24.0])
+    phases[place] *= -1.0
+    row, said = wrong_sign(with_phases(phases))
+    table = campaign()
+    assert table.eval(SWEEP)[row] and table["frequency_Hz"][row] == FREQUENCIES[place]
+    assert said.startswith(
+        f"the phase at {FREQUENCIES[place]:g} Hz is {phases[place]:.3g} deg, and the other "
+    )
+    assert said.endswith("deg: the sign is wrong; correct it.") and "specimen B at 21 degC" in said
+
+
+def test_all_phases_of_one_sweep_with_the_wrong_sign():
+    row, said = wrong_sign(with_phases([-20.0, -19.0, -18.0, -18.0, -17.0, -16.0]))
+    assert campaign().eval(SWEEP)[row]
+    assert said.startswith("all phases of specimen B at 21 degC are negative (median -18 deg)")
+
+
+def test_two_of_one_sweep_name_the_first():
+    row, said = wrong_sign(with_phases([30.0, -29.0, 28.0, -26.0, 25.0, 24.0]))
+    assert campaign()["frequency_Hz"][row] == 0.5 and "-29" in said
+
+
+@pytest.mark.parametrize("delay", [1e-3, 2e-3, 3e-3, 4e-3, 6e-3])
+def test_a_delay_of_the_force_is_no_wrong_sign(delay):
+    phases = np.array([18.0, 18.0, 17.5, 17.0, 16.5, 16.0]) - 360.0 * delay * FREQUENCIES
+    assert wrong_sign(with_phases(phases)) is None
+
+
+@pytest.mark.parametrize(
+    "phases",
+    [
+        [3.0, 2.0, 1.5, 0.8, -0.4, -1.2],  # noise about zero
+        [18.0, 17.0, 17.0, 16.0, 15.0, -4.0],  # a bad test, and no sign makes it right
+        [18.0, 17.0, 17.0, 16.0, 15.0, -40.0],
+    ],
+)
+def test_other_negative_phases_are_left_to_the_diagnosis(phases):
+    assert wrong_sign(with_phases(phases)) is None
