@@ -10,7 +10,7 @@ import pytest
 import yaml
 from jsonschema import Draft202012Validator
 
-from asphalt_nscd.diagnosis import report, run
+from asphalt_nscd.diagnosis import gain, report, run
 from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA
 from asphalt_nscd.rheology.shift import Arrhenius
@@ -169,12 +169,12 @@ def test_an_isotherm_at_an_end_is_no_part_of_the_held_out_error(monkeypatch):
         logarithm=np.log(1e9) + 0.2j + np.zeros(6), temperature=temperature, isotherm=temperature
     )
     diagnosis = SimpleNamespace(observed=observed, noise=SimpleNamespace(sigma=(0.01, 0.01)))
-    monkeypatch.setattr(report, "_errors", lambda *_: {"mre_E_percent": {}, "mre_phase_percent": {}})
+    monkeypatch.setattr(gain, "errors", lambda *_: {"mre_E_percent": {}, "mre_phase_percent": {}})
     before = observed.logarithm + np.where(temperature == 10.0, 0.02, 0.5)
     after = observed.logarithm + np.where(temperature == 10.0, 0.01, 5.0)
-    error = report._pair(diagnosis, before, after, inner=True)["mre_E_percent"]
+    error = gain.before_and_after(diagnosis, before, after, inner=True)["mre_E_percent"]
     assert error == {"before": pytest.approx(2.02, abs=0.01), "after": pytest.approx(1.005, abs=0.001)}
-    assert report._pair(diagnosis, before, after)["mre_E_percent"]["after"] > 1000.0
+    assert gain.before_and_after(diagnosis, before, after)["mre_E_percent"]["after"] > 1000.0
 
 
 def test_residuals_are_logarithms_of_measured_over_simulated(diagnosed):

@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 from scipy.special import ndtr
 
-from asphalt_nscd.diagnosis import report
+from asphalt_nscd.diagnosis import report, rungs
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
@@ -121,7 +121,7 @@ def _tried(work: tuple[Diagnosis, Hidden, Trials]) -> dict[str, Any]:
         return row
     for rung in found.ladder.rungs:
         if rung.candidate.key == candidate.key:
-            value, error = report.amplitude(found, rung.candidate)
+            value, error = rungs.amplitude(found, rung.candidate)
             off = abs(value - candidate.values[0])
             row |= {
                 "named": 1,
@@ -133,7 +133,7 @@ def _tried(work: tuple[Diagnosis, Hidden, Trials]) -> dict[str, Any]:
     others = [
         rung.candidate for rung in found.ladder.rungs if rung.candidate.key not in {candidate.key, *before}
     ]
-    return row | {"named_instead": "; ".join(map(report.name_of, others))}
+    return row | {"named_instead": "; ".join(map(rungs.name_of, others))}
 
 
 def summarised(table: pd.DataFrame) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import (
     bond_mapping,
+    gain,
     levels,
     measured_limits,
     quality,
@@ -206,7 +207,7 @@ def conclude(
         )
     return Outcome(
         content,
-        report.residual_table(diagnosis, numerical, before),
+        gain.residual_table(diagnosis, numerical, before),
         suspects.table(observed, list(diagnosis.suspects), held),
         law,
         diagnosis,
@@ -229,14 +230,14 @@ def _begin_with_campaigns(
     else:
         after = bond_mapping.simulated(facets, observed)
         rung, sentence = bond_mapping.bond_mapping(
-            simulations, facets, report.averages(diagnosis, before, after)
+            simulations, facets, gain.averages(diagnosis, before, after)
         )
         if rung is None:
             content["notes"].append(sentence)
     for law in content["ladder"]:
         if law["cause"] == "relaxation_spectrum":
-            law["gain"]["in_sample"]["averages_by_temperature"] = report.averages(
-                diagnosis, after, report.with_common_law(diagnosis, specimen)
+            law["gain"]["in_sample"]["averages_by_temperature"] = gain.averages(
+                diagnosis, after, gain.with_common_law(diagnosis, specimen)
             )
     content["ladder"][:0] = [] if rung is None else [rung]
     return before
