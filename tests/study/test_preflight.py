@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -179,3 +181,11 @@ def test_packings_that_cannot_be_used(check, text, sentence):
     with pytest.raises(InputError, match=f"my.yaml: specimens.packings: .*{sentence}") as refused:
         check(specimens={"packings": ["pile.csv"]}, **left_out)
     assert "\n" not in str(refused.value)
+
+
+def test_a_study_is_checked_without_the_compiled_core():
+    """Snakemake does it at each start, also where little memory is left: jobs say so, in a sentence."""
+    said = (
+        "import sys, asphalt_nscd.study.preflight; print([m for m in ('numba', 'scipy') if m in sys.modules])"
+    )
+    assert subprocess.run([sys.executable, "-c", said], capture_output=True, text=True).stdout == "[]\n"

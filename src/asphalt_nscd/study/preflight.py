@@ -16,7 +16,6 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.geometry import read_geometry, require_within
 from asphalt_nscd.measurements.reduction import require_enough, tests_measured
 from asphalt_nscd.measurements.signals import require_steps
-from asphalt_nscd.packings.incoming import as_deposit, read_packing
 from asphalt_nscd.reporting.tables import table2, table4
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.specimen.counts import read_counts
@@ -56,6 +55,9 @@ def _check_specimens(specimens: Mapping[str, Any], source: str) -> None:
     with _at(f"{source}: specimens"):
         geometry = read_geometry(specimens["geometry"], ["s"])["s"]
     for path in specimens.get("packings", []):
+        # Only here, for it loads the compiled core, which no other study needs before its first job.
+        from asphalt_nscd.packings.incoming import as_deposit, read_packing
+
         with _at(f"{source}: specimens.packings"):
             given, _ = as_deposit(
                 read_packing(path), specimens.get("packing_unit"), specimens.get("packing_up", "z")
