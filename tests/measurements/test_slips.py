@@ -85,6 +85,35 @@ def test_exchanged_isotherms_of_one_specimen():
     assert said.startswith("specimen B is ") and "at 37 degC as at 21 degC" in said
 
 
+@pytest.mark.parametrize("specimens, every", [(3, " in every specimen, by 2.2"), (1, ", by 2.1")])
+def test_isotherm_that_lost_its_minus(specimens, every):
+    table = campaign(specimens)
+    table["temperature_C"] = table["temperature_C"].replace({-10.0: 10.0})
+    said = next(slips(table))
+    of = "" if specimens == 3 else " of specimen A"
+    assert said.startswith(
+        f"the tests{of} at 10 degC are stiffer than those at 4 degC at every frequency{every} times: was -10 "
+        "degC meant? correct the temperatures."
+    )
+
+
+def test_minus_lost_by_one_specimen_of_three():
+    table = campaign()
+    lost = (table["specimen"] == "B") & (table["temperature_C"] == -10.0)
+    table.loc[lost, "temperature_C"] = 10.0
+    assert "of specimen B at 10 degC are stiffer than those at 4 degC" in next(slips(table))
+
+
+@pytest.mark.parametrize("specimens, least", [(3, 1.25), (1, 1.45)])
+def test_one_specimen_must_be_stiffer_by_more_than_three(specimens, least):
+    table = campaign(specimens)
+    cold = table[table["temperature_C"] == 4.0].reset_index(drop=True)
+    for factor in (least / 1.25, least):
+        warm = cold.assign(temperature_C=10.0, E_MPa=factor * cold["E_MPa"])
+        found = list(slips(pd.concat([cold, warm])))
+        assert bool(found) == (factor == least)
+
+
 @pytest.mark.parametrize(
     "table",
     [

@@ -18,6 +18,10 @@ FACTORS = {"psi": 145.038, "ksi": 0.145038, "GPa": 1e-3, "kPa": 1e3, "kgf/cm2": 
 NEAR = 0.25  # of ln |E*|: a specimen is within a quarter of the others
 ALIKE = 0.35  # of ln |E*|: how far that ratio may vary over conditions
 STIFFER = np.log(1.8)  # by which no mix grows stiffer as it warms, whatever else is wrong with a test
+# Mean gain of a sweep where every test of it grew stiffer: three times what the level of one wobbles between isotherms.
+STIFFER_OF_ONE = np.log(1.4)  # for one specimen; the mean of several wobbles less
+SURE = 3.0  # standard errors of that mean
+MOST_GAIN = np.log(10.0)  # beyond it a unit is as likely wrong
 LEAST_STEP = 3.0  # K between two isotherms that are compared
 LEAST = 3  # shared conditions
 FALLING = (
@@ -43,6 +47,7 @@ def slips(table: pd.DataFrame) -> Iterator[str]:
     moduli = list(_units_of_moduli(table))
     yield from moduli
     if not moduli:
+        yield from _warmer_but_stiffer(table)
         yield from _order_of_isotherms(table)
         yield from _unit_of_all_moduli(table)
 
@@ -113,6 +118,29 @@ def _units_of_moduli(table: pd.DataFrame) -> Iterator[str]:
             )
         if whole and logarithm.shape[1] == 2:
             return  # the other one is as far from it, and one sentence says so
+
+
+def _warmer_but_stiffer(table: pd.DataFrame) -> Iterator[str]:
+    """Isotherms at which every specimen is stiffer than at a colder one, at every frequency."""
+    logarithm = _by_condition(table)
+    isotherms = logarithm.index.unique(level=0)
+    for cold in isotherms:
+        for warm in isotherms[isotherms >= cold + LEAST_STEP]:
+            apart = logarithm.loc[warm] - logarithm.loc[cold]
+            gains = apart.loc[:, apart.notna().sum() >= LEAST]
+            if gains.empty or not (gains.isna() | (gains > 0.0)).all(axis=None):
+                continue
+            means = gains.mean().to_numpy()
+            root = np.sqrt(means.size)
+            error = means.std(ddof=1) / root if means.size > 1 else 0.0
+            if max(STIFFER_OF_ONE / root, SURE * error) < means.mean() < MOST_GAIN:
+                one = f" of {specimen_named(str(gains.columns[0]))}" if means.size == 1 else ""
+                every = "at every frequency" + " in every specimen" * (means.size > 1)
+                minus = f"was -{warm:g} degC meant? " if warm > 0.0 and -warm < cold else ""
+                yield (
+                    f"the tests{one} at {warm:g} degC are stiffer than those at {cold:g} degC {every}, "
+                    f"by {np.exp(means.mean()):.2g} times: {minus}correct the temperatures."
+                )
 
 
 def _order_of_isotherms(table: pd.DataFrame) -> Iterator[str]:

@@ -6,7 +6,8 @@ import re
 from dataclasses import dataclass
 
 _TEMPERATURE = re.compile(  # not the grade of a binder, `PG64-28C`
-    r"(?<!PG\d\d)(?<!PG \d\d)(?:[-_ ,]+?(?=[-−]\d)|([-_ ,]+)|(?=−))([-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\s*)?([CF])(?![A-Za-z0-9])"
+    r"(?<!PG\d\d)(?<!PG \d\d)(?:[-_ ,]+?(?=[-−]\d)|([-_ ,]+)|(?=−))([-−]?\d+(?:[.,]\d+)?)"
+    r"\s*(?:[°º]\s*|deg\s*)?([CF])(?![A-Za-z0-9])"
 )
 _REPEATED = re.compile(
     r"[-_ ]*\b(?:repeat(?:ed)?|rerun|re-?test(?:ed)?|redo(?:ne)?)\b[-_ \d]*$", re.IGNORECASE
