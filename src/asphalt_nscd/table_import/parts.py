@@ -10,7 +10,7 @@ from statistics import median
 
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.words import specimen_named
+from asphalt_nscd.files.words import counted, specimen_named
 from asphalt_nscd.table_import.dates import later
 from asphalt_nscd.table_import.names import of_file, one_of_another, specimen_of, spelling
 from asphalt_nscd.table_import.understand import Understood
@@ -82,6 +82,7 @@ def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
 
 def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
     """Parts in which no two files or sheets give one test: that of the later date, or marked as repeated, is kept."""
+    _require_specimens_of_names(parts)
     _require_alike(parts)
     taken: dict[tuple[str, ...], int] = {}
     dropped: dict[tuple[int, int], list[tuple[str, ...]]] = {}  # by the part that lost and the one that won
@@ -93,15 +94,48 @@ def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
             worse, better = (other, place) if _is_later(parts[other], part, test) else (place, other)
             dropped.setdefault((worse, better), []).append(test)
             taken[test] = better
-    for (worse, better), tests in dropped.items():
-        notes.append(_said_of_repeated(parts[worse], parts[better], tests))
+    said = [
+        _said_of_repeated(parts[worse], parts[better], tests) for (worse, better), tests in dropped.items()
+    ]
     kept = []
     for place, part in enumerate(parts):
         lost = {test for (worse, _), tests in dropped.items() if worse == place for test in tests}
         rows = [n for n, test in enumerate(_tests(part)) if test not in lost]
         if rows:
             kept.append(part if not lost else replace(part, read=_only(part.read, rows)))
+    sources, used = ({(part.path, part.source) for part in some} for some in (parts, kept))
+    if unused := len(sources - used):
+        verb, each = ("is", "it") if unused == 1 else ("are", "each")
+        notes.append(
+            f"{unused} of {counted(len(sources), 'file')} {verb} not used: {each} was tested again later"
+        )
+    notes += said
     return kept
+
+
+def _require_specimens_of_names(parts: list[Part]) -> None:
+    """Refuse exports of one test whose names say several specimens of a series, each with its temperature."""
+    of_test: dict[tuple[str, ...], list[Part]] = {}
+    for part in parts:
+        for test in set(_tests(part)) if part.exported else ():
+            of_test.setdefault(test, []).append(part)
+    said: dict[str, dict[str, Part]] = {}
+    for (specimen, *_), several in of_test.items():
+        names = {}
+        for part in several:
+            name = specimen_of(of_file(part.path.stem), None)
+            if name.temperature is not None:
+                names[name.specimen] = part
+        alike = any(spelling(name) == spelling(specimen) for name in names)
+        if not alike and any(one_of_another(one, other) for one, other in combinations(names, 2)):
+            said.setdefault(specimen, {}).update(names)
+    for specimen, names in said.items():
+        files = {part.path.name for part in parts if specimen in part.read.table.columns["specimen"]}
+        first, *others = sorted(names)
+        raise InputError(
+            f"{min(files)} and {len(files) - 1} more: the file names say {', '.join([first, *others[:-1]])} and "
+            f"{others[-1]}, and the header says {specimen} in all; correct the Identification, or leave it empty."
+        )
 
 
 def _require_alike(parts: list[Part]) -> None:
