@@ -224,3 +224,23 @@ def test_what_reduce_wrote_is_taken_as_it_is(tmp_path):
 def test_one_specimen_is_one(tmp_path):
     (tmp_path / "t.csv").write_text("specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\nA,20,10,9000,20\n")
     assert "1 specimen: A" in read_campaign([tmp_path / "t.csv"])[0].notes
+
+
+def test_files_with_numbers_for_names_are_no_specimens(tmp_path):
+    grid = [(s, t) for s in range(2) for t in (4, 20)]
+    texts = [export(temperature=t, factor=1.0 + 0.1 * s).replace(f"Mix-A-{t}C", "") for s, t in grid]
+    save(tmp_path, **{str(n): text for n, text in enumerate(texts, start=1)})
+    with pytest.raises(InputError) as error:
+        read_campaign([tmp_path])
+    assert str(error.value) == (
+        f"{tmp_path}: 4 files, 4 specimens, each at one temperature only: write the specimen into Identification, or "
+        "into the names of the files as in K10_21C."
+    )
+    for n, (s, t) in enumerate(grid, start=1):
+        (tmp_path / f"{n}.csv").rename(tmp_path / f"K{s}_{t}C.csv")
+    assert set(read_campaign([tmp_path])[0].table.columns["specimen"]) == {"K0", "K1"}
+
+
+def test_files_with_numbers_for_names_at_one_temperature_are_specimens(tmp_path):
+    save(tmp_path, **{str(n): export("A", 4, n, name="").replace("Mix-A-4C", "") for n in (1, 2)})
+    assert set(read_campaign([tmp_path])[0].table.columns["specimen"]) == {"1", "2"}

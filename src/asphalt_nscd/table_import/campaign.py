@@ -18,6 +18,7 @@ from asphalt_nscd.table_import.headings import headed, require_rows, with_units
 from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
 from asphalt_nscd.table_import.passed_over import PassedOver, common_mend, listed, refused
 from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
+from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import (
     FURTHER,
     MAY_BE_ABSENT,
@@ -57,6 +58,7 @@ def read_campaign(
     parts = without_copies(sorted(parts, key=lambda part: not part.exported), notes)
     parts = with_one_spelling(parts, notes)
     refuse_mislabelled(parts)
+    _require_named_specimens(paths, parts)
     parts = without_repeated(parts, notes)
     _require_one_mix(parts)
     forms = sorted({part.read.form for part in parts})
@@ -80,6 +82,25 @@ def read_campaign(
     files = tuple(dict.fromkeys(part.path for part in parts))
     notes = [*_said(parts), *notes]
     return Campaign(table, files, kind, tuple(notes), tuple(without_tests)), forms[0]
+
+
+def _require_named_specimens(paths: Sequence[Path], parts: Sequence[Part]) -> None:
+    """Refuse exports without a specimen if every file, taken for one, was tested at one of several temperatures."""
+    if not parts or not all(part.unnamed for part in parts):
+        return
+    specimens = {part.read.table.columns["specimen"][0] for part in parts}
+    files = {part.path for part in parts}
+    at = [list(map(float, _isotherm(part.read.table))) for part in parts]
+    several = max(map(max, at)) - min(map(min, at)) > FAR
+    if len(specimens) == len(parts) == len(files) and several and all(max(t) - min(t) < FAR for t in at):
+        raise InputError(
+            f"{_called(paths)}: {len(files)} files, {len(specimens)} specimens, each at one temperature only: write the "
+            "specimen into Identification, or into the names of the files as in K10_21C."
+        )
+
+
+def _isotherm(table: Table) -> list[str]:
+    return table.columns.get("nominal_temperature_C", table.columns["temperature_C"])
 
 
 def _require_one_mix(parts: Sequence[Part]) -> None:
@@ -125,7 +146,15 @@ def _sheet(path: Path, sheet: Sheet, chosen: Mapping[str, str] | None, alone: bo
     exported = blocks(path, sheet.rows, notes, path.stem if alone else str(sheet.name))
     if exported:
         return [
-            Part(path, understand(one.cells, chosen), True, one.repeated, one.tested, one.contested)
+            Part(
+                path,
+                understand(one.cells, chosen),
+                True,
+                one.repeated,
+                one.tested,
+                one.contested,
+                one.unnamed,
+            )
             for one in exported
         ]
     cells = as_cells(path, headed(sheet.rows, notes), notes)

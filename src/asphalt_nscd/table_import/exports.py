@@ -43,13 +43,15 @@ class Block:
     """The tests of one specimen at one temperature, as a table with one row for each test.
 
     repeated: the operator marked the file or the specimen as a repetition. tested: when, as the header has it.
-    contested: the temperature [degC] that its name or its header says beside the one taken.
+    contested: the temperature [degC] that its name or its header says beside the one taken. unnamed: no header names
+    the specimen, and the name of the file says no temperature, so that it may be that of a test.
     """
 
     cells: Cells
     repeated: bool = False
     tested: str = ""
     contested: str = ""
+    unnamed: bool = False
 
 
 @dataclass
@@ -267,7 +269,8 @@ def _as_block(
     )
     day, time = header.first(_DATE), header.first(("test time", "time"))
     when = " ".join(said[1] for said in (day, time) if said) if day else ""
-    return Block(cells, repeated, when, "" if target is None else target.contested)
+    unnamed = known is None and name.temperature is None
+    return Block(cells, repeated, when, "" if target is None else target.contested, unnamed)
 
 
 def _target(path: Path, header: _Header, reading: Column | None) -> Header | None:

@@ -24,7 +24,8 @@ _LEAST = 2  # frequencies for that: of one, the retest may be the mend
 class Part:
     """Tests of one file or sheet, or of one block of an export.
 
-    tested: when, as the header has it. repeated: whether it was marked as a repetition. contested: see `Block`.
+    tested: when, as the header has it. repeated: whether it was marked as a repetition. contested, unnamed: see
+    `Block`.
     """
 
     path: Path
@@ -33,6 +34,7 @@ class Part:
     repeated: bool = False
     tested: str = ""
     contested: str = ""
+    unnamed: bool = False
 
     @property
     def source(self) -> str:
