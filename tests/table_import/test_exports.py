@@ -224,11 +224,12 @@ def test_frequency_without_a_result_is_left_out_and_said(tmp_path):
         ),
         (
             " Phase angle (Degrees),12.5",
-            ", line 16: the file ends early: Phase angle (Degrees) has no value for 10, 0.5 Hz; export it anew.",
+            ", line 16: the file ends early: Phase angle (Degrees) has no value for the frequencies "
+            "10, 0.5; export it anew.",
         ),
         (
             " Average temperature  (°C),4.1,4.0",
-            "Average temperature (°C) has no value for 0.5 Hz; export it anew.",
+            "Average temperature (°C) has no value for the frequencies 0.5; export it anew.",
         ),
     ],
 )
@@ -303,3 +304,21 @@ def test_specimen_without_temperature_and_remarks(text, target, specimen, repeat
     assert (name.specimen, name.contradicts) == (specimen, False)
     if "Repeat-" not in text:
         assert name.repeated == repeated
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "omega (rad/s),157.1,62.83,3.142",
+        ",157.1 rad/s,62.83 rad/s,3.142 rad/s",
+        "Frequency (rad/s),157.1,62.83,3.142",
+    ],
+)
+def test_frequencies_in_radians_per_second(tmp_path, line):
+    columns = read(tmp_path, EXPORT.replace(",25 Hz,10 Hz,0.5 Hz", line)).table.columns
+    assert [float(f) for f in columns["frequency_Hz"]] == pytest.approx([25.0, 10.0, 0.5], rel=1e-3)
+
+
+def test_frequencies_in_two_units_are_refused(tmp_path):
+    with pytest.raises(InputError, match=r"line 14: frequencies in both Hz and rad/s; give all in Hz\."):
+        read(tmp_path, EXPORT.replace(",25 Hz,10 Hz,0.5 Hz", ",157.1 rad/s,10 Hz,0.5 Hz"))

@@ -64,7 +64,7 @@ def _units_of_labels(table: pd.DataFrame) -> Iterator[str]:
     if frequency.size > LEAST and _short(frequency / FULL_CIRCLE).all() and not _short(frequency).any():
         yield (
             f"the frequencies {_listed(frequency)} are 2 pi times {_listed(frequency / FULL_CIRCLE)}: they look like "
-            "rad/s; divide them by 2 pi, or name the column 'omega (rad/s)'."
+            "rad/s; divide them by 2 pi, or name their column (in an export, their line) 'omega (rad/s)'."
         )
 
 

@@ -94,8 +94,8 @@ def _require_named_specimens(paths: Sequence[Path], parts: Sequence[Part]) -> No
     several = max(map(max, at)) - min(map(min, at)) > FAR
     if len(specimens) == len(parts) == len(files) and several and all(max(t) - min(t) < FAR for t in at):
         raise InputError(
-            f"{_called(paths)}: {len(files)} files, {len(specimens)} specimens, each at one temperature only: write the "
-            "specimen into Identification, or into the names of the files as in K10_21C."
+            f"{_called(paths)}: {len(files)} files, {len(specimens)} specimens, each at one temperature only: write "
+            "the specimen into Identification, or into the names of the files as in K10_21C."
         )
 
 
