@@ -83,13 +83,13 @@ def test_the_file_of_several_temperatures_may_be_called_after_one(tmp_path):
 def test_a_target_far_from_what_was_measured_is_refused(tmp_path):
     said = refusal(tmp_path, "Mix-7_Sum.csv", header="37", measured=4)
     assert (
-        "the target temperature is 37 degC and 4.1 degC was measured; correct the target in the header."
-        in said
+        "the target temperature is 37 degC and 4.1 degC was measured: which is right? If the measured one, write it as "
+        "the target; if the target, leave the cells of the readings empty." in said
     )
     said = refusal(tmp_path, "Mix-7-37C_Sum.csv", header="37", measured=0)
     assert (
-        "37 degC, as the name says, and 0.1 degC was measured; correct the readings, or leave their cells"
-        in said
+        "37 degC, as the name says, and 0.1 degC was measured: which is right? If the measured one, write it as the "
+        "target and into the name; if the target, leave the cells of the readings empty." in said
     )
 
 

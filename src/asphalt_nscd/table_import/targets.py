@@ -64,14 +64,10 @@ def decided(
     if other is None:
         if measured is not None and abs(measured - header.value) > FAR:
             named = any(specimen_of(text, header.value).temperature for text in names)
-            mend = (
-                "correct the readings, or leave their cells empty if nothing was recorded"
-                if named
-                else "correct the target in the header"
-            )
             raise InputError(
                 f"{path}: the target temperature is {header.text} {_unit(header)}{', as the name says,' * named} and "
-                f"{measured:.3g} degC was measured; {mend}."
+                f"{measured:.3g} degC was measured: which is right? If the measured one, write it as the target"
+                f"{' and into the name' * named}; if the target, leave the cells of the readings empty."
             )
         return Target(header.text, header.column)
     text, said = other
