@@ -180,7 +180,7 @@ BAD_TABLES = {
     ),
     "radians, cold": ([M, "A,-10,10,39000,.026"], "look like radians"),
     "psi in radians": ([P, "A,15,10,30,63e-6,.25"], "no psi_deg exceeds"),
-    "phase reversed": ([M, "A,15,10,20000,-14"], "phases are mostly negative"),
+    "phase reversed": ([M, "A,15,10,20000,-14"], "the force leads: remove the minus signs."),
     "z0 in micrometres": ([P, "A,15,10,50,63,14"], "line 2: z0_m = 63 is outside"),
     "z0 in mm under m": ([P, "A,15,10,50,1e-3,14", "A,15,25,50,.063,14"], "line 3: z0_m = 0.063 is outside"),
     "F0 in kN": ([P, "A,15,10,.05,63e-6,14"], "check F0 in N"),
