@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.measurements.slips import slips
+from asphalt_nscd.measurements.slips import slips, unit_in_question
 
 FREQUENCIES = np.array([0.1, 0.5, 1.0, 5.0, 10.0, 25.0])
 
@@ -175,3 +175,19 @@ def test_a_whole_table_in_another_unit_is_asked_for_it(unit, name):
 )  # fmt: skip
 def test_a_soft_table_that_may_be_true_goes_on(table):
     assert not list(slips(table))
+
+
+@pytest.mark.parametrize(
+    "unit, said",
+    [("ksi", "reaches 139000 MPa, too stiff"), ("psi", "reaches only 139 MPa, too soft")],
+)
+def test_megapascals_under_another_unit_are_asked_for(unit, said):
+    factor = {"ksi": 6.894757, "psi": 6.894757e-3}[unit]
+    assert unit_in_question(cold(), unit) is None
+    assert unit_in_question(cold(factor), unit) == (
+        f"read as {unit} |E*| {said} for asphalt; read as MPa it fits: is the unit MPa?"
+    )
+    assert unit_in_question(cold(factor**2), unit) is None  # MPa would not fit, either
+    warm = campaign()
+    warm.loc[0, "E_MPa"] = 3e5
+    assert unit_in_question(warm, unit) is None  # one slip is no unit

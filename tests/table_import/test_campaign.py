@@ -244,3 +244,17 @@ def test_files_with_numbers_for_names_are_no_specimens(tmp_path):
 def test_files_with_numbers_for_names_at_one_temperature_are_specimens(tmp_path):
     save(tmp_path, **{str(n): export("A", 4, n, name="").replace("Mix-A-4C", "") for n in (1, 2)})
     assert set(read_campaign([tmp_path])[0].table.columns["specimen"]) == {"1", "2"}
+
+
+@pytest.mark.parametrize("unit, said", [("psi", "only 62.1 MPa, too soft"), ("GPa", "9e+06 MPa, too stiff")])
+def test_megapascals_under_another_unit_are_asked_for(tmp_path, unit, said):
+    rows = [f"A,{t},{f},{9000 - 100 * t + 100 * f:g},{10 + t / 4}" for t in (5, 15) for f in (1, 5)]
+    save(tmp_path, t="\n".join([f"specimen,T (C),f (Hz),|E*| ({unit}),phi (deg)", *rows]))
+    with pytest.raises(InputError) as error:
+        read_campaign([tmp_path / "t.csv"])
+    assert str(error.value) == (
+        f"{tmp_path / 't.csv'}: read as {unit} |E*| reaches {said} for asphalt; read as MPa it fits: is the unit MPa? "
+        "Write it into the name of the column."
+    )
+    save(tmp_path, t="\n".join(["specimen,T (C),f (Hz),|E*| (MPa),phi (deg)", *rows]))
+    read_campaign([tmp_path / "t.csv"])

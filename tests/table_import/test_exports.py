@@ -130,14 +130,12 @@ def test_variants_of_labels_mean_the_same(tmp_path, old, new):
 
 @pytest.mark.parametrize(("unit", "factor"), [("ksi", 6.894757293), ("psi", 6.894757293e-3)])
 def test_american_units(tmp_path, unit, factor):
-    text = EXPORT.replace("modulus (MPa),9100,8000,5000", f"modulus ({unit}),9e5,8e5,5e5")
+    text = EXPORT.replace("modulus (MPa),9100,8000,5000", f"modulus ({unit}),3e6,2.6e6,1.6e6")
     text = text.replace("Average temperature  (°C),4.1,4.0,3.9", "Average temperature (°F),39.4,39.2,39")
     text = text.replace("Target test temperature,4", "Target test temperature,39.2").replace("4C", "39.2F")
-    columns = read(
-        tmp_path, text.replace("5e5", "5e5") if unit == "psi" else text.replace("e5", "e3")
-    ).table.columns
-    thousand = 1e5 if unit == "psi" else 1e3
-    assert float(columns["E_MPa"][0]) == pytest.approx(9 * thousand * factor, rel=1e-9)
+    columns = read(tmp_path, text if unit == "psi" else text.replace("e6", "e3")).table.columns
+    thousand = 1e6 if unit == "psi" else 1e3
+    assert float(columns["E_MPa"][0]) == pytest.approx(3 * thousand * factor, rel=1e-9)
     assert [float(text) for text in columns["nominal_temperature_C"]] == pytest.approx([4.0] * 3)
     assert columns["specimen"] == ["Mix-7"] * 3
 

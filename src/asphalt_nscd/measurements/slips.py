@@ -12,6 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from asphalt_nscd.files.words import specimen_named
+from asphalt_nscd.measurements.limits import LIMITS, least_modulus
 
 # What |E*| in another unit is of |E*| in MPa.
 FACTORS = {"psi": 145.038, "ksi": 0.145038, "GPa": 1e-3, "kPa": 1e3, "kgf/cm2": 10.1972}
@@ -35,6 +36,7 @@ FALL = 0.062  # of ln |E*| by a degree of phase
 PHASE_SEEN = 27.0  # deg
 GLASSY_OF_MIXES = (7e3, 1e5)  # MPa; no mix is beyond these
 USUAL_GLASSY = (14e3, 60e3)  # MPa, which a table in another unit must come to
+MOST_TESTS = 0.75  # of a table in the unit that it says; single ones may be wrong
 SMOOTH = 0.15  # of ln |E*|
 COLD = 25.0  # degC; at warmer ones the phase falls again as a mix grows softer
 
@@ -184,6 +186,26 @@ def _unit_of_all_moduli(table: pd.DataFrame) -> Iterator[str]:
         f"{told}, {'less' if middle < low else 'more'} than any asphalt has at such a phase: {likely} Write the unit "
         f"into the name of the column, as in E ({units[0] if units else 'ksi'})."
     )
+
+
+def unit_in_question(table: pd.DataFrame, unit: str) -> str | None:
+    """What to ask if |E*|, given in a unit and converted, is impossible, but as the numbers stand fits in MPa."""
+    as_megapascal = table.assign(E_MPa=table["E_MPa"] * FACTORS[unit])
+    if _possible(table, MOST_TESTS) or not _possible(as_megapascal, 1.0):
+        return None
+    reached = float(f"{table['E_MPa'].max():.3g}")
+    only, much = ("", "stiff") if FACTORS[unit] < 1.0 else ("only ", "soft")
+    return (
+        f"read as {unit} |E*| reaches {only}{reached:g} MPa, too {much} for asphalt; read as MPa "
+        "it fits: is the unit MPa?"
+    )
+
+
+def _possible(table: pd.DataFrame, share: float) -> bool:
+    """Whether |E*| of such a share of the tests is one that mixes have, and of all fits their phases."""
+    modulus, most = table["E_MPa"], LIMITS["E_MPa"].high
+    least = least_modulus(table["temperature_C"], table["frequency_Hz"])
+    return bool(modulus.between(least, most).mean() >= share) and not any(_unit_of_all_moduli(table))
 
 
 def _on_cold_side(tests: pd.DataFrame) -> bool:

@@ -6,11 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import pandas as pd
+
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.files.words import counted
-from asphalt_nscd.measurements.campaign import Campaign
+from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
+from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
 from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, as_cells, read_sheets
 from asphalt_nscd.table_import.contested import refuse_mislabelled
 from asphalt_nscd.table_import.exports import blocks
@@ -75,6 +78,7 @@ def read_campaign(
         )
     kind = test_type or ("tension-compression" if exported else "bending")
     table = _joined(paths, parts, notes)
+    _require_unit(paths, parts, table)
     specimens = list(dict.fromkeys(table.columns["specimen"]))
     notes.append(
         f"{counted(len(specimens), 'specimen')}: {', '.join(specimens[:12])}{', ...' if len(specimens) > 12 else ''}"
@@ -97,6 +101,22 @@ def _require_named_specimens(paths: Sequence[Path], parts: Sequence[Part]) -> No
             f"{_called(paths)}: {len(files)} files, {len(specimens)} specimens, each at one temperature only: write "
             "the specimen into Identification, or into the names of the files as in K10_21C."
         )
+
+
+def _require_unit(paths: Sequence[Path], parts: Sequence[Part], table: Table) -> None:
+    """Refuse moduli in another unit than MPa that are impossible in it and fit in MPa."""
+    units = {part.read.modulus_unit for part in parts}
+    unit = units.pop() if len(units) == 1 else ""
+    if unit not in FACTORS:
+        return
+    names = ("temperature_C", "frequency_Hz", "E_MPa", "phase_deg")
+    tests = pd.DataFrame({name: table.numbers(name) for name in names}).assign(
+        specimen=table.text("specimen")
+    )
+    tests["temperature_C"] = nominal_temperatures(table, tests["temperature_C"].to_numpy(float))
+    positive = (tests["frequency_Hz"] > 0.0).all() and (tests["E_MPa"] > 0.0).all()
+    if positive and (question := unit_in_question(tests, unit)):
+        raise InputError(f"{_called(paths)}: {question} Write it into the name of the column.")
 
 
 def _isotherm(table: Table) -> list[str]:

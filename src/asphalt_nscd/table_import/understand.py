@@ -34,6 +34,7 @@ class Understood:
     """A table in our columns and units, its form (a key of FORMS), and sentences on how it was read.
 
     sources: for each of our columns the user's, and the unit it was converted from. mix: its name, if a column says it.
+    modulus_unit: what |E*| was converted from, empty if it was in MPa.
     """
 
     table: Table
@@ -41,6 +42,7 @@ class Understood:
     notes: list[str]
     sources: dict[str, str] = field(default_factory=dict)
     mix: str = ""
+    modulus_unit: str = ""
 
 
 def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Understood:
@@ -79,7 +81,8 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
     order = ["specimen", "replicate", *KEYS, *FORMS[form], "origin", *FURTHER, *MAY_BE_ABSENT]
     wanted = [name for name in order if name in values]
     table = Table(cells.path, {name: values[name] for name in wanted}, [line for line, _ in cells.rows])
-    return Understood(table, form, notes, sources, mix)
+    modulus = kept.get("E_MPa", (0, Column("E_MPa", None)))[1]
+    return Understood(table, form, notes, sources, mix, (modulus.unit or "") if _converts(modulus) else "")
 
 
 def _converts(column: Column) -> bool:
