@@ -21,6 +21,15 @@ from asphalt_nscd.table_import.wide import melted, without_condition
 TEXTS = ("specimen", "replicate", "origin")
 KEYS = ("temperature_C", "frequency_Hz")
 FURTHER = ("nominal_temperature_C", "amplitude_m", "order", "cycles", "time_step_s")  # a diagnosis uses them
+_WORDS = {
+    "temperature_C": "temperature",
+    "frequency_Hz": "frequency",
+    "E_MPa": "|E*|",
+    "phase_deg": "phase",
+    "F0_N": "force",
+    "z0_m": "displacement",
+    "psi_deg": "phase between force and displacement",
+}
 MAY_BE_ABSENT = (*QUALITY, "microstrain")
 # Form, the angle that it lacks, the other one that stands there, and whose phase is wanted.
 _ANGLES = (
@@ -175,8 +184,10 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> str:
             )
     form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant
     nothing = {"E_MPa", "F0_N", "z0_m"}.isdisjoint(columns)
+    *words, last = (_WORDS[name] for name in missing[form])
+    wanted = f"columns for {', '.join(words)} and {last}" if words else f"column for {last}"
     raise (NotTests if nothing else InputError)(
-        f"{cells.path}: no column for {' and '.join(missing[form])} (found: {', '.join(cells.header)}); "
+        f"{cells.path}: no {wanted} (found: {', '.join(cells.header)}); "
         + (_instead_of_parts(cells) or "write names with units")
         + f', or name a column of yours with --column {missing[form][0]}="its name".'
     )
