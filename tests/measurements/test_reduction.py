@@ -176,10 +176,10 @@ BAD_TABLES = {
     "Pa under MPa": ([M, "A,15,10,2e10,14"], "line 2: E_MPa = 2e+10 is outside"),
     "radians": (
         [M, "A,15,10,12000,.3", "A,30,10,3000,.7"],
-        "no phase_deg exceeds 0.7: the values look like radians; multiply them by 180",
+        "the largest phase is 0.7: is it in radians? Multiply by 180",
     ),
-    "radians, cold": ([M, "A,-10,10,39000,.026"], "look like radians"),
-    "psi in radians": ([P, "A,15,10,30,63e-6,.25"], "no psi_deg exceeds"),
+    "radians, cold": ([M, "A,-10,10,39000,.026"], "is it in radians?"),
+    "psi in radians": ([P, "A,15,10,30,63e-6,.25"], "the largest phase is 0.249: is it in radians?"),
     "phase reversed": ([M, "A,15,10,20000,-14"], "the force leads: remove the minus signs."),
     "z0 in micrometres": ([P, "A,15,10,50,63,14"], "line 2: z0_m = 63 is outside"),
     "z0 in mm under m": ([P, "A,15,10,50,1e-3,14", "A,15,25,50,.063,14"], "line 3: z0_m = 0.063 is outside"),
