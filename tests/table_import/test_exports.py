@@ -69,7 +69,7 @@ def test_summary_export_is_read_as_it_is(tmp_path):
     assert columns["load_standard_error_percent"] == ["3.2", "0.9", ""]
     assert columns["microstrain"] == ["104", "101", "97"]
     notes = " ".join(campaign.notes)
-    assert "not UTF-8, so read as Windows text (cp1252)" in notes
+    assert "text read as Windows (cp1252), for it is not UTF-8" in notes
     assert "say --measured-in if it is not" in notes
     assert "ignored: 'Average confining pressure (kPa)'" in notes
 
@@ -262,7 +262,7 @@ def test_synthetic_exports_say_so(tmp_path):
         (",10 Hz,0.5 Hz", ",10 Hz,0,5 Hz", "'0' stands among the frequencies and is none; if decimals"),
         ("modulus (MPa)", "modulus", "'Dynamic modulus' does not say its unit; write it after the name"),
         ("modulus (MPa)", "modulus (m)", "'m' is not a unit of E_MPa; give one of Pa, kPa, MPa"),
-        (" Phase angle (Degrees),12.5,13.25,19\n", "", "no column for phase_deg"),
+        (" Phase angle (Degrees),12.5,13.25,19\n", "", "no column for phase"),
         (" Load drift", " E* (MPa),9,8,7\n Load drift", "'Dynamic modulus (MPa)' and 'E* (MPa)' may each be E_MPa"),
         ("9100,8000,5000", "9100,8000,5000,4000", "4 values below 3 frequencies"),
         ("9100,8000,5000", "9100,error,5000", "Dynamic modulus (MPa): 'error' is not a number"),
