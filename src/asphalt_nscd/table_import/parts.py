@@ -58,10 +58,24 @@ def without_copies(parts: list[Part], notes: list[str]) -> list[Part]:
         if holders and part.values <= set().union(*(one.values for one in holders)):
             names = ", ".join(sorted({one.source for one in holders})[:3])
             more = "" if len({one.source for one in holders}) <= 3 else " and others"
-            notes.append(f"skipped {part.source} (holds the same tests as {names}{more})")
+            notes.append(
+                f"skipped {part.source} (holds the same tests as {names}{more})" + _saved_twice(part, holders)
+            )
         else:
             kept.append(part)
     return kept
+
+
+def _saved_twice(part: Part, holders: list[Part]) -> str:
+    """What to add of a copy if all are exports and name two specimens."""
+    name = part.read.table.columns["specimen"][0]
+    others = {one.read.table.columns["specimen"][0] for one in holders}
+    if not all(one.exported for one in (part, *holders)) or spelling(name) in map(spelling, others):
+        return ""
+    return (
+        f": identical results under two specimens, {name} and {min(others)}: one export was saved twice; export the "
+        "missing one"
+    )
 
 
 def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
