@@ -260,3 +260,27 @@ def test_megapascals_under_another_unit_are_asked_for(tmp_path, unit, said):
     )
     save(tmp_path, t="\n".join(["specimen,T (C),f (Hz),|E*| (MPa),phi (deg)", *rows]))
     read_campaign([tmp_path / "t.csv"])
+
+
+def test_of_an_original_and_its_copy_the_original_is_kept(tmp_path):
+    save(tmp_path, **{"K10": export("A", 4), "K10 - Copy": export("A", 4)})
+    campaign, _ = read_campaign([tmp_path])
+    assert [path.name for path in campaign.files] == ["K10.csv"]
+    assert said(campaign, "skipped K10 - Copy.csv (holds the same tests as K10.csv)")
+    assert not said(campaign, "identical results")
+
+
+def test_identical_results_under_two_specimens_are_said(tmp_path):
+    save(tmp_path, a=export("A", 4), b=export("B", 4))
+    assert said(
+        read_campaign([tmp_path])[0],
+        "skipped b.csv (holds the same tests as a.csv): identical results under two specimens, Mix-B and Mix-A: one "
+        "export was saved twice; export the missing one",
+    )
+
+
+def test_an_export_without_its_quality_lines_says_so(tmp_path):
+    save(tmp_path, a=export("A", 4))
+    assert not said(read_campaign([tmp_path])[0], "no quality columns")
+    save(tmp_path, a=export("A", 4).replace("Phase uniformity (Degrees),0.9,0.4\n", ""))
+    assert said(read_campaign([tmp_path])[0], "machine export: ")[0].endswith("; no quality columns")

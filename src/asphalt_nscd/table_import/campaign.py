@@ -20,6 +20,7 @@ from asphalt_nscd.table_import.exports import blocks
 from asphalt_nscd.table_import.headings import headed, require_rows, with_units
 from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
 from asphalt_nscd.table_import.passed_over import PassedOver, common_mend, listed, refused
+from asphalt_nscd.table_import.quantities import QUALITY
 from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
 from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import (
@@ -192,7 +193,9 @@ def _folder(
     folder: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, str] | None
 ) -> tuple[list[Part], str]:
     """Tests of the files in a folder, and a sentence on those that hold none, which the notes name too."""
-    inside = sorted(path for path in folder.iterdir() if not path.name.startswith((".", "~$")))
+    # By stem, so that an original is read before its copy, `K10.csv` before `K10 - Copy.csv`.
+    inside = [path for path in folder.iterdir() if not path.name.startswith((".", "~$"))]
+    inside.sort(key=lambda path: (path.stem, path.suffix))
     if len(inside) > MOST_FILES:
         raise InputError(f"{folder}: more than {MOST_FILES} files; give the folder of one campaign.")
     parts: list[Part] = []
@@ -284,7 +287,10 @@ def _sources(part: Part) -> list[str]:
         return [f"{name} from column {source}" for name, source in sources.items()]
     measured = ", ".join(f"{name} from {sources[name]}" for name in _MEASURED if name in sources)
     kept = ", ".join(name for name in MAY_BE_ABSENT if name in sources)
-    return [f"machine export: {measured}" + (f"; kept for judging the tests: {kept}" if kept else "")]
+    quality = "" if any(name in sources for name in QUALITY) else "; no quality columns"
+    return [
+        f"machine export: {measured}" + (f"; kept for judging the tests: {kept}" if kept else "") + quality
+    ]
 
 
 def _said(parts: list[Part]) -> list[str]:
