@@ -320,3 +320,10 @@ def test_frequencies_in_radians_per_second(tmp_path, line):
 def test_frequencies_in_two_units_are_refused(tmp_path):
     with pytest.raises(InputError, match=r"line 14: frequencies in both Hz and rad/s; give all in Hz\."):
         read(tmp_path, EXPORT.replace(",25 Hz,10 Hz,0.5 Hz", ",157.1 rad/s,10 Hz,0.5 Hz"))
+
+
+def test_digits_in_groups_with_a_decimal_point(tmp_path):
+    text = EXPORT.replace("9100,8000,5000", '"9,100.0",8000.0,"5,000.5"')
+    assert read(tmp_path, text).table.columns["E_MPa"] == ["9100.0", "8000.0", "5000.5"]
+    with pytest.raises(InputError, match="have different decimal marks"):
+        read(tmp_path, text.replace("8000.0", '"8,000"'))

@@ -12,7 +12,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, REDUCED_COLUMNS
 from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.columns import Place, as_written, chosen_columns, one_of
-from asphalt_nscd.table_import.decimals import decimal_mark, number
+from asphalt_nscd.table_import.decimals import decimal_mark, number, with_point
 from asphalt_nscd.table_import.headings import with_units
 from asphalt_nscd.table_import.quantities import ABSENT, QUALITY, Column, recognise
 from asphalt_nscd.table_import.rows import CARRIED, tests_in
@@ -230,7 +230,7 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
                 )
             in_ours = value * column.factor + column.offset
             converted = f"{round(in_ours, 2) if column.offset else in_ours:.10g}"  # 0.01 K of degF
-            values[name].append(converted if _converts(column) else row[place].replace(",", "."))
+            values[name].append(converted if _converts(column) else with_point(row[place], mark))
     return values, mark
 
 
