@@ -82,7 +82,7 @@ KEYS = {"temperature_C": [20.0, 20.0], "frequency_Hz": [1.0, 10.0]}
 @pytest.mark.parametrize(
     ("frame", "sentence"),
     [
-        (pd.DataFrame({"temperature_C": [20.0]}), "no column for"),
+        (pd.DataFrame({"temperature_C": [20.0]}), "no columns for frequency"),
         (pd.DataFrame(columns=["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]), "has no rows"),
         (
             pd.DataFrame(KEYS | {"E_MPa": [5e3, np.nan], "phase_deg": 30.0}),

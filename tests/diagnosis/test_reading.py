@@ -128,5 +128,5 @@ def test_a_phase_with_the_wrong_sign_is_refused_with_its_line(tmp_path):
         read_observations(path, PAPER_GEOMETRY)
     assert str(error.value) == (
         f"{path}, line 3: the phase at 3 Hz is -19 deg, and the other frequencies of specimen A at 0 degC say about "
-        "+19 deg: the sign is wrong; correct it."
+        "+19 deg: the sign is wrong; remove the minus sign."
     )

@@ -31,13 +31,14 @@ def test_one_phase_with_the_wrong_sign(place):
     assert said.startswith(
         f"the phase at {FREQUENCIES[place]:g} Hz is {phases[place]:.3g} deg, and the other "
     )
-    assert said.endswith("deg: the sign is wrong; correct it.") and "specimen B at 21 degC" in said
+    assert said.endswith("deg: the sign is wrong; remove the minus sign.") and "specimen B at 21 degC" in said
 
 
 def test_all_phases_of_one_sweep_with_the_wrong_sign():
     row, said = wrong_sign(with_phases([-20.0, -19.0, -18.0, -18.0, -17.0, -16.0]))
     assert campaign().eval(SWEEP)[row]
     assert said.startswith("all phases of specimen B at 21 degC are negative (median -18 deg)")
+    assert said.endswith(": the signs are wrong; remove the minus signs.")
 
 
 def test_two_of_one_sweep_name_the_first():

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.measurements.slips import slips
+from asphalt_nscd.measurements.slips import slips, unit_in_question
 
 FREQUENCIES = np.array([0.1, 0.5, 1.0, 5.0, 10.0, 25.0])
 
@@ -85,6 +85,35 @@ def test_exchanged_isotherms_of_one_specimen():
     assert said.startswith("specimen B is ") and "at 37 degC as at 21 degC" in said
 
 
+@pytest.mark.parametrize("specimens, every", [(3, " in every specimen, by 2.2"), (1, ", by 2.1")])
+def test_isotherm_that_lost_its_minus(specimens, every):
+    table = campaign(specimens)
+    table["temperature_C"] = table["temperature_C"].replace({-10.0: 10.0})
+    said = next(slips(table))
+    of = "" if specimens == 3 else " of specimen A"
+    assert said.startswith(
+        f"the tests{of} at 10 degC are stiffer than those at 4 degC at every frequency{every} times: was -10 "
+        "degC meant? correct the temperatures."
+    )
+
+
+def test_minus_lost_by_one_specimen_of_three():
+    table = campaign()
+    lost = (table["specimen"] == "B") & (table["temperature_C"] == -10.0)
+    table.loc[lost, "temperature_C"] = 10.0
+    assert "of specimen B at 10 degC are stiffer than those at 4 degC" in next(slips(table))
+
+
+@pytest.mark.parametrize("specimens, least", [(3, 1.25), (1, 1.45)])
+def test_one_specimen_must_be_stiffer_by_more_than_three(specimens, least):
+    table = campaign(specimens)
+    cold = table[table["temperature_C"] == 4.0].reset_index(drop=True)
+    for factor in (least / 1.25, least):
+        warm = cold.assign(temperature_C=10.0, E_MPa=factor * cold["E_MPa"])
+        found = list(slips(pd.concat([cold, warm])))
+        assert bool(found) == (factor == least)
+
+
 @pytest.mark.parametrize(
     "table",
     [
@@ -146,3 +175,19 @@ def test_a_whole_table_in_another_unit_is_asked_for_it(unit, name):
 )  # fmt: skip
 def test_a_soft_table_that_may_be_true_goes_on(table):
     assert not list(slips(table))
+
+
+@pytest.mark.parametrize(
+    "unit, said",
+    [("ksi", "reaches 139000 MPa, too stiff"), ("psi", "reaches only 139 MPa, too soft")],
+)
+def test_megapascals_under_another_unit_are_asked_for(unit, said):
+    factor = {"ksi": 6.894757, "psi": 6.894757e-3}[unit]
+    assert unit_in_question(cold(), unit) is None
+    assert unit_in_question(cold(factor), unit) == (
+        f"read as {unit} |E*| {said} for asphalt; read as MPa it fits: is the unit MPa?"
+    )
+    assert unit_in_question(cold(factor**2), unit) is None  # MPa would not fit, either
+    warm = campaign()
+    warm.loc[0, "E_MPa"] = 3e5
+    assert unit_in_question(warm, unit) is None  # one slip is no unit

@@ -66,12 +66,14 @@ def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
     (tmp_path / ".hidden.csv").write_text("rubbish")
     campaign, _ = read_campaign([tmp_path])
     assert [path.name for path in campaign.files] == ["a.csv"]
-    assert said(campaign, "skipped sieves.csv (no column for temperature_C")
+    assert said(campaign, "skipped sieves.csv (no columns for temperature, frequency, |E*| and phase)")
     assert said(campaign, "skipped scan.pdf (neither CSV, TSV, TXT nor XLSX)")
     assert said(campaign, "skipped old (a folder;") and said(campaign, "skipped empty.csv (holds no table)")
     assert not said(campaign, "hidden")
     (sentence,) = campaign.without_tests
-    assert sentence.startswith("2 of 3 files gave no test: empty.csv (holds no table); sieves.csv (no column")
+    assert sentence.startswith(
+        "2 of 3 files gave no test: empty.csv (holds no table); sieves.csv (no columns"
+    )
 
 
 def test_folder_without_tests_is_refused(tmp_path):
@@ -224,3 +226,61 @@ def test_what_reduce_wrote_is_taken_as_it_is(tmp_path):
 def test_one_specimen_is_one(tmp_path):
     (tmp_path / "t.csv").write_text("specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\nA,20,10,9000,20\n")
     assert "1 specimen: A" in read_campaign([tmp_path / "t.csv"])[0].notes
+
+
+def test_files_with_numbers_for_names_are_no_specimens(tmp_path):
+    grid = [(s, t) for s in range(2) for t in (4, 20)]
+    texts = [export(temperature=t, factor=1.0 + 0.1 * s).replace(f"Mix-A-{t}C", "") for s, t in grid]
+    save(tmp_path, **{str(n): text for n, text in enumerate(texts, start=1)})
+    with pytest.raises(InputError) as error:
+        read_campaign([tmp_path])
+    assert str(error.value) == (
+        f"{tmp_path}: 4 files, 4 specimens, each at one temperature only: write the specimen into Identification, or "
+        "into the names of the files as in K10_21C."
+    )
+    for n, (s, t) in enumerate(grid, start=1):
+        (tmp_path / f"{n}.csv").rename(tmp_path / f"K{s}_{t}C.csv")
+    assert set(read_campaign([tmp_path])[0].table.columns["specimen"]) == {"K0", "K1"}
+
+
+def test_files_with_numbers_for_names_at_one_temperature_are_specimens(tmp_path):
+    save(tmp_path, **{str(n): export("A", 4, n, name="").replace("Mix-A-4C", "") for n in (1, 2)})
+    assert set(read_campaign([tmp_path])[0].table.columns["specimen"]) == {"1", "2"}
+
+
+@pytest.mark.parametrize("unit, said", [("psi", "only 62.1 MPa, too soft"), ("GPa", "9e+06 MPa, too stiff")])
+def test_megapascals_under_another_unit_are_asked_for(tmp_path, unit, said):
+    rows = [f"A,{t},{f},{9000 - 100 * t + 100 * f:g},{10 + t / 4}" for t in (5, 15) for f in (1, 5)]
+    save(tmp_path, t="\n".join([f"specimen,T (C),f (Hz),|E*| ({unit}),phi (deg)", *rows]))
+    with pytest.raises(InputError) as error:
+        read_campaign([tmp_path / "t.csv"])
+    assert str(error.value) == (
+        f"{tmp_path / 't.csv'}: read as {unit} |E*| reaches {said} for asphalt; read as MPa it fits: is the unit MPa? "
+        "Write it into the name of the column."
+    )
+    save(tmp_path, t="\n".join(["specimen,T (C),f (Hz),|E*| (MPa),phi (deg)", *rows]))
+    read_campaign([tmp_path / "t.csv"])
+
+
+def test_of_an_original_and_its_copy_the_original_is_kept(tmp_path):
+    save(tmp_path, **{"K10": export("A", 4), "K10 - Copy": export("A", 4)})
+    campaign, _ = read_campaign([tmp_path])
+    assert [path.name for path in campaign.files] == ["K10.csv"]
+    assert said(campaign, "skipped K10 - Copy.csv (holds the same tests as K10.csv)")
+    assert not said(campaign, "identical results")
+
+
+def test_identical_results_under_two_specimens_are_said(tmp_path):
+    save(tmp_path, a=export("A", 4), b=export("B", 4))
+    assert said(
+        read_campaign([tmp_path])[0],
+        "skipped b.csv (holds the same tests as a.csv): identical results under two specimens, Mix-B and Mix-A: one "
+        "export was saved twice; export the missing one",
+    )
+
+
+def test_an_export_without_its_quality_lines_says_so(tmp_path):
+    save(tmp_path, a=export("A", 4))
+    assert not said(read_campaign([tmp_path])[0], "no quality columns")
+    save(tmp_path, a=export("A", 4).replace("Phase uniformity (Degrees),0.9,0.4\n", ""))
+    assert said(read_campaign([tmp_path])[0], "machine export: ")[0].endswith("; no quality columns")

@@ -69,7 +69,7 @@ def test_summary_export_is_read_as_it_is(tmp_path):
     assert columns["load_standard_error_percent"] == ["3.2", "0.9", ""]
     assert columns["microstrain"] == ["104", "101", "97"]
     notes = " ".join(campaign.notes)
-    assert "not UTF-8, so read as Windows text (cp1252)" in notes
+    assert "text read as Windows (cp1252), for it is not UTF-8" in notes
     assert "say --measured-in if it is not" in notes
     assert "ignored: 'Average confining pressure (kPa)'" in notes
 
@@ -130,14 +130,12 @@ def test_variants_of_labels_mean_the_same(tmp_path, old, new):
 
 @pytest.mark.parametrize(("unit", "factor"), [("ksi", 6.894757293), ("psi", 6.894757293e-3)])
 def test_american_units(tmp_path, unit, factor):
-    text = EXPORT.replace("modulus (MPa),9100,8000,5000", f"modulus ({unit}),9e5,8e5,5e5")
+    text = EXPORT.replace("modulus (MPa),9100,8000,5000", f"modulus ({unit}),3e6,2.6e6,1.6e6")
     text = text.replace("Average temperature  (°C),4.1,4.0,3.9", "Average temperature (°F),39.4,39.2,39")
     text = text.replace("Target test temperature,4", "Target test temperature,39.2").replace("4C", "39.2F")
-    columns = read(
-        tmp_path, text.replace("5e5", "5e5") if unit == "psi" else text.replace("e5", "e3")
-    ).table.columns
-    thousand = 1e5 if unit == "psi" else 1e3
-    assert float(columns["E_MPa"][0]) == pytest.approx(9 * thousand * factor, rel=1e-9)
+    columns = read(tmp_path, text if unit == "psi" else text.replace("e6", "e3")).table.columns
+    thousand = 1e6 if unit == "psi" else 1e3
+    assert float(columns["E_MPa"][0]) == pytest.approx(3 * thousand * factor, rel=1e-9)
     assert [float(text) for text in columns["nominal_temperature_C"]] == pytest.approx([4.0] * 3)
     assert columns["specimen"] == ["Mix-7"] * 3
 
@@ -224,11 +222,12 @@ def test_frequency_without_a_result_is_left_out_and_said(tmp_path):
         ),
         (
             " Phase angle (Degrees),12.5",
-            ", line 16: the file ends early: Phase angle (Degrees) has no value for 10, 0.5 Hz; export it anew.",
+            ", line 16: the file ends early: Phase angle (Degrees) has no value for the frequencies "
+            "10, 0.5; export it anew.",
         ),
         (
             " Average temperature  (°C),4.1,4.0",
-            "Average temperature (°C) has no value for 0.5 Hz; export it anew.",
+            "Average temperature (°C) has no value for the frequencies 0.5; export it anew.",
         ),
     ],
 )
@@ -263,7 +262,7 @@ def test_synthetic_exports_say_so(tmp_path):
         (",10 Hz,0.5 Hz", ",10 Hz,0,5 Hz", "'0' stands among the frequencies and is none; if decimals"),
         ("modulus (MPa)", "modulus", "'Dynamic modulus' does not say its unit; write it after the name"),
         ("modulus (MPa)", "modulus (m)", "'m' is not a unit of E_MPa; give one of Pa, kPa, MPa"),
-        (" Phase angle (Degrees),12.5,13.25,19\n", "", "no column for phase_deg"),
+        (" Phase angle (Degrees),12.5,13.25,19\n", "", "no column for phase"),
         (" Load drift", " E* (MPa),9,8,7\n Load drift", "'Dynamic modulus (MPa)' and 'E* (MPa)' may each be E_MPa"),
         ("9100,8000,5000", "9100,8000,5000,4000", "4 values below 3 frequencies"),
         ("9100,8000,5000", "9100,error,5000", "Dynamic modulus (MPa): 'error' is not a number"),
@@ -303,3 +302,28 @@ def test_specimen_without_temperature_and_remarks(text, target, specimen, repeat
     assert (name.specimen, name.contradicts) == (specimen, False)
     if "Repeat-" not in text:
         assert name.repeated == repeated
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "omega (rad/s),157.1,62.83,3.142",
+        ",157.1 rad/s,62.83 rad/s,3.142 rad/s",
+        "Frequency (rad/s),157.1,62.83,3.142",
+    ],
+)
+def test_frequencies_in_radians_per_second(tmp_path, line):
+    columns = read(tmp_path, EXPORT.replace(",25 Hz,10 Hz,0.5 Hz", line)).table.columns
+    assert [float(f) for f in columns["frequency_Hz"]] == pytest.approx([25.0, 10.0, 0.5], rel=1e-3)
+
+
+def test_frequencies_in_two_units_are_refused(tmp_path):
+    with pytest.raises(InputError, match=r"line 14: frequencies in both Hz and rad/s; give all in Hz\."):
+        read(tmp_path, EXPORT.replace(",25 Hz,10 Hz,0.5 Hz", ",157.1 rad/s,10 Hz,0.5 Hz"))
+
+
+def test_digits_in_groups_with_a_decimal_point(tmp_path):
+    text = EXPORT.replace("9100,8000,5000", '"9,100.0",8000.0,"5,000.5"')
+    assert read(tmp_path, text).table.columns["E_MPa"] == ["9100.0", "8000.0", "5000.5"]
+    with pytest.raises(InputError, match="have different decimal marks"):
+        read(tmp_path, text.replace("8000.0", '"8,000"'))

@@ -151,7 +151,7 @@ def test_tests_outside_the_full_grid_are_left_out_and_said():
         (rows(temperatures=[15, 15.1]), "temperatures 15 and 15.1 degC are probably one set value"),
         (rows(frequencies=[10, 10.1]), "frequencies 10 and 10.1 Hz are probably one"),
         (rows(frequencies=[10]), "only one frequency at 10 degC"),
-        ([(1, 15, 1, 9000.0, 0.3), (1, 15, 10, 9500.0, 0.3)], "line 2: E_MPa = 9e+06 is outside"),
+        ([(1, 15, 1, 9000.0, 0.3), (1, 15, 10, 9500.0, 0.3)], "read as MPa it fits: is the unit MPa?"),
         ([(1, 15, 1, 0.009, 0.3), (1, 15, 10, 0.0095, 0.3)], "softer than any asphalt"),
         ([(1, 15, 1, 9.0, 20), (1, 15, 10, 9.5, 20)], "line 2: phase_deg = 1145.92 is outside"),
     ],

@@ -145,6 +145,10 @@ def test_of_two_tests_the_later_by_date_is_taken_and_said(tmp_path, names):
         f"{names[1]}.csv is taken instead of {names[0]}.csv: Mix-A at 4 degC was tested again later, Sun",
     )
     assert said(campaign, f"leave {names[1]}.csv out to use the other")
+    assert said(campaign, "1 of 2 files is not used: it was tested again later")
+    assert campaign.notes.index("1 of 2 files is not used: it was tested again later") < min(
+        place for place, note in enumerate(campaign.notes) if "is taken instead" in note
+    )
 
 
 def test_a_retest_of_some_frequencies_replaces_these_only(tmp_path):
@@ -165,6 +169,25 @@ def test_a_retest_that_must_be_another_material_is_refused(tmp_path, mark):
         "which is too far apart for a retest: leave the wrong one out, or, if it is another specimen or temperature, "
         "correct the name and the header of its file."
     )
+
+
+def test_one_header_for_specimens_that_the_file_names_tell_apart_is_refused(tmp_path):
+    files = {
+        f"K-{name}-{t}C_Sum": EXPORT.format("7", DECEMBER_7 if name == 10 else DECEMBER_8, 10, 8000 + name)
+        .replace("temperature,4", f"temperature,{t}")
+        .replace("9100", str(9100 + name - 10 * t))
+        for name in (10, 11, 13)
+        for t in (4, 21)
+    }
+    with pytest.raises(InputError) as error:
+        exports(tmp_path, **files)
+    assert str(error.value) == (
+        "K-10-21C_Sum.csv and 5 more: the file names say K-10, K-11 and K-13, and the header says Mix-7 in all; "
+        "correct the Identification, or leave it empty."
+    )
+    for path in tmp_path.glob("*.csv"):
+        path.write_text(path.read_text().replace("Identification,Mix-7", "Identification,"))
+    assert set(read_campaign([tmp_path])[0].table.columns["specimen"]) == {"K-10", "K-11", "K-13"}
 
 
 def test_a_file_called_after_another_specimen_is_no_retest(tmp_path):

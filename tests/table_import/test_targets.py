@@ -83,25 +83,49 @@ def test_the_file_of_several_temperatures_may_be_called_after_one(tmp_path):
 def test_a_target_far_from_what_was_measured_is_refused(tmp_path):
     said = refusal(tmp_path, "Mix-7_Sum.csv", header="37", measured=4)
     assert (
-        "the target temperature is 37 degC and 4.1 degC was measured; correct the target in the header."
-        in said
+        "the target temperature is 37 degC and 4.1 degC was measured: which is right? If the measured one, write it as "
+        "the target; if the target, leave the cells of the readings empty." in said
     )
     said = refusal(tmp_path, "Mix-7-37C_Sum.csv", header="37", measured=0)
     assert (
-        "37 degC, as the name says, and 0.1 degC was measured; correct the readings, or leave their cells"
-        in said
+        "37 degC, as the name says, and 0.1 degC was measured: which is right? If the measured one, write it as the "
+        "target and into the name; if the target, leave the cells of the readings empty." in said
     )
 
 
 def test_temperature_of_the_name_where_no_other_is_given(tmp_path):
     for file, specimen in (("Mix-7_Sum.csv", "Mix-7-4C"), ("Mix-7-4C_Sum.csv", "Mix-7")):
         target, notes = read(tmp_path, file, header=None, specimen=specimen)
-        assert target == ["4"] * 3 and "temperature taken from the name 'Mix-7-4C" in notes
+        assert target == ["4"] * 3 and "4 degC taken from the name 'Mix-7-4C" in notes
     target, _ = read(tmp_path, "Mix-7_Sum.csv", header=None, specimen="Mix-7-50F")
     assert target == ["10"] * 3
     assert "says 4 degC and the name 'Mix-7-21C' 21 degC" in refusal(
         tmp_path, "Mix-7-21C.csv", header=None, specimen="Mix-7-4C"
     )
+
+
+@pytest.mark.parametrize("between", [" -", "_-", "--", " −", "−"])
+def test_a_minus_in_a_name_is_one(tmp_path, between):
+    name = f"Mix-7{between}10C"
+    target, notes = read(tmp_path, "e.csv", header=None, specimen=name)
+    assert target == ["-10"] * 3 and f"-10 degC taken from the name '{name} (X1)'" in notes
+    said = refusal(tmp_path, "e.csv", header="10", specimen=name)
+    assert f"the name '{name} (X1)' says -10 degC and the header 10 degC" in said
+    read(tmp_path, "e.csv", header="-10", specimen=name)
+
+
+def test_a_hyphen_before_the_temperature_separates_unless_another_name_has_a_minus(tmp_path):
+    target, notes = read(tmp_path, "e.csv", header=None, specimen="Mix-7-10C")
+    assert target == ["10"] * 3
+    assert (
+        "10 degC taken from the name 'Mix-7-10C (X1)', its hyphen as a separator; if -10 degC was meant, write that "
+        "into the header" in notes
+    )
+    assert "separator" not in read(tmp_path, "e.csv", header=None, specimen="Mix-7-37C")[1]
+    target, _ = read(tmp_path, "Mix-7 -10C.csv", header=None, specimen="Mix-7-10C")
+    assert target == ["-10"] * 3
+    for between in ("-", "_", " - "):  # a name may lack the minus that the header has
+        assert read(tmp_path, "e.csv", header="-10", specimen=f"Mix-7{between}10C")[0] == ["-10"] * 3
 
 
 def test_no_temperature_at_all_is_refused(tmp_path):

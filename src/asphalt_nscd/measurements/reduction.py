@@ -250,12 +250,13 @@ def _check_whole_table(table: Table, frame: pd.DataFrame, form: str) -> None:
     """Refuse a table whose values make sense only in another unit."""
     if frame["phase_deg"].median() < -0.5:  # an elastic reference beam may scatter about zero
         raise InputError(
-            f"{table.path}: phases are mostly negative; give the angle by which the force leads."
+            f"{table.path}: phases are mostly negative; give the angle by which the force leads: remove the minus "
+            "signs."
         )
     largest = frame["phase_deg"].abs().max()
     expected = LARGEST_PHASE_AT_LEAST["soft" if frame["E_MPa"].min() < GLASSY else "glassy"]
     if form != "records" and largest <= expected:
         raise InputError(
-            f"{table.path}: no {FORMS[form][-1]} exceeds {largest:.3g}: the values look like radians; multiply them by "
-            "180/pi. If they are degrees, the beam is elastic and says nothing about a mix."
+            f"{table.path}: the largest phase is {largest:.3g}: is it in radians? "
+            "Multiply by 180/pi. If it is in degrees, the specimen is elastic and says nothing about a mix."
         )

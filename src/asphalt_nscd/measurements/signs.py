@@ -35,7 +35,7 @@ def wrong_sign(table: pd.DataFrame) -> tuple[int, str] | None:
             ):
                 return int(tests["row"].iloc[0]), (
                     f"all phases of {place} are negative (median {np.median(phase):.3g} deg), and the moduli require "
-                    f"about +{required:.2g} deg: the sign is wrong; correct it."
+                    f"about +{required:.2g} deg: the signs are wrong; remove the minus signs."
                 )
         for test in np.flatnonzero(phase < -LEAST):
             expected = _expected(frequency, phase, int(test))
@@ -43,7 +43,7 @@ def wrong_sign(table: pd.DataFrame) -> tuple[int, str] | None:
             if expected is not None and _near(-float(phase[test]), expected) and alone:
                 return int(tests["row"].iloc[test]), (
                     f"the phase at {frequency[test]:g} Hz is {phase[test]:.3g} deg, and the other frequencies of "
-                    f"{place} say about +{expected:.3g} deg: the sign is wrong; correct it."
+                    f"{place} say about +{expected:.3g} deg: the sign is wrong; remove the minus sign."
                 )
     return None
 

@@ -12,12 +12,17 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from asphalt_nscd.files.words import specimen_named
+from asphalt_nscd.measurements.limits import LIMITS, least_modulus
 
 # What |E*| in another unit is of |E*| in MPa.
 FACTORS = {"psi": 145.038, "ksi": 0.145038, "GPa": 1e-3, "kPa": 1e3, "kgf/cm2": 10.1972}
 NEAR = 0.25  # of ln |E*|: a specimen is within a quarter of the others
 ALIKE = 0.35  # of ln |E*|: how far that ratio may vary over conditions
 STIFFER = np.log(1.8)  # by which no mix grows stiffer as it warms, whatever else is wrong with a test
+# Mean gain of a sweep where every test of it grew stiffer: three times what the level of one wobbles between isotherms.
+STIFFER_OF_ONE = np.log(1.4)  # for one specimen; the mean of several wobbles less
+SURE = 3.0  # standard errors of that mean
+MOST_GAIN = np.log(10.0)  # beyond it a unit is as likely wrong
 LEAST_STEP = 3.0  # K between two isotherms that are compared
 LEAST = 3  # shared conditions
 FALLING = (
@@ -31,6 +36,7 @@ FALL = 0.062  # of ln |E*| by a degree of phase
 PHASE_SEEN = 27.0  # deg
 GLASSY_OF_MIXES = (7e3, 1e5)  # MPa; no mix is beyond these
 USUAL_GLASSY = (14e3, 60e3)  # MPa, which a table in another unit must come to
+MOST_TESTS = 0.75  # of a table in the unit that it says; single ones may be wrong
 SMOOTH = 0.15  # of ln |E*|
 COLD = 25.0  # degC; at warmer ones the phase falls again as a mix grows softer
 
@@ -43,6 +49,7 @@ def slips(table: pd.DataFrame) -> Iterator[str]:
     moduli = list(_units_of_moduli(table))
     yield from moduli
     if not moduli:
+        yield from _warmer_but_stiffer(table)
         yield from _order_of_isotherms(table)
         yield from _unit_of_all_moduli(table)
 
@@ -59,7 +66,7 @@ def _units_of_labels(table: pd.DataFrame) -> Iterator[str]:
     if frequency.size > LEAST and _short(frequency / FULL_CIRCLE).all() and not _short(frequency).any():
         yield (
             f"the frequencies {_listed(frequency)} are 2 pi times {_listed(frequency / FULL_CIRCLE)}: they look like "
-            "rad/s; divide them by 2 pi, or name the column 'omega (rad/s)'."
+            "rad/s; divide them by 2 pi, or name their column (in an export, their line) 'omega (rad/s)'."
         )
 
 
@@ -115,6 +122,29 @@ def _units_of_moduli(table: pd.DataFrame) -> Iterator[str]:
             return  # the other one is as far from it, and one sentence says so
 
 
+def _warmer_but_stiffer(table: pd.DataFrame) -> Iterator[str]:
+    """Isotherms at which every specimen is stiffer than at a colder one, at every frequency."""
+    logarithm = _by_condition(table)
+    isotherms = logarithm.index.unique(level=0)
+    for cold in isotherms:
+        for warm in isotherms[isotherms >= cold + LEAST_STEP]:
+            apart = logarithm.loc[warm] - logarithm.loc[cold]
+            gains = apart.loc[:, apart.notna().sum() >= LEAST]
+            if gains.empty or not (gains.isna() | (gains > 0.0)).all(axis=None):
+                continue
+            means = gains.mean().to_numpy()
+            root = np.sqrt(means.size)
+            error = means.std(ddof=1) / root if means.size > 1 else 0.0
+            if max(STIFFER_OF_ONE / root, SURE * error) < means.mean() < MOST_GAIN:
+                one = f" of {specimen_named(str(gains.columns[0]))}" if means.size == 1 else ""
+                every = "at every frequency" + " in every specimen" * (means.size > 1)
+                minus = f"was -{warm:g} degC meant? " if warm > 0.0 and -warm < cold else ""
+                yield (
+                    f"the tests{one} at {warm:g} degC are stiffer than those at {cold:g} degC {every}, "
+                    f"by {np.exp(means.mean()):.2g} times: {minus}correct the temperatures."
+                )
+
+
 def _order_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
     for specimen, logarithm in _by_condition(table).items():
         rows = logarithm.dropna().unstack(level=0)
@@ -156,6 +186,26 @@ def _unit_of_all_moduli(table: pd.DataFrame) -> Iterator[str]:
         f"{told}, {'less' if middle < low else 'more'} than any asphalt has at such a phase: {likely} Write the unit "
         f"into the name of the column, as in E ({units[0] if units else 'ksi'})."
     )
+
+
+def unit_in_question(table: pd.DataFrame, unit: str) -> str | None:
+    """What to ask if |E*|, given in a unit and converted, is impossible, but as the numbers stand fits in MPa."""
+    as_megapascal = table.assign(E_MPa=table["E_MPa"] * FACTORS[unit])
+    if _possible(table, MOST_TESTS) or not _possible(as_megapascal, 1.0):
+        return None
+    reached = float(f"{table['E_MPa'].max():.3g}")
+    only, much = ("", "stiff") if FACTORS[unit] < 1.0 else ("only ", "soft")
+    return (
+        f"read as {unit} |E*| reaches {only}{reached:g} MPa, too {much} for asphalt; read as MPa "
+        "it fits: is the unit MPa?"
+    )
+
+
+def _possible(table: pd.DataFrame, share: float) -> bool:
+    """Whether |E*| of such a share of the tests is one that mixes have, and of all fits their phases."""
+    modulus, most = table["E_MPa"], LIMITS["E_MPa"].high
+    least = least_modulus(table["temperature_C"], table["frequency_Hz"])
+    return bool(modulus.between(least, most).mean() >= share) and not any(_unit_of_all_moduli(table))
 
 
 def _on_cold_side(tests: pd.DataFrame) -> bool:

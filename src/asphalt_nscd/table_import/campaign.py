@@ -6,18 +6,23 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import pandas as pd
+
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.files.words import counted
-from asphalt_nscd.measurements.campaign import Campaign
+from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
+from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
 from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, as_cells, read_sheets
 from asphalt_nscd.table_import.contested import refuse_mislabelled
 from asphalt_nscd.table_import.exports import blocks
 from asphalt_nscd.table_import.headings import headed, require_rows, with_units
 from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
 from asphalt_nscd.table_import.passed_over import PassedOver, common_mend, listed, refused
+from asphalt_nscd.table_import.quantities import QUALITY
 from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
+from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import (
     FURTHER,
     MAY_BE_ABSENT,
@@ -57,6 +62,7 @@ def read_campaign(
     parts = without_copies(sorted(parts, key=lambda part: not part.exported), notes)
     parts = with_one_spelling(parts, notes)
     refuse_mislabelled(parts)
+    _require_named_specimens(paths, parts)
     parts = without_repeated(parts, notes)
     _require_one_mix(parts)
     forms = sorted({part.read.form for part in parts})
@@ -73,6 +79,7 @@ def read_campaign(
         )
     kind = test_type or ("tension-compression" if exported else "bending")
     table = _joined(paths, parts, notes)
+    _require_unit(paths, parts, table)
     specimens = list(dict.fromkeys(table.columns["specimen"]))
     notes.append(
         f"{counted(len(specimens), 'specimen')}: {', '.join(specimens[:12])}{', ...' if len(specimens) > 12 else ''}"
@@ -80,6 +87,41 @@ def read_campaign(
     files = tuple(dict.fromkeys(part.path for part in parts))
     notes = [*_said(parts), *notes]
     return Campaign(table, files, kind, tuple(notes), tuple(without_tests)), forms[0]
+
+
+def _require_named_specimens(paths: Sequence[Path], parts: Sequence[Part]) -> None:
+    """Refuse exports without a specimen if every file, taken for one, was tested at one of several temperatures."""
+    if not parts or not all(part.unnamed for part in parts):
+        return
+    specimens = {part.read.table.columns["specimen"][0] for part in parts}
+    files = {part.path for part in parts}
+    at = [list(map(float, _isotherm(part.read.table))) for part in parts]
+    several = max(map(max, at)) - min(map(min, at)) > FAR
+    if len(specimens) == len(parts) == len(files) and several and all(max(t) - min(t) < FAR for t in at):
+        raise InputError(
+            f"{_called(paths)}: {len(files)} files, {len(specimens)} specimens, each at one temperature only: write "
+            "the specimen into Identification, or into the names of the files as in K10_21C."
+        )
+
+
+def _require_unit(paths: Sequence[Path], parts: Sequence[Part], table: Table) -> None:
+    """Refuse moduli in another unit than MPa that are impossible in it and fit in MPa."""
+    units = {part.read.modulus_unit for part in parts}
+    unit = units.pop() if len(units) == 1 else ""
+    if unit not in FACTORS:
+        return
+    names = ("temperature_C", "frequency_Hz", "E_MPa", "phase_deg")
+    tests = pd.DataFrame({name: table.numbers(name) for name in names}).assign(
+        specimen=table.text("specimen")
+    )
+    tests["temperature_C"] = nominal_temperatures(table, tests["temperature_C"].to_numpy(float))
+    positive = (tests["frequency_Hz"] > 0.0).all() and (tests["E_MPa"] > 0.0).all()
+    if positive and (question := unit_in_question(tests, unit)):
+        raise InputError(f"{_called(paths)}: {question} Write it into the name of the column.")
+
+
+def _isotherm(table: Table) -> list[str]:
+    return table.columns.get("nominal_temperature_C", table.columns["temperature_C"])
 
 
 def _require_one_mix(parts: Sequence[Part]) -> None:
@@ -125,7 +167,15 @@ def _sheet(path: Path, sheet: Sheet, chosen: Mapping[str, str] | None, alone: bo
     exported = blocks(path, sheet.rows, notes, path.stem if alone else str(sheet.name))
     if exported:
         return [
-            Part(path, understand(one.cells, chosen), True, one.repeated, one.tested, one.contested)
+            Part(
+                path,
+                understand(one.cells, chosen),
+                True,
+                one.repeated,
+                one.tested,
+                one.contested,
+                one.unnamed,
+            )
             for one in exported
         ]
     cells = as_cells(path, headed(sheet.rows, notes), notes)
@@ -143,7 +193,9 @@ def _folder(
     folder: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, str] | None
 ) -> tuple[list[Part], str]:
     """Tests of the files in a folder, and a sentence on those that hold none, which the notes name too."""
-    inside = sorted(path for path in folder.iterdir() if not path.name.startswith((".", "~$")))
+    # By stem, so that an original is read before its copy, `K10.csv` before `K10 - Copy.csv`.
+    inside = [path for path in folder.iterdir() if not path.name.startswith((".", "~$"))]
+    inside.sort(key=lambda path: (path.stem, path.suffix))
     if len(inside) > MOST_FILES:
         raise InputError(f"{folder}: more than {MOST_FILES} files; give the folder of one campaign.")
     parts: list[Part] = []
@@ -235,7 +287,10 @@ def _sources(part: Part) -> list[str]:
         return [f"{name} from column {source}" for name, source in sources.items()]
     measured = ", ".join(f"{name} from {sources[name]}" for name in _MEASURED if name in sources)
     kept = ", ".join(name for name in MAY_BE_ABSENT if name in sources)
-    return [f"machine export: {measured}" + (f"; kept for judging the tests: {kept}" if kept else "")]
+    quality = "" if any(name in sources for name in QUALITY) else "; no quality columns"
+    return [
+        f"machine export: {measured}" + (f"; kept for judging the tests: {kept}" if kept else "") + quality
+    ]
 
 
 def _said(parts: list[Part]) -> list[str]:

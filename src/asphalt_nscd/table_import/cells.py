@@ -174,7 +174,7 @@ def _decoded(path: Path) -> tuple[str, list[str]]:
         text = data.decode("cp1252", errors="replace")
         if "\ufffd" in text:
             raise InputError(f"{path}: neither UTF-8 nor Windows text (cp1252); save it as UTF-8.") from None
-        notes = ["not UTF-8, so read as Windows text (cp1252)"]
+        notes = ["text read as Windows (cp1252), for it is not UTF-8"]
     if "\0" in text:
         raise InputError(f"{path}: not text; give CSV, TSV or XLSX.")
     return text, notes

@@ -10,6 +10,9 @@ from asphalt_nscd.files.errors import InputError
 
 _COMMA = re.compile(r"[-+]?\d*,\d+([eE][-+]?\d+)?")
 _POINT = re.compile(r"[-+]?\d*\.\d*([eE][-+]?\d+)?")
+_ENGLISH = re.compile(
+    r"[-+]?\d{1,3}(?:,\d{3})+\.\d+"
+)  # which groups its digits, and cannot be read otherwise
 _GROUPED = re.compile(r"[-+]?\d{1,3}(?:[., '\u00a0\u202f]\d{3})+(?:[.,]\d+)?")
 
 
@@ -17,6 +20,9 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
     """`,` or `.`, from numbers with their lines; `where` names the file in a refusal."""
     first: dict[str, tuple[int, str]] = {}
     for line, text in numbers:
+        if _ENGLISH.fullmatch(text):
+            first.setdefault(".", (line, text))
+            continue
         marks = sum(text.count(mark) for mark in "., '\u00a0\u202f")
         if (marks > 1 or re.search(r"[ '\u00a0\u202f]", text)) and _GROUPED.fullmatch(text):
             raise InputError(
@@ -43,9 +49,16 @@ def _ungrouped(*texts: str) -> str:
     return " and without separators" if _or_groups(*texts) else ""
 
 
+def with_point(text: str, mark: str) -> str:
+    """A number with a decimal point and without groups, `5,558.0` as `5558.0`; other text as it is."""
+    if mark == ",":
+        return text.replace(",", ".")
+    return text.replace(",", "") if _ENGLISH.fullmatch(text) else text
+
+
 def number(text: str, mark: str) -> float | None:
     """The number that a cell holds, None if it holds none."""
     try:
-        return plain_number(text.replace(",", ".") if mark == "," else text)
+        return plain_number(with_point(text, mark))
     except ValueError:
         return None

@@ -13,7 +13,7 @@ from asphalt_nscd.table_import.names import celsius, of_file, specimen_of
 from asphalt_nscd.table_import.quantities import ABSENT, Column, recognise, unit_in
 from asphalt_nscd.table_import.targets import Header, decided, median_reading
 
-_HERTZ = re.compile(r"(\d+(?:[.,]\d+)?)\s*(?:Hz)?", re.IGNORECASE)
+_HERTZ = re.compile(r"(\d+(?:[.,]\d+)?)\s*(Hz|rad/s)?", re.IGNORECASE)
 _IDENTIFICATION = (
     "identification",
     "specimen identification",
@@ -43,13 +43,15 @@ class Block:
     """The tests of one specimen at one temperature, as a table with one row for each test.
 
     repeated: the operator marked the file or the specimen as a repetition. tested: when, as the header has it.
-    contested: the temperature [degC] that its name or its header says beside the one taken.
+    contested: the temperature [degC] that its name or its header says beside the one taken. unnamed: no header names
+    the specimen, and the name of the file says no temperature, so that it may be that of a test.
     """
 
     cells: Cells
     repeated: bool = False
     tested: str = ""
     contested: str = ""
+    unnamed: bool = False
 
 
 @dataclass
@@ -118,15 +120,26 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
 
 
 def _frequencies(cells: list[str]) -> list[str]:
-    """Frequencies [Hz] of a line `, 25 Hz, 10 Hz, ...` or `Frequency (Hz), 25, 10, ...`; none if it is another."""
+    """Frequencies of a line `, 25 Hz, 10 Hz, ...` or `Frequency (Hz), 25, 10, ...`, in Hz or rad/s; none if another."""
     label, values = cells[0], cells[1:]
     named = _holds(label, "frequency_Hz")
     if (label and not named) or not values or not all(values):
         return []
     numbers = [_HERTZ.fullmatch(value) for value in values]
-    if not all(numbers) or not (named or all("hz" in value.casefold() for value in values)):
+    if not all(numbers) or not (named or all(match[2] for match in numbers if match)):
         return []
     return [match[1] for match in numbers if match]
+
+
+def _frequency_name(path: Path, line: int, cells: list[str]) -> str:
+    """The name of a column for the frequencies of a line, with their unit."""
+    units = {match[2].casefold() for cell in cells[1:] if (match := _HERTZ.fullmatch(cell)) and match[2]}
+    named = _recognised(cells[0])
+    if named is not None and named.unit:
+        units.add(named.unit.casefold())
+    if len(units) > 1:
+        raise InputError(f"{path}, line {line}: frequencies in both Hz and rad/s; give all in Hz.")
+    return "omega (rad/s)" if units == {"rad/s"} else "frequency (Hz)"
 
 
 def _holds(label: str, quantity: str) -> bool:
@@ -177,8 +190,8 @@ def _require_whole(path: Path, frequencies: list[str], taken: list[Row], rest: l
     longer = any(len(cells) > len(last) for _, cells in taken)
     if quantity in (*_NEEDED, "temperature_C") and missing and longer:
         raise InputError(
-            f"{path}, line {line}: the file ends early: {last[0]} has no value for {', '.join(missing)} Hz; export "
-            "it anew."
+            f"{path}, line {line}: the file ends early: {last[0]} has no value for the frequencies "
+            f"{', '.join(missing)}; export it anew."
         )
     lacking = [word for name, word in _NEEDED.items() if name not in named]
     unknown = any(_recognised(cells[0]) is None for _, cells in taken)  # which may stand for it
@@ -190,20 +203,21 @@ def _require_whole(path: Path, frequencies: list[str], taken: list[Row], rest: l
 
 def _turned(path: Path, line: int, frequencies: list[str], rows: list[Row], notes: list[str]) -> Cells:
     """The results with one line for each frequency, which stands above two columns only if these are equal."""
-    header = ["frequency (Hz)", *(cells[0] for _, cells in rows)]
+    header = [_frequency_name(path, line, frequencies), *(cells[0] for _, cells in rows)]
+    unit = "rad/s" if "rad/s" in header[0] else "Hz"
     modulus = next((n for n, cells in rows if _holds(cells[0], "E_MPa")), line)
     turned: dict[float, Row] = {}
     for place, frequency in enumerate(_frequencies(frequencies), start=1):
         values = [cells[place] if place < len(cells) else "" for _, cells in rows]
-        hertz = float(frequency.replace(",", "."))
-        same = turned.setdefault(hertz, (modulus, [frequency, *values]))
+        value = float(frequency.replace(",", "."))
+        same = turned.setdefault(value, (modulus, [frequency, *values]))
         if same[1][1:] != values:
             raise InputError(
-                f"{path}, line {line}: {hertz:g} Hz stands above two columns with different results; remove the column "
-                "that does not hold, or correct its frequency. A retest belongs in an export of its own."
+                f"{path}, line {line}: {value:g} {unit} stands above two columns with different results; remove the "
+                "column that does not hold, or correct its frequency. A retest belongs in an export of its own."
             )
         if same[1][0] is not frequency:
-            notes.append(f"{hertz:g} Hz stands above two columns with equal results, which count once")
+            notes.append(f"{value:g} {unit} stands above two columns with equal results, which count once")
     return Cells(Path(), header, list(turned.values()))
 
 
@@ -267,7 +281,8 @@ def _as_block(
     )
     day, time = header.first(_DATE), header.first(("test time", "time"))
     when = " ".join(said[1] for said in (day, time) if said) if day else ""
-    return Block(cells, repeated, when, "" if target is None else target.contested)
+    unnamed = known is None and name.temperature is None
+    return Block(cells, repeated, when, "" if target is None else target.contested, unnamed)
 
 
 def _target(path: Path, header: _Header, reading: Column | None) -> Header | None:

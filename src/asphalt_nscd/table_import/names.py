@@ -6,7 +6,8 @@ import re
 from dataclasses import dataclass
 
 _TEMPERATURE = re.compile(  # not the grade of a binder, `PG64-28C`
-    r"(?<!PG\d\d)(?<!PG \d\d)[-_ ,]+([-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\s*)?([CF])(?![A-Za-z0-9])"
+    r"(?<!PG\d\d)(?<!PG \d\d)(?:[-_ ,]+?(?=[-−]\d)|([-_ ,]+)|(?=−))([-−]?\d+(?:[.,]\d+)?)"
+    r"\s*(?:[°º]\s*|deg\s*)?([CF])(?![A-Za-z0-9])"
 )
 _REPEATED = re.compile(
     r"[-_ ]*\b(?:repeat(?:ed)?|rerun|re-?test(?:ed)?|redo(?:ne)?)\b[-_ \d]*$", re.IGNORECASE
@@ -18,13 +19,15 @@ _SAME = 1.0  # K between a temperature in a name and the target it means
 class Name:
     """A specimen, the temperature that stood in its name ([degC], as text), and what the operator remarked.
 
-    contradicts: the name gives another temperature than the header.
+    contradicts: the name gives another temperature than the header. hyphened: a single hyphen stands before the
+    temperature, which may be a minus.
     """
 
     specimen: str
     temperature: str | None
     repeated: bool
     contradicts: bool
+    hyphened: bool = False
 
 
 def specimen_of(text: str, target: float | None) -> Name:
@@ -42,12 +45,15 @@ def specimen_of(text: str, target: float | None) -> Name:
     stem = plain if match is None else plain[: match.start()]
     stem = _REPEATED.sub("", stem).strip("-_ ,") or plain
     temperature = None if match is None else f"{_degrees(match):.4g}"
-    return Name(stem, temperature, repeated, bool(match and target is not None and not same))
+    hyphened = match is not None and match[1] == "-"
+    return Name(stem, temperature, repeated, bool(match and target is not None and not same), hyphened)
 
 
 def _is(match: re.Match[str], target: float) -> bool:
+    """Whether a temperature means the target; a name may lack the minus, but one that has it means it."""
     value = _degrees(match)
-    return min(abs(value - target), abs(abs(value) - abs(target))) <= _SAME
+    apart = abs(value - target)
+    return (apart if value < 0.0 else min(apart, abs(value - abs(target)))) <= _SAME
 
 
 def of_file(stem: str) -> str:
@@ -70,7 +76,7 @@ def _series(name: str) -> str:
 
 
 def _degrees(match: re.Match[str]) -> float:
-    return celsius(match[1].replace("−", "-"), match[2])
+    return celsius(match[2].replace("−", "-"), match[3])
 
 
 def celsius(text: str, unit: str) -> float:

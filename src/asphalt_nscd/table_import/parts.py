@@ -10,7 +10,7 @@ from statistics import median
 
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.words import specimen_named
+from asphalt_nscd.files.words import counted, specimen_named
 from asphalt_nscd.table_import.dates import later
 from asphalt_nscd.table_import.names import of_file, one_of_another, specimen_of, spelling
 from asphalt_nscd.table_import.understand import Understood
@@ -24,7 +24,8 @@ _LEAST = 2  # frequencies for that: of one, the retest may be the mend
 class Part:
     """Tests of one file or sheet, or of one block of an export.
 
-    tested: when, as the header has it. repeated: whether it was marked as a repetition. contested: see `Block`.
+    tested: when, as the header has it. repeated: whether it was marked as a repetition. contested, unnamed: see
+    `Block`.
     """
 
     path: Path
@@ -33,6 +34,7 @@ class Part:
     repeated: bool = False
     tested: str = ""
     contested: str = ""
+    unnamed: bool = False
 
     @property
     def source(self) -> str:
@@ -56,10 +58,24 @@ def without_copies(parts: list[Part], notes: list[str]) -> list[Part]:
         if holders and part.values <= set().union(*(one.values for one in holders)):
             names = ", ".join(sorted({one.source for one in holders})[:3])
             more = "" if len({one.source for one in holders}) <= 3 else " and others"
-            notes.append(f"skipped {part.source} (holds the same tests as {names}{more})")
+            notes.append(
+                f"skipped {part.source} (holds the same tests as {names}{more})" + _saved_twice(part, holders)
+            )
         else:
             kept.append(part)
     return kept
+
+
+def _saved_twice(part: Part, holders: list[Part]) -> str:
+    """What to add of a copy if all are exports and name two specimens."""
+    name = part.read.table.columns["specimen"][0]
+    others = {one.read.table.columns["specimen"][0] for one in holders}
+    if not all(one.exported for one in (part, *holders)) or spelling(name) in map(spelling, others):
+        return ""
+    return (
+        f": identical results under two specimens, {name} and {min(others)}: one export was saved twice; export the "
+        "missing one"
+    )
 
 
 def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
@@ -82,6 +98,7 @@ def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
 
 def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
     """Parts in which no two files or sheets give one test: that of the later date, or marked as repeated, is kept."""
+    _require_specimens_of_names(parts)
     _require_alike(parts)
     taken: dict[tuple[str, ...], int] = {}
     dropped: dict[tuple[int, int], list[tuple[str, ...]]] = {}  # by the part that lost and the one that won
@@ -93,15 +110,48 @@ def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
             worse, better = (other, place) if _is_later(parts[other], part, test) else (place, other)
             dropped.setdefault((worse, better), []).append(test)
             taken[test] = better
-    for (worse, better), tests in dropped.items():
-        notes.append(_said_of_repeated(parts[worse], parts[better], tests))
+    said = [
+        _said_of_repeated(parts[worse], parts[better], tests) for (worse, better), tests in dropped.items()
+    ]
     kept = []
     for place, part in enumerate(parts):
         lost = {test for (worse, _), tests in dropped.items() if worse == place for test in tests}
         rows = [n for n, test in enumerate(_tests(part)) if test not in lost]
         if rows:
             kept.append(part if not lost else replace(part, read=_only(part.read, rows)))
+    sources, used = ({(part.path, part.source) for part in some} for some in (parts, kept))
+    if unused := len(sources - used):
+        verb, each = ("is", "it") if unused == 1 else ("are", "each")
+        notes.append(
+            f"{unused} of {counted(len(sources), 'file')} {verb} not used: {each} was tested again later"
+        )
+    notes += said
     return kept
+
+
+def _require_specimens_of_names(parts: list[Part]) -> None:
+    """Refuse exports of one test whose names say several specimens of a series, each with its temperature."""
+    of_test: dict[tuple[str, ...], list[Part]] = {}
+    for part in parts:
+        for test in set(_tests(part)) if part.exported else ():
+            of_test.setdefault(test, []).append(part)
+    said: dict[str, dict[str, Part]] = {}
+    for (specimen, *_), several in of_test.items():
+        names = {}
+        for part in several:
+            name = specimen_of(of_file(part.path.stem), None)
+            if name.temperature is not None:
+                names[name.specimen] = part
+        alike = any(spelling(name) == spelling(specimen) for name in names)
+        if not alike and any(one_of_another(one, other) for one, other in combinations(names, 2)):
+            said.setdefault(specimen, {}).update(names)
+    for specimen, names in said.items():
+        files = {part.path.name for part in parts if specimen in part.read.table.columns["specimen"]}
+        first, *others = sorted(names)
+        raise InputError(
+            f"{min(files)} and {len(files) - 1} more: the file names say {', '.join([first, *others[:-1]])} and "
+            f"{others[-1]}, and the header says {specimen} in all; correct the Identification, or leave it empty."
+        )
 
 
 def _require_alike(parts: list[Part]) -> None:

@@ -12,6 +12,7 @@ from asphalt_nscd.table_import.cells import Row
 from asphalt_nscd.table_import.names import celsius, specimen_of
 
 FAR = 3.0  # K between a target and the readings, or between two targets; T 378 lets a test stray by 0.5 K
+COLDEST = 30.0  # K below zero, further than mixes are tested; a hyphen before more is no minus
 _NUMBER = re.compile(r"[-−]?\d+(?:[.,]\d+)?")
 
 
@@ -63,14 +64,10 @@ def decided(
     if other is None:
         if measured is not None and abs(measured - header.value) > FAR:
             named = any(specimen_of(text, header.value).temperature for text in names)
-            mend = (
-                "correct the readings, or leave their cells empty if nothing was recorded"
-                if named
-                else "correct the target in the header"
-            )
             raise InputError(
                 f"{path}: the target temperature is {header.text} {_unit(header)}{', as the name says,' * named} and "
-                f"{measured:.3g} degC was measured; {mend}."
+                f"{measured:.3g} degC was measured: which is right? If the measured one, write it as the target"
+                f"{' and into the name' * named}; if the target, leave the cells of the readings empty."
             )
         return Target(header.text, header.column)
     text, said = other
@@ -115,6 +112,7 @@ def _without_header(
         raise InputError(
             f"{path}: no temperature; add a line 'Target test temperature (°C)' above the frequencies."
         )
+    told.sort(key=lambda one: specimen_of(one[0], None).hyphened)  # one with a clear sign first
     (text, said), *others = told
     for other, value in others:
         if specimen_of(other, float(said)).contradicts:
@@ -122,7 +120,11 @@ def _without_header(
                 f"{path}: the name {text!r} says {said} degC and the name {other!r} {value} degC, and no measured "
                 "temperature decides between them; rename the file or its specimen."
             )
-    notes.append(f"temperature taken from the name {text!r}")
+    doubtful = specimen_of(text, None).hyphened and abs(float(said)) <= COLDEST
+    notes.append(
+        f"{said} degC taken from the name {text!r}"
+        + f", its hyphen as a separator; if -{said} degC was meant, write that into the header" * doubtful
+    )
     return Target(said, "target temperature (°C)")
 
 

@@ -12,7 +12,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, REDUCED_COLUMNS
 from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.columns import Place, as_written, chosen_columns, one_of
-from asphalt_nscd.table_import.decimals import decimal_mark, number
+from asphalt_nscd.table_import.decimals import decimal_mark, number, with_point
 from asphalt_nscd.table_import.headings import with_units
 from asphalt_nscd.table_import.quantities import ABSENT, QUALITY, Column, recognise
 from asphalt_nscd.table_import.rows import CARRIED, tests_in
@@ -21,6 +21,15 @@ from asphalt_nscd.table_import.wide import melted, without_condition
 TEXTS = ("specimen", "replicate", "origin")
 KEYS = ("temperature_C", "frequency_Hz")
 FURTHER = ("nominal_temperature_C", "amplitude_m", "order", "cycles", "time_step_s")  # a diagnosis uses them
+_WORDS = {
+    "temperature_C": "temperature",
+    "frequency_Hz": "frequency",
+    "E_MPa": "|E*|",
+    "phase_deg": "phase",
+    "F0_N": "force",
+    "z0_m": "displacement",
+    "psi_deg": "phase between force and displacement",
+}
 MAY_BE_ABSENT = (*QUALITY, "microstrain")
 # Form, the angle that it lacks, the other one that stands there, and whose phase is wanted.
 _ANGLES = (
@@ -34,6 +43,7 @@ class Understood:
     """A table in our columns and units, its form (a key of FORMS), and sentences on how it was read.
 
     sources: for each of our columns the user's, and the unit it was converted from. mix: its name, if a column says it.
+    modulus_unit: what |E*| was converted from, empty if it was in MPa.
     """
 
     table: Table
@@ -41,6 +51,7 @@ class Understood:
     notes: list[str]
     sources: dict[str, str] = field(default_factory=dict)
     mix: str = ""
+    modulus_unit: str = ""
 
 
 def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Understood:
@@ -79,7 +90,8 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
     order = ["specimen", "replicate", *KEYS, *FORMS[form], "origin", *FURTHER, *MAY_BE_ABSENT]
     wanted = [name for name in order if name in values]
     table = Table(cells.path, {name: values[name] for name in wanted}, [line for line, _ in cells.rows])
-    return Understood(table, form, notes, sources, mix)
+    modulus = kept.get("E_MPa", (0, Column("E_MPa", None)))[1]
+    return Understood(table, form, notes, sources, mix, (modulus.unit or "") if _converts(modulus) else "")
 
 
 def _converts(column: Column) -> bool:
@@ -172,8 +184,10 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> str:
             )
     form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant
     nothing = {"E_MPa", "F0_N", "z0_m"}.isdisjoint(columns)
+    *words, last = (_WORDS[name] for name in missing[form])
+    wanted = f"columns for {', '.join(words)} and {last}" if words else f"column for {last}"
     raise (NotTests if nothing else InputError)(
-        f"{cells.path}: no column for {' and '.join(missing[form])} (found: {', '.join(cells.header)}); "
+        f"{cells.path}: no {wanted} (found: {', '.join(cells.header)}); "
         + (_instead_of_parts(cells) or "write names with units")
         + f', or name a column of yours with --column {missing[form][0]}="its name".'
     )
@@ -216,7 +230,7 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
                 )
             in_ours = value * column.factor + column.offset
             converted = f"{round(in_ours, 2) if column.offset else in_ours:.10g}"  # 0.01 K of degF
-            values[name].append(converted if _converts(column) else row[place].replace(",", "."))
+            values[name].append(converted if _converts(column) else with_point(row[place], mark))
     return values, mark
 
 
