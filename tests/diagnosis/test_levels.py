@@ -18,7 +18,7 @@ def test_one_isotherm_of_one_specimen_is_named(factor):
     (one,) = levels.odd(wrong)
     assert (one["specimen"], one["temperature_C"]) == (specimen, t)
     assert one["factor"] == pytest.approx(factor, rel=0.1)
-    (sentence,) = levels.notes([one], None)
+    (sentence,) = levels.notes([one])
     assert sentence.startswith(f"At {t:g} degC |E*| of specimen {specimen} is {one['factor']:.2g} times what")
 
 
@@ -34,9 +34,3 @@ def test_of_two_specimens_neither_is_odd():
     two = observed.subset(observed.specimen < 2)
     hit = (two.specimen == 1) & (two.isotherm == two.isotherms[0])
     assert levels.odd(replace(two, modulus=np.where(hit, 2.0, 1.0) * two.modulus)) == []
-
-
-def test_specimens_of_two_mixes_are_asked_for():
-    assert levels.notes([], 13.0) == [] and levels.notes([], None) == []
-    (sentence,) = levels.notes([], 37.1)
-    assert sentence.startswith("Specimens differ by 37 % in |E*|") and sentence.endswith("?")

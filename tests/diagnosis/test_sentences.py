@@ -7,6 +7,7 @@ from asphalt_nscd.diagnosis.sentences import (
     cause_words,
     causes,
     left,
+    mixes,
     on_data,
     on_doubtful,
     on_simulation,
@@ -106,10 +107,43 @@ def test_what_cannot_judge_the_simulation_says_why_and_what_to_add(specimens, re
     assert on_simulation(found).startswith(said)
 
 
-@pytest.mark.parametrize("percent,more", [(60.6, ", more than those of one mix do."), (3.3, ".")])
-def test_specimens_that_are_hardly_of_one_mix_are_said_in_the_verdict(percent, more):
-    found = content(0, 0, tests=72, repeatability={"between": {"E_percent": percent, "phase_deg": 0.2}})
-    assert on_data(found | {"ladder": []}).endswith(f"{percent} % in |E*| and 0.2 deg in phase{more}")
+def spread(percent, phase):
+    return {"repeatability": {"between": {"E_percent": percent, "phase_deg": phase}}}
+
+
+def test_specimens_that_are_hardly_of_one_mix_are_the_first_sentence():
+    found = content(0, 0, tests=72) | {"ladder": []}
+    two = found | spread(32.9, 2.8)
+    assert mixes(two) == (
+        "Specimens differ by 32.9 % in |E*| and 2.8 deg in phase, more than those of one mix do: are there two mixes? "
+        "Then diagnose each alone."
+    )
+    assert on_data(two) == "All 72 tests can be used."
+    one = found | spread(3.3, 0.2)
+    assert mixes(one) == "" == mixes(found)
+    assert on_data(one) == (
+        "All 72 tests can be used. Specimens differ by 3.3 % in |E*| and 0.2 deg in phase."
+    )
+
+
+@pytest.mark.parametrize(
+    "where,sure,said",
+    [
+        (None, True, "All of them carry a phase offset of 1.5 +- 0.2 deg."),
+        (None, False, "Perhaps all of them carry a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below)."),
+        (21.0, True, "Those at 21 degC carry a phase offset of 1.5 +- 0.2 deg."),
+        ("A", False, "Perhaps specimen A carries a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below)."),
+    ],
+)  # fmt: skip
+def test_a_fault_is_told_as_surely_as_it_is_known(where, sure, said):
+    offset = {"value": 1.5, "std_error": 0.1, "unit": "deg"}
+    rung = {
+        "cause": "phase_offset",
+        "where": where,
+        "parameters": {"phase_offset": offset},
+        "established": sure,
+    }
+    assert on_data(content(0, 0, tests=72) | {"ladder": [rung]}) == f"All 72 tests can be used. {said}"
 
 
 def test_a_specimen_called_specimen_is_not_called_so_twice():

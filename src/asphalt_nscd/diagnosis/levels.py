@@ -47,17 +47,11 @@ def odd(observed: Observations) -> list[dict[str, Any]]:
     ]
 
 
-def notes(found: list[dict[str, Any]], between_percent: float | None) -> list[str]:
-    """Sentences on odd levels, and on specimens that differ by this much in |E*| [percent]."""
-    out = [
+def notes(found: list[dict[str, Any]]) -> list[str]:
+    """Sentences on odd levels."""
+    return [
         f"At {one['temperature_C']:g} degC |E*| of {specimen_named(one['specimen'])} is {one['factor']:.2g} "
         "times what its other isotherms and the other specimens say. Modulus and phase may agree all the same. "
         "Check dimensions, gain and unit of these tests."
         for one in found
     ]
-    if between_percent is not None and between_percent > ONE_MIX:
-        out.append(
-            f"Specimens differ by {between_percent:.0f} % in |E*|, more than those of one mix do: is this one mix, and "
-            "were all tested alike?"
-        )
-    return out

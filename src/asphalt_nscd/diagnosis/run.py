@@ -172,9 +172,8 @@ def conclude(
     content["origin"] = origin
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
-    between = (content["repeatability"] or {}).get("between") or {}
     content["odd_levels"] = levels.odd(observed)
-    content["notes"] += levels.notes(content["odd_levels"], between.get("E_percent"))
+    content["notes"] += levels.notes(content["odd_levels"])
     content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
     content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
     done.step()

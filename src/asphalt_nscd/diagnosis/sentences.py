@@ -33,20 +33,23 @@ SIMPLER = "one Burgers law for each temperature"
 LARGEST = 4  # parts of what stays unexplained that are listed
 
 
+def mixes(content: Content) -> str:
+    """What a reader must know first: specimens that are hardly of one mix; empty where they may be."""
+    spread = (content.get("repeatability") or {}).get("between")
+    if spread is None or spread["E_percent"] <= ONE_MIX:
+        return ""
+    return f"{_spread(spread)}, more than those of one mix do: are there two mixes? Then diagnose each alone."
+
+
 def on_data(content: Content) -> str:
-    """One sentence: how many tests can be used, which fault they carry, which isotherm contradicts itself."""
+    """How many tests can be used, which fault they carry, which isotherm contradicts itself: a sentence each."""
     out = len(not_used(content))
     tests = content["tests"]
-    usable = f"{tests} of {tests + out} tests can be used" if out else f"all {tests} tests can be used"
-    faults = [rung for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
-    parts = [usable, *(_fault(rung) for rung in faults)]
-    repeated = content.get("repeatability")
-    if repeated is not None and repeated["between"] is not None:
-        spread = repeated["between"]
-        parts.append(
-            f"specimens differ by {spread['E_percent']:.1f} % in |E*| and {spread['phase_deg']:.1f} deg in phase"
-            + (", more than those of one mix do" if spread["E_percent"] > ONE_MIX else "")
-        )
+    parts = [f"{tests} of {tests + out} tests can be used" if out else f"all {tests} tests can be used"]
+    parts += [_fault(rung) for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
+    spread = (content.get("repeatability") or {}).get("between")
+    if spread is not None and not mixes(content):
+        parts.append(_spread(spread))
     parts += [
         f"|E*| of {specimen_named(one['specimen'])} at {one['temperature_C']:g} degC is "
         f"{one['factor']:.2g} times what the others say"
@@ -55,15 +58,22 @@ def on_data(content: Content) -> str:
     broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
     if broken:
         parts.append(f"at {joined([f'{t:g}' for t in broken])} degC modulus and phase contradict each other")
-    return f"{'; '.join(parts)}."
+    return " ".join(f"{part[:1].upper()}{part[1:]}." for part in parts)
+
+
+def _spread(between: Mapping[str, float]) -> str:
+    return f"Specimens differ by {between['E_percent']:.1f} % in |E*| and {between['phase_deg']:.1f} deg in phase"
 
 
 def _fault(rung: Content) -> str:
+    """Who carries a fault; perhaps, where the cause itself says why it is not certain."""
+    where = rung["where"]
+    one = isinstance(where, str)
+    who = specimen_named(where) if one else ("all of them" if where is None else f"those at {where:g} degC")
     words = an(rung["cause"].replace("_", " "))
-    one = isinstance(rung["where"], str)
-    who = specimen_named(rung["where"]) if one else "they"
-    sure = "" if rung.get("established", True) else "probably "
-    return f"{who} {sure}{'carries' if one else 'carry'} {words} of {size(rung)}"
+    if rung.get("established", True):
+        return f"{who} {'carries' if one else 'carry'} {words} of {size(rung)}"
+    return f"perhaps {who} {'carries' if one else 'carry'} {words} of {size(rung)} (not certain; the reason is below)"
 
 
 def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:

@@ -17,7 +17,9 @@ def summary(content: Content) -> str:
     read = content.get("reading", {"notes": []})
     verdict = [f"Data: {sentences.on_data(content)}", f"Simulation: {sentences.on_simulation(content)}"]
     test, named, files = sentences.test_type(content), sentences.causes(content), sentences.files(content)
-    head = [*([f"Test: {test}."] if test else []), *([f"Files: {files}"] if files else [])]
+    mixes = sentences.mixes(content)
+    head = [*([mixes] if mixes else []), *([f"Test: {test}."] if test else [])]
+    head += [f"Files: {files}"] if files else []
     parts = [
         ("What was read", read["notes"]),
         ("Verdict", [*head, *verdict]),

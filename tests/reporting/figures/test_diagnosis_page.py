@@ -25,7 +25,7 @@ def test_causes_stand_with_size_unit_chance_and_gains(page):
         "with a relaxation spectrum and a loose clamp of specimen 2 the simulation misses them by 2 % and 2 %"
         in html
     )
-    assert "Data: all 12 tests can be used; specimen 2 carries a loose clamp of 3 ± 0.39 1/TPa." in html
+    assert "Data: All 12 tests can be used. Specimen 2 carries a loose clamp of 3 ± 0.39 1/TPa." in html
     assert (
         "<b>loose clamp of specimen 2: 3 ± 0.39 1/TPa</b>. Established: by chance this happens in fewer than one"
         in html
@@ -136,7 +136,7 @@ def test_without_replicates_nothing_is_called_right_or_established(page, results
     ladder = json.loads(results.diagnosis()["diagnosis"][0].read_text())["ladder"]
     unsure = [rung | {"established": False} for rung in ladder]
     html = page(verdict="unexplained_structure", ladder=unsure)
-    assert "specimen 2 probably carries a loose clamp" in html
+    assert "Perhaps specimen 2 carries a loose clamp" in html
     assert (
         "Likely, not established. These tests are too few to exclude a cause outside the catalogue." in html
     )
@@ -189,7 +189,7 @@ def test_the_scatter_stands_as_coefficients_of_variation(page):
     found = {**own, "by_isotherm": [{"temperature_C": -10.0, **own}]}
     html = page(repeatability=found)
     assert "<td>−10 °C</td><td>12.1</td><td>1.91</td><td></td><td></td>" in html
-    assert "specimens differ by 12.1 % in |E*| and 1.9° in phase" in html
+    assert "Specimens differ by 12.1 % in |E*| and 1.9° in phase" in html
 
 
 def test_bond_mapping_stands_first_with_its_evidence_and_without_a_chance(page, results):

@@ -116,6 +116,7 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
     return {
         "test": sentences.test_type(content),
         "files": sentences.files(content),
+        "mixes": sentences.mixes(content),
         "data": sentences.on_data(content),
         "simulation": sentences.on_simulation(content, left),
         "not_used": [(sentences.place_of_test(one), one["reasons"]) for one in sentences.not_used(content)],
