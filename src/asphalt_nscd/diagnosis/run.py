@@ -173,7 +173,7 @@ def conclude(
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["odd_levels"] = levels.odd(observed)
-    content["notes"] += levels.notes(content["odd_levels"])
+    content["odd_phases"] = levels.odd_phases(observed)
     content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
     content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
     done.step()

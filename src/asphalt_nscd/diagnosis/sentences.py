@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.chance import CHANCE
-from asphalt_nscd.diagnosis.levels import ONE_MIX
 from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
 from asphalt_nscd.files.words import counted, specimen_named
 
@@ -36,7 +36,7 @@ LARGEST = 4  # parts of what stays unexplained that are listed
 def mixes(content: Content) -> str:
     """What a reader must know first: specimens that are hardly of one mix; empty where they may be."""
     spread = (content.get("repeatability") or {}).get("between")
-    if spread is None or spread["E_percent"] <= ONE_MIX:
+    if spread is None or spread["E_percent"] <= levels.ONE_MIX:
         return ""
     return f"{_spread(spread)}, more than those of one mix do: are there two mixes? Then diagnose each alone."
 
@@ -50,15 +50,23 @@ def on_data(content: Content) -> str:
     spread = (content.get("repeatability") or {}).get("between")
     if spread is not None and not mixes(content):
         parts.append(_spread(spread))
-    parts += [
-        f"|E*| of {specimen_named(one['specimen'])} at {one['temperature_C']:g} degC is "
-        f"{one['factor']:.2g} times what the others say"
-        for one in content.get("odd_levels", [])[:LARGEST]
-    ]
+    parts += levels.sentences(*_odd(content))[:LARGEST]
     broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
     if broken:
         parts.append(f"at {joined([f'{t:g}' for t in broken])} degC modulus and phase contradict each other")
     return " ".join(f"{part[:1].upper()}{part[1:]}." for part in parts)
+
+
+def _odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    return content.get("odd_levels", []), content.get("odd_phases", [])
+
+
+def _holding(content: Content) -> str:
+    """What a scatter holds that is none: it is larger by that, and hides as much."""
+    odd = levels.places(*_odd(content))
+    return (
+        f", but this scatter holds {joined(odd)}, which {'is' if len(odd) == 1 else 'are'} odd" if odd else ""
+    )
 
 
 def _spread(between: Mapping[str, float]) -> str:
@@ -87,7 +95,8 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
             return f"{SIMPLER} leaves more than scatter, and no cause of the catalogue explains it."
         if not content["tested"]:
             return _cannot_judge(content)
-        return f"{SIMPLER} fits these data to within their scatter; nothing is to be explained."
+        odd = _holding(content)
+        return f"{SIMPLER} fits these data to within their scatter{odd or '; nothing is to be explained'}."
     first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
     names = ("mre_E_percent", "mre_phase_percent")
     missed = [last[name]["after"] for name in names] if left is None else [left["E"], left["phase"]]
@@ -126,6 +135,7 @@ def _beyond_bonds(content: Content) -> str:
     unsure = doubtful and content["verdict"] != "explained" and not _more_than_scatter(content)
     end = "no more" if unsure or content["verdict"] == "explained" else "more"
     by = ", by a cause that is not established" if unsure else ""
+    by += _holding(content) if end == "no more" else ""
     bonds = content["numerics"]["largest_modulus_percent"]
     if bonds <= content["scatter"]["modulus_percent"]:
         return f"{end} than the scatter of the tests{by}"
@@ -256,7 +266,11 @@ def left(content: Content) -> list[str]:
     scatter, found = content["scatter"], content.get("discrepancy", {})
     parts = sorted(found.items(), key=lambda item: -item[1])[:LARGEST]
     if parts:
-        return [f"{_place(name)}: {_in_units(name, value, scatter)}" for name, value in parts]
+        odd = levels.places(*_odd(content))
+        return [
+            *(f"{_place(name)}: {_in_units(name, value, scatter)}" for name, value in parts),
+            *([f"{joined(odd)} took part in these sizes, although odd"] if odd else []),
+        ]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None and _more_than_scatter(content):
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]
