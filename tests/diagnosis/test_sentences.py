@@ -2,6 +2,7 @@
 
 import pytest
 
+from asphalt_nscd.diagnosis import sentences
 from asphalt_nscd.diagnosis.instructions import _names
 from asphalt_nscd.diagnosis.sentences import (
     cause_words,
@@ -55,6 +56,24 @@ def test_what_is_named_without_the_doubtful_tests_is_told(named, changed):
     assert with_suspects(content(1, 1, with_suspects=then)) == changed.replace(
         "Without it", "With these tests used"
     )
+
+
+def test_a_bench_that_nobody_stated_is_said_with_what_hangs_on_it():
+    read = {"test_type": "bending", "specimens": ["A", "B"], "isotherms_C": [4.0, 20.0]}
+    mass = {"value": -0.227, "std_error": 0.01, "unit": "kg"}
+    rung = {
+        "cause": "moving_mass", "where": None, "parameters": {"moving_mass": mass}, "p_value": 1e-9, "as_good": [],
+    }  # fmt: skip
+    stated, assumed = ({"ladder": [rung], "reading": read | more} for more in ({}, {"bench_assumed": True}))
+    assert sentences.test_type(stated) == "two-point bending of a trapezoidal specimen, 2 specimens, 4 and 20 degC"
+    assert sentences.test_type(assumed) == (
+        "taken for two-point bending of the paper's specimen, since neither --measured-in nor --geometry was given; "
+        "for a cylinder give --measured-in tension-compression. 2 specimens, 4 and 20 degC"
+    )
+    (plain,), (conditional,) = causes(stated), causes(assumed)
+    assert conditional[0] == f"{plain[0]}, if this was two-point bending"
+    offset = rung | {"cause": "phase_offset"}
+    assert "bending" not in causes(assumed | {"ladder": [offset]})[0][0]
 
 
 def test_the_same_causes_in_another_order_are_the_same():

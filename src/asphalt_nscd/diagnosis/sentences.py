@@ -21,6 +21,10 @@ TEST_TYPES = {
     "bending": "two-point bending of a trapezoidal specimen",
     "tension-compression": "axial test of a cylinder (tension-compression, AMPT or UTM)",
 }
+ASSUMED = (
+    "taken for two-point bending of the paper's specimen, since neither --measured-in nor --geometry was given; for a "
+    "cylinder give --measured-in tension-compression."
+)
 SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not None}
 BOUNDS = {
     cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
@@ -29,6 +33,7 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {
     "relaxation_spectrum",
     BOND_MAPPING,
 }
+OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
 SIMPLER = "one Burgers law for each temperature"
 LARGEST = 4  # parts of what stays unexplained that are listed
 
@@ -149,7 +154,8 @@ def test_type(content: Content) -> str:
     if read is None:
         return ""
     at = joined([f"{t:g}" for t in read["isotherms_C"]])
-    return f"{TEST_TYPES[read['test_type']]}, {counted(len(read['specimens']), 'specimen')}, {at} degC"
+    tests = f"{counted(len(read['specimens']), 'specimen')}, {at} degC"
+    return f"{ASSUMED} {tests}" if read.get("bench_assumed") else f"{TEST_TYPES[read['test_type']]}, {tests}"
 
 
 def files(content: Content) -> str:
@@ -206,9 +212,18 @@ def place_of_test(one: Content) -> str:
 def causes(content: Content) -> list[tuple[str, str]]:
     """Each named cause with its size, then what its sign means and how sure the name is."""
     return [
-        (f"{cause_words(rung)}: {size(rung)}".removesuffix(": "), f"{_meaning(rung)}{_sure(rung, content)}")
+        (
+            f"{cause_words(rung)}: {size(rung)}".removesuffix(": ") + _if_bending(rung, content),
+            f"{_meaning(rung)}{_sure(rung, content)}",
+        )
         for rung in content["ladder"]
     ]
+
+
+def _if_bending(rung: Content, content: Content) -> str:
+    """The condition of a fault that a cylinder cannot have, where nobody said what was tested."""
+    assumed = content.get("reading", {}).get("bench_assumed") and rung["cause"] in OF_THE_BENCH
+    return ", if this was two-point bending" if assumed else ""
 
 
 def _meaning(rung: Content) -> str:
