@@ -35,6 +35,7 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {
 }
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
 SIMPLER = "one Burgers law for each temperature"
+WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 LARGEST = 4  # parts of what stays unexplained that are listed
 
 
@@ -112,10 +113,21 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     facets = ["facets for bonds" for rung in ladder if rung["cause"] == BOND_MAPPING]
     found = joined([*facets, *(an(cause_words(rung)) for rung in ladder if rung["cause"] != BOND_MAPPING)])
     simpler = "the simulation of the paper" if facets else SIMPLER
+    worse = _worse([first[name]["before"] for name in names], missed)
     return (
         f"{simpler} misses |E*| by {before[0]} and the phase by {before[1]}; with {found} the simulation misses them "
-        f"by {after[0]} and {after[1]}, {_beyond_bonds(content)}."
+        f"by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
     )
+
+
+def _worse(before: Sequence[float], after: Sequence[float]) -> str:
+    """A warning where a law with fewer parameters misses what it was made for by more."""
+    worse = [
+        part
+        for part, was, now in zip(("|E*|", "the phase"), before, after, strict=True)
+        if now > max(WORSE * was, was + AT_ALL)
+    ]
+    return f" That is more than before in {joined(worse)}: do not use this law." if worse else ""
 
 
 def _cannot_judge(content: Content) -> str:
@@ -175,7 +187,7 @@ def doubtful(content: Content) -> list[Content]:
 
 def with_suspects(content: Content) -> str:
     """What the suspect tests would have changed, had they been used; empty where no test is left out."""
-    return _changed(content, "with_suspects", "With these tests used")
+    return _changed(content, "with_suspects", "Using these tests too")
 
 
 def on_doubtful(content: Content) -> str:
@@ -185,7 +197,7 @@ def on_doubtful(content: Content) -> str:
         return ""
     places = "; ".join(f"{place_of_test(one)} ({'; '.join(one['reasons'])})" for one in kept[:3])
     more = f"; and {len(kept) - 3} more, see suspect_tests in diagnosis.json" if kept[3:] else ""
-    changed = _changed(content, "without_doubtful", f"Without {'it' if len(kept) == 1 else 'them'}")
+    changed = _changed(content, "without_doubtful", f"Leaving {'it' if len(kept) == 1 else 'them'} out")
     return f"Doubtful but used: {places}{more}. {changed}".rstrip()
 
 
@@ -197,12 +209,10 @@ def _changed(content: Content, key: str, when: str) -> str:
     now = [cause_words(rung) for rung in content["ladder"] if rung["cause"] != BOND_MAPPING]
     other = [cause_words(rung) for rung in then["causes"]]
     more = joined([an(words) for words in other if words not in now])
-    less = joined([an(words) for words in now if words not in other], "or")
-    changes = [f"also name {more}"] if more else []
-    changes += [f"not name {less}"] if less else []
-    return (
-        f"{when} the diagnosis would {joined(changes)}." if changes else f"{when} the same causes are named."
-    )
+    less = joined([an(words) for words in now if words not in other])
+    changes = [f"add {more}"] if more else []
+    changes += [f"remove {less}"] if less else []
+    return f"{when} would {joined(changes)}." if changes else f"{when} changes no cause."
 
 
 def place_of_test(one: Content) -> str:
@@ -213,11 +223,18 @@ def causes(content: Content) -> list[tuple[str, str]]:
     """Each named cause with its size, then what its sign means and how sure the name is."""
     return [
         (
-            f"{cause_words(rung)}: {size(rung)}".removesuffix(": ") + _if_bending(rung, content),
+            _headed(rung) + _if_bending(rung, content),
             f"{_meaning(rung)}{_sure(rung, content)}",
         )
         for rung in content["ladder"]
     ]
+
+
+def _headed(rung: Content) -> str:
+    """A cause with its size; the law of the mix, which is none of the tests, is said to be so."""
+    if rung["cause"] == "relaxation_spectrum":
+        return f"No fault of the tests: {cause_words(rung)}, {size(rung)}".removesuffix(", ")
+    return f"{cause_words(rung)}: {size(rung)}".removesuffix(": ")
 
 
 def _if_bending(rung: Content, content: Content) -> str:
@@ -243,22 +260,23 @@ def _sure(rung: Content, content: Content) -> str:
         else (f"by chance this happens in {_per_cent(rung['p_value'])} of all tables")
     )
     if rung["as_good"]:
-        others = joined([_rival(name) for name in rung["as_good"]], "or")
-        return f"Likely. {others[:1].upper()}{others[1:]} fits as well; these tests do not say which."
+        others = joined([in_words(name) for name in rung["as_good"]], "or")
+        return f"Not certain: {others} fits as well; these tests do not say which."
     if rung.get("hangs_on"):
         rests = joined(rung["hangs_on"])
         fails = "leave out any one" if len(rung["hangs_on"]) > 1 else "leave it out"
-        return f"Likely, not established. It rests on {rests}: {fails} and it is no longer found."
+        return f"Not certain: it rests on {rests}: {fails} and it is no longer found."
     if rung.get("doubts"):
-        return f"Likely, not established. {'. '.join(rung['doubts'])}."
+        first, *more = rung["doubts"]
+        return f"Not certain: {'. '.join([first[:1].lower() + first[1:], *more])}."
     if not rung.get("established", True):
-        return "Likely, not established. These tests are too few to exclude a cause outside the catalogue."
+        return "Not certain: these tests are too few to exclude a cause outside the catalogue."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     return f"Established: {chance}."
 
 
-def _rival(name: str) -> str:
+def in_words(name: str) -> str:
     """`temperature_bias @ 21.0` in words."""
     words, _, place = name.replace("_", " ").partition(" @ ")
     if not place:
@@ -283,65 +301,46 @@ def left(content: Content) -> list[str]:
     if parts:
         odd = levels.places(*_odd(content))
         return [
-            *(f"{_place(name)}: {_in_units(name, value, scatter)}" for name, value in parts),
+            *(_part_left(name, value, scatter) for name, value in parts),
             *([f"{joined(odd)} took part in these sizes, although odd"] if odd else []),
         ]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None and _more_than_scatter(content):
+        if pattern["pattern"].count("slope over temperature") and _one_isotherm(content):
+            return _largest(content)
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]
     return []
 
 
-def _place(name: str) -> str:
-    """`specimen A, spectrum` in words; `37 degC, phase` says it already."""
-    place, part = name.removeprefix("specimen ").rsplit(", ", 1)
-    place = specimen_named(place) if name.startswith("specimen ") else place
-    return f"{place} does not follow the common master curve" if part == "spectrum" else f"{place}, {part}"
+def _one_isotherm(content: Content) -> bool:
+    return len(content.get("reading", {}).get("isotherms_C", [])) == 1
 
 
-def _in_units(name: str, value: float, scatter: Content) -> str:
-    if name.endswith("phase"):
-        return f"{three_digits(round(value * scatter['phase_deg'], 2))} deg"
-    return f"{three_digits(round(value * scatter['modulus_percent'], 1))} % in |E*|"
-
-
-def scatter_rows(content: Content) -> list[list[str]]:
-    """Isotherm, then between and within specimens: percent of |E*| and degrees of phase."""
-    found = content.get("repeatability")
-    if found is None:
-        return []
-    rows = [("all", found), *((f"{one['temperature_C']:g} degC", one) for one in found["by_isotherm"])]
-    return [[name, *_four(row)] for name, row in rows[1:] + rows[:1]]
-
-
-def measured_limits(content: Content) -> list[list[str]]:
-    """Cause, its stated limit, and at one, two and three times it how often it was named of how many tries."""
-    rows = []
-    for cause, by_times in content.get("measured_limits", {}).items():
-        limit = content["detection_limits"][cause]
-        value, unit = shown(limit["value"], limit["unit"])
-        row = [cause.replace("_", " "), f"{three_digits(value)} {unit}".rstrip()]
-        for times in ("1", "2", "3"):
-            one = by_times.get(times)
-            row.append("" if one is None else f"{one['named']} of {one['tried']}")
-        rows.append([*row, str(sum(one["other_named"] for one in by_times.values()))])
-    return rows
-
-
-LIMITS_STATED = (
-    "Each cause was put into these tests, and the table diagnosed again. Stated: named in 95 % of cases at the limit, "
-    "in all at twice the limit."
-)
-LIMITS_HEAD = ["cause", "stated limit", "named at the limit", "at twice", "at three times", "other names"]
-SCATTER_HEAD = ["isotherm", "between, |E*| %", "between, phase deg", "within, |E*| %", "within, phase deg"]
-
-
-def _four(row: Content) -> list[str]:
+def _largest(content: Content) -> list[str]:
+    """The mean residual that is left over most, where a slope over temperature has no meaning."""
+    found = [one for one in content.get("unexplained", []) if "specimen" not in one][:1]
     return [
-        "" if row[way] is None else f"{row[way][name]:.{digits}f}"
-        for way in ("between", "within")
-        for name, digits in (("E_percent", 1), ("phase_deg", 2))
+        f"{abs(one['residual_E_percent']):.1f} % in |E*| and {abs(one['residual_phase_deg']):.1f} deg in the phase at "
+        f"{one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
+        for one in found
     ]
+
+
+def _part_left(name: str, value: float, scatter: Content) -> str:
+    """`specimen A, spectrum` or `37 degC, phase`, its size first."""
+    place, part = name.removeprefix("specimen ").rsplit(", ", 1)
+    if name.startswith("specimen "):
+        place = f"of {specimen_named(place)}"
+    else:
+        place = f"{'at' if place.endswith(' degC') else 'of'} {place}"
+    if part == "phase":
+        return f"{_one_digit(value * scatter['phase_deg'])} deg in the phase {place}"
+    size = f"{_one_digit(value * scatter['modulus_percent'])} % in |E*| {place}"
+    return f"{size}, which does not follow the common master curve" if part == "spectrum" else size
+
+
+def _one_digit(value: float) -> str:
+    return f"{value:.1f}" if value >= 0.1 else f"{value:.1g}"
 
 
 def size(rung: Content) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis import sentences
+from asphalt_nscd.diagnosis import sentences, table_rows
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
@@ -126,11 +126,12 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "left": sentences.left(content),
         "orders": found["orders"],
         "costs": found["costs"],
-        "limits_head": sentences.LIMITS_HEAD,
-        "limits_stated": sentences.LIMITS_STATED,
-        "measured_limits": [[in_type(cell) for cell in row] for row in sentences.measured_limits(content)],
-        "scatter_head": [in_type(name).replace("deg", "°") for name in sentences.SCATTER_HEAD],
-        "scatter": [[in_type(cell) for cell in row] for row in sentences.scatter_rows(content)],
+        "limits_head": table_rows.LIMITS_HEAD,
+        "limits_stated": table_rows.LIMITS_STATED,
+        "measured_limits": [[in_type(cell) for cell in row] for row in table_rows.measured_limits(content)],
+        "scatter_caption": table_rows.SCATTER_CAPTION,
+        "scatter_head": [in_type(name).replace("deg", "°") for name in table_rows.SCATTER_HEAD],
+        "scatter": [[in_type(cell) for cell in row] for row in table_rows.scatter_rows(content)],
     }
 
 
