@@ -88,10 +88,11 @@ def test_what_the_tests_do_not_determine_is_said():
     fit = Fit(LAW, None, 0.0, 10)
     assert prior_notes(fit) == []
     assert prior_notes(replace(fit, from_prior=("glassy_modulus",))) == [
-        "The tests do not determine the glassy modulus (42 GPa) in law.json: usual values of asphalt concrete stand "
-        "there, which are no finding."
+        "These tests do not determine the glassy modulus of law.json; usual values of asphalt concrete stand there: "
+        "glassy modulus 42 GPa."
     ]
     (said,) = prior_notes(replace(fit, from_prior=("static_modulus", "c1", "c2")))
-    assert "the static modulus (1 MPa), C1 (12) and C2 (80 K) in law.json" in said
+    assert "do not determine the static modulus, C1 and C2 of law.json" in said
+    assert said.endswith("stand there: static modulus 1 MPa, C1 12, C2 80 K.")
     long = replace(fit, law=replace(LAW, beta=506.0), from_prior=("beta",))
-    assert "beta (510) in law.json" in prior_notes(long)[0]
+    assert "beta 510." in prior_notes(long)[0]

@@ -169,3 +169,27 @@ def _with(observed: Observations, specimen: str, temperature: float, frequencies
         np.concatenate([observed.temperature, np.full(size, temperature)]), np.concatenate([observed.frequency, f]),
         np.concatenate([observed.modulus, more]), np.full(observed.size + size, GAMMA), np.zeros(observed.size + size),
     )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "specimens,t,f,half,again",
+    [
+        (["a", "b"], 10.0, (3.0, 40.0), False, " again"),
+        (["a", "b"], 10.0, (3.0, 40.0), True, ""),
+        (["a"], 10.0, (3.0, 50.0), False, ""),
+        (["a"], 12.0, (3.0,), False, ""),
+        ([METAL], 10.0, (3.0,), False, ""),
+    ],
+)
+def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
+    order = instructions.Order(Sweep(specimens[0], t, f, half, None, 1.0), specimens, 2.5, 1.0, {})
+    who = {1: f"specimen {specimens[0]}", 2: "specimens a and b"}[len(specimens)]
+    who = METAL if specimens == [METAL] else who
+    assert instructions._text(order, table(3)).startswith(f"2.5 h: test {who}{again}")
+
+
+def test_what_a_test_would_show_is_said_with_its_chance():
+    one = instructions.Open("reach", None, "a phase offset of 1.5 deg")
+    assert instructions._reason(one, 4.0, 47.0) == (
+        "It would show a phase offset of 1.5 deg in 100 % of cases; the present tests do in 4 %."
+    )

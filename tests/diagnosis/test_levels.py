@@ -1,12 +1,28 @@
-"""A specimen whose modulus is off at one temperature, and specimens that are hardly of one mix."""
+"""A specimen whose modulus or phase is off at one temperature, or whose phase is off at all."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis import levels
+from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.sentences import left, on_simulation
+from asphalt_nscd.table_import.campaign import read_campaign
+
+EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
+
+
+@pytest.fixture(scope="module")
+def exports():
+    """Three specimens at four temperatures."""
+    return read_observations(read_campaign([EXPORTS])[0], PAPER_GEOMETRY)[0]
+
+
+def turned(observed, hit, degrees):
+    return replace(observed, modulus=observed.modulus * np.exp(1j * np.radians(degrees) * hit))
 
 
 @pytest.mark.parametrize("factor", [0.6, 1.5, 3.0])
@@ -18,8 +34,10 @@ def test_one_isotherm_of_one_specimen_is_named(factor):
     (one,) = levels.odd(wrong)
     assert (one["specimen"], one["temperature_C"]) == (specimen, t)
     assert one["factor"] == pytest.approx(factor, rel=0.1)
-    (sentence,) = levels.notes([one], None)
-    assert sentence.startswith(f"At {t:g} degC |E*| of specimen {specimen} is {one['factor']:.2g} times what")
+    (sentence,) = levels.sentences([one], [])
+    assert sentence.startswith(
+        f"specimen {specimen} at {t:g} degC: |E*| {one['factor']:.2f} times what its other"
+    )
 
 
 def test_a_stiffer_specimen_and_usual_scatter_are_not_odd():
@@ -36,7 +54,65 @@ def test_of_two_specimens_neither_is_odd():
     assert levels.odd(replace(two, modulus=np.where(hit, 2.0, 1.0) * two.modulus)) == []
 
 
-def test_specimens_of_two_mixes_are_asked_for():
-    assert levels.notes([], 13.0) == [] and levels.notes([], None) == []
-    (sentence,) = levels.notes([], 37.1)
-    assert sentence.startswith("Specimens differ by 37 % in |E*|") and sentence.endswith("?")
+@pytest.mark.parametrize("factor", [1.1, 1.2])
+def test_a_small_factor_is_named_where_the_levels_leave_no_doubt(exports, factor):
+    hit = (exports.specimen == 1) & (exports.isotherm == 20)
+    (one,) = levels.odd(replace(exports, modulus=np.where(hit, factor, 1.0) * exports.modulus))
+    assert (one["specimen"], one["temperature_C"]) == ("Mix-B", 20)
+    assert one["factor"] == pytest.approx(factor, rel=0.02)
+    assert levels.odd(exports) == levels.odd_phases(exports) == []
+
+
+@pytest.mark.parametrize("degrees", [4.0, -4.0, 20.0])
+def test_the_phase_of_one_isotherm_is_named(exports, degrees):
+    hit = (exports.specimen == 1) & (exports.isotherm == 20)
+    (one,) = levels.odd_phases(turned(exports, hit, degrees))
+    assert (one["specimen"], one["temperature_C"]) == ("Mix-B", 20)
+    assert one["phase_deg"] == pytest.approx(degrees, abs=0.2)
+    (sentence,) = levels.sentences([], [one])
+    side = "above" if degrees > 0.0 else "below"
+    assert sentence.startswith(
+        f"specimen Mix-B at 20 degC: phase {abs(one['phase_deg']):.1f} deg {side} what its other"
+    )
+
+
+def test_two_odd_isotherms_are_both_named(exports):
+    first = (exports.specimen == 1) & (exports.isotherm == 20)
+    second = (exports.specimen == 0) & (exports.isotherm == 50)
+    found = levels.odd_phases(turned(exports, 2.0 * first - second, 4.0))
+    assert [(one["specimen"], one["temperature_C"]) for one in found] == [("Mix-A", 50), ("Mix-B", 20)]
+
+
+def test_a_phase_that_is_off_at_all_temperatures_belongs_to_the_specimen(exports):
+    (one,) = levels.odd_phases(turned(exports, exports.specimen == 1, 4.0))
+    assert (one["specimen"], one["temperature_C"]) == ("Mix-B", None)
+    assert one["phase_deg"] == pytest.approx(4.0, abs=0.2)
+    (sentence,) = levels.sentences([], [one])
+    assert sentence.startswith(
+        "specimen Mix-B: phase 4.0 deg above the mean of the other specimens: check its"
+    )
+
+
+def test_a_phase_off_in_proportion_names_no_isotherm(exports):
+    """Another mix, say: the departure grows with the phase itself."""
+    phase = np.degrees(exports.logarithm.imag)
+    found = levels.odd_phases(turned(exports, exports.specimen == 1, 0.2 * phase))
+    assert [one["temperature_C"] for one in found] == [None]
+
+
+def test_of_two_specimens_neither_phase_is_odd(exports):
+    two = exports.subset(exports.specimen < 2)
+    assert levels.odd_phases(turned(two, two.specimen == 1, 4.0)) == []
+    assert levels.odd_phases(turned(two, (two.specimen == 1) & (two.isotherm == 20), 4.0)) == []
+
+
+def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
+    found = {
+        "ladder": [], "verdict": "nothing_to_explain", "tested": True,
+        "odd_phases": [{"specimen": "B", "temperature_C": 20.0, "phase_deg": 4.0}],
+        "discrepancy": {"specimen C, modulus": 2.0}, "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5},
+    }  # fmt: skip
+    assert on_simulation(found).endswith(
+        "fits these data to within their scatter, but this scatter holds specimen B at 20 degC, which is odd."
+    )
+    assert left(found)[-1] == "specimen B at 20 degC took part in these sizes, although odd"

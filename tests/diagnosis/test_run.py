@@ -184,3 +184,12 @@ def test_one_mapping_alone_makes_no_rung(campaigns):
     content = read_diagnosis([folder / "diagnosis.json"])
     assert content["ladder"][0]["cause"] == "relaxation_spectrum"
     assert any("No rung bond_mapping" in note and "1.002 of the law" in note for note in content["notes"])
+
+
+@pytest.mark.parametrize("stated", [None, "bending"])
+def test_a_table_of_an_unknown_bench_says_so(stated):
+    """`conclude` knows it by the words of the import."""
+    campaign, _ = read_campaign([EXPORTS.parent / "campaign.csv"], test_type=stated)
+    content = run.conclude(campaign, PAPER_GEOMETRY, draws=FEW).content
+    assert content["reading"].get("bench_assumed") == (True if stated is None else None)
+    assert not list(Draft202012Validator(SCHEMA).iter_errors(json.loads(json.dumps(content))))

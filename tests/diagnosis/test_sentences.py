@@ -2,11 +2,13 @@
 
 import pytest
 
+from asphalt_nscd.diagnosis import sentences
 from asphalt_nscd.diagnosis.instructions import _names
 from asphalt_nscd.diagnosis.sentences import (
     cause_words,
     causes,
     left,
+    mixes,
     on_data,
     on_doubtful,
     on_simulation,
@@ -40,11 +42,11 @@ def test_doubtful_tests_are_named(used, out, told):
 @pytest.mark.parametrize(
     "named,changed",
     [
-        ([{"cause": "phase_offset", "where": None}], "Without it the same causes are named."),
-        ([], "Without it the diagnosis would not name a phase offset."),
+        ([{"cause": "phase_offset", "where": None}], "Leaving it out changes no cause."),
+        ([], "Leaving it out would remove a phase offset."),
         (
             [{"cause": "loose_clamp", "where": "A"}],
-            "Without it the diagnosis would also name a loose clamp of specimen A and not name a phase offset.",
+            "Leaving it out would add a loose clamp of specimen A and remove a phase offset.",
         ),
     ],
 )
@@ -52,15 +54,36 @@ def test_what_is_named_without_the_doubtful_tests_is_told(named, changed):
     then = {"verdict": "explained", "causes": named}
     assert on_doubtful(content(1, 0, without_doubtful=then)).endswith(f"(x). {changed}")
     assert with_suspects(content(1, 1, with_suspects=then)) == changed.replace(
-        "Without it", "With these tests used"
+        "Leaving it out", "Using these tests too"
     )
+
+
+def test_a_bench_that_nobody_stated_is_said_with_what_hangs_on_it():
+    read = {"test_type": "bending", "specimens": ["A", "B"], "isotherms_C": [4.0, 20.0]}
+    mass = {"value": -0.227, "std_error": 0.01, "unit": "kg"}
+    rung = {
+        "cause": "moving_mass", "where": None, "parameters": {"moving_mass": mass}, "p_value": 1e-9, "as_good": [],
+    }  # fmt: skip
+    stated, assumed = ({"ladder": [rung], "reading": read | more} for more in ({}, {"bench_assumed": True}))
+    assert (
+        sentences.test_type(stated)
+        == "two-point bending of a trapezoidal specimen, 2 specimens, 4 and 20 degC"
+    )
+    assert sentences.test_type(assumed) == (
+        "taken for two-point bending of the paper's specimen, since neither --measured-in nor --geometry was given; "
+        "for a cylinder give --measured-in tension-compression. 2 specimens, 4 and 20 degC"
+    )
+    (plain,), (conditional,) = causes(stated), causes(assumed)
+    assert conditional[0] == f"{plain[0]}, if this was two-point bending"
+    offset = rung | {"cause": "phase_offset"}
+    assert "bending" not in causes(assumed | {"ladder": [offset]})[0][0]
 
 
 def test_the_same_causes_in_another_order_are_the_same():
     found = content(0, 1, with_suspects={"verdict": "explained", "causes": []})
     found["ladder"] = [{"cause": name, "where": None} for name in ("phase_offset", "channel_delay")]
     found["with_suspects"]["causes"] = found["ladder"][::-1]
-    assert with_suspects(found) == "With these tests used the same causes are named."
+    assert with_suspects(found) == "Using these tests too changes no cause."
 
 
 @pytest.mark.parametrize(
@@ -69,15 +92,19 @@ def test_the_same_causes_in_another_order_are_the_same():
         (
             ["4 degC", "specimen B"],
             [],
-            "It rests on 4 degC and specimen B: leave out any one and it is no longer found.",
+            "Not certain: it rests on 4 degC and specimen B: leave out any one and it is no longer found.",
         ),
-        (["4 degC"], [], "It rests on 4 degC: leave it out and it is no longer found."),
+        (["4 degC"], [], "Not certain: it rests on 4 degC: leave it out and it is no longer found."),
         (
             [],
             ["temperature_bias @ 21.0"],
-            "Temperature bias at 21 degC fits as well; these tests do not say which.",
+            "Not certain: temperature bias at 21 degC fits as well; these tests do not say which.",
         ),
-        ([], ["loose_clamp @ B"], "Loose clamp at B fits as well; these tests do not say which."),
+        (
+            [],
+            ["loose_clamp @ B"],
+            "Not certain: loose clamp at B fits as well; these tests do not say which.",
+        ),
     ],
 )
 def test_why_a_name_is_only_likely(hangs_on, as_good, sure):
@@ -106,10 +133,43 @@ def test_what_cannot_judge_the_simulation_says_why_and_what_to_add(specimens, re
     assert on_simulation(found).startswith(said)
 
 
-@pytest.mark.parametrize("percent,more", [(60.6, ", more than those of one mix do."), (3.3, ".")])
-def test_specimens_that_are_hardly_of_one_mix_are_said_in_the_verdict(percent, more):
-    found = content(0, 0, tests=72, repeatability={"between": {"E_percent": percent, "phase_deg": 0.2}})
-    assert on_data(found | {"ladder": []}).endswith(f"{percent} % in |E*| and 0.2 deg in phase{more}")
+def spread(percent, phase):
+    return {"repeatability": {"between": {"E_percent": percent, "phase_deg": phase}}}
+
+
+def test_specimens_that_are_hardly_of_one_mix_are_the_first_sentence():
+    found = content(0, 0, tests=72) | {"ladder": []}
+    two = found | spread(32.9, 2.8)
+    assert mixes(two) == (
+        "Specimens differ by 32.9 % in |E*| and 2.8 deg in phase, more than those of one mix do: are there two mixes? "
+        "Then diagnose each alone."
+    )
+    assert on_data(two) == "All 72 tests can be used."
+    one = found | spread(3.3, 0.2)
+    assert mixes(one) == "" == mixes(found)
+    assert on_data(one) == (
+        "All 72 tests can be used. Specimens differ by 3.3 % in |E*| and 0.2 deg in phase."
+    )
+
+
+@pytest.mark.parametrize(
+    "where,sure,said",
+    [
+        (None, True, "All of them carry a phase offset of 1.5 +- 0.2 deg."),
+        (None, False, "Perhaps all of them carry a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below)."),
+        (21.0, True, "Those at 21 degC carry a phase offset of 1.5 +- 0.2 deg."),
+        ("A", False, "Perhaps specimen A carries a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below)."),
+    ],
+)  # fmt: skip
+def test_a_fault_is_told_as_surely_as_it_is_known(where, sure, said):
+    offset = {"value": 1.5, "std_error": 0.1, "unit": "deg"}
+    rung = {
+        "cause": "phase_offset",
+        "where": where,
+        "parameters": {"phase_offset": offset},
+        "established": sure,
+    }
+    assert on_data(content(0, 0, tests=72) | {"ladder": [rung]}) == f"All 72 tests can be used. {said}"
 
 
 def test_a_specimen_called_specimen_is_not_called_so_twice():
@@ -119,9 +179,9 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
     found = {"specimen Specimen 1, spectrum": 2.0, "specimen S2, modulus": 1.5, "37 degC, phase": 1.0}
     scatter = {"modulus_percent": 1.0, "phase_deg": 0.5}
     assert left({"discrepancy": found, "scatter": scatter}) == [
-        "Specimen 1 does not follow the common master curve: 2 % in |E*|",
-        "specimen S2, modulus: 1.5 % in |E*|",
-        "37 degC, phase: 0.5 deg",
+        "2.0 % in |E*| of Specimen 1, which does not follow the common master curve",
+        "1.5 % in |E*| of specimen S2",
+        "0.5 deg in the phase at 37 degC",
     ]
     assert [_names(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
         "Specimen 1 and Specimen 2",
@@ -129,3 +189,63 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
         "specimen A",
         "Specimen 1",
     ]
+
+
+def test_a_doubt_and_the_law_of_the_mix_are_told_for_what_they_are():
+    size = {"value": 1.5, "std_error": 0.1, "unit": "deg"}
+    rung = {
+        "cause": "phase_offset", "where": None, "parameters": {"phase_offset": size}, "p_value": 1e-9, "as_good": [],
+        "doubts": ["Beside a smooth error its size is 2.5", "It was found after a name that is in doubt"],
+    }  # fmt: skip
+    law = rung | {"cause": "relaxation_spectrum", "doubts": [], "parameters": {"wlf_C1": size | {"unit": ""}}}
+    (doubt, of_the_mix) = causes({"ladder": [rung, law]})
+    assert doubt[1].endswith(
+        "Not certain: beside a smooth error its size is 2.5. It was found after a name that is in doubt."
+    )
+    assert of_the_mix[0] == "No fault of the tests: relaxation spectrum, WLF C1 1.5 +- 0.2"
+
+
+def test_one_temperature_has_no_slope_over_it():
+    found = {
+        "verdict": "unexplained_structure", "scatter": {}, "lack_of_fit_p_value": 1e-9,
+        "largest_pattern_left": {"pattern": "specimen X, slope over temperature, modulus", "z": 6.18, "p_value": 1e-9},
+        "reading": {"isotherms_C": [20.0]},
+        "unexplained": [{
+            "temperature_C": 20.0, "frequency_Hz": 10.0, "residual_E_percent": -6.21, "residual_phase_deg": 0.31,
+            "z": 6.2,
+        }],
+    }  # fmt: skip
+    assert left(found) == ["6.2 % in |E*| and 0.3 deg in the phase at 20 degC, 10 Hz"]
+    found["reading"]["isotherms_C"].append(30.0)
+    assert left(found) == ["specimen X, slope over temperature, modulus: 6.18 times its standard error"]
+
+
+@pytest.mark.parametrize(
+    "after,said",
+    [
+        ({"E": 3.2, "phase": 20.0}, ""),
+        ({"E": 21.9, "phase": 20.0}, " That is more than before in |E*|: do not use this law."),
+        ({"E": 21.9, "phase": 40.9}, " That is more than before in |E*| and the phase: do not use this law."),
+        ({"E": 10.6, "phase": 30.1}, ""),
+    ],
+)
+def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
+    errors = {
+        "mre_E_percent": {"before": 10.5, "after": 1.0},
+        "mre_phase_percent": {"before": 30.0, "after": 1.0},
+    }
+    rung = {
+        "cause": "relaxation_spectrum",
+        "where": None,
+        "gain": {"in_sample": {"averages_by_temperature": {"20": errors}}},
+    }
+    found = {
+        "ladder": [rung], "verdict": "unexplained_structure", "numerics": {"largest_modulus_percent": 0.1},
+        "scatter": {"modulus_percent": 1.0}, "largest_pattern_left": None, "lack_of_fit_p_value": 1e-9,
+    }  # fmt: skip
+    assert on_simulation(found, after).endswith(f"more than the scatter of the tests.{said}")
+
+
+def test_what_all_tests_share_is_not_at_a_place():
+    found = {"discrepancy": {"all tests, phase": 1.0}, "scatter": {"phase_deg": 0.5}}
+    assert left(found) == ["0.5 deg in the phase of all tests"]

@@ -96,6 +96,6 @@ def test_the_folder_of_exports_gets_the_answer_of_the_page(workspace):
     said = next(block for kind, block in BLOCKS if not kind and block.startswith("VERDICT"))
     assert done.stdout.endswith(said)
     html = (workspace.folder / "diagnosis/diagnosis.html").read_text(encoding="utf-8")
-    assert "71 of 72 tests can be used; they carry a channel delay of 0.792 ± 0.018 ms" in html
+    assert "71 of 72 tests can be used. All of them carry a channel delay of 0.792 ± 0.018 ms" in html
     drawn = re.findall(r'<figure class="chart" id="chart-([a-z]+)">', html)
     assert drawn == ["specimens", "causality", "residuals", "master", "black"]

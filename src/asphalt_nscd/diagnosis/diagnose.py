@@ -120,7 +120,8 @@ def diagnose(
     diagnosis.too_few = too_few = _too_few(diagnosis)
     if ladder.rungs and too_few:
         diagnosis.verdict = "unexplained_structure"
-        names = ", ".join(dict.fromkeys(rung.candidate.cause.name for rung in ladder.rungs))
+        named = dict.fromkeys(rung.candidate.cause.name for rung in ladder.rungs)
+        names = ", ".join(named).replace("_", " ")
         notes.append(
             f"{names}: the likeliest of the catalogue, not established, for {too_few}; an effect that the catalogue "
             "lacks may look the same."

@@ -149,8 +149,8 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         yield f"It may be {' or '.join(known)} instead"
     elif least < ENOUGH:
         yield (
-            "A smooth error without a name may explain it: allowing for one, its size is "
-            f"{np.floor(10.0 * least) / 10.0:g} standard errors, and a name needs {ENOUGH:g}"
+            f"Beside a smooth error without a name its size is {np.floor(10.0 * least) / 10.0:g} standard errors; "
+            f"{ENOUGH:g} are needed"
         )
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))

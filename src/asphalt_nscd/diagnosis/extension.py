@@ -22,6 +22,7 @@ from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
+from asphalt_nscd.diagnosis.sentences import joined
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.measurements.reduction import LEAST_TESTS
@@ -88,16 +89,16 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum) -> list[str]:
 def prior_notes(fit: Fit) -> list[str]:
     """A sentence on the parameters of the law that the tests do not determine; none if they determine all."""
     values = parameters(fit.law)
-    words = []
+    names, sizes = [], []
     for name in fit.from_prior:
         term, unit, factor = TERMS[name]
-        words.append(f"{term} ({float(f'{factor * values[name]:.2g}'):g}{unit})")
-    if not words:
+        names.append(term)
+        sizes.append(f"{term.removeprefix('the ')} {float(f'{factor * values[name]:.2g}'):g}{unit}")
+    if not names:
         return []
-    listed = words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
     return [
-        f"The tests do not determine {listed} in law.json: usual values of asphalt concrete stand there, which are "
-        "no finding."
+        f"These tests do not determine {joined(names)} of law.json; usual values of asphalt concrete stand there: "
+        f"{', '.join(sizes)}."
     ]
 
 

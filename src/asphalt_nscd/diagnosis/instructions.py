@@ -78,7 +78,7 @@ def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, 
         "costs": costs.sentence,
         "orders": [
             {
-                "text": _text(one),
+                "text": _text(one, diagnosis.whole or diagnosis.observed),
                 "why": _reasons(one, questions),
                 "hours": round(one.hours, 2),
                 "nats": round(one.nats, 2),
@@ -284,8 +284,7 @@ def _reason(one: Open, before: float, after: float) -> str:
     chances = [100.0 * float(ndtr(np.sqrt(strength) - USUAL_THRESHOLD)) for strength in (before, after)]
     if chances[1] - chances[0] < NOTICEABLE:
         return ""
-    found = f"{chances[1]:.0f} % of cases (now {chances[0]:.0f} %)"
-    return f"{one.about[0].upper()}{one.about[1:]} would be found in {found}."
+    return f"It would show {one.about} in {chances[1]:.0f} % of cases; the present tests do in {chances[0]:.0f} %."
 
 
 def _odds(strength: float) -> str:
@@ -293,11 +292,26 @@ def _odds(strength: float) -> str:
     return "more than 1000" if strength >= MOST_TOLD else three_digits(float(f"{odds:.2g}"))
 
 
-def _text(one: Order) -> str:
-    """An order in one sentence, its time first."""
+def _text(one: Order, done: Observations) -> str:
+    """An order in one sentence, its time first; done: the tests there are."""
     where = "" if one.sweep.specimen == METAL else f" at {one.sweep.temperature:g} degC"
     half = ", at half the strain" if one.sweep.half_strain else ""
-    return f"{one.hours:.1f} h: test {_names(one.specimens)}{where}, {_band(one.sweep.frequencies)}{half}."
+    again = " again" if _all_tested(one, done) else ""
+    return f"{one.hours:.1f} h: test {_names(one.specimens)}{again}{where}, {_band(one.sweep.frequencies)}{half}."
+
+
+def _all_tested(one: Order, done: Observations) -> bool:
+    """Whether an order asks for tests that were all made."""
+    tested = {
+        (done.names[k], round(t, 6), round(f, 6))
+        for k, t, f in zip(done.specimen, done.isotherm, done.frequency, strict=True)
+    }
+    wanted = {
+        (name, round(one.sweep.temperature, 6), round(f, 6))
+        for name in one.specimens
+        for f in one.sweep.frequencies
+    }
+    return not one.sweep.half_strain and wanted <= tested
 
 
 def _names(specimens: Sequence[str]) -> str:

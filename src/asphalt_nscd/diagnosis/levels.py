@@ -1,29 +1,72 @@
-"""Levels of |E*| that are odd: one specimen at one temperature, or specimens that are hardly of one mix.
+"""Isotherms of one specimen that are odd in |E*| or phase, and specimens that are odd in phase as a whole.
 
 A wrong diameter, gain or unit of one test series leaves modulus and phase in agreement with each other, so that
-causality says nothing of it. The specimen's other isotherms and the other specimens do.
+causality says nothing of it; nor of a phase that is off by as much at every frequency. The specimen's other isotherms
+and the other specimens do.
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.special import stdtrit
 
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.scatter import median_by
 from asphalt_nscd.files.words import specimen_named
 
+Vector = NDArray[np.float64]
+Place = tuple[int, float]  # number of the specimen, isotherm [degC]
+
 LEAST = 3  # specimens of an isotherm, and isotherms of a specimen: of two, neither is the odd one
 FAR, DEVIATIONS = 0.2, 5.0  # of ln|E*|, and times the usual deviation, above which a level is odd
+NEAR = 0.08  # of ln|E*|: enough where the other levels leave no doubt
+FAR_PHASE = 2.0  # deg above which the phase of a specimen or of one of its isotherms is odd
+MOST = 3  # odd phases looked for at once; of |E*| one, since specimens that wobble by themselves would pass for two
+LEAST_FREEDOM = 2  # degrees of freedom of the levels that judge one
+CHANCE = 0.003  # share of the tables without an odd level in which the levels name one by chance
 NORMAL = 1.4826  # standard deviation over the median absolute deviation
+LEAST_PHASE = 0.1  # deg: the logarithm of a phase needs one above zero
 ONE_MIX = 25.0  # percent by which specimens of one mix hardly differ; T 378 expects some 13
 
 
 def odd(observed: Observations) -> list[dict[str, Any]]:
     """Specimen, temperature [degC] and factor of |E*| of each isotherm off the level of its specimen."""
-    apart = observed.logarithm.real - median_by(observed.logarithm.real, observed.cell)
-    level: dict[tuple[int, float], float] = {}
+    level = _levels(observed, observed.logarithm.real)
+    found = _beyond_the_median(level) | _told_apart(level, NEAR, 1)
+    return [
+        {"specimen": observed.names[k], "temperature_C": t, "factor": float(np.exp(value))}
+        for (k, t), value in sorted(found.items())
+    ]
+
+
+def odd_phases(observed: Observations) -> list[dict[str, Any]]:
+    """Specimen, temperature [degC] and departure of the phase [deg]; temperature None: of the whole specimen.
+
+    A departure in proportion to the phase, as of another mix, belongs to a specimen: it is no odd isotherm.
+    """
+    phase = np.degrees(observed.logarithm.imag)
+    level = _levels(observed, phase)
+    in_proportion = _told_apart(_levels(observed, np.log(np.maximum(phase, LEAST_PHASE))), 0.0)
+    whole = dict(_departures(level))
+    found = [
+        (*place, value)
+        for place, value in sorted(_told_apart(level, FAR_PHASE).items())
+        if place in in_proportion and place[0] not in whole
+    ]
+    return [
+        {"specimen": observed.names[k], "temperature_C": t, "phase_deg": value}
+        for k, t, value in [*((k, None, value) for k, value in whole.items()), *found]
+    ]
+
+
+def _levels(observed: Observations, values: Vector) -> dict[Place, float]:
+    """Median over the frequencies of how far a specimen's isotherm lies from the middle of its conditions."""
+    apart = values - median_by(values, observed.cell)
+    level: dict[Place, float] = {}
     for t in observed.isotherms:
         at = observed.isotherm == t
         specimens = np.unique(observed.specimen[at])
@@ -31,33 +74,112 @@ def odd(observed: Observations) -> list[dict[str, Any]]:
             level |= {
                 (int(k), float(t)): float(np.median(apart[at & (observed.specimen == k)])) for k in specimens
             }
+    return level
+
+
+def _beyond_the_median(level: Mapping[Place, float]) -> dict[Place, float]:
+    """Levels FAR from the median of their specimen's, and DEVIATIONS times as far as is usual."""
     own = {k: [value for (other, _), value in level.items() if other == k] for k, _ in level}
     left = {
         place: value - float(np.median(own[place[0]]))
         for place, value in level.items()
         if len(own[place[0]]) >= LEAST
     }
-    if not left:
-        return []
-    usual = NORMAL * float(np.median(np.abs(list(left.values()))))
-    return [
-        {"specimen": observed.names[k], "temperature_C": t, "factor": float(np.exp(value))}
-        for (k, t), value in left.items()
-        if abs(value) > max(FAR, DEVIATIONS * usual)
-    ]
+    usual = NORMAL * float(np.median(np.abs(list(left.values())))) if left else 0.0
+    return {place: value for place, value in left.items() if abs(value) > max(FAR, DEVIATIONS * usual)}
 
 
-def notes(found: list[dict[str, Any]], between_percent: float | None) -> list[str]:
-    """Sentences on odd levels, and on specimens that differ by this much in |E*| [percent]."""
+def _told_apart(level: Mapping[Place, float], least: float, most: int = MOST) -> dict[Place, float]:
+    """Levels further than this from what all others predict, sure by DEVIATIONS and beyond chance.
+
+    The most striking are left out one after another, since one may hide another (generalized ESD test of Rosner 1983);
+    then each is held against those that stay.
+    """
+    rest, out, sure = dict(level), list[Place](), 0
+    while len(out) < most and (judged := list(_predicted(rest))):
+        _, place, _, passes = max((abs(errors), place, value, ok) for place, value, errors, ok in judged)
+        del rest[place]
+        out.append(place)
+        sure = len(out) if passes else sure
+    rest |= {place: level[place] for place in out[sure:]}
+    return {
+        place: value
+        for one in out[:sure]
+        for place, value, _, passes in _predicted(rest | {one: level[one]}, [one])
+        if passes and abs(value) > least
+    }
+
+
+def _predicted(
+    level: Mapping[Place, float], wanted: Collection[Place] | None = None
+) -> Iterator[tuple[Place, float, float, bool]]:
+    """Departure of levels from what the others predict: place, departure, in standard errors, whether that is sure.
+
+    The others are fitted by a value of each specimen and one of each isotherm.
+    """
+    places, values = list(level), np.array(list(level.values()))
+    labels = [np.array([place[part] for place in places]) for part in (0, 1)]
+    design = np.hstack([label[:, None] == np.unique(label) for label in labels]).astype(float)
+    for row, place in enumerate(places):
+        few = min(int((label == label[row]).sum()) for label in labels) < LEAST
+        if few or (wanted is not None and place not in wanted):
+            continue
+        others = np.arange(values.size) != row
+        freedom = int(others.sum() - np.linalg.matrix_rank(design[others]))
+        if freedom < LEAST_FREEDOM:
+            continue
+        back = np.linalg.pinv(design[others])
+        residual = values[others] - design[others] @ (back @ values[others])
+        departure = float(values[row] - design[row] @ (back @ values[others]))
+        spread = np.sqrt(residual @ residual / freedom * (1.0 + np.sum((design[row] @ back) ** 2)))
+        errors = departure / max(float(spread), 1e-12)
+        by_chance = float(stdtrit(freedom, 1.0 - 0.5 * CHANCE / values.size))
+        yield place, departure, errors, abs(errors) > max(DEVIATIONS, by_chance)
+
+
+def _departures(level: Mapping[Place, float]) -> Iterator[tuple[int, float]]:
+    """Specimens on one side of the mean of all others, DEVIATIONS times as far as these lie apart; and how far."""
+    for k in sorted({k for k, _ in level}):
+        apart, spread, freedom = [], 0.0, 0
+        for t in [t for other, t in level if other == k]:
+            others = np.array([value for (other, at), value in level.items() if at == t and other != k])
+            if others.size >= LEAST - 1:
+                apart.append(level[k, t] - float(others.mean()))
+                spread += float(np.sum((others - others.mean()) ** 2))
+                freedom += others.size - 1
+        if apart and abs(np.sign(apart).sum()) == len(apart):
+            middle = float(np.median(apart))  # the mean could be the doing of one isotherm
+            if abs(middle) > max(FAR_PHASE, DEVIATIONS * float(np.sqrt(spread / freedom))):
+                yield k, middle
+
+
+def sentences(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:
+    """What is odd and what to check, a sentence each without its full stop."""
+    others = "what its other temperatures and the other specimens say"
     out = [
-        f"At {one['temperature_C']:g} degC |E*| of {specimen_named(one['specimen'])} is {one['factor']:.2g} "
-        "times what its other isotherms and the other specimens say. Modulus and phase may agree all the same. "
-        "Check dimensions, gain and unit of these tests."
-        for one in found
+        f"{specimen_named(one['specimen'])} at {one['temperature_C']:g} degC: |E*| {one['factor']:.2f} times {others}: "
+        "check dimensions, gain and unit of these tests"
+        for one in levels
     ]
-    if between_percent is not None and between_percent > ONE_MIX:
-        out.append(
-            f"Specimens differ by {between_percent:.0f} % in |E*|, more than those of one mix do: is this one mix, and "
-            "were all tested alike?"
-        )
+    for one in phases:
+        side = "above" if one["phase_deg"] > 0.0 else "below"
+        size = f"phase {abs(one['phase_deg']):.1f} deg {side}"
+        if one["temperature_C"] is None:
+            out.append(
+                f"{specimen_named(one['specimen'])}: {size} the mean of the other specimens: check its gauges, "
+                "channels and mounting"
+            )
+        else:
+            at = f"{specimen_named(one['specimen'])} at {one['temperature_C']:g} degC"
+            out.append(f"{at}: {size} {others}: check gauges, channels and temperature of these tests")
     return out
+
+
+def places(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:
+    """Each odd isotherm or specimen once, in words."""
+    words = [
+        specimen_named(one["specimen"])
+        + ("" if one["temperature_C"] is None else f" at {one['temperature_C']:g} degC")
+        for one in [*levels, *phases]
+    ]
+    return list(dict.fromkeys(words))

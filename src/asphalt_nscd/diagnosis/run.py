@@ -42,6 +42,7 @@ OF_THE_PAPER = (
     "no --geometry: the paper's specimen is taken, 250 mm high, with 235 g that move; a mass, friction or compliance "
     "of the bench depends on it"
 )
+TAKEN_AS_BENDING = "is taken as two-point bending"  # as `table_import.campaign` says it without --measured-in
 STEPS = 5  # read, causes, law, second opinion, next tests
 FEW_DRAWS = 1000  # where a second opinion is asked for
 LISTED = 4  # gaps of a table that are named
@@ -164,6 +165,8 @@ def conclude(
     if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:
         notes.append(OF_THE_PAPER)
     content["reading"] = reading(observed, notes, without_tests)
+    if OF_THE_PAPER in notes and any(TAKEN_AS_BENDING in note for note in notes):
+        content["reading"]["bench_assumed"] = True
     if simulated.campaign is not None:
         content["numerics"]["campaign"] = of_campaign(
             simulated.campaign, observed.temperature, observed.frequency
@@ -172,9 +175,8 @@ def conclude(
     content["origin"] = origin
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
-    between = (content["repeatability"] or {}).get("between") or {}
     content["odd_levels"] = levels.odd(observed)
-    content["notes"] += levels.notes(content["odd_levels"], between.get("E_percent"))
+    content["odd_phases"] = levels.odd_phases(observed)
     content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
     content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
     done.step()

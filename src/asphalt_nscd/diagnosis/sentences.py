@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.chance import CHANCE
-from asphalt_nscd.diagnosis.levels import ONE_MIX
 from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
 from asphalt_nscd.files.words import counted, specimen_named
 
@@ -21,6 +21,10 @@ TEST_TYPES = {
     "bending": "two-point bending of a trapezoidal specimen",
     "tension-compression": "axial test of a cylinder (tension-compression, AMPT or UTM)",
 }
+ASSUMED = (
+    "taken for two-point bending of the paper's specimen, since neither --measured-in nor --geometry was given; for a "
+    "cylinder give --measured-in tension-compression."
+)
 SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not None}
 BOUNDS = {
     cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
@@ -29,41 +33,61 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {
     "relaxation_spectrum",
     BOND_MAPPING,
 }
+OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
 SIMPLER = "one Burgers law for each temperature"
+WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 LARGEST = 4  # parts of what stays unexplained that are listed
 
 
+def mixes(content: Content) -> str:
+    """What a reader must know first: specimens that are hardly of one mix; empty where they may be."""
+    spread = (content.get("repeatability") or {}).get("between")
+    if spread is None or spread["E_percent"] <= levels.ONE_MIX:
+        return ""
+    return f"{_spread(spread)}, more than those of one mix do: are there two mixes? Then diagnose each alone."
+
+
 def on_data(content: Content) -> str:
-    """One sentence: how many tests can be used, which fault they carry, which isotherm contradicts itself."""
+    """How many tests can be used, which fault they carry, which isotherm contradicts itself: a sentence each."""
     out = len(not_used(content))
     tests = content["tests"]
-    usable = f"{tests} of {tests + out} tests can be used" if out else f"all {tests} tests can be used"
-    faults = [rung for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
-    parts = [usable, *(_fault(rung) for rung in faults)]
-    repeated = content.get("repeatability")
-    if repeated is not None and repeated["between"] is not None:
-        spread = repeated["between"]
-        parts.append(
-            f"specimens differ by {spread['E_percent']:.1f} % in |E*| and {spread['phase_deg']:.1f} deg in phase"
-            + (", more than those of one mix do" if spread["E_percent"] > ONE_MIX else "")
-        )
-    parts += [
-        f"|E*| of {specimen_named(one['specimen'])} at {one['temperature_C']:g} degC is "
-        f"{one['factor']:.2g} times what the others say"
-        for one in content.get("odd_levels", [])[:LARGEST]
-    ]
+    parts = [f"{tests} of {tests + out} tests can be used" if out else f"all {tests} tests can be used"]
+    parts += [_fault(rung) for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
+    spread = (content.get("repeatability") or {}).get("between")
+    if spread is not None and not mixes(content):
+        parts.append(_spread(spread))
+    parts += levels.sentences(*_odd(content))[:LARGEST]
     broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
     if broken:
         parts.append(f"at {joined([f'{t:g}' for t in broken])} degC modulus and phase contradict each other")
-    return f"{'; '.join(parts)}."
+    return " ".join(f"{part[:1].upper()}{part[1:]}." for part in parts)
+
+
+def _odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    return content.get("odd_levels", []), content.get("odd_phases", [])
+
+
+def _holding(content: Content) -> str:
+    """What a scatter holds that is none: it is larger by that, and hides as much."""
+    odd = levels.places(*_odd(content))
+    return (
+        f", but this scatter holds {joined(odd)}, which {'is' if len(odd) == 1 else 'are'} odd" if odd else ""
+    )
+
+
+def _spread(between: Mapping[str, float]) -> str:
+    return f"Specimens differ by {between['E_percent']:.1f} % in |E*| and {between['phase_deg']:.1f} deg in phase"
 
 
 def _fault(rung: Content) -> str:
+    """Who carries a fault; perhaps, where the cause itself says why it is not certain."""
+    where = rung["where"]
+    one = isinstance(where, str)
+    who = specimen_named(where) if one else ("all of them" if where is None else f"those at {where:g} degC")
     words = an(rung["cause"].replace("_", " "))
-    one = isinstance(rung["where"], str)
-    who = specimen_named(rung["where"]) if one else "they"
-    sure = "" if rung.get("established", True) else "probably "
-    return f"{who} {sure}{'carries' if one else 'carry'} {words} of {size(rung)}"
+    if rung.get("established", True):
+        return f"{who} {'carries' if one else 'carry'} {words} of {size(rung)}"
+    return f"perhaps {who} {'carries' if one else 'carry'} {words} of {size(rung)} (not certain; the reason is below)"
 
 
 def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:
@@ -77,7 +101,8 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
             return f"{SIMPLER} leaves more than scatter, and no cause of the catalogue explains it."
         if not content["tested"]:
             return _cannot_judge(content)
-        return f"{SIMPLER} fits these data to within their scatter; nothing is to be explained."
+        odd = _holding(content)
+        return f"{SIMPLER} fits these data to within their scatter{odd or '; nothing is to be explained'}."
     first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
     names = ("mre_E_percent", "mre_phase_percent")
     missed = [last[name]["after"] for name in names] if left is None else [left["E"], left["phase"]]
@@ -88,10 +113,21 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     facets = ["facets for bonds" for rung in ladder if rung["cause"] == BOND_MAPPING]
     found = joined([*facets, *(an(cause_words(rung)) for rung in ladder if rung["cause"] != BOND_MAPPING)])
     simpler = "the simulation of the paper" if facets else SIMPLER
+    worse = _worse([first[name]["before"] for name in names], missed)
     return (
         f"{simpler} misses |E*| by {before[0]} and the phase by {before[1]}; with {found} the simulation misses them "
-        f"by {after[0]} and {after[1]}, {_beyond_bonds(content)}."
+        f"by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
     )
+
+
+def _worse(before: Sequence[float], after: Sequence[float]) -> str:
+    """A warning where a law with fewer parameters misses what it was made for by more."""
+    worse = [
+        part
+        for part, was, now in zip(("|E*|", "the phase"), before, after, strict=True)
+        if now > max(WORSE * was, was + AT_ALL)
+    ]
+    return f" That is more than before in {joined(worse)}: do not use this law." if worse else ""
 
 
 def _cannot_judge(content: Content) -> str:
@@ -116,6 +152,7 @@ def _beyond_bonds(content: Content) -> str:
     unsure = doubtful and content["verdict"] != "explained" and not _more_than_scatter(content)
     end = "no more" if unsure or content["verdict"] == "explained" else "more"
     by = ", by a cause that is not established" if unsure else ""
+    by += _holding(content) if end == "no more" else ""
     bonds = content["numerics"]["largest_modulus_percent"]
     if bonds <= content["scatter"]["modulus_percent"]:
         return f"{end} than the scatter of the tests{by}"
@@ -129,7 +166,8 @@ def test_type(content: Content) -> str:
     if read is None:
         return ""
     at = joined([f"{t:g}" for t in read["isotherms_C"]])
-    return f"{TEST_TYPES[read['test_type']]}, {counted(len(read['specimens']), 'specimen')}, {at} degC"
+    tests = f"{counted(len(read['specimens']), 'specimen')}, {at} degC"
+    return f"{ASSUMED} {tests}" if read.get("bench_assumed") else f"{TEST_TYPES[read['test_type']]}, {tests}"
 
 
 def files(content: Content) -> str:
@@ -149,7 +187,7 @@ def doubtful(content: Content) -> list[Content]:
 
 def with_suspects(content: Content) -> str:
     """What the suspect tests would have changed, had they been used; empty where no test is left out."""
-    return _changed(content, "with_suspects", "With these tests used")
+    return _changed(content, "with_suspects", "Using these tests too")
 
 
 def on_doubtful(content: Content) -> str:
@@ -159,7 +197,7 @@ def on_doubtful(content: Content) -> str:
         return ""
     places = "; ".join(f"{place_of_test(one)} ({'; '.join(one['reasons'])})" for one in kept[:3])
     more = f"; and {len(kept) - 3} more, see suspect_tests in diagnosis.json" if kept[3:] else ""
-    changed = _changed(content, "without_doubtful", f"Without {'it' if len(kept) == 1 else 'them'}")
+    changed = _changed(content, "without_doubtful", f"Leaving {'it' if len(kept) == 1 else 'them'} out")
     return f"Doubtful but used: {places}{more}. {changed}".rstrip()
 
 
@@ -171,12 +209,10 @@ def _changed(content: Content, key: str, when: str) -> str:
     now = [cause_words(rung) for rung in content["ladder"] if rung["cause"] != BOND_MAPPING]
     other = [cause_words(rung) for rung in then["causes"]]
     more = joined([an(words) for words in other if words not in now])
-    less = joined([an(words) for words in now if words not in other], "or")
-    changes = [f"also name {more}"] if more else []
-    changes += [f"not name {less}"] if less else []
-    return (
-        f"{when} the diagnosis would {joined(changes)}." if changes else f"{when} the same causes are named."
-    )
+    less = joined([an(words) for words in now if words not in other])
+    changes = [f"add {more}"] if more else []
+    changes += [f"remove {less}"] if less else []
+    return f"{when} would {joined(changes)}." if changes else f"{when} changes no cause."
 
 
 def place_of_test(one: Content) -> str:
@@ -186,9 +222,25 @@ def place_of_test(one: Content) -> str:
 def causes(content: Content) -> list[tuple[str, str]]:
     """Each named cause with its size, then what its sign means and how sure the name is."""
     return [
-        (f"{cause_words(rung)}: {size(rung)}".removesuffix(": "), f"{_meaning(rung)}{_sure(rung, content)}")
+        (
+            _headed(rung) + _if_bending(rung, content),
+            f"{_meaning(rung)}{_sure(rung, content)}",
+        )
         for rung in content["ladder"]
     ]
+
+
+def _headed(rung: Content) -> str:
+    """A cause with its size; the law of the mix, which is none of the tests, is said to be so."""
+    if rung["cause"] == "relaxation_spectrum":
+        return f"No fault of the tests: {cause_words(rung)}, {size(rung)}".removesuffix(", ")
+    return f"{cause_words(rung)}: {size(rung)}".removesuffix(": ")
+
+
+def _if_bending(rung: Content, content: Content) -> str:
+    """The condition of a fault that a cylinder cannot have, where nobody said what was tested."""
+    assumed = content.get("reading", {}).get("bench_assumed") and rung["cause"] in OF_THE_BENCH
+    return ", if this was two-point bending" if assumed else ""
 
 
 def _meaning(rung: Content) -> str:
@@ -208,22 +260,23 @@ def _sure(rung: Content, content: Content) -> str:
         else (f"by chance this happens in {_per_cent(rung['p_value'])} of all tables")
     )
     if rung["as_good"]:
-        others = joined([_rival(name) for name in rung["as_good"]], "or")
-        return f"Likely. {others[:1].upper()}{others[1:]} fits as well; these tests do not say which."
+        others = joined([in_words(name) for name in rung["as_good"]], "or")
+        return f"Not certain: {others} fits as well; these tests do not say which."
     if rung.get("hangs_on"):
         rests = joined(rung["hangs_on"])
         fails = "leave out any one" if len(rung["hangs_on"]) > 1 else "leave it out"
-        return f"Likely, not established. It rests on {rests}: {fails} and it is no longer found."
+        return f"Not certain: it rests on {rests}: {fails} and it is no longer found."
     if rung.get("doubts"):
-        return f"Likely, not established. {'. '.join(rung['doubts'])}."
+        first, *more = rung["doubts"]
+        return f"Not certain: {'. '.join([first[:1].lower() + first[1:], *more])}."
     if not rung.get("established", True):
-        return "Likely, not established. These tests are too few to exclude a cause outside the catalogue."
+        return "Not certain: these tests are too few to exclude a cause outside the catalogue."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     return f"Established: {chance}."
 
 
-def _rival(name: str) -> str:
+def in_words(name: str) -> str:
     """`temperature_bias @ 21.0` in words."""
     words, _, place = name.replace("_", " ").partition(" @ ")
     if not place:
@@ -246,63 +299,48 @@ def left(content: Content) -> list[str]:
     scatter, found = content["scatter"], content.get("discrepancy", {})
     parts = sorted(found.items(), key=lambda item: -item[1])[:LARGEST]
     if parts:
-        return [f"{_place(name)}: {_in_units(name, value, scatter)}" for name, value in parts]
+        odd = levels.places(*_odd(content))
+        return [
+            *(_part_left(name, value, scatter) for name, value in parts),
+            *([f"{joined(odd)} took part in these sizes, although odd"] if odd else []),
+        ]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None and _more_than_scatter(content):
+        if pattern["pattern"].count("slope over temperature") and _one_isotherm(content):
+            return _largest(content)
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]
     return []
 
 
-def _place(name: str) -> str:
-    """`specimen A, spectrum` in words; `37 degC, phase` says it already."""
-    place, part = name.removeprefix("specimen ").rsplit(", ", 1)
-    place = specimen_named(place) if name.startswith("specimen ") else place
-    return f"{place} does not follow the common master curve" if part == "spectrum" else f"{place}, {part}"
+def _one_isotherm(content: Content) -> bool:
+    return len(content.get("reading", {}).get("isotherms_C", [])) == 1
 
 
-def _in_units(name: str, value: float, scatter: Content) -> str:
-    if name.endswith("phase"):
-        return f"{three_digits(round(value * scatter['phase_deg'], 2))} deg"
-    return f"{three_digits(round(value * scatter['modulus_percent'], 1))} % in |E*|"
-
-
-def scatter_rows(content: Content) -> list[list[str]]:
-    """Isotherm, then between and within specimens: percent of |E*| and degrees of phase."""
-    found = content.get("repeatability")
-    if found is None:
-        return []
-    rows = [("all", found), *((f"{one['temperature_C']:g} degC", one) for one in found["by_isotherm"])]
-    return [[name, *_four(row)] for name, row in rows[1:] + rows[:1]]
-
-
-def measured_limits(content: Content) -> list[list[str]]:
-    """Cause, its stated limit, and at one, two and three times it how often it was named of how many tries."""
-    rows = []
-    for cause, by_times in content.get("measured_limits", {}).items():
-        limit = content["detection_limits"][cause]
-        value, unit = shown(limit["value"], limit["unit"])
-        row = [cause.replace("_", " "), f"{three_digits(value)} {unit}".rstrip()]
-        for times in ("1", "2", "3"):
-            one = by_times.get(times)
-            row.append("" if one is None else f"{one['named']} of {one['tried']}")
-        rows.append([*row, str(sum(one["other_named"] for one in by_times.values()))])
-    return rows
-
-
-LIMITS_STATED = (
-    "Each cause was put into these tests, and the table diagnosed again. Stated: named in 95 % of cases at the limit, "
-    "in all at twice the limit."
-)
-LIMITS_HEAD = ["cause", "stated limit", "named at the limit", "at twice", "at three times", "other names"]
-SCATTER_HEAD = ["isotherm", "between, |E*| %", "between, phase deg", "within, |E*| %", "within, phase deg"]
-
-
-def _four(row: Content) -> list[str]:
+def _largest(content: Content) -> list[str]:
+    """The mean residual that is left over most, where a slope over temperature has no meaning."""
+    found = [one for one in content.get("unexplained", []) if "specimen" not in one][:1]
     return [
-        "" if row[way] is None else f"{row[way][name]:.{digits}f}"
-        for way in ("between", "within")
-        for name, digits in (("E_percent", 1), ("phase_deg", 2))
+        f"{abs(one['residual_E_percent']):.1f} % in |E*| and {abs(one['residual_phase_deg']):.1f} deg in the phase at "
+        f"{one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
+        for one in found
     ]
+
+
+def _part_left(name: str, value: float, scatter: Content) -> str:
+    """`specimen A, spectrum` or `37 degC, phase`, its size first."""
+    place, part = name.removeprefix("specimen ").rsplit(", ", 1)
+    if name.startswith("specimen "):
+        place = f"of {specimen_named(place)}"
+    else:
+        place = f"{'at' if place.endswith(' degC') else 'of'} {place}"
+    if part == "phase":
+        return f"{_one_digit(value * scatter['phase_deg'])} deg in the phase {place}"
+    size = f"{_one_digit(value * scatter['modulus_percent'])} % in |E*| {place}"
+    return f"{size}, which does not follow the common master curve" if part == "spectrum" else size
+
+
+def _one_digit(value: float) -> str:
+    return f"{value:.1f}" if value >= 0.1 else f"{value:.1g}"
 
 
 def size(rung: Content) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 from tabulate import tabulate
 
-from asphalt_nscd.diagnosis import sentences
+from asphalt_nscd.diagnosis import sentences, table_rows
 
 Content = Mapping[str, Any]
 
@@ -17,7 +17,9 @@ def summary(content: Content) -> str:
     read = content.get("reading", {"notes": []})
     verdict = [f"Data: {sentences.on_data(content)}", f"Simulation: {sentences.on_simulation(content)}"]
     test, named, files = sentences.test_type(content), sentences.causes(content), sentences.files(content)
-    head = [*([f"Test: {test}."] if test else []), *([f"Files: {files}"] if files else [])]
+    mixes = sentences.mixes(content)
+    head = [*([mixes] if mixes else []), *([f"Test: {test}."] if test else [])]
+    head += [f"Files: {files}"] if files else []
     parts = [
         ("What was read", read["notes"]),
         ("Verdict", [*head, *verdict]),
@@ -50,7 +52,7 @@ def _suspects(content: Content) -> list[str]:
 
 
 def _left(content: Content) -> list[str]:
-    dropped = content["withdrawn"]
+    dropped = [sentences.in_words(name) for name in content["withdrawn"]]
     return sentences.left(content) + (
         [f"Considered and dropped, because a discrepancy fits as well: {', '.join(dropped)}."]
         if dropped
@@ -67,21 +69,21 @@ def _orders(content: Content) -> list[str]:
 
 
 def _limits(content: Content) -> list[str]:
-    rows = sentences.measured_limits(content)
+    rows = table_rows.measured_limits(content)
     if not rows:
         return []
     return [
-        sentences.LIMITS_STATED,
-        *tabulate(rows, sentences.LIMITS_HEAD, disable_numparse=True).splitlines(),
+        table_rows.LIMITS_STATED,
+        *tabulate(rows, table_rows.LIMITS_HEAD, disable_numparse=True).splitlines(),
     ]
 
 
 def _scatter(content: Content) -> list[str]:
-    rows = sentences.scatter_rows(content)
+    rows = table_rows.scatter_rows(content)
     if not rows:
         return []
-    table = tabulate(rows, sentences.SCATTER_HEAD, disable_numparse=True)
+    table = tabulate(rows, table_rows.SCATTER_HEAD, disable_numparse=True)
     return [
-        "Coefficient of variation at one condition: between specimens, and within each once its level is taken off:",
+        table_rows.SCATTER_CAPTION,
         *table.splitlines(),
     ]

@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis import sentences
+from asphalt_nscd.diagnosis import sentences, table_rows
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
@@ -34,6 +34,7 @@ HELD_OUT = {
     "leave_one_isotherm_out": "each inner temperature predicted from the rest",
     "leave_one_frequency_out": "each frequency predicted from the others",
 }
+MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of
 ORIGINS = {
     "measured": "The data are measured.",
     "reconstructed": (
@@ -91,7 +92,6 @@ def sections(
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
         "ladder": [_rung(rung) | {"as_good": _members(rung["as_good"], content)} for rung in rungs],
-        "held_out": HELD_OUT,
         "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
         "charts": plots.charts(residuals, diagnosis),
@@ -116,6 +116,7 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
     return {
         "test": sentences.test_type(content),
         "files": sentences.files(content),
+        "mixes": sentences.mixes(content),
         "data": sentences.on_data(content),
         "simulation": sentences.on_simulation(content, left),
         "not_used": [(sentences.place_of_test(one), one["reasons"]) for one in sentences.not_used(content)],
@@ -125,11 +126,12 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "left": sentences.left(content),
         "orders": found["orders"],
         "costs": found["costs"],
-        "limits_head": sentences.LIMITS_HEAD,
-        "limits_stated": sentences.LIMITS_STATED,
-        "measured_limits": [[in_type(cell) for cell in row] for row in sentences.measured_limits(content)],
-        "scatter_head": [in_type(name).replace("deg", "°") for name in sentences.SCATTER_HEAD],
-        "scatter": [[in_type(cell) for cell in row] for row in sentences.scatter_rows(content)],
+        "limits_head": table_rows.LIMITS_HEAD,
+        "limits_stated": table_rows.LIMITS_STATED,
+        "measured_limits": [[in_type(cell) for cell in row] for row in table_rows.measured_limits(content)],
+        "scatter_caption": table_rows.SCATTER_CAPTION,
+        "scatter_head": [in_type(name).replace("deg", "°") for name in table_rows.SCATTER_HEAD],
+        "scatter": [[in_type(cell) for cell in row] for row in table_rows.scatter_rows(content)],
     }
 
 
@@ -168,7 +170,11 @@ def _rung(rung: dict[str, Any]) -> dict[str, Any]:
         "hangs_on": rung.get("hangs_on", []),
         "doubts": rung.get("doubts", []),
         "in_sample": _gain(gain["in_sample"]),
-        "held_out": {name: _gain(gain["held_out"][name]) for name in HELD_OUT if name in gain["held_out"]},
+        "held_out": {
+            HELD_OUT[name] + _worse(gain["held_out"][name]): _gain(gain["held_out"][name])
+            for name in HELD_OUT
+            if name in gain["held_out"]
+        },
     }
 
 
@@ -217,6 +223,14 @@ def _gain(gain: dict[str, Any]) -> list[str]:
     """Errors as in Table 4, mean over temperatures, and residuals over scatter; empty where these are none."""
     pairs = [*mean_averages(gain).values(), gain.get("rms_over_scatter", {})]
     return [" → ".join(map(_number, pair.values())) for pair in pairs]
+
+
+def _worse(gain: dict[str, Any]) -> str:
+    """A warning where what is left out is predicted much worse than before, which may have seen it."""
+    for errors in mean_averages(gain).values():
+        if errors["after"] > max(MUCH_WORSE * errors["before"], POOR):
+            return ". That is more than before: do not use this law there"
+    return ""
 
 
 def _baseline(baseline: dict[str, Any]) -> list[list[str]]:

@@ -42,7 +42,8 @@ def first_page(
         "simulated": _simulated(tests, _frame(samples, "samples")),
         "wrong": _wrong(way),
         "found": {
-            name: _typed(told[name]) for name in ("data", "simulation", "causes", "left", "with_suspects")
+            name: _typed(told[name])
+            for name in ("mixes", "data", "simulation", "causes", "left", "with_suspects")
         },
         "not_used": [in_type(where) for where, _ in told["not_used"]],
         "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in told["orders"]],

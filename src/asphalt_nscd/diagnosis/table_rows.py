@@ -1,0 +1,53 @@
+"""Tables of a diagnosis as rows of text, for the terminal and for the page alike."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from asphalt_nscd.diagnosis.written import shown, three_digits
+
+Content = Mapping[str, Any]
+
+
+def scatter_rows(content: Content) -> list[list[str]]:
+    """Isotherm, then between and within specimens: percent of |E*| and degrees of phase."""
+    found = content.get("repeatability")
+    if found is None:
+        return []
+    rows = [("all", found), *((f"{one['temperature_C']:g} degC", one) for one in found["by_isotherm"])]
+    return [[name, *_four(row)] for name, row in rows[1:] + rows[:1]]
+
+
+def measured_limits(content: Content) -> list[list[str]]:
+    """Cause, its stated limit, and at one, two and three times it how often it was named of how many tries."""
+    rows = []
+    for cause, by_times in content.get("measured_limits", {}).items():
+        limit = content["detection_limits"][cause]
+        value, unit = shown(limit["value"], limit["unit"])
+        row = [cause.replace("_", " "), f"{three_digits(value)} {unit}".rstrip()]
+        for times in ("1", "2", "3"):
+            one = by_times.get(times)
+            row.append("" if one is None else f"{one['named']} of {one['tried']}")
+        rows.append([*row, str(sum(one["other_named"] for one in by_times.values()))])
+    return rows
+
+
+LIMITS_STATED = (
+    "Each cause was put into these tests, and the table diagnosed again. Stated: named in 95 % of cases at the limit, "
+    "in all at twice the limit."
+)
+LIMITS_HEAD = ["cause", "stated limit", "named at the limit", "at twice", "at three times", "other names"]
+SCATTER_CAPTION = (
+    "Scatter at one temperature and frequency. Between: among the specimens. Within: of one specimen about its own "
+    "level."
+)
+SCATTER_HEAD = ["isotherm", "between, |E*| %", "between, phase deg", "within, |E*| %", "within, phase deg"]
+
+
+def _four(row: Content) -> list[str]:
+    return [
+        "" if row[way] is None else f"{row[way][name]:.{digits}f}"
+        for way in ("between", "within")
+        for name, digits in (("E_percent", 1), ("phase_deg", 2))
+    ]
