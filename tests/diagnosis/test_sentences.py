@@ -202,7 +202,7 @@ def test_a_doubt_and_the_law_of_the_mix_are_told_for_what_they_are():
     assert doubt[1].endswith(
         "Not certain: beside a smooth error its size is 2.5. It was found after a name that is in doubt."
     )
-    assert of_the_mix[0] == "No fault of the tests: relaxation spectrum, WLF C1 1.5 +- 0.2"
+    assert of_the_mix[0] == "relaxation spectrum (a property of the mix, no fault): WLF C1 1.5 +- 0.2"
 
 
 def test_one_temperature_has_no_slope_over_it():
@@ -244,6 +244,34 @@ def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
         "scatter": {"modulus_percent": 1.0}, "largest_pattern_left": None, "lack_of_fit_p_value": 1e-9,
     }  # fmt: skip
     assert on_simulation(found, after).endswith(f"more than the scatter of the tests.{said}")
+
+
+@pytest.mark.parametrize("burgers,law", [(10.5, sentences.SIMPLER), (7.0, sentences.COMMON)])
+def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law):
+    """Of one specimen no spectrum is told, but its causes are judged beside one."""
+    errors = {name: {"before": 10.5, "after": 1.0} for name in ("mre_E_percent", "mre_phase_percent")}
+    found = {
+        "ladder": [
+            {
+                "cause": "phase_offset",
+                "where": None,
+                "gain": {"in_sample": {"averages_by_temperature": {"20": errors}}},
+            }
+        ],
+        "baseline": {"mre_E_percent": {"20": burgers}},
+        "verdict": "unexplained_structure", "numerics": {"largest_modulus_percent": 0.1},
+        "scatter": {"modulus_percent": 1.0}, "largest_pattern_left": None, "lack_of_fit_p_value": 1e-9,
+    }  # fmt: skip
+    assert on_simulation(found).startswith(f"{law} misses |E*| by 10.5 %")
+
+
+@pytest.mark.parametrize(
+    "exceeded,said", [(36, " 36 of 72 exceed the limit of phase uniformity (3 deg)."), (35, "")]
+)
+def test_a_quality_limit_that_half_of_the_tests_exceed_stands_in_the_verdict(exceeded, said):
+    reading = {"limits_exceeded": [{"column": "phase_uniformity_deg"}] * exceeded}
+    found = content(0, 0, tests=72, reading=reading) | {"ladder": []}
+    assert on_data(found) == f"All 72 tests can be used.{said}"
 
 
 def test_what_all_tests_share_is_not_at_a_place():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import runpy
 import shlex
@@ -97,5 +98,8 @@ def test_the_folder_of_exports_gets_the_answer_of_the_page(workspace):
     assert done.stdout.endswith(said)
     html = (workspace.folder / "diagnosis/diagnosis.html").read_text(encoding="utf-8")
     assert "71 of 72 tests can be used. All of them carry a channel delay of 0.792 ± 0.018 ms" in html
+    content = json.loads((workspace.folder / "diagnosis/diagnosis.json").read_text(encoding="utf-8"))
+    (aside,) = content["unexplained"]  # of the law with the delay, as the reason above: 4.9 deg
+    assert aside["residual_phase_deg"] == pytest.approx(4.9, abs=0.5)
     drawn = re.findall(r'<figure class="chart" id="chart-([a-z]+)">', html)
     assert drawn == ["specimens", "causality", "residuals", "master", "black"]

@@ -74,9 +74,9 @@ def told(found: list[Contradiction]) -> list[str]:
     also = ", ".join(f"{one.low:g} - {one.high:g} Hz at {one.temperature:g} degC" for one in others[:SHOWN])
     also += f" and {len(others) - SHOWN} more" if len(others) > SHOWN else ""
     return [
-        f"At {worst.temperature:g} degC, from {worst.low:g} to {worst.high:g} Hz, |E*| rises as a phase of "
-        f"{np.degrees(worst.asked):.1f} deg would, and {np.degrees(worst.measured):.1f} deg were measured "
-        f"({worst.z:.1f} standard deviations{f'; likewise {also}' if also else ''}). No linear law "
+        f"At {worst.temperature:g} degC, from {worst.low:g} to {worst.high:g} Hz, |E*| rises so steeply "
+        f"that the phase should be {np.degrees(worst.asked):.1f} deg; {np.degrees(worst.measured):.1f} deg were "
+        f"measured ({worst.z:.1f} standard deviations{f'; likewise {also}' if also else ''}). No linear law "
         "of the mix does that: look for a gain or a resonance of the machine there, or for a response not linear."
     ]
 

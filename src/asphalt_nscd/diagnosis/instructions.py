@@ -284,7 +284,9 @@ def _reason(one: Open, before: float, after: float) -> str:
     chances = [100.0 * float(ndtr(np.sqrt(strength) - USUAL_THRESHOLD)) for strength in (before, after)]
     if chances[1] - chances[0] < NOTICEABLE:
         return ""
-    return f"It would show {one.about} in {chances[1]:.0f} % of cases; the present tests do in {chances[0]:.0f} %."
+    return (
+        f"It would show {one.about} in {chances[1]:.0f} % of cases, instead of {chances[0]:.0f} % without it."
+    )
 
 
 def _odds(strength: float) -> str:

@@ -12,6 +12,7 @@ from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, cell_residuals
 from asphalt_nscd.diagnosis.gain import errors, simulated_by, with_burgers_laws
 from asphalt_nscd.diagnosis.heldout import HeldOut
+from asphalt_nscd.diagnosis.joint import Joint
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.rungs import name_of, of_cause, of_law
 from asphalt_nscd.diagnosis.scatter import STATED
@@ -219,12 +220,12 @@ def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:
             row = int(np.flatnonzero(observed.cell == cell)[0])
             at = {"temperature_C": float(observed.isotherm[row])}  # of all specimens in the mean
             out.append({**_miss(observed, row, mean[cell], z[cell]), **at})
-    aside = diagnosis.set_aside
+    aside, joint = diagnosis.set_aside, diagnosis.ladder.joint
+    if not aside.size:
+        return out
+    expected = Joint(aside, joint.base, joint.noise).predict(diagnosis.ladder.fitted)
     for row in range(aside.size):
-        law = diagnosis.ladder.joint.base.modulus(
-            diagnosis.ladder.fitted.law, aside.omega[[row]], aside.temperature[[row]]
-        )[0]
-        left = complex(aside.logarithm[row] - np.log(law[0]))
+        left = complex(aside.logarithm[row] - expected[row])
         sigma = diagnosis.noise.sigma
         size = max(abs(left.real) / sigma[0], abs(left.imag) / sigma[1])
         out.append({**_miss(aside, row, left, size), "specimen": aside.names[aside.specimen[row]]})

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from asphalt_nscd.diagnosis import levels
+from asphalt_nscd.diagnosis import levels, quality
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
@@ -35,6 +35,7 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {
 }
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
 SIMPLER = "one Burgers law for each temperature"
+COMMON = "one law for all temperatures"
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 LARGEST = 4  # parts of what stays unexplained that are listed
 
@@ -52,6 +53,7 @@ def on_data(content: Content) -> str:
     out = len(not_used(content))
     tests = content["tests"]
     parts = [f"{tests} of {tests + out} tests can be used" if out else f"all {tests} tests can be used"]
+    parts += _flagged(content)
     parts += [_fault(rung) for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
     spread = (content.get("repeatability") or {}).get("between")
     if spread is not None and not mixes(content):
@@ -61,6 +63,17 @@ def on_data(content: Content) -> str:
     if broken:
         parts.append(f"at {joined([f'{t:g}' for t in broken])} degC modulus and phase contradict each other")
     return " ".join(f"{part[:1].upper()}{part[1:]}." for part in parts)
+
+
+def _flagged(content: Content) -> list[str]:
+    """Quality limits that half of the tests exceed or more."""
+    tests = content["tests"] + len(not_used(content))
+    columns = [one["column"] for one in content.get("reading", {}).get("limits_exceeded", [])]
+    return [
+        f"{columns.count(name)} of {tests} exceed the limit of {limit.label} ({limit.limit:g} {limit.unit})"
+        for name, limit in quality.LIMITS.items()
+        if 2 * columns.count(name) >= tests
+    ]
 
 
 def _odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
@@ -112,12 +125,22 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     )
     facets = ["facets for bonds" for rung in ladder if rung["cause"] == BOND_MAPPING]
     found = joined([*facets, *(an(cause_words(rung)) for rung in ladder if rung["cause"] != BOND_MAPPING)])
-    simpler = "the simulation of the paper" if facets else SIMPLER
+    simpler = "the simulation of the paper" if facets else _first_law(content)
     worse = _worse([first[name]["before"] for name in names], missed)
     return (
         f"{simpler} misses |E*| by {before[0]} and the phase by {before[1]}; with {found} the simulation misses them "
         f"by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
     )
+
+
+def _first_law(content: Content) -> str:
+    """The law that the first rung begins with: of too few tests no spectrum is told, but causes rest on one."""
+    rung = content["ladder"][0]
+    if rung["cause"] == "relaxation_spectrum":
+        return SIMPLER
+    first = mean_averages(rung["gain"]["in_sample"])["mre_E_percent"]["before"]
+    burgers = list(content["baseline"]["mre_E_percent"].values())
+    return SIMPLER if abs(first - sum(burgers) / len(burgers)) < 1e-3 * first else COMMON
 
 
 def _worse(before: Sequence[float], after: Sequence[float]) -> str:
@@ -233,7 +256,8 @@ def causes(content: Content) -> list[tuple[str, str]]:
 def _headed(rung: Content) -> str:
     """A cause with its size; the law of the mix, which is none of the tests, is said to be so."""
     if rung["cause"] == "relaxation_spectrum":
-        return f"No fault of the tests: {cause_words(rung)}, {size(rung)}".removesuffix(", ")
+        said = f"{cause_words(rung)} (a property of the mix, no fault): {size(rung)}"
+        return said.removesuffix(": ")
     return f"{cause_words(rung)}: {size(rung)}".removesuffix(": ")
 
 

@@ -251,7 +251,7 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
             f"{np.exp(expected) / 1e6:.0f} MPa, standard error {100.0 * error:.1f} %"
         )
     phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
-    delayed = f" with the delay of {1e3 * held.delay:.2g} ms that most isotherms show" if held.delay else ""
+    delayed = f", a first estimate of the delay ({1e3 * held.delay:.2g} ms) taken in" if held.delay else ""
     return (
         f"phase is {phase:.1f} deg, {abs(phase - allowed):.1f} deg {_way(phase - allowed)} what its |E*| and {rest}"
         f"{delayed}: {allowed:.1f} deg, standard error {np.degrees(error):.1f} deg"
