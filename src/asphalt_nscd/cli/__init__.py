@@ -100,6 +100,10 @@ def _status(step: Callable[[], object]) -> int:
         return _say("interrupted; nothing half-written is left.", 130)
     except MemoryError:
         return _say(_NO_MEMORY, 2)
+    except SystemError as error:  # Python had no memory left to raise a MemoryError with
+        if re.search(r"without (setting an )?exception", str(error)) is None:
+            raise
+        return _say(_NO_MEMORY, 2)
     except ImportError as error:
         if error.name in _OF_THE_WORKFLOW:
             return _say(f"this step needs {error.name}; pip install 'asphalt-nscd[workflow]'.", 2)
