@@ -84,7 +84,10 @@ def test_an_effect_that_grows_with_temperature_is_no_offset():
 def test_a_small_effect_is_only_likely():
     observed = table(lambda omega, temperature: 0.06 * turned(omega, temperature))
     (reason,) = doubts_of(observed, "phase_offset")["phase_offset", None]
-    assert reason.startswith("Beside a smooth error without a name its size is") and "6 are needed" in reason
+    assert reason.startswith(
+        "A smooth error over frequency, which the catalogue lacks, may take its place: beside "
+    )
+    assert "standard errors, and a name needs 6. " in reason
 
 
 def test_what_follows_a_name_in_doubt_is_in_doubt():

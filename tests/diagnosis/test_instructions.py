@@ -135,6 +135,45 @@ def test_a_test_that_cannot_be_used_is_to_be_repeated():
     assert 10.0 in repeated[0]["frequencies_Hz"] and not repeated[0]["half_strain"]
 
 
+def test_an_odd_isotherm_is_to_be_tested_again():
+    observed = table(4)
+    odd = (observed.specimen == 1) & (observed.isotherm == 0)
+    found = diagnose(replace(observed, modulus=observed.modulus * np.where(odd, 1.3, 1.0)), draws=1000)
+    orders = instructions.instructions(found)["orders"]
+    (again,) = [
+        one for one in orders if any("times what its other temperatures" in why for why in one["why"])
+    ]
+    assert (again["specimens"], again["temperature_C"], again["half_strain"]) == (["b"], 0.0, False)
+    assert again["why"][0].startswith("Specimen b at 0 degC: |E*| 1.")
+    assert again["why"][0].endswith("was at fault: use the new tests.")
+
+
+def test_half_the_strain_is_asked_for_with_the_size_that_it_should_halve(delayed):
+    ladder = replace(
+        delayed.ladder, discrepancy={"20 degC, phase": 3.0, "20 degC, modulus": 2.0, "0 degC, phase": 9.0}
+    )
+    left = instructions._unexplained(replace(delayed, ladder=ladder), "20 degC")
+    modulus, phase = delayed.noise.sigma
+    assert left == f"{np.degrees(3.0 * phase):.1f} deg in the phase and {200.0 * modulus:.1f} % in |E*|"
+    asked = [
+        instructions.Open("linear", None, "20 degC", left),
+        instructions.Open("linear", None, "0 degC", "other"),
+    ]
+    order = instructions.Order(
+        Sweep("a", 20.0, (10.0,), True, None, 1.0), ["a"], 1.0, 1.0, {0: (0, 1), 1: (0, 1)}
+    )
+    (why,) = instructions._reasons(order, asked)
+    assert why.startswith(
+        f"What stays unexplained at 20 degC ({left}) should halve if the mix is not linear. "
+    )
+
+
+def test_a_gain_too_small_to_matter_is_no_reason():
+    asked = instructions.Open("kept", None, "moving mass", "54 degC")
+    assert instructions._reason(asked, 1.8**2, 1.9**2) == ""
+    assert instructions._reason(asked, 1.8**2, 2.4**2).endswith("by 2.4 standard errors (now 1.8).")
+
+
 def test_a_sweep_that_was_asked_for_lowers_the_limit_as_promised(empty):
     """A bias of one isotherm: the sweep that says most of it is added to the table, which is diagnosed again."""
     found = empty

@@ -42,11 +42,15 @@ def test_doubtful_tests_are_named(used, out, told):
 @pytest.mark.parametrize(
     "named,changed",
     [
-        ([{"cause": "phase_offset", "where": None}], "Leaving it out changes no cause."),
-        ([], "Leaving it out would remove a phase offset."),
+        (
+            [{"cause": "phase_offset", "where": None}],
+            "If it were left out, the diagnosis would name the same causes.",
+        ),
+        ([], "If it were left out, the diagnosis would no longer name a phase offset."),
         (
             [{"cause": "loose_clamp", "where": "A"}],
-            "Leaving it out would add a loose clamp of specimen A and remove a phase offset.",
+            "If it were left out, the diagnosis would also name a loose clamp of specimen A and no longer "
+            "name a phase offset.",
         ),
     ],
 )
@@ -54,7 +58,7 @@ def test_what_is_named_without_the_doubtful_tests_is_told(named, changed):
     then = {"verdict": "explained", "causes": named}
     assert on_doubtful(content(1, 0, without_doubtful=then)).endswith(f"(x). {changed}")
     assert with_suspects(content(1, 1, with_suspects=then)) == changed.replace(
-        "Leaving it out", "Using these tests too"
+        "If it were left out", "If these tests were kept"
     )
 
 
@@ -83,7 +87,7 @@ def test_the_same_causes_in_another_order_are_the_same():
     found = content(0, 1, with_suspects={"verdict": "explained", "causes": []})
     found["ladder"] = [{"cause": name, "where": None} for name in ("phase_offset", "channel_delay")]
     found["with_suspects"]["causes"] = found["ladder"][::-1]
-    assert with_suspects(found) == "Using these tests too changes no cause."
+    assert with_suspects(found) == "If these tests were kept, the diagnosis would name the same causes."
 
 
 @pytest.mark.parametrize(
@@ -241,9 +245,10 @@ def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
     }
     found = {
         "ladder": [rung], "verdict": "unexplained_structure", "numerics": {"largest_modulus_percent": 0.1},
-        "scatter": {"modulus_percent": 1.0}, "largest_pattern_left": None, "lack_of_fit_p_value": 1e-9,
+        "scatter": {"modulus_percent": 1.0, "from_replicates": True},
+        "largest_pattern_left": None, "lack_of_fit_p_value": 1e-9,
     }  # fmt: skip
-    assert on_simulation(found, after).endswith(f"more than the scatter of the tests.{said}")
+    assert on_simulation(found, after).endswith(f"more than scatter can explain.{said}")
 
 
 @pytest.mark.parametrize("burgers,law", [(10.5, sentences.SIMPLER), (7.0, sentences.COMMON)])
@@ -260,9 +265,12 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
         ],
         "baseline": {"mre_E_percent": {"20": burgers}},
         "verdict": "unexplained_structure", "numerics": {"largest_modulus_percent": 0.1},
-        "scatter": {"modulus_percent": 1.0}, "largest_pattern_left": None, "lack_of_fit_p_value": 1e-9,
+        "scatter": {"modulus_percent": 1.0, "from_replicates": True},
+        "largest_pattern_left": None, "lack_of_fit_p_value": 1e-9,
     }  # fmt: skip
-    assert on_simulation(found).startswith(f"{law} misses |E*| by 10.5 %")
+    assert on_simulation(found).startswith(f"{law} misses the mean of the specimens by 10.5 % of |E*|")
+    found["scatter"]["from_replicates"] = False
+    assert on_simulation(found).startswith(f"{law} misses the tests by 10.5 % of |E*|")
 
 
 @pytest.mark.parametrize(
@@ -272,6 +280,15 @@ def test_a_quality_limit_that_half_of_the_tests_exceed_stands_in_the_verdict(exc
     reading = {"limits_exceeded": [{"column": "phase_uniformity_deg"}] * exceeded}
     found = content(0, 0, tests=72, reading=reading) | {"ladder": []}
     assert on_data(found) == f"All 72 tests can be used.{said}"
+
+
+def test_a_fault_of_one_isotherm_stands_in_the_verdict():
+    bias = {"value": -3.65, "std_error": 0.66, "unit": "K"}
+    rung = {"cause": "temperature_bias", "where": 24.0, "established": False, "parameters": {"bias": bias}}
+    assert on_data(content(0, 0, tests=72) | {"ladder": [rung]}) == (
+        "All 72 tests can be used. Perhaps those at 24 degC carry a temperature bias of -3.65 +- 1.3 K (not certain; "
+        "the reason is below)."
+    )
 
 
 def test_what_all_tests_share_is_not_at_a_place():

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import discrepancy
+from asphalt_nscd.diagnosis import discrepancy, levels
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD
@@ -69,9 +69,10 @@ class Sweep:
 class Possible:
     """The model at the tests done and at all that could follow.
 
-    candidates: causes, in the order of the effects. departures: what effects come next, each "linear" and its isotherm
-    (what changes at half the strain if the departure is proportional to the strain) or "repeat" and a test that
-    cannot be used (by how much it departs). metal_frequencies: of the rows that follow those of the table [Hz].
+    candidates: causes, in the order of the effects. departures: what effects come next, each with what it is about:
+    "linear" and an isotherm (what changes at half the strain if the departure is proportional to the strain), "repeat"
+    and a test that cannot be used, or "level" and an isotherm or specimen that is odd (by how much they depart).
+    metal_frequencies: of the rows that follow those of the table [Hz].
     """
 
     table: Observations
@@ -121,7 +122,9 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     departures = {
         ("linear", f"{t:g} degC"): _halved(table, t, departure, linear)
         for t, departure in _departures(linear, moved, names, roots, of_law, _doubtful(diagnosis)).items()
-    } | _repeats(diagnosis, table, at.modelled + (linear.nuisance @ moved)[: table.size], linear)
+    }
+    departures |= _odd(diagnosis, table, linear)
+    departures |= _repeats(diagnosis, table, at.modelled + (linear.nuisance @ moved)[: table.size], linear)
     linear = replace(linear, effects=np.column_stack([linear.effects, *departures.values()]))
     return Possible(table, linear, old, sweeps, candidates, tuple(departures), metal.frequency)
 
@@ -147,6 +150,24 @@ def _repeats(
             effect = np.zeros(linear.effects.shape[0], complex)
             effect[row] = whole.logarithm[one.row] - expected[row]
             found["repeat", f"{name} at {t:g} degC, {f:g} Hz"] = effect
+    return found
+
+
+def _odd(
+    diagnosis: Diagnosis, table: Observations, linear: Linear
+) -> dict[tuple[str, str], NDArray[np.complex128]]:
+    """By how much an isotherm or specimen is odd, at the rows that repeat it: ln E* (N,)."""
+    done = diagnosis.whole or diagnosis.observed
+    found: dict[tuple[str, str], NDArray[np.complex128]] = {}
+    for one in [*levels.odd(done), *levels.odd_phases(done)]:
+        again = (table.specimen == table.names.index(one["specimen"])) & ~_half(table)
+        again[: diagnosis.observed.size] = False
+        if one["temperature_C"] is not None:
+            again &= table.isotherm == one["temperature_C"]
+        size = np.log(one["factor"]) if "factor" in one else 1j * np.radians(one["phase_deg"])
+        effect = np.zeros(linear.effects.shape[0], complex)
+        effect[: table.size][again] = size
+        found["level", levels.described(one)[0]] = effect
     return found
 
 

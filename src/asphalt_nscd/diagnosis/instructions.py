@@ -23,12 +23,13 @@ from asphalt_nscd.diagnosis.further_tests import METAL, NEW, Costs, Possible, Sw
 from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.sentences import an, joined
+from asphalt_nscd.diagnosis.sentences import an, joined, size_left
 from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import specimen_named
 
 MOST, REASONS = 5, 3
 NOTICEABLE = 10.0  # percent of cases
+CLEARER = 0.3  # standard errors
 LEAST = 0.3  # nats, below which a sweep tells nothing
 SURVIVES = 2.0  # standard errors that a cause keeps without what it hangs on
 FOUND = (USUAL_THRESHOLD + POWER) ** 2  # strength of a cause that is found in 19 of 20 cases
@@ -47,7 +48,7 @@ class Open:
     alike: whether the two causes that it tells apart fitted the tests equally well.
     """
 
-    kind: str  # kept, metal, apart, repeat, linear or reach
+    kind: str  # kept, metal, apart, repeat, level, linear or reach
     asked: Asked
     about: str
     other: str = ""
@@ -162,12 +163,23 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
                 found.append(Open("apart", Asked(question, everything), *words, as_good))
     for n, (kind, about) in enumerate(model.departures):
         question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART)
-        found.append(Open(kind, Asked(question, everything), about))
+        size = _unexplained(diagnosis, about) if kind == "linear" else ""
+        found.append(Open(kind, Asked(question, everything), about, size))
     names = [candidate.cause.name for candidate in model.candidates]
     for j in range(len(active), len(model.candidates)):
         question = Question(j, REACH, active, FOUND, PRESENT / names.count(names[j]))
         found.append(Open("reach", Asked(question, everything), _sized(model.candidates[j], REACH)))
     return found
+
+
+def _unexplained(diagnosis: Diagnosis, isotherm: str) -> str:
+    """What the causes leave at an isotherm, in words."""
+    of_modulus, of_phase = diagnosis.noise.sigma
+    scatter = {"modulus_percent": 100.0 * of_modulus, "phase_deg": float(np.degrees(of_phase))}
+    sizes = diagnosis.ladder.noticed.items()
+    return joined(
+        [size_left(name, size, scatter) for name, size in sizes if name.startswith(f"{isotherm}, ")]
+    )
 
 
 def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, ...]) -> list[Open]:
@@ -237,15 +249,14 @@ def _sized(candidate: Candidate, typical: float) -> str:
 def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
     """What the tests would do for the questions that they help most."""
     told = {
-        k: strengths for k, strengths in order.helps.items() if questions[k].kind not in ("repeat", "linear")
+        k: strengths
+        for k, strengths in order.helps.items()
+        if questions[k].kind not in ("repeat", "level", "linear")
     }
-    kinds = {questions[k].kind for k in order.helps}
-    repeated = {
-        f"{name} at {order.sweep.temperature:g} degC, {f:g} Hz"
-        for name in order.specimens
-        for f in order.sweep.frequencies
-    }
-    again = sorted(repeated & {questions[k].about for k in order.helps if questions[k].kind == "repeat"})
+    helped = [questions[k] for k in order.helps]
+    here = f"{order.sweep.temperature:g} degC"
+    repeated = {f"{name} at {here}, {f:g} Hz" for name in order.specimens for f in order.sweep.frequencies}
+    again = sorted(repeated & {one.about for one in helped if one.kind == "repeat"})
     reasons = []
     if again:
         reasons.append(
@@ -256,23 +267,31 @@ def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
             )
             + " If a new test agrees with those, the machine or the mounting was at fault: use the new test."
         )
-    if "linear" in kinds and order.sweep.half_strain:
-        reasons.append(
-            f"If the mix is not linear at {order.sweep.temperature:g} degC, the unexplained part should halve. If the "
-            "machine is at fault, it should not change."
-        )
+    odd = {f"{specimen_named(name)}{at}: " for name in order.specimens for at in ("", f" at {here}")}
+    reasons += [
+        f"{one.about[:1].upper()}{one.about[1:]}. If new tests agree with those, the machine, the dimensions or the "
+        "mounting was at fault: use the new tests."
+        for one in helped
+        if one.kind == "level" and one.about.startswith(tuple(odd))
+    ]
+    reasons += [
+        f"What stays unexplained at {here} ({one.other}) should halve if the mix is not linear. If the machine is at "
+        "fault, it should not change."
+        for one in helped
+        if one.kind == "linear" and one.about == here and order.sweep.half_strain
+    ]
     reasons += [_reason(questions[k], *strengths) for k, strengths in told.items()]
     return [reason for reason in reasons if reason][:REASONS]
 
 
 def _reason(one: Open, before: float, after: float) -> str:
     if one.kind == "kept":
-        errors = [f"{np.sqrt(strength):.1f}" for strength in (before, after)]
-        if errors[0] == errors[1]:
+        now, then = np.sqrt(before), np.sqrt(after)
+        if then - now < CLEARER:
             return ""
         return (
-            f"The {one.about} should then show without {one.other} too, by {errors[1]} standard errors "
-            f"(now {errors[0]})."
+            f"The {one.about} should then show without {one.other} too, by {then:.1f} standard errors "
+            f"(now {now:.1f})."
         )
     if one.kind == "metal":
         return f"The {one.about} must show on metal too, as {one.other}. The mix has no part in that."

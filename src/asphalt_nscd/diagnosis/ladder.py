@@ -24,6 +24,7 @@ AS_GOOD = 6.0  # gains of the objective closer than this are a likelihood ratio 
 AS_MUCH = 0.97  # of the gain of the best nameless pattern, which may be the cause's own
 EXCESS = 4.0  # standard deviations of the misfit above which it is structure
 MOSTLY = 0.75  # share of the structure that named causes must explain, else no name is given
+NOTICED = 0.1  # size of a process over the scatter of one test, below which it is none
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,11 @@ class Ladder:
     def fitted(self) -> Fitted:
         """The fit with all causes named."""
         return self.rungs[-1].after if self.rungs else self.start
+
+    @property
+    def noticed(self) -> dict[str, float]:
+        """The discrepancy without processes of no size."""
+        return {name: size for name, size in self.discrepancy.items() if size > NOTICED}
 
 
 def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, seed: int) -> Ladder:

@@ -155,31 +155,30 @@ def _departures(level: Mapping[Place, float]) -> Iterator[tuple[int, float]]:
 
 def sentences(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:
     """What is odd and what to check, a sentence each without its full stop."""
+    return [f"{what}: check {check}" for what, check in map(described, [*levels, *phases])]
+
+
+def described(one: Mapping[str, Any]) -> tuple[str, str]:
+    """What is odd, and what to check, of one of `odd` or `odd_phases`."""
     others = "what its other temperatures and the other specimens say"
-    out = [
-        f"{specimen_named(one['specimen'])} at {one['temperature_C']:g} degC: |E*| {one['factor']:.2f} times {others}: "
-        "check dimensions, gain and unit of these tests"
-        for one in levels
-    ]
-    for one in phases:
-        side = "above" if one["phase_deg"] > 0.0 else "below"
-        size = f"phase {abs(one['phase_deg']):.1f} deg {side}"
-        if one["temperature_C"] is None:
-            out.append(
-                f"{specimen_named(one['specimen'])}: {size} the mean of the other specimens: check its gauges, "
-                "channels and mounting"
-            )
-        else:
-            at = f"{specimen_named(one['specimen'])} at {one['temperature_C']:g} degC"
-            out.append(f"{at}: {size} {others}: check gauges, channels and temperature of these tests")
-    return out
+    if "factor" in one:
+        return (
+            f"{place(one)}: |E*| {one['factor']:.2f} times {others}",
+            "dimensions, gain and unit of these tests",
+        )
+    side = "above" if one["phase_deg"] > 0.0 else "below"
+    size = f"{place(one)}: phase {abs(one['phase_deg']):.1f} deg {side}"
+    if one["temperature_C"] is None:
+        return f"{size} the mean of the other specimens", "its gauges, channels and mounting"
+    return f"{size} {others}", "gauges, channels and temperature of these tests"
+
+
+def place(one: Mapping[str, Any]) -> str:
+    """An odd isotherm or specimen in words."""
+    at = "" if one["temperature_C"] is None else f" at {one['temperature_C']:g} degC"
+    return specimen_named(one["specimen"]) + at
 
 
 def places(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:
     """Each odd isotherm or specimen once, in words."""
-    words = [
-        specimen_named(one["specimen"])
-        + ("" if one["temperature_C"] is None else f" at {one['temperature_C']:g} degC")
-        for one in [*levels, *phases]
-    ]
-    return list(dict.fromkeys(words))
+    return list(dict.fromkeys(map(place, [*levels, *phases])))

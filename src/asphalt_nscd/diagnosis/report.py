@@ -14,13 +14,12 @@ from asphalt_nscd.diagnosis.gain import errors, simulated_by, with_burgers_laws
 from asphalt_nscd.diagnosis.heldout import HeldOut
 from asphalt_nscd.diagnosis.joint import Joint
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.rungs import name_of, of_cause, of_law
+from asphalt_nscd.diagnosis.rungs import name_at, name_of, of_cause, of_law
 from asphalt_nscd.diagnosis.scatter import STATED
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION
 
 WIDE_SPREAD = 1.2  # of the estimates, above which it is said
-NOTICED = 0.1  # size of a discrepancy over the scatter of one test, below which it is none
 
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
@@ -58,7 +57,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         "detection_limits": _limits(diagnosis),
         "estimates": _estimates(diagnosis),
         "estimates_spread": spread,
-        "discrepancy": {name: size for name, size in diagnosis.ladder.discrepancy.items() if size > NOTICED},
+        "discrepancy": diagnosis.ladder.noticed,
         "lack_of_fit_p_value": diagnosis.law_p,
         "largest_pattern_left": None
         if remaining is None
@@ -125,10 +124,14 @@ def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
         for candidate in diagnosis.ladder.unseen
         if candidate.key not in shown
     ]
-    seen = {name for name, _ in physical_limits(diagnosis)}
+    seen = physical_limits(diagnosis)
+    nowhere = {name for name, _ in diagnosis.ladder.limits} - {name for name, _ in seen}
+    beyond = [
+        (name, None if name in nowhere else place) for name, place in diagnosis.ladder.limits.keys() - seen
+    ]
     out += [
         {"cause": name, "needs": "a design in which less of it shows than is physical"}
-        for name in sorted({name for name, _ in diagnosis.ladder.limits} - seen)
+        for name in sorted({name_at(*key) for key in beyond})
     ]
     if not diagnosis.relaxation_spectrum and observed.frequencies.size < 3:
         out.append({"cause": "relaxation_spectrum", "needs": "three frequencies: a Burgers law fits any two"})
@@ -140,12 +143,13 @@ def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
 def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
     """Amplitude found with 95 % probability: of each cause, and of each place of a confined one."""
     units = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
+    confined_to = {cause.name: cause.confined_to for cause in CATALOGUE}
     limits: dict[str, dict[str, Any]] = {}
     for (name, place), value in physical_limits(diagnosis).items():
         entry = limits.setdefault(name, {"value": np.inf, "unit": units[name]})
         entry["value"] = min(entry["value"], float(value))
         if place is not None:
-            entry["confined_to"] = "specimen" if isinstance(place, str) else "temperature_C"
+            entry["confined_to"] = confined_to[name]
             entry.setdefault("places", {})[str(place)] = float(value)
     return limits
 
@@ -197,7 +201,8 @@ def _spread_note(spread: float) -> list[str]:
     return [
         f"The causes that got no name have estimates {spread:.1f} times their standard errors, where 1 is expected: "
         "these tests hold more structure than the diagnosis describes. "
-        f"Multiply each detection limit by {spread:.1f}."
+        "The detection limits (diagnosis.html, 'What could not have been seen') assume 1: multiply them by "
+        f"{spread:.1f}."
     ]
 
 

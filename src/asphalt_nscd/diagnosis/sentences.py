@@ -29,7 +29,7 @@ SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not No
 BOUNDS = {
     cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
 }
-OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL} | {
+OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to} | {
     "relaxation_spectrum",
     BOND_MAPPING,
 }
@@ -127,9 +127,10 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     found = joined([*facets, *(an(cause_words(rung)) for rung in ladder if rung["cause"] != BOND_MAPPING)])
     simpler = "the simulation of the paper" if facets else _first_law(content)
     worse = _worse([first[name]["before"] for name in names], missed)
+    missed_by = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
     return (
-        f"{simpler} misses |E*| by {before[0]} and the phase by {before[1]}; with {found} the simulation misses them "
-        f"by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
+        f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} the "
+        f"simulation misses by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
     )
 
 
@@ -174,13 +175,13 @@ def _beyond_bonds(content: Content) -> str:
     doubtful = any(rung.get("doubts") for rung in content["ladder"])
     unsure = doubtful and content["verdict"] != "explained" and not _more_than_scatter(content)
     end = "no more" if unsure or content["verdict"] == "explained" else "more"
-    by = ", by a cause that is not established" if unsure else ""
+    by = ", but not every cause is certain" if unsure else ""
     by += _holding(content) if end == "no more" else ""
     bonds = content["numerics"]["largest_modulus_percent"]
     if bonds <= content["scatter"]["modulus_percent"]:
-        return f"{end} than the scatter of the tests{by}"
+        return f"{end} than scatter can explain{by}"
     added = f"of which the simulated bonds add up to {bonds:.1f} % to |E*|"
-    return f"{added}; the rest is {end} than the scatter of the tests{by}"
+    return f"{added}; the rest is {end} than scatter can explain{by}"
 
 
 def test_type(content: Content) -> str:
@@ -210,7 +211,7 @@ def doubtful(content: Content) -> list[Content]:
 
 def with_suspects(content: Content) -> str:
     """What the suspect tests would have changed, had they been used; empty where no test is left out."""
-    return _changed(content, "with_suspects", "Using these tests too")
+    return _changed(content, "with_suspects", "If these tests were kept")
 
 
 def on_doubtful(content: Content) -> str:
@@ -220,7 +221,9 @@ def on_doubtful(content: Content) -> str:
         return ""
     places = "; ".join(f"{place_of_test(one)} ({'; '.join(one['reasons'])})" for one in kept[:3])
     more = f"; and {len(kept) - 3} more, see suspect_tests in diagnosis.json" if kept[3:] else ""
-    changed = _changed(content, "without_doubtful", f"Leaving {'it' if len(kept) == 1 else 'them'} out")
+    changed = _changed(
+        content, "without_doubtful", f"If {'it were' if len(kept) == 1 else 'they were'} left out"
+    )
     return f"Doubtful but used: {places}{more}. {changed}".rstrip()
 
 
@@ -233,9 +236,9 @@ def _changed(content: Content, key: str, when: str) -> str:
     other = [cause_words(rung) for rung in then["causes"]]
     more = joined([an(words) for words in other if words not in now])
     less = joined([an(words) for words in now if words not in other])
-    changes = [f"add {more}"] if more else []
-    changes += [f"remove {less}"] if less else []
-    return f"{when} would {joined(changes)}." if changes else f"{when} changes no cause."
+    changes = [f"also name {more}"] if more else []
+    changes += [f"no longer name {less}"] if less else []
+    return f"{when}, the diagnosis would {joined(changes) or 'name the same causes'}."
 
 
 def place_of_test(one: Content) -> str:
@@ -357,10 +360,15 @@ def _part_left(name: str, value: float, scatter: Content) -> str:
         place = f"of {specimen_named(place)}"
     else:
         place = f"{'at' if place.endswith(' degC') else 'of'} {place}"
-    if part == "phase":
-        return f"{_one_digit(value * scatter['phase_deg'])} deg in the phase {place}"
-    size = f"{_one_digit(value * scatter['modulus_percent'])} % in |E*| {place}"
+    size = f"{size_left(name, value, scatter)} {place}"
     return f"{size}, which does not follow the common master curve" if part == "spectrum" else size
+
+
+def size_left(name: str, value: float, scatter: Mapping[str, float]) -> str:
+    """Size of a part of the discrepancy, whose value is in units of the scatter."""
+    if name.endswith(", phase"):
+        return f"{_one_digit(value * scatter['phase_deg'])} deg in the phase"
+    return f"{_one_digit(value * scatter['modulus_percent'])} % in |E*|"
 
 
 def _one_digit(value: float) -> str:

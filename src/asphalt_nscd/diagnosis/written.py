@@ -13,6 +13,7 @@ import yaml
 from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
 
+from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json
@@ -23,6 +24,7 @@ SCHEMA_VERSION = 2
 DIAGNOSIS_SCHEMA = Path(__file__).with_name("diagnosis.schema.yaml")
 NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
 CONFIDENCE = 1.96  # standard errors to either side of an estimate: 95 %
+CONFINED_TO = {cause.name: cause.confined_to for cause in CATALOGUE}
 BEFORE_AFTER = ("before", "after")
 RESIDUALS = {"E": "residual_E_{}_percent", "phase": "residual_phase_{}_deg"}
 _NUMBERS = ["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
@@ -133,21 +135,20 @@ def place_name(where: str | float | None) -> str:
     return specimen_named(where) if isinstance(where, str) else f"{where:g} °C".replace("-", "\N{MINUS SIGN}")
 
 
-def limits_by_place(limit: dict[str, Any]) -> dict[str, float]:
+def limits_by_place(cause: str, limit: dict[str, Any]) -> dict[str, float]:
     """Detection limits of one cause by `place_name` of its places."""
     places = limit.get("places")
     if places is None:
         return {place_name(None): limit["value"]}
-    return {_place(limit, place): value for place, value in places.items()}
+    return {_place(cause, place): value for place, value in places.items()}
 
 
-def member_name(member: str, limits: dict[str, Any]) -> str:
+def member_name(member: str) -> str:
     """A member of a list of causes, `cause @ place`, in words: `temperature bias (30 °C)`."""
     cause, _, place = member.partition(" @ ")
-    where = _place(limits.get(cause, {}), place)
+    where = _place(cause, place) if place else ""
     return cause.replace("_", " ") + (f" ({where})" if where else "")
 
 
-def _place(limit: dict[str, Any], written: str) -> str:
-    kind = {"specimen": str, "temperature_C": float}.get(limit.get("confined_to", ""))
-    return place_name(kind(written)) if kind and written else written
+def _place(cause: str, written: str) -> str:
+    return place_name(float(written) if CONFINED_TO.get(cause) == "temperature_C" else written)

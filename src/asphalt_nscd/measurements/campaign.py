@@ -101,9 +101,10 @@ def isotherm_notes(temperature: NDArray[np.float64], nominal: NDArray[np.float64
     changed = np.unique(nominal[np.abs(temperature - nominal) > 1e-9])
     if changed.size:
         parts = []
-        for value in changed:
+        for value in np.unique(nominal):
             measured = temperature[nominal == value]
-            parts.append(f"{value:g} (measured {measured.min():g} to {measured.max():g})")
+            readings = f"{measured.min():g} to {measured.max():g}" if np.ptp(measured) else f"{measured[0]:g}"
+            parts.append(f"{value:g} (measured {readings})" if value in changed else f"{value:g}")
         notes.append(f"Isotherms in degC: {', '.join(parts)}.")
     off = np.abs(temperature - nominal) > OFF_TARGET + 1e-9
     if off.any():

@@ -39,6 +39,7 @@ class Cause(ABC):
     confirmed_by: the measurement that would confirm it. needs: what the table must have for it to show.
     shows_in: a design in which it shows, where one that could have shown it does not.
     like_a_law: a rougher law follows it far, so that it is also looked for by fits that begin with it.
+    confined_to: what it sits at, one "specimen" or one isotherm ("temperature_C"); empty where it reaches all tests.
     benches: test types (`Observations.test_type`) whose apparatus can have it.
     """
 
@@ -51,6 +52,7 @@ class Cause(ABC):
     needs: ClassVar[str] = ""
     shows_in: ClassVar[str] = "a design in which a smooth law cannot follow it"
     like_a_law: ClassVar[bool] = False
+    confined_to: ClassVar[str] = ""
     benches: ClassVar[tuple[str, ...]] = TEST_TYPES
 
     def places(self, observed: Observations) -> Sequence[Place]:

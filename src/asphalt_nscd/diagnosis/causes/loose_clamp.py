@@ -18,6 +18,7 @@ class LooseClamp(Cause):
     sentence = "this specimen is held by a compliant clamp or glue joint"
     confirmed_by = "clamping the specimen again and repeating its coldest test"
     needs = "two-point bending and a second specimen to compare with"
+    confined_to = "specimen"
 
     def places(self, observed: Observations) -> Sequence[Place]:
         return observed.names if len(observed.names) > 1 and self.on_bench(observed) else ()

@@ -14,6 +14,7 @@ class SpecimenGeometry(Cause):
     signs = ("Its modulus comes out too high.", "Its modulus comes out too low.")
     confirmed_by = "measuring its dimensions again"
     needs = "two more specimens to compare with"
+    confined_to = "specimen"
 
     def places(self, observed: Observations) -> Sequence[Place]:
         return observed.names if len(observed.names) > 2 else ()

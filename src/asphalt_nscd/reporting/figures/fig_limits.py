@@ -37,7 +37,7 @@ def draw(diagnosis: list[Path]) -> Figure:
         axes.text(0.5, 0.5, NONE, ha="center", va="center", transform=axes.transAxes)
         return figure
     found = {(rung["cause"], place_name(rung["where"])): _amplitude(rung) for rung in content["ladder"]}
-    bars = {cause: limits_by_place(limit) for cause, limit in limits.items()}
+    bars = {cause: limits_by_place(cause, limit) for cause, limit in limits.items()}
     sizes = [len(rows) * ROW + FRAME for rows in bars.values()]
     figure, panels = style.new_figure(
         style.SINGLE, sum(sizes) + 12.0, rows=len(bars), squeeze=False, gridspec_kw={"height_ratios": sizes}

@@ -91,18 +91,16 @@ def sections(
         "scatter": scatter(content),
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
-        "ladder": [_rung(rung) | {"as_good": _members(rung["as_good"], content)} for rung in rungs],
+        "ladder": [_rung(rung) | {"as_good": _members(rung["as_good"])} for rung in rungs],
         "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
         "charts": plots.charts(residuals, diagnosis),
         "unexplained": [_unexplained(row) for row in content["unexplained"]],
         "limits": _limits(content["detection_limits"]),
-        "not_testable": [
-            (*_members([row["cause"]], content), row["needs"]) for row in content["not_testable"]
-        ],
-        "alike": [_members(group, content) for group in content["indistinguishable"]],
+        "not_testable": [(member_name(row["cause"]), row["needs"]) for row in content["not_testable"]],
+        "alike": [_members(group) for group in content["indistinguishable"]],
         "suspects": [_suspect(one) for one in content.get("suspect_tests", [])],
-        "withdrawn": _members(content["withdrawn"], content),
+        "withdrawn": _members(content["withdrawn"]),
         "confirmed_by": [
             (_cause(rung), rung["confirmed_by"]) for rung in rungs if rung["cause"] != BOND_MAPPING
         ],
@@ -202,8 +200,8 @@ def _suspect(one: dict[str, Any]) -> list[str]:
     return [*where, "yes" if one["used"] else "no", in_type("; ".join(one["reasons"]))]
 
 
-def _members(names: list[str], content: dict[str, Any]) -> list[str]:
-    return [member_name(name, content["detection_limits"]) for name in names]
+def _members(names: list[str]) -> list[str]:
+    return [member_name(name) for name in names]
 
 
 def _cause(rung: dict[str, Any]) -> str:
@@ -250,7 +248,7 @@ def _limits(limits: dict[str, Any]) -> list[tuple[str, str]]:
     rows = []
     for cause, limit in limits.items():
         places: dict[str, list[str]] = {}
-        for place, value in limits_by_place(limit).items():
+        for place, value in limits_by_place(cause, limit).items():
             size, unit = shown(value, limit["unit"])
             places.setdefault(f"{_number(size)} {unit}".rstrip(), []).append(place)
         words = (size + (f" ({', '.join(names)})" if any(names) else "") for size, names in places.items())
