@@ -69,9 +69,13 @@ def chain(model, law: BondLaw) -> dict[str, object]:
     elements = np.arange(8.0)
     return reduced(
         model,
-        BondLaw(law.spring, law.dashpot, 8.0 * law.kelvin_springs[0] * 1.1**elements,
-                8.0 * law.kelvin_dashpots[0] * 2.0**-elements),
-    )  # fmt: skip
+        BondLaw(
+            law.spring,
+            law.dashpot,
+            8.0 * law.kelvin_springs[0] * 1.1**elements,
+            8.0 * law.kelvin_dashpots[0] * 2.0**-elements,
+        ),
+    )
 
 
 def yade(specimen_file: Path) -> dict[str, object]:
@@ -81,9 +85,13 @@ def yade(specimen_file: Path) -> dict[str, object]:
     between = np.maximum(network.first, network.second) < n
     with tempfile.TemporaryDirectory() as name:
         np.savez(
-            Path(name, "specimen.npz"), position=specimen.position, radius=specimen.radius,
-            first=network.first[between], second=network.second[between], density=specimen.density,
-        )  # fmt: skip
+            Path(name, "specimen.npz"),
+            position=specimen.position,
+            radius=specimen.radius,
+            first=network.first[between],
+            second=network.second[between],
+            density=specimen.density,
+        )
         _, memory, said = run(["yade", "-n", "-x", "-j1", str(HERE / "yade_bonds.py")], name)
     told = next(line.split()[1:] for line in said.splitlines() if line.startswith("per-step"))
     cost, step, bonds = float(told[0]), float(told[1]), int(told[2])
@@ -92,9 +100,12 @@ def yade(specimen_file: Path) -> dict[str, object]:
         "with the critical time step of a plane wave: each favours it"
     )
     return {
-        "time_step_s": step, "cpu_s": cost / FREQUENCY / step, "memory_MB": memory, "remark": remark,
+        "time_step_s": step,
+        "cpu_s": cost / FREQUENCY / step,
+        "memory_MB": memory,
+        "remark": remark,
         "spheres": n,
-    }  # fmt: skip
+    }
 
 
 def main() -> None:

@@ -68,9 +68,12 @@ def row(tests: int) -> dict[str, object]:
         cpu, memory, _ = run(command, folder)
         written = Path(folder, "diagnosis.json").stat().st_size
     return {
-        "topic": TOPIC, "case": f"{tests} tests", "cpu_s": cpu, "memory_MB": memory,
+        "topic": TOPIC,
+        "case": f"{tests} tests",
+        "cpu_s": cpu,
+        "memory_MB": memory,
         "remark": f"with the start of the program; diagnosis.json of {written // 1024} kB",
-    }  # fmt: skip
+    }
 
 
 if __name__ == "__main__":

@@ -81,15 +81,22 @@ def solve(spheres: int, deposit: str) -> list[dict[str, object]]:
     for name, specimen, tangential, bond in cases:
         system = bending_system(specimen, POISSON, np.inf, 0.7, kt_over_kn=tangential)
         tension, poisson = pulled(bond, tangential)
-        rows.append({
-            "mapping": name, "kt_over_kn": tangential, "spheres": spheres, "packing": packing,
-            **{key: of[key] for key in ("seed", "friction", "solid_fraction")},
-            "spheres_in_specimen": specimen.radius.size, "bonds": specimen.network.first.size,
-            "constant": 1.0 if name == "paper" else facet_share(geometry, tangential)[0],
-            "E_over_law": static_ratio(system, geometry), "E_tension_over_law": tension,
-            "macroscopic_poisson": poisson,
-            "affine_poisson": affine_poisson(tangential),
-        })  # fmt: skip
+        rows.append(
+            {
+                "mapping": name,
+                "kt_over_kn": tangential,
+                "spheres": spheres,
+                "packing": packing,
+                **{key: of[key] for key in ("seed", "friction", "solid_fraction")},
+                "spheres_in_specimen": specimen.radius.size,
+                "bonds": specimen.network.first.size,
+                "constant": 1.0 if name == "paper" else facet_share(geometry, tangential)[0],
+                "E_over_law": static_ratio(system, geometry),
+                "E_tension_over_law": tension,
+                "macroscopic_poisson": poisson,
+                "affine_poisson": affine_poisson(tangential),
+            }
+        )
         print(rows[-1], flush=True)
     return rows
 
@@ -109,9 +116,11 @@ def poisson(spheres: int, deposit: str) -> pd.DataFrame:
 
 
 def prism_of(
-    position: np.ndarray, radius: np.ndarray, geometry: Geometry,
+    position: np.ndarray,
+    radius: np.ndarray,
+    geometry: Geometry,
     bond: Callable[[np.ndarray, np.ndarray], Network],
-) -> Specimen:  # fmt: skip
+) -> Specimen:
     """A prism out of a layer, away from its moulded faces and ends; spheres shrunk as in a specimen."""
     corner = np.array([geometry.h / 3, geometry.e / 8, (layer_height(position, radius) - geometry.b) / 2])
     return cut_prism(position, radius * (1.0 - REDUCTION) ** (1.0 / 3.0), corner, geometry, bond)
@@ -171,10 +180,13 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
     """For each mapping and size: packings, and what they have in common."""
     groups = table.groupby(["mapping", "kt_over_kn", "spheres"], sort=True)
     found = groups.agg(
-        packings=("packing", "size"), least=("E_over_law", "min"), mean=("E_over_law", "mean"),
-        largest=("E_over_law", "max"), in_tension=("E_tension_over_law", "mean"),
+        packings=("packing", "size"),
+        least=("E_over_law", "min"),
+        mean=("E_over_law", "mean"),
+        largest=("E_over_law", "max"),
+        in_tension=("E_tension_over_law", "mean"),
         poisson=("macroscopic_poisson", "mean"),
-    )  # fmt: skip
+    )
     found.columns = ["packings", "least E / law", "mean", "largest", "in tension", "Poisson's ratio"]
     return (found.round(3) + 0.0).reset_index().round({"kt_over_kn": 3})
 

@@ -41,9 +41,12 @@ def poured_by_liggghts(
     (folder / "spheres.data").write_text(
         f"spheres\n\n{len(atoms)} atoms\n1 atom types\n\n{sizes}\nAtoms\n\n{rows}"
     )
-    script = Path(__file__).with_name("pour.liggghts").read_text().format(
-        x=box[0], y=box[1], z=box[2], friction=FRICTION, step=STEP, steps=STEPS
-    )  # fmt: skip
+    script = (
+        Path(__file__)
+        .with_name("pour.liggghts")
+        .read_text()
+        .format(x=box[0], y=box[1], z=box[2], friction=FRICTION, step=STEP, steps=STEPS)
+    )
     dump = f"dump pile all custom {STEPS // 2} pile.liggghts id type x y z radius\n"
     (folder / "in.pour").write_text(script.replace("run ", dump + "run "))
     subprocess.run(["liggghts", "-in", "in.pour"], cwd=folder, check=True, capture_output=True)
@@ -59,11 +62,16 @@ def row(packing: an.Packing, area: str) -> dict[str, object]:
     test = an.bend(beam, law, FREQUENCY, TEMPERATURE)
     own = test.attributes
     return {
-        "bonds": area, "solid_fraction": packing.attributes["solid_fraction"],
-        "coordination": packing.attributes["coordination"], "spheres_in_beam": beam.radius_m.size,
-        "E_GPa": test.E_MPa / 1e3, "E_over_law": test.E_MPa / own["E_law_MPa"], "phase_deg": test.phase_deg,
-        "phase_law_deg": own["phase_law_deg"], "remark": "",
-    }  # fmt: skip
+        "bonds": area,
+        "solid_fraction": packing.attributes["solid_fraction"],
+        "coordination": packing.attributes["coordination"],
+        "spheres_in_beam": beam.radius_m.size,
+        "E_GPa": test.E_MPa / 1e3,
+        "E_over_law": test.E_MPa / own["E_law_MPa"],
+        "phase_deg": test.phase_deg,
+        "phase_law_deg": own["phase_law_deg"],
+        "remark": "",
+    }
 
 
 def main() -> None:
@@ -78,9 +86,11 @@ def main() -> None:
     box = length, width, height
     rows: list[dict[str, object]] = []
     for seed in (int(one) for one in told.seeds.split(",")):
-        pours = {"this program": lambda _, seed=seed: an.pour(
-            told.counts, box, seed=seed, vibration=an.Vibration(duration=0.0)
-        )}  # fmt: skip
+        pours = {
+            "this program": lambda _, seed=seed: an.pour(
+                told.counts, box, seed=seed, vibration=an.Vibration(duration=0.0)
+            )
+        }
         if shutil.which("liggghts"):
             pours["LIGGGHTS"] = lambda folder, seed=seed: poured_by_liggghts(
                 diameters, counts, box, seed, folder

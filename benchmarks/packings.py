@@ -25,15 +25,20 @@ def row(version: str, path: str) -> dict[str, object]:
     record = load(path, "deposit")
     found, smallest = record.attributes, float(record.arrays["radius"].min())
     return {
-        "version": version, "spheres": found["spheres"], "seed": found["seed"],
-        "poured_mm": 1e3 * found["poured_layer_height_m"], "vibrated_mm": 1e3 * found["layer_height_m"],
-        "solid_fraction": found["solid_fraction"], "coordination": found["coordination"],
+        "version": version,
+        "spheres": found["spheres"],
+        "seed": found["seed"],
+        "poured_mm": 1e3 * found["poured_layer_height_m"],
+        "vibrated_mm": 1e3 * found["layer_height_m"],
+        "solid_fraction": found["solid_fraction"],
+        "coordination": found["coordination"],
         "overlap_at_rest": found["largest_overlap_m"] / smallest,
         "overlap_falling": found["poured_largest_overlap_moving_m"] / smallest,
         "overlap_vibrating": found["largest_overlap_moving_m"] / smallest,
-        "weight_balance": found["weight_balance"], "unbalanced_force": found["unbalanced_force"],
+        "weight_balance": found["weight_balance"],
+        "unbalanced_force": found["unbalanced_force"],
         "cpu_s": found["cpu_s"],
-    }  # fmt: skip
+    }
 
 
 def summary(table: pd.DataFrame) -> pd.DataFrame:

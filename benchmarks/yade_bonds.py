@@ -21,10 +21,16 @@ STEPS, WARM_UP, MODULUS = 100, 10, 24.3e9
 data = np.load("specimen.npz")
 O.materials.append(
     CohFrictMat(
-        young=MODULUS, poisson=0.35, density=float(data["density"]), frictionAngle=0.6,
-        normalCohesion=1e12, shearCohesion=1e12, isCohesive=True, momentRotationLaw=False,
+        young=MODULUS,
+        poisson=0.35,
+        density=float(data["density"]),
+        frictionAngle=0.6,
+        normalCohesion=1e12,
+        shearCohesion=1e12,
+        isCohesive=True,
+        momentRotationLaw=False,
     )
-)  # fmt: skip
+)
 O.bodies.append(
     [
         utils.sphere(tuple(x), r)

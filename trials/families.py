@@ -49,11 +49,15 @@ def draw(family: str, temperatures: Sequence[float], frequencies: Sequence[float
         parts.append(
             pd.DataFrame(
                 {
-                    "specimen": str(number + 1), "temperature_C": temperature, "frequency_Hz": frequency,
-                    "E_MPa": np.exp(norm) * 1e-6, "phase_deg": np.degrees(phase), "origin": "synthetic",
+                    "specimen": str(number + 1),
+                    "temperature_C": temperature,
+                    "frequency_Hz": frequency,
+                    "E_MPa": np.exp(norm) * 1e-6,
+                    "phase_deg": np.degrees(phase),
+                    "origin": "synthetic",
                 }
             )
-        )  # fmt: skip
+        )
     return pd.concat(parts, ignore_index=True)
 
 

@@ -46,9 +46,13 @@ class Workspace:
 
     def start(self, *arguments: str) -> subprocess.Popen[str]:
         return subprocess.Popen(
-            self.command(*arguments), cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-            text=True, env=self.environment,
-        )  # fmt: skip
+            self.command(*arguments),
+            cwd=self.folder,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=self.environment,
+        )
 
     def planned(self, *arguments: str) -> dict[str, int]:
         """Number of jobs of each rule that a dry run announces."""

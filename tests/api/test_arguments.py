@@ -21,7 +21,10 @@ BOX = (0.04, 0.03, 0.12)
         (lambda: an.bend("s.h5", {"law": 1}, 10.0, 15.0), "law = .* .dict.; give a Law or a path"),
         (lambda: an.bend("s.h5", LAW, 10.0, 15.0, load=20e-6), "load = 2e-05 .float.; give a Load"),
         (lambda: an.bend("s.h5", LAW, 10.0, 15.0, load=an.Load("20 um")), "load.amplitude_m = '20 um'"),
-        (lambda: an.bend("s.h5", LAW, 10.0, 15.0, load=an.Load(frames=2.5)), "load.frames = 2.5 .*whole number"),
+        (
+            lambda: an.bend("s.h5", LAW, 10.0, 15.0, load=an.Load(frames=2.5)),
+            "load.frames = 2.5 .*whole number",
+        ),
         (lambda: an.bend("s.h5", LAW, 10.0, 15.0, numerics=an.Numerics("5e-5")), "numerics.time_step"),
         (lambda: an.bend("s.h5", LAW, 10.0, 15.0, bonds=an.Bonds(yield_Pa="2.7e6")), "bonds.yield_Pa"),
         (lambda: an.diagnose({"E_MPa": [1.0]}), "no table .dict.; give a file, a folder"),
@@ -46,14 +49,17 @@ BOX = (0.04, 0.03, 0.12)
         (lambda: an.specimen({"radius": 1}, {}), "packing = .* .dict.; give a Packing or a path"),
         (lambda: an.specimen("d.h5", gap_max_mm="2"), "gap_max_mm = '2' .str.; give a number"),
         (lambda: an.export({"law": 1}, "law.inp", "abaqus"), "cannot write a value of type dict"),
-        (lambda: an.export(LAW, "law.inp", "abaqus", settings="SI"), "settings = 'SI' .str.; give an ExportSettings"),
+        (
+            lambda: an.export(LAW, "law.inp", "abaqus", settings="SI"),
+            "settings = 'SI' .str.; give an ExportSettings",
+        ),
         (lambda: an.export(LAW, "law.csv", "csv", frequencies_Hz=(1.0, "10")), "frequencies_Hz .* numbers"),
         (lambda: an.solve_contacts(np.eye(3), "abc", 0.5), "q: not numbers"),
         (lambda: an.solve_contacts("W", [-1.0, 0.0, 0.0], 0.5), "contacts: "),
         (lambda: an.Law.burgers(**(TABLE3 | {"Em_Pa": "24.3e9"})), "burgers: Em_Pa = '24.3e9' .str."),
         (lambda: an.Law("law.json"), "'law.json' is no content of a law; give a path to Law.read"),
     ],
-)  # fmt: skip
+)
 def test_wrong_kinds_are_one_sentence(ask, sentence):
     with pytest.raises(an.InputError, match=sentence):
         ask()

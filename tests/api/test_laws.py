@@ -20,10 +20,13 @@ def table(temperatures=(-10.0, 5.0, 20.0, 35.0, 50.0)) -> pd.DataFrame:
     modulus = MIX.complex_modulus(2 * np.pi * frequency, temperature)
     return pd.DataFrame(
         {
-            "temperature_C": temperature, "frequency_Hz": frequency, "E_MPa": np.abs(modulus) / 1e6,
-            "phase_deg": np.degrees(np.angle(modulus)), "origin": "synthetic",
+            "temperature_C": temperature,
+            "frequency_Hz": frequency,
+            "E_MPa": np.abs(modulus) / 1e6,
+            "phase_deg": np.degrees(np.angle(modulus)),
+            "origin": "synthetic",
         }
-    )  # fmt: skip
+    )
 
 
 def test_fit_finds_the_law_behind_a_table():
@@ -72,12 +75,15 @@ def test_bonds_follow_a_law_of_all_temperatures_by_a_chain(tmp_path):
         (lambda: an.fit(table(), "maxwell"), "'maxwell' is not known; give one of burgers, 2s2p1d"),
         (lambda: an.fit(table(), temperature_C=20.0), "holds at all temperatures"),
         (lambda: an.fit(table((20.0, 30.0))), "needs at least 3 temperatures"),
-        (lambda: an.Law.burgers(**TABLE3, temperature_C=15).complex_modulus(10.0, 16.0), "holds at 15 degC only"),
+        (
+            lambda: an.Law.burgers(**TABLE3, temperature_C=15).complex_modulus(10.0, 16.0),
+            "holds at 15 degC only",
+        ),
         (lambda: an.fit(table()).complex_modulus(10.0), "give temperature_C"),
         (lambda: an.Law.burgers(**(TABLE3 | {"Em_Pa": -1.0}), temperature_C=15), "must be positive"),
         (lambda: an.Law({"law": "spring"}), "holds law 'spring'"),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_is_refused_in_a_sentence(ask, sentence):
     with pytest.raises(an.InputError, match=sentence):
         ask()

@@ -48,9 +48,11 @@ def simulated(folder, rig, method, amplitude=1e-6, cycles=4.0):
     if rig is not None:
         write_rig(folder / "rig.json", rig)
     files = TestFiles(
-        folder / "model.h5", folder / "law.json", folder / "test.h5",
+        folder / "model.h5",
+        folder / "law.json",
+        folder / "test.h5",
         rig=None if rig is None else folder / "rig.json",
-    )  # fmt: skip
+    )
     simulate(files, 15.0, LoadCase(FREQUENCY, amplitude, cycles), Numerics(DT, 20, method))
     columns = load(folder / "test.h5", "test").attributes
     return columns["E_MPa"] * 1e6 * np.exp(1j * np.radians(columns["phase_deg"])), columns

@@ -16,9 +16,13 @@ def test_round_trip(tmp_path):
     write_rig(tmp_path / "rig.json", RIG)
     assert read_rig(tmp_path / "rig.json") == RIG
     assert json.loads((tmp_path / "rig.json").read_text()) == {
-        "clamp_compliance_m_N": 1e-7, "guide_stiffness_N_m": 1e5, "guide_friction_N": 2.0, "head_mass_kg": 0.03,
-        "channel_delay_s": 1e-4, "phase_offset_rad": -0.01,
-    }  # fmt: skip
+        "clamp_compliance_m_N": 1e-7,
+        "guide_stiffness_N_m": 1e5,
+        "guide_friction_N": 2.0,
+        "head_mass_kg": 0.03,
+        "channel_delay_s": 1e-4,
+        "phase_offset_rad": -0.01,
+    }
 
 
 def test_what_is_not_given_is_zero(tmp_path):

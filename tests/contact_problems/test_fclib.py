@@ -129,8 +129,14 @@ def test_command(tmp_path, capsys):
     assert all(line.endswith("s, converged") for line in lines)
     table = pd.read_csv(tmp_path / "table.csv")
     assert table.columns.tolist() == [
-        "file", "contacts", "iterations", "error", "scaled_error", "seconds", "converged",
-    ]  # fmt: skip
+        "file",
+        "contacts",
+        "iterations",
+        "error",
+        "scaled_error",
+        "seconds",
+        "converged",
+    ]
     assert table.converged.all() and (table[["error", "scaled_error"]].to_numpy() <= 1e-8).all()
 
 

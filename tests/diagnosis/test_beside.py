@@ -37,9 +37,14 @@ def table(offset: float = 0.0, delay: float = 0.0, broken: float = 1.0, seed: in
     turned = 1j * (np.radians(offset) + omega * delay)
     ones = np.ones(grid.shape[0])
     return Observations(
-        specimen=grid[:, 0].astype(int), names=("A", "B", "C"), temperature=temperature, frequency=frequency,
-        modulus=modulus * np.exp(departure + noise + turned), form_factor=25e3 * ones, inertia=0.0 * ones,
-    )  # fmt: skip
+        specimen=grid[:, 0].astype(int),
+        names=("A", "B", "C"),
+        temperature=temperature,
+        frequency=frequency,
+        modulus=modulus * np.exp(departure + noise + turned),
+        form_factor=25e3 * ones,
+        inertia=0.0 * ones,
+    )
 
 
 def climbed(observed: Observations) -> tuple[list, beside.State, beside.Survey]:

@@ -17,11 +17,18 @@ GAMMA, MU = form_factor(GEOMETRY), mass_factor(GEOMETRY)
 OMEGA = 2 * np.pi * np.tile([3.0, 10, 40], 4)
 E = np.repeat([20e9 + 2e9j, 12e9 + 3e9j, 6e9 + 3e9j, 2e9 + 1.5e9j], 3)
 TABLE = Observations(
-    specimen=np.tile([0, 1, 2], 4), names=("a", "b", "c"), temperature=np.repeat([-10.0, 0, 10, 30], 3),
-    frequency=OMEGA / (2 * np.pi), modulus=E, form_factor=np.full(12, GAMMA), inertia=np.full(12, GAMMA * MU),
-    amplitude=np.tile([20e-6, 40e-6, 80e-6], 4), order=np.arange(12.0), time_step=np.full(12, 1e-4),
+    specimen=np.tile([0, 1, 2], 4),
+    names=("a", "b", "c"),
+    temperature=np.repeat([-10.0, 0, 10, 30], 3),
+    frequency=OMEGA / (2 * np.pi),
+    modulus=E,
+    form_factor=np.full(12, GAMMA),
+    inertia=np.full(12, GAMMA * MU),
+    amplitude=np.tile([20e-6, 40e-6, 80e-6], 4),
+    order=np.arange(12.0),
+    time_step=np.full(12, 1e-4),
     static_modulus=1e8,
-)  # fmt: skip
+)
 CAUSES = {cause.name: cause for cause in CATALOGUE}
 SHAPES = {"secondary_process": (-1.0, 40.0, 0.5)}
 
@@ -160,5 +167,6 @@ def test_sign_of_an_amplitude_is_said(name, amplitude, meant):
         "p_value": 1e-9,
     }
     ((_, said),) = sentences.causes({"ladder": [rung]})
-    assert meant in said.split(".")[0] and said.endswith("Established: by chance this happens in fewer than one of "
-        "a million tables.")  # fmt: skip
+    assert meant in said.split(".")[0] and said.endswith(
+        "Established: by chance this happens in fewer than one of a million tables."
+    )

@@ -44,9 +44,14 @@ def table(effect=lambda omega, temperature: 0.0, seed: int = 3) -> Observations:
     modulus = LAW.complex_modulus(omega, temperature) * np.exp(effect(omega, temperature) + noise)
     ones = np.ones(len(grid))
     return Observations(
-        specimen=grid[:, 0].astype(int), names=("A", "B", "C"), temperature=temperature, frequency=grid[:, 2],
-        modulus=modulus, form_factor=25e3 * ones, inertia=0.0 * ones,
-    )  # fmt: skip
+        specimen=grid[:, 0].astype(int),
+        names=("A", "B", "C"),
+        temperature=temperature,
+        frequency=grid[:, 2],
+        modulus=modulus,
+        form_factor=25e3 * ones,
+        inertia=0.0 * ones,
+    )
 
 
 def doubts_of(observed: Observations, *names: str | Candidate) -> dict:

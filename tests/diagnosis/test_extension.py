@@ -43,9 +43,13 @@ def extended(folder, ladder, number=0):
     (folder / "diagnosis.json").write_text(json.dumps({"ladder": ladder}))
     tests = [(15.0, f, folder / f"f{f:g}.json") for f in (3.0, 10.0, 40.0)]
     extend(
-        folder / "diagnosis.json", folder / "law.json", folder / "measured.csv", PAPER_GEOMETRY,
-        Sample(number, 63e-6, tests), folder / "rig.json",
-    )  # fmt: skip
+        folder / "diagnosis.json",
+        folder / "law.json",
+        folder / "measured.csv",
+        PAPER_GEOMETRY,
+        Sample(number, 63e-6, tests),
+        folder / "rig.json",
+    )
     moduli = [read_bond_law(path).complex_modulus(2 * np.pi * f) for _, f, path in tests]
     return np.array(moduli), read_rig(folder / "rig.json")
 
@@ -59,10 +63,13 @@ def test_the_law_alone(folder):
 
 def test_causes_of_the_mix_change_the_law_and_those_of_the_rig_the_rig(folder):
     ladder = [
-        rung("temperature_bias", 15.0, temperature_rise=2.0), rung("channel_delay", delay=-1e-4),
-        rung("damage", loss_at_last_test=0.2), rung("specimen_geometry", "b", relative_modulus=0.3),
-        rung("loose_clamp", "b", compliance=2e-12), rung("guide_friction", loss_modulus=1e8),
-    ]  # fmt: skip
+        rung("temperature_bias", 15.0, temperature_rise=2.0),
+        rung("channel_delay", delay=-1e-4),
+        rung("damage", loss_at_last_test=0.2),
+        rung("specimen_geometry", "b", relative_modulus=0.3),
+        rung("loose_clamp", "b", compliance=2e-12),
+        rung("guide_friction", loss_modulus=1e8),
+    ]
     warm = LAW.complex_modulus(OMEGA, 17.0) * (1 - 0.2 * (OMEGA / (2 * np.pi) - 3) / 37)
     modulus, rig = extended(folder, ladder)
     assert np.abs(np.log(modulus / warm)).max() < 1.1e-3

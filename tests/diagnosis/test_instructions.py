@@ -204,10 +204,14 @@ def _with(observed: Observations, specimen: str, temperature: float, frequencies
     more = LAW.complex_modulus(2 * np.pi * f, np.full(size, temperature)) * np.exp(noise)
     own = np.full(size, observed.names.index(specimen))
     return Observations(
-        np.concatenate([observed.specimen, own]), observed.names,
-        np.concatenate([observed.temperature, np.full(size, temperature)]), np.concatenate([observed.frequency, f]),
-        np.concatenate([observed.modulus, more]), np.full(observed.size + size, GAMMA), np.zeros(observed.size + size),
-    )  # fmt: skip
+        np.concatenate([observed.specimen, own]),
+        observed.names,
+        np.concatenate([observed.temperature, np.full(size, temperature)]),
+        np.concatenate([observed.frequency, f]),
+        np.concatenate([observed.modulus, more]),
+        np.full(observed.size + size, GAMMA),
+        np.zeros(observed.size + size),
+    )
 
 
 @pytest.mark.parametrize(

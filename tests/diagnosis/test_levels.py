@@ -108,10 +108,13 @@ def test_of_two_specimens_neither_phase_is_odd(exports):
 
 def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
     found = {
-        "ladder": [], "verdict": "nothing_to_explain", "tested": True,
+        "ladder": [],
+        "verdict": "nothing_to_explain",
+        "tested": True,
         "odd_phases": [{"specimen": "B", "temperature_C": 20.0, "phase_deg": 4.0}],
-        "discrepancy": {"specimen C, modulus": 2.0}, "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5},
-    }  # fmt: skip
+        "discrepancy": {"specimen C, modulus": 2.0},
+        "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5},
+    }
     assert on_simulation(found).endswith(
         "fits these data to within their scatter, but this scatter holds specimen B at 20 degC, which is odd."
     )

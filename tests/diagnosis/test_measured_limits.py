@@ -30,12 +30,21 @@ def test_both_signs_and_three_sizes_of_each_limit_are_put_in(empty):
 
 
 def test_rows_are_counted_by_cause_and_multiple():
-    rows = pd.DataFrame({
-        "cause": ["a", "a", "a"], "times_limit": [1.0, -1.0, 3.0], "named": [1, 0, 1], "within_interval": [1, 0, 1],
-        "named_instead": ["", "b", ""],
-    })  # fmt: skip
+    rows = pd.DataFrame(
+        {
+            "cause": ["a", "a", "a"],
+            "times_limit": [1.0, -1.0, 3.0],
+            "named": [1, 0, 1],
+            "within_interval": [1, 0, 1],
+            "named_instead": ["", "b", ""],
+        }
+    )
     found = measured_limits.summarised(rows)["a"]
     assert found["1"] == {
-        "tried": 2, "named": 1, "within_interval": 1, "other_named": 1, "stated_power": pytest.approx(0.95, abs=1e-3),
-    }  # fmt: skip
+        "tried": 2,
+        "named": 1,
+        "within_interval": 1,
+        "other_named": 1,
+        "stated_power": pytest.approx(0.95, abs=1e-3),
+    }
     assert found["3"]["named"] == 1 and "2" not in found and found["3"]["stated_power"] > 0.999

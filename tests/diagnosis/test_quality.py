@@ -8,9 +8,15 @@ from asphalt_nscd.table_import.quantities import QUALITY
 def observed(**quality):
     ones = np.ones(3)
     return Observations(
-        np.zeros(3, int), ("A",), ones, ones, ones * 1e9 + 0j, ones, ones,
+        np.zeros(3, int),
+        ("A",),
+        ones,
+        ones,
+        ones * 1e9 + 0j,
+        ones,
+        ones,
         quality={name: np.array(values, float) for name, values in quality.items()},
-    )  # fmt: skip
+    )
 
 
 def test_limits_of_the_standard():

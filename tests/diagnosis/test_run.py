@@ -34,10 +34,14 @@ def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
     assert (read["test_type"], read["isotherms_C"]) == ("tension-compression", [4, 20, 35, 50])
     assert read["limits_exceeded"] == [
         {
-            "specimen": "Mix-B", "temperature_C": 4.0, "frequency_Hz": 25.0, "column": "phase_uniformity_deg",
-            "value": 6.4, "limit": 3.0,
+            "specimen": "Mix-B",
+            "temperature_C": 4.0,
+            "frequency_Hz": 25.0,
+            "column": "phase_uniformity_deg",
+            "value": 6.4,
+            "limit": 3.0,
         }
-    ]  # fmt: skip
+    ]
     first, isotherms, law, quality = read["notes"]
     assert first == "a note of the import" and isotherms.startswith(
         "Isotherms in degC: 4 (measured 3.9 to 4.1), 20 ("

@@ -66,8 +66,12 @@ def test_a_bench_that_nobody_stated_is_said_with_what_hangs_on_it():
     read = {"test_type": "bending", "specimens": ["A", "B"], "isotherms_C": [4.0, 20.0]}
     mass = {"value": -0.227, "std_error": 0.01, "unit": "kg"}
     rung = {
-        "cause": "moving_mass", "where": None, "parameters": {"moving_mass": mass}, "p_value": 1e-9, "as_good": [],
-    }  # fmt: skip
+        "cause": "moving_mass",
+        "where": None,
+        "parameters": {"moving_mass": mass},
+        "p_value": 1e-9,
+        "as_good": [],
+    }
     stated, assumed = ({"ladder": [rung], "reading": read | more} for more in ({}, {"bench_assumed": True}))
     assert (
         sentences.test_type(stated)
@@ -114,9 +118,13 @@ def test_the_same_causes_in_another_order_are_the_same():
 def test_why_a_name_is_only_likely(hangs_on, as_good, sure):
     bias = {"value": 8.0, "std_error": 0.4, "unit": "K"}
     rung = {
-        "cause": "temperature_bias", "where": 4.0, "parameters": {"temperature_rise": bias}, "p_value": 1e-9,
-        "as_good": as_good, "hangs_on": hangs_on,
-    }  # fmt: skip
+        "cause": "temperature_bias",
+        "where": 4.0,
+        "parameters": {"temperature_rise": bias},
+        "p_value": 1e-9,
+        "as_good": as_good,
+        "hangs_on": hangs_on,
+    }
     ((told, meaning),) = causes({"ladder": [rung]})
     assert told == "temperature bias at 4 degC: 8 K or more (the search ends there)"
     assert meaning.endswith(sure)
@@ -198,9 +206,13 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
 def test_a_doubt_and_the_law_of_the_mix_are_told_for_what_they_are():
     size = {"value": 1.5, "std_error": 0.1, "unit": "deg"}
     rung = {
-        "cause": "phase_offset", "where": None, "parameters": {"phase_offset": size}, "p_value": 1e-9, "as_good": [],
+        "cause": "phase_offset",
+        "where": None,
+        "parameters": {"phase_offset": size},
+        "p_value": 1e-9,
+        "as_good": [],
         "doubts": ["Beside a smooth error its size is 2.5", "It was found after a name that is in doubt"],
-    }  # fmt: skip
+    }
     law = rung | {"cause": "relaxation_spectrum", "doubts": [], "parameters": {"wlf_C1": size | {"unit": ""}}}
     (doubt, of_the_mix) = causes({"ladder": [rung, law]})
     assert doubt[1].endswith(
@@ -244,10 +256,13 @@ def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
         "gain": {"in_sample": {"averages_by_temperature": {"20": errors}}},
     }
     found = {
-        "ladder": [rung], "verdict": "unexplained_structure", "numerics": {"largest_modulus_percent": 0.1},
+        "ladder": [rung],
+        "verdict": "unexplained_structure",
+        "numerics": {"largest_modulus_percent": 0.1},
         "scatter": {"modulus_percent": 1.0, "from_replicates": True},
-        "largest_pattern_left": None, "lack_of_fit_p_value": 1e-9,
-    }  # fmt: skip
+        "largest_pattern_left": None,
+        "lack_of_fit_p_value": 1e-9,
+    }
     assert on_simulation(found, after).endswith(f"more than scatter can explain.{said}")
 
 
@@ -264,10 +279,12 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
             }
         ],
         "baseline": {"mre_E_percent": {"20": burgers}},
-        "verdict": "unexplained_structure", "numerics": {"largest_modulus_percent": 0.1},
+        "verdict": "unexplained_structure",
+        "numerics": {"largest_modulus_percent": 0.1},
         "scatter": {"modulus_percent": 1.0, "from_replicates": True},
-        "largest_pattern_left": None, "lack_of_fit_p_value": 1e-9,
-    }  # fmt: skip
+        "largest_pattern_left": None,
+        "lack_of_fit_p_value": 1e-9,
+    }
     assert on_simulation(found).startswith(f"{law} misses the mean of the specimens by 10.5 % of |E*|")
     found["scatter"]["from_replicates"] = False
     assert on_simulation(found).startswith(f"{law} misses the tests by 10.5 % of |E*|")

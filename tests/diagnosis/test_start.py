@@ -16,9 +16,14 @@ def test_each_burgers_law_is_the_best_of_many_random_starts(frequency):
     moduli = [30e9 / (1.0 + 2.0 * (1j * omega * t) ** -0.2 + (1j * omega * t) ** -0.6) for t in time]
     n, m = omega.size, len(isotherms)
     observed = Observations(
-        np.zeros(m * n, int), ("a",), np.repeat(isotherms, n), np.tile(frequency, m),
-        np.concatenate(moduli), np.ones(m * n), np.zeros(m * n),
-    )  # fmt: skip
+        np.zeros(m * n, int),
+        ("a",),
+        np.repeat(isotherms, n),
+        np.tile(frequency, m),
+        np.concatenate(moduli),
+        np.ones(m * n),
+        np.zeros(m * n),
+    )
     # Modulus and phase weighted alike and the specimen's scale held, as fit_burgers takes them.
     noise = scatter.stated(observed, 1e-2, 1e-2, 1e-9)
     _, fitted = start.fit_burgers_at_each(observed, noise)

@@ -76,10 +76,13 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
 @pytest.mark.parametrize(
     ("block", "table"),
     [
-        ("samples", "paper/samples"), ("table4", "paper/table4"),
-        ("blind", "blind/summary"), ("benchmark", "benchmark/beside"), ("growth", "benchmark/growth"),
+        ("samples", "paper/samples"),
+        ("table4", "paper/table4"),
+        ("blind", "blind/summary"),
+        ("benchmark", "benchmark/beside"),
+        ("growth", "benchmark/growth"),
     ],
-)  # fmt: skip
+)
 def test_layouts_name_columns_that_are_published(block, table):
     """A column that was renamed would vanish from its page without a word."""
     there = set(pd.read_csv(ROOT / f"results/published/{table}.csv").columns)

@@ -94,7 +94,7 @@ def test_what_cannot_be_written_is_one_sentence(folder, capsys, monkeypatch, arg
         ({"law": "burgers", **dict.fromkeys(BURGERS_KEYS, 1e9)}, "key 'temperature_C' is missing"),
         ({"law": "2s2p1d"}, "key 'shift' is None"),
     ],
-)  # fmt: skip
+)
 def test_law_files_that_cannot_be_read_are_refused(tmp_path, content, sentence):
     write_json(tmp_path / "law.json", content)
     with pytest.raises(InputError, match=re.escape(sentence)):

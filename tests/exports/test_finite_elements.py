@@ -84,8 +84,13 @@ def test_an_arrhenius_shift_is_a_wlf_shift():
 
 def test_a_spring_alone_is_refused(tmp_path):
     write_chain(
-        tmp_path / "law.json", KelvinChain(1e10, np.inf, (), ()), source="x", temperature=15.0, error=0.0,
-        lowest_hz=1.0, highest_hz=10.0,
-    )  # fmt: skip
+        tmp_path / "law.json",
+        KelvinChain(1e10, np.inf, (), ()),
+        source="x",
+        temperature=15.0,
+        error=0.0,
+        lowest_hz=1.0,
+        highest_hz=10.0,
+    )
     with pytest.raises(InputError, match="does not relax"):
         export_law(read_law_file(tmp_path / "law.json"), Settings(), "abaqus", tmp_path / "law.inp")

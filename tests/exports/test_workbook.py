@@ -25,8 +25,14 @@ def test_the_workbook_comes_back(folder):
     )
     sheets = pd.read_excel(folder / "law.xlsx", sheet_name=None)
     assert list(sheets) == [
-        "Read me", "Law", "Shift factors", "Master curve", "Prony series", "Measured", "Residuals",
-    ]  # fmt: skip
+        "Read me",
+        "Law",
+        "Shift factors",
+        "Master curve",
+        "Prony series",
+        "Measured",
+        "Residuals",
+    ]
     for name in list(sheets)[2:]:
         for heading in sheets[name].columns:
             assert re.search(r"\[.+\]$", heading) or heading.startswith(("specimen", "branch", "tested")), (
@@ -60,8 +66,9 @@ def test_no_time_of_day_is_written(folder):
 def test_suspect_tests_and_notes_of_a_diagnosis_stand_in_the_workbook(folder, monkeypatch):
     content = {
         "suspect_tests": [{"specimen": "=1+1", "temperature_C": 37.0, "frequency_Hz": 25.0, "z": 6.1}],
-        "unexplained": [], "notes": ["Look at the clamp."],
-    }  # fmt: skip
+        "unexplained": [],
+        "notes": ["Look at the clamp."],
+    }
     write_json(folder / "diagnosis.json", content)
     monkeypatch.setattr("asphalt_nscd.exports.workbook.read_diagnosis", lambda paths: content)
     export_law(read_law_file(folder / "law.json"), Settings(), "xlsx", folder / "law.xlsx")

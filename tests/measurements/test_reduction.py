@@ -52,8 +52,10 @@ def refusal(path, geometry=MAPPING):
 def test_peaks_are_reduced_by_the_equations_with_each_specimens_geometry(write, tmp_path):
     geometry = write(
         "specimen,b_mm,B_mm,e_mm,h_mm,mass_kg,mobile_mass_kg",
-        "thick,25,56,26,250,0.62,0.235", "A,25,56,25,250,0.6,0.235", name="geometry.csv",
-    )  # fmt: skip
+        "thick,25,56,26,250,0.62,0.235",
+        "A,25,56,25,250,0.6,0.235",
+        name="geometry.csv",
+    )
     path = write(HEADS["peaks"], PEAK, "thick,-10,40,95,62e-6,2.5")
     frame = reduce(path, geometry)
     thick = Geometry(0.025, 0.056, 0.026, 0.25, 0.62, 0.235)
@@ -76,8 +78,9 @@ def test_moduli_pass_through_and_need_no_geometry(write):
         write(HEADS["moduli"] + ",origin", MODULUS + ",synthetic", "7,15,10,18000,16,synthetic"), {}
     )
     assert frame[["specimen", "E_MPa", "phase_deg", "origin"]].values.tolist() == [
-        ["A", 20000, 14, "synthetic"], ["7", 18000, 16, "synthetic"],
-    ]  # fmt: skip
+        ["A", 20000, 14, "synthetic"],
+        ["7", 18000, 16, "synthetic"],
+    ]
     assert frame["F0_N"].isna().all()
 
 

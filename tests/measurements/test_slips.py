@@ -164,15 +164,18 @@ def test_a_whole_table_in_another_unit_is_asked_for_it(unit, name):
         cold(),
         cold(glassy=9e3),  # cold recycled
         cold(glassy=60e3),
-        cold(0.145038).assign(temperature_C=lambda t: t["temperature_C"] + 30.0),  # warm: the phase says nothing
+        cold(0.145038).assign(
+            temperature_C=lambda t: t["temperature_C"] + 30.0
+        ),  # warm: the phase says nothing
         cold(0.145038).assign(phase_deg=lambda t: t["phase_deg"] - 9.0),  # phase and slope disagree
         cold(0.145038).assign(
-            frequency_Hz=lambda t: t["frequency_Hz"], phase_deg=lambda t: 24.0 - t["phase_deg"] + 2.0,
+            frequency_Hz=lambda t: t["frequency_Hz"],
+            phase_deg=lambda t: 24.0 - t["phase_deg"] + 2.0,
             E_MPa=lambda t: t["E_MPa"] * np.exp(0.05 * np.log(t["frequency_Hz"]) ** 2),
         ),  # the warm side, where a softer mix has a smaller phase
         cold(0.145038).query("frequency_Hz == 1 or frequency_Hz == 10"),
     ],
-)  # fmt: skip
+)
 def test_a_soft_table_that_may_be_true_goes_on(table):
     assert not list(slips(table))
 

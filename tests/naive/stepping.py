@@ -29,9 +29,14 @@ class NaiveState:
 
 
 def naive_step(
-    system: BondedSystem, law: BondLaw, dt: float, state: NaiveState, driven_velocity: float,
-    broken=(), basis: np.ndarray | None = None,
-) -> tuple[NaiveState, float]:  # fmt: skip
+    system: BondedSystem,
+    law: BondLaw,
+    dt: float,
+    state: NaiveState,
+    driven_velocity: float,
+    broken=(),
+    basis: np.ndarray | None = None,
+) -> tuple[NaiveState, float]:
     """(state, driving force [N]) after dt. basis (d, k): column 0 the driven motion; None for all of them."""
     g, rows = system.operator.toarray(), system.weight.size
     weight = system.weight.copy()
@@ -59,10 +64,12 @@ def naive_step(
     solution = np.linalg.solve(scale[:, None] * matrix, scale * right)
     velocity, sigma = known + free @ solution[:k], solution[k:]
 
-    kelvin = np.array([
-        (viscosity * old - dt * sigma) / (viscosity + dt * modulus)
-        for modulus, viscosity, old in zip(law.kelvin_springs, law.kelvin_dashpots, state.kelvin)
-    ]).reshape(state.kelvin.shape)  # fmt: skip
+    kelvin = np.array(
+        [
+            (viscosity * old - dt * sigma) / (viscosity + dt * modulus)
+            for modulus, viscosity, old in zip(law.kelvin_springs, law.kelvin_dashpots, state.kelvin)
+        ]
+    ).reshape(state.kelvin.shape)
     missing = system.mass * (velocity - state.velocity) / dt - system.load - g.T @ (weight * sigma)
     diagonal = ((g**2).T @ system.weight)[system.free]
     residual = float(np.linalg.norm(missing[system.free] / np.sqrt(diagonal)))

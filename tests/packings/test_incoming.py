@@ -64,9 +64,10 @@ def test_points_of_vtk(tmp_path, ending):
     size.SetName("Radius")
     data.GetPointData().AddArray(size)
     writers = {
-        ".vtp": vtk.vtkXMLPolyDataWriter, ".vtu": vtk.vtkXMLUnstructuredGridWriter,
+        ".vtp": vtk.vtkXMLPolyDataWriter,
+        ".vtu": vtk.vtkXMLUnstructuredGridWriter,
         ".vtk": vtk.vtkUnstructuredGridWriter,
-    }  # fmt: skip
+    }
     writer = writers[ending]()
     writer.SetFileName(str(tmp_path / f"spheres{ending}"))
     writer.SetInputData(data)
@@ -124,7 +125,7 @@ def test_overlaps_are_measured(tmp_path):
         ("ITEM: TIMESTEP\n0\nITEM: ATOMS id xs ys zs radius\n1 0 0 0 1\n", "scaled coordinates"),
         ("x;y;z;radius\n1,5;2,5;3,5;4,5\n", "decimals are written with a comma"),
     ],
-)  # fmt: skip
+)
 def test_what_is_no_packing_is_refused_in_a_sentence(tmp_path, text, sentence):
     (tmp_path / "bad.csv").write_text(text)
     with pytest.raises(an.InputError, match=sentence) as refused:
@@ -182,9 +183,10 @@ def test_the_public_rules_go_on_from_an_imported_packing(tmp_path):
     assert -0.01 <= h_mm - 1e3 * an.read(deposit).box_m[0] <= 0.0
     shape = f"b_mm=20,B_mm=24,e_mm=22,h_mm={h_mm},mass_kg=0.03,mobile_mass_kg=0.01"
     done = run.invoke(
-        cli.group, ["trim", str(deposit), "--geometry", shape, "--area", "facets", "--output", str(beam)],
+        cli.group,
+        ["trim", str(deposit), "--geometry", shape, "--area", "facets", "--output", str(beam)],
         standalone_mode=False,
-    )  # fmt: skip
+    )
     assert done.exception is None, done.exception
     specimen = an.read(beam)
     assert specimen.attributes["source"] == "pile.csv" and "seed" not in specimen.attributes

@@ -104,9 +104,15 @@ def cycle(beam, tmp_path_factory):
     law = an.Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
     law.write(folder / "law.json")
     run(
-        "condense", folder / "beam.h5", "--head", "free", "--output", folder / "model.h5",
-        "--excerpt-output", folder / "model.excerpt.h5",
-    )  # fmt: skip
+        "condense",
+        folder / "beam.h5",
+        "--head",
+        "free",
+        "--output",
+        folder / "model.h5",
+        "--excerpt-output",
+        folder / "model.excerpt.h5",
+    )
     test = [
         "simulate", folder / "model.h5", "--excerpt", folder / "model.excerpt.h5", "--law", folder / "law.json",
         "--temperature-c", 15, "--frequency-hz", 20, "--amplitude-m", 1e-6, "--cycles", 2, "--time-step-s", 1e-4,

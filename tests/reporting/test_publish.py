@@ -23,8 +23,10 @@ def test_files_are_copied_with_their_checksums(tmp_path):
     (output / "c.png").write_bytes(b"another")
     publish([output / "c.png"], output, output)  # what stands there already is listed too
     assert (output / CHECKSUMS).read_text().splitlines() == [
-        *lines[:1], f"{hashlib.sha256(b'another').hexdigest()}  c.png", lines[1]
-    ]  # fmt: skip
+        *lines[:1],
+        f"{hashlib.sha256(b'another').hexdigest()}  c.png",
+        lines[1],
+    ]
 
 
 def test_blocks_are_replaced_and_the_rest_is_left(tmp_path):
@@ -90,13 +92,19 @@ def test_rungs_stand_beside_each_other():
     """As ladder.csv has them: a row for each rung and temperature; the law was held out on the last rung only."""
     table = pd.DataFrame(
         {
-            "rung": ["as in the paper"] * 2 + ["spectrum"] * 2, "temperature_C": [15, 30] * 2,
-            "mre_E_percent": [4.0, 3.0, 2.0, 1.0], "mre_E_published_percent": [7.0, 6.0] * 2,
-            "mre_E_law_percent": [0.4, 0.3, 0.2, 0.1], "mre_E_held_out_percent": [None, None, 0.9, 0.8],
-            "scatter_E_percent": [0.5] * 4, "mre_phase_percent": [8.0] * 4, "mre_phase_law_percent": [9.0] * 4,
-            "mre_phase_held_out_percent": [1.0] * 4, "scatter_phase_percent": [0.5] * 4,
+            "rung": ["as in the paper"] * 2 + ["spectrum"] * 2,
+            "temperature_C": [15, 30] * 2,
+            "mre_E_percent": [4.0, 3.0, 2.0, 1.0],
+            "mre_E_published_percent": [7.0, 6.0] * 2,
+            "mre_E_law_percent": [0.4, 0.3, 0.2, 0.1],
+            "mre_E_held_out_percent": [None, None, 0.9, 0.8],
+            "scatter_E_percent": [0.5] * 4,
+            "mre_phase_percent": [8.0] * 4,
+            "mre_phase_law_percent": [9.0] * 4,
+            "mre_phase_held_out_percent": [1.0] * 4,
+            "scatter_phase_percent": [0.5] * 4,
         }
-    )  # fmt: skip
+    )
     rows = [line.replace(" ", "") for line in shown("ladder", table).splitlines()]
     assert rows[2] == "|T,°C|printed|asinthepaper|spectrum|"
     assert rows[4:6] == ["|15|7|4|2|", "|30|6|3|1|"]

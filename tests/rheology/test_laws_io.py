@@ -20,11 +20,16 @@ def test_burgers_round_trip(tmp_path):
     write_law(path, LAW, source="fitted", temperature=15, std_error=errors, rms_log_residual=0.01)
     assert read_law(path) == LAW
     assert json.loads(path.read_text()) == {
-        "law": "burgers", "source": "fitted", "temperature_C": 15.0,
-        "Em_Pa": 24.3e9, "eta_m_Pa_s": 3.71e9, "Ek_Pa": 48.4e9, "eta_k_Pa_s": 0.773e9,
+        "law": "burgers",
+        "source": "fitted",
+        "temperature_C": 15.0,
+        "Em_Pa": 24.3e9,
+        "eta_m_Pa_s": 3.71e9,
+        "Ek_Pa": 48.4e9,
+        "eta_k_Pa_s": 0.773e9,
         "std_error": {"Em_Pa": 1e8, "eta_m_Pa_s": 2e7, "Ek_Pa": 3e8, "eta_k_Pa_s": 4e6},
         "rms_log_residual": 0.01,
-    }  # fmt: skip
+    }
 
 
 def test_chain_round_trip(tmp_path):

@@ -33,16 +33,18 @@ def test_a_burgers_law_has_two_branches_and_is_the_same():
 
 
 @given(
-    st.lists(st.tuples(decades, decades), min_size=0, max_size=6), decades,
+    st.lists(st.tuples(decades, decades), min_size=0, max_size=6),
+    decades,
     st.one_of(st.just(np.inf), decades),
-)  # fmt: skip
+)
 @settings(max_examples=60, deadline=None)
 def test_any_chain_with_a_spring_is_the_same(elements, spring, dashpot):
     chain = KelvinChain(
-        1e10 * 10.0**spring, 1e9 * 10.0**dashpot if np.isfinite(dashpot) else np.inf,
+        1e10 * 10.0**spring,
+        1e9 * 10.0**dashpot if np.isfinite(dashpot) else np.inf,
         tuple(1e10 * 10.0**modulus for modulus, _ in elements),
         tuple(1e9 * 10.0**viscosity for _, viscosity in elements),
-    )  # fmt: skip
+    )
     series = of_chain(chain)
     np.testing.assert_allclose(series.complex_modulus(OMEGA), chain.complex_modulus(OMEGA), rtol=1e-6)
     assert (series.long_term == 0.0) == np.isfinite(chain.dashpot)

@@ -91,8 +91,11 @@ def test_grains_that_rain_at_5_m_s_do_not_enter_each_other():
     high = granulate(6)
     flock = Granulate.in_box(
         np.concatenate([flock.position, high.position + [0.0, 0.0, 0.02]]),
-        np.concatenate([flock.radius, high.radius]), (BOX[0], BOX[1], 0.1), 2600.0, 0.2,
-    )  # fmt: skip
+        np.concatenate([flock.radius, high.radius]),
+        (BOX[0], BOX[1], 0.1),
+        2600.0,
+        0.2,
+    )
     flock.velocity[n : 2 * n, 2] = -5.0
     for _ in range(100):
         before = flock.position.copy()

@@ -103,9 +103,11 @@ def test_against_half_spaces(packing):
 def test_cells_fill_the_trapezoid(packing):
     """Volume, the area of each face, closed cells, and sum A l n n = V I."""
     position, radius = packing
-    facets, n, (b, B, e, h) = power_diagram(position, radius, trapezoid(GEOMETRY)), radius.size, (
-        GEOMETRY.b, GEOMETRY.B, GEOMETRY.e, GEOMETRY.h,
-    )  # fmt: skip
+    facets, n, (b, B, e, h) = (
+        power_diagram(position, radius, trapezoid(GEOMETRY)),
+        radius.size,
+        (GEOMETRY.b, GEOMETRY.B, GEOMETRY.e, GEOMETRY.h),
+    )
     volume = e * h * (B + b) / 2
     assert facets.volume == pytest.approx(volume, rel=1e-6)  # without facets that were left out
     faces = np.bincount(facets.second[facets.second >= n] - n, facets.area[facets.second >= n])

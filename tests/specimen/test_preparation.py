@@ -31,9 +31,11 @@ def folder(tmp_path_factory):
 
 def pour(folder, name, seed, told=None):
     deposit(
-        folder / "counts.csv", Pouring(BOX, seed, vibration=Vibration(1e-3, 30.0, 0.05)), folder / name,
+        folder / "counts.csv",
+        Pouring(BOX, seed, vibration=Vibration(1e-3, 30.0, 0.05)),
+        folder / name,
         lambda *args: told.append(args) if told is not None else None,
-    )  # fmt: skip
+    )
     return load(folder / name, "deposit")
 
 

@@ -81,9 +81,7 @@ def test_too_few_tests_for_a_diagnosis_are_refused_before_anything_is_poured(che
 
 def test_frequency_with_more_digits_than_tables_keep_is_found(check):
     tests = [(temperature, frequency) for temperature in (0, 20) for frequency in (10 / 3, 10)]
-    check(
-        measurements=measure(*tests), frequencies_Hz=[3.3333333333, 10], time_step_study=None,
-    )  # fmt: skip
+    check(measurements=measure(*tests), frequencies_Hz=[3.3333333333, 10], time_step_study=None)
     with pytest.raises(
         InputError, match="frequencies_Hz: 3.33333 is not in mine.csv, which has 3.333333333, 10"
     ):

@@ -155,7 +155,7 @@ def test_tests_outside_the_full_grid_are_left_out_and_said():
         ([(1, 15, 1, 0.009, 0.3), (1, 15, 10, 0.0095, 0.3)], "softer than any asphalt"),
         ([(1, 15, 1, 9.0, 20), (1, 15, 10, 9.5, 20)], "line 2: phase_deg = 1145.92 is outside"),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_meant_is_refused_and_leaves_nothing(folder, tests, sentence):
     with pytest.raises(InputError) as error:
         new_study("mine", german(tests), Wishes())

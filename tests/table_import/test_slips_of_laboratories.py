@@ -510,11 +510,17 @@ def test_a_preface_is_passed_over_and_said(tmp_path):
 
 def test_what_is_no_test_is_left_out_and_said(tmp_path):
     table = [
-        HEADER, *ROWS[:2], HEADER, *ROWS[2:],
-        ["A", 30, 10, "#N/A", "#N/A"], ["A", 30, 1, "n.a.", ""],
-        ["Mean", "", "", 9000, 20], ["Std. dev.", "", "", 100, 1],
-        ["Note: LVDT 2 was replaced"], ["Checked by", "", "J. Doe"],
-    ]  # fmt: skip
+        HEADER,
+        *ROWS[:2],
+        HEADER,
+        *ROWS[2:],
+        ["A", 30, 10, "#N/A", "#N/A"],
+        ["A", 30, 1, "n.a.", ""],
+        ["Mean", "", "", 9000, 20],
+        ["Std. dev.", "", "", 100, 1],
+        ["Note: LVDT 2 was replaced"],
+        ["Checked by", "", "J. Doe"],
+    ]
     campaign = read(tmp_path, table)
     assert campaign.table.columns == as_is(tmp_path)
     assert said(campaign, "left out, names of columns repeated: line 4")

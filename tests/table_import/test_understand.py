@@ -83,9 +83,12 @@ def test_sieves(name, quantity):
 def test_decimal_commas_giga_pascals_and_radians():
     read = columns("Sample;Temp °C;f (Hz);|E*| [GPa];delta_rad", "A;-10;0,1;19,864;0,1", "A;12,5;25;8;0,5")
     assert read == {
-        "specimen": ["A", "A"], "temperature_C": ["-10", "12.5"], "frequency_Hz": ["0.1", "25"],
-        "E_MPa": ["19864", "8000"], "phase_deg": ["5.729577951", "28.64788976"],
-    }  # fmt: skip
+        "specimen": ["A", "A"],
+        "temperature_C": ["-10", "12.5"],
+        "frequency_Hz": ["0.1", "25"],
+        "E_MPa": ["19864", "8000"],
+        "phase_deg": ["5.729577951", "28.64788976"],
+    }
 
 
 def test_peaks_with_micrometres_and_extra_columns():

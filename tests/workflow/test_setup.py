@@ -47,9 +47,12 @@ def install(machine: Path, name: str, minor: int, ensurepip: bool = True, pip: b
 def set_up(machine: Path, **environment: str) -> tuple[subprocess.CompletedProcess[str], list[str]]:
     notes = machine / "notes"
     done = subprocess.run(
-        ["sh", "tools/venv.sh"], cwd=machine / "clone", capture_output=True, text=True,
+        ["sh", "tools/venv.sh"],
+        cwd=machine / "clone",
+        capture_output=True,
+        text=True,
         env={"PATH": str(machine / "bin"), "NOTES": str(notes), **environment},
-    )  # fmt: skip
+    )
     return done, notes.read_text().splitlines() if notes.exists() else []
 
 

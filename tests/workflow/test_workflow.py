@@ -202,9 +202,14 @@ def test_what_the_study_says_of_the_diagnosis_reaches_it(workspace):
     done = workspace.run("results/smoke/diagnosis/diagnosis.json", "--dry-run", "--printshellcmds")
     command = next(line for line in done.stdout.splitlines() if "asphalt-nscd diagnose" in line)
     for words in (
-        "--seed 7", "--draws 4000", "--static-modulus-mpa 30", "--modulus-scatter-percent 2",
-        "--phase-scatter-deg 0.5", "--geometry B_mm=20,b_mm=10", "--specimen results/smoke/diagnosis/specimens/s1.h5",
-    ):  # fmt: skip
+        "--seed 7",
+        "--draws 4000",
+        "--static-modulus-mpa 30",
+        "--modulus-scatter-percent 2",
+        "--phase-scatter-deg 0.5",
+        "--geometry B_mm=20,b_mm=10",
+        "--specimen results/smoke/diagnosis/specimens/s1.h5",
+    ):
         assert words in command
     workspace.configure(diagnosis={"scatter": {"phase_scatter_deg": 0.5}})
     done = workspace.run("--dry-run")

@@ -65,8 +65,12 @@ def real_tables(lines: tuple[Path, ...], folder: Path) -> None:
     cases = real_tables.cases(rows)
     write_table(folder / "real_cases.csv", cases)
     for make in (
-        real_tables.efficiency, real_tables.false_names, real_tables.coverage, real_tables.limits, real_tables.summary,
-    ):  # fmt: skip
+        real_tables.efficiency,
+        real_tables.false_names,
+        real_tables.coverage,
+        real_tables.limits,
+        real_tables.summary,
+    ):
         write_table(folder / f"real_{make.__name__}.csv", make(cases))
     count = cases.loc[cases["kind"] == "real", "table"].nunique()
     said = f"{count} real tables" if count else f"no real table: set {real_plan.FOLDER} to a folder of them"
@@ -98,10 +102,13 @@ def tables(lines: tuple[Path, ...], folder: Path) -> None:
     write_json(
         folder / "campaign.json",
         {
-            **provenance(), "seed": plan.SEED, "mixes_of_runs": list(plan.MIXES), "cases": len(drawn),
+            **provenance(),
+            "seed": plan.SEED,
+            "mixes_of_runs": list(plan.MIXES),
+            "cases": len(drawn),
             "cases_that_cannot_be_drawn": sum("seal" not in line for line in drawn),
         },
-    )  # fmt: skip
+    )
 
 
 @main.command()

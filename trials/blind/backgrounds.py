@@ -136,10 +136,15 @@ class Background:
         # A phase stays on the branch it was on: 200 deg is not -160 deg.
         phase = self.table["phase_deg"].to_numpy(float) + np.degrees(np.angle(modulus / self.modulus))
         seal = {
-            "seed": seed, "cause": cause, "kind": "catalogue" if cause in CATALOGUE else "outside",
-            "amplitude": size, "unit": effect.unit, "where": said, "details": details,
+            "seed": seed,
+            "cause": cause,
+            "kind": "catalogue" if cause in CATALOGUE else "outside",
+            "amplitude": size,
+            "unit": effect.unit,
+            "where": said,
+            "details": details,
             "equivalents": {name: size * factor for name, factor in units.items()},
-        }  # fmt: skip
+        }
         return self.table.assign(E_MPa=1e-6 * np.abs(modulus), phase_deg=phase), seal
 
     def through(self, rig: Rig) -> NDArray[np.complex128]:

@@ -158,7 +158,10 @@ CATALOGUE: dict[str, Effect] = {
     "strain_softening": Effect("1/m", 200.0, _strain_softening, needs="amplitude_m", others=_softening_units),
     "damage": Effect("1", 0.02, _damage, needs="cycles", others=_percent),
     "secondary_process": Effect(
-        "Pa", 3e8, _secondary_process, details=_secondary_details,
+        "Pa",
+        3e8,
+        _secondary_process,
+        details=_secondary_details,
         others=lambda a, d, g: {"MPa": 1e-6 * a, "GPa": 1e-9 * a},
     ),
-}  # fmt: skip
+}

@@ -33,9 +33,15 @@ def efficiency(table: pd.DataFrame) -> Figure:
             label="found, with its 95 % interval",
         )
         axes.plot(
-            part["ratio"], part["found"] * part["named"], "D", ls=(0, (1.2, 1.2)), color=style.ORANGE,
-            markersize=3.0, label="and named rightly", zorder=3,
-        )  # fmt: skip
+            part["ratio"],
+            part["found"] * part["named"],
+            "D",
+            ls=(0, (1.2, 1.2)),
+            color=style.ORANGE,
+            markersize=3.0,
+            label="and named rightly",
+            zorder=3,
+        )
         axes.set_title(cause.replace("_", " "), loc="left", fontsize=7.0, pad=2.0)
         axes.set_ylim(0.0, 1.05)
         axes.set_xticks(part["ratio"])

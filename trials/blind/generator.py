@@ -112,9 +112,13 @@ def draw(
         rig, mix, geometry, amplitude.to_numpy(), form, sampling, np.random.default_rng(record_seed)
     )
     seal = {
-        "seed": seed, "law": asdict(mix), "scatter": asdict(scatter), "form": form, "tests": len(design),
+        "seed": seed,
+        "law": asdict(mix),
+        "scatter": asdict(scatter),
+        "form": form,
+        "tests": len(design),
         "effects": effects,
-    }  # fmt: skip
+    }
     return Case(table, geometry, seal, sampled)
 
 
@@ -189,9 +193,14 @@ def _sealed(
 
 
 def _measured(
-    rig: Rig, law: Law, geometry: dict[str, float], amplitude: np.ndarray, form: str,
-    sampling: records.Sampling | None, rng: np.random.Generator,
-) -> tuple[pd.DataFrame, dict[str, pd.DataFrame]]:  # fmt: skip
+    rig: Rig,
+    law: Law,
+    geometry: dict[str, float],
+    amplitude: np.ndarray,
+    form: str,
+    sampling: records.Sampling | None,
+    rng: np.random.Generator,
+) -> tuple[pd.DataFrame, dict[str, pd.DataFrame]]:
     """The table in the form asked for, and the records it names."""
     design, response = rig.design, respond(law, rig, geometry, amplitude)
     table = design if design["amplitude_m"].nunique() > 1 else design.drop(columns="amplitude_m")

@@ -60,9 +60,14 @@ def run(effect: str, models: Sequence[Path], empty: Mapping[str, Any] | None, se
     tests = design.drop(columns="amplitude_m")
     table = measure(tests, histories, geometry, seed + number, scatter)
     seal = {
-        "seed": seed, "law": asdict(law), "scatter": asdict(scatter), "form": "nscd", "tests": len(tests),
-        "effects": effects, "packing_ratio": _packing_ratios(specimens),
-    }  # fmt: skip
+        "seed": seed,
+        "law": asdict(law),
+        "scatter": asdict(scatter),
+        "form": "nscd",
+        "tests": len(tests),
+        "effects": effects,
+        "packing_ratio": _packing_ratios(specimens),
+    }
     case = Case(seed, "nscd", tuple(e["cause"] for e in effects), RATIO, form="nscd", shape=law.shape)
     return {"case": asdict(case), "seal": seal, "diagnosis": open_case(table, geometry)}
 

@@ -54,9 +54,13 @@ def _common(task: Task) -> dict[str, Any]:
 
 
 def _hidden(
-    task: Task, background: Background, own: Mapping[str, Any], alike: dict[frozenset, Mapping[str, Any]], cause: str,
+    task: Task,
+    background: Background,
+    own: Mapping[str, Any],
+    alike: dict[frozenset, Mapping[str, Any]],
+    cause: str,
     odd: str | None,
-) -> Iterator[dict[str, Any]]:  # fmt: skip
+) -> Iterator[dict[str, Any]]:
     """One row for each amplitude of a cause, at a place drawn among those where five limits are physical."""
     effect, limit = background.effect(cause), own["detection_limits"][cause]
     rng = np.random.default_rng([task.seed, list(CATALOGUE).index(cause)])

@@ -32,9 +32,12 @@ def untouched(diagnosis: Diagnosis, odd: str | None = None) -> dict[str, Any]:
     confident = names(diagnosis, confident=True)
     of_odd = [entry for entry in confident if _is_odd(entry, odd)]
     return _state(diagnosis) | {
-        "cause": score.NOTHING, "any_name": len(names(diagnosis)), "wrong": len(confident) - len(of_odd),
-        "odd_named": bool(of_odd) if odd else None, "wrong_names": _told(confident, of_odd),
-    }  # fmt: skip
+        "cause": score.NOTHING,
+        "any_name": len(names(diagnosis)),
+        "wrong": len(confident) - len(of_odd),
+        "odd_named": bool(of_odd) if odd else None,
+        "wrong_names": _told(confident, of_odd),
+    }
 
 
 def row(
@@ -64,13 +67,19 @@ def row(
     own = _estimate(before, effect, unit)
     found = _estimate(after, effect, unit)
     result = _state(after) | {
-        "named": bool(telling), "established": any(entry in confident for entry in telling),
+        "named": bool(telling),
+        "established": any(entry in confident for entry in telling),
         "named_before": any(score.tells(entry, effect, before) for entry in names(before)),
         "elsewhere": not telling and any(entry["cause"] == effect["cause"] for entry in confident),
-        "added": len(added), "instead": bool(added) and not telling, "wrong_names": _told(added),
-        "own_over_limit": np.nan if own is None else abs(own[0]) / limit, "covered": None, "error_sigma": np.nan,
-        "covered_alike": None, "error_sigma_alike": np.nan,
-    }  # fmt: skip
+        "added": len(added),
+        "instead": bool(added) and not telling,
+        "wrong_names": _told(added),
+        "own_over_limit": np.nan if own is None else abs(own[0]) / limit,
+        "covered": None,
+        "error_sigma": np.nan,
+        "covered_alike": None,
+        "error_sigma_alike": np.nan,
+    }
     if telling and found is not None and found[1]:
         same = own if alike is None else _estimate(alike, effect, unit)
         for name, taken_off in (("", own), ("_alike", same)):
@@ -89,9 +98,11 @@ def left_out(diagnosis: Diagnosis) -> frozenset[tuple[str, float, float]]:
 
 def _state(diagnosis: Diagnosis) -> dict[str, Any]:
     return {
-        "verdict": diagnosis["verdict"], "failed": diagnosis["verdict"] == "failed",
-        "error": diagnosis.get("error", ""), "cpu_s": diagnosis["cpu_s"],
-    }  # fmt: skip
+        "verdict": diagnosis["verdict"],
+        "failed": diagnosis["verdict"] == "failed",
+        "error": diagnosis.get("error", ""),
+        "cpu_s": diagnosis["cpu_s"],
+    }
 
 
 def _is_odd(entry: Entry, odd: str | None) -> bool:

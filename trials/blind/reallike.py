@@ -165,9 +165,12 @@ def draw(
     rng = np.random.default_rng(design_seed)
     design = _design(rng, columns)
     sizes = Sizes(
-        rng.uniform(0.006, 0.02), np.radians(rng.uniform(0.1, 0.4)), rng.uniform(0.02, 0.06),
-        rng.uniform(0.01, 0.03), rng.uniform(0.004, 0.012),
-    )  # fmt: skip
+        rng.uniform(0.006, 0.02),
+        np.radians(rng.uniform(0.1, 0.4)),
+        rng.uniform(0.02, 0.06),
+        rng.uniform(0.01, 0.03),
+        rng.uniform(0.004, 0.012),
+    )
     family, added = _discrepancy(design, sizes.discrepancy, rng)
     own = KINDS[kind](design, sizes, np.random.default_rng(kind_seed))
     omega = 2.0 * np.pi * design["frequency_Hz"].to_numpy(float)
@@ -182,9 +185,14 @@ def draw(
     table = table[_kept(table, rng)].reset_index(drop=True)
     odd = table["specimen"][0] if kind != "odd_specimen" else design["specimen"][int(own.real.argmin())]
     seal = {
-        "seed": seed, "kind": kind, "law": asdict(law), "sizes": asdict(sizes), "family": family,
-        "tests": len(table), "odd": str(odd) if kind == "odd_specimen" else None,
-    }  # fmt: skip
+        "seed": seed,
+        "kind": kind,
+        "law": asdict(law),
+        "sizes": asdict(sizes),
+        "family": family,
+        "tests": len(table),
+        "odd": str(odd) if kind == "odd_specimen" else None,
+    }
     return Background(table, law), seal
 
 
@@ -195,11 +203,13 @@ def _design(rng: np.random.Generator, columns: Collection[str]) -> pd.DataFrame:
         if np.diff(temperatures).min() >= LEAST_GAP or count > 5:
             break
     return factorial(
-        [f"S{n + 1}" for n in range(int(rng.integers(2, 5)))], temperatures.tolist(),
+        [f"S{n + 1}" for n in range(int(rng.integers(2, 5)))],
+        temperatures.tolist(),
         BANDS[rng.integers(len(BANDS))],
         amplitudes=(30e-6, AMPLITUDE) if "amplitude_m" in columns else (AMPLITUDE,),
-        order="shuffled" if "cycles" in columns else None, seed=int(rng.integers(2**31)),
-    )  # fmt: skip
+        order="shuffled" if "cycles" in columns else None,
+        seed=int(rng.integers(2**31)),
+    )
 
 
 def _scatter(design: pd.DataFrame, sizes: Sizes, rng: np.random.Generator) -> Logarithm:

@@ -89,9 +89,13 @@ def seal(case: Case, limits: Limits) -> tuple[generator.Case, float | None]:
 
 
 def at_limit(
-    cause: str, ratio: float, limits: Limits, design: pd.DataFrame, geometry: Mapping[str, float],
+    cause: str,
+    ratio: float,
+    limits: Limits,
+    design: pd.DataFrame,
+    geometry: Mapping[str, float],
     random: np.random.Generator,
-) -> Hidden:  # fmt: skip
+) -> Hidden:
     """A cause at `ratio` times its detection limit at a place drawn from those where it can be seen."""
     limit = limits[cause]
     unit = limit["unit"]
@@ -111,9 +115,14 @@ def at_limit(
 
 
 def open_case(
-    table: pd.DataFrame, geometry: Mapping[str, float], records: Mapping[str, pd.DataFrame] | None = None,
-    removed: str = "", static_modulus: float | None = None, test_type: str = "bending", use_suspects: bool = False,
-) -> dict[str, Any]:  # fmt: skip
+    table: pd.DataFrame,
+    geometry: Mapping[str, float],
+    records: Mapping[str, pd.DataFrame] | None = None,
+    removed: str = "",
+    static_modulus: float | None = None,
+    test_type: str = "bending",
+    use_suspects: bool = False,
+) -> dict[str, Any]:
     """The diagnosis of a table, by the functions behind `asphalt-nscd diagnose`, shortened to what is judged."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "measured.csv")

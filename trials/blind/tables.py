@@ -23,7 +23,7 @@ GAINS = {
     "gain": {},
     "gain_over_scatter": {"errors": ("rms_over_scatter",)},
     "gain_of_averages": {"averages": True},
-}  # fmt: skip
+}
 SEPARABLE = 8  # causes whose removal must leave their effect unexplained
 
 
@@ -183,10 +183,13 @@ def _row(what: str, target: str, found: Mapping[str, float], met: bool) -> dict[
     verdict = "not tried" if not found["n"] else "yes" if met else "no"
     percent = {name: round(100.0 * found[name], 1) for name in ("rate", "low", "high")}
     return {
-        "what": what, "target": target, "percent": percent["rate"],
-        "interval_percent": f"{percent['low']} - {percent['high']}", "of": found["n"],
+        "what": what,
+        "target": target,
+        "percent": percent["rate"],
+        "interval_percent": f"{percent['low']} - {percent['high']}",
+        "of": found["n"],
         "met": "" if target == "reported" else verdict,
-    }  # fmt: skip
+    }
 
 
 def _separable(removed: pd.DataFrame) -> dict[str, Any]:

@@ -98,9 +98,15 @@ def slurm() -> Iterator[Path]:
         with CONFIGURATION.open("x") as file:
             file.write(text)
         start(
-            "munged", "--foreground", "--force", f"--key-file={key}", f"--socket={folder}/munge.socket",
-            f"--pid-file={folder}/munged.pid", f"--log-file={folder}/munged.log", f"--seed-file={folder}/munged.seed",
-        )  # fmt: skip
+            "munged",
+            "--foreground",
+            "--force",
+            f"--key-file={key}",
+            f"--socket={folder}/munge.socket",
+            f"--pid-file={folder}/munged.pid",
+            f"--log-file={folder}/munged.log",
+            f"--seed-file={folder}/munged.seed",
+        )
         _wait(lambda: (folder / "munge.socket").exists(), "munged", folder)
         start("slurmctld", "-D")
         start("slurmd", "-D")

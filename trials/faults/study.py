@@ -47,17 +47,24 @@ class Study(Workspace):
     def under(self, limit: Callable[[], None], *arguments: str) -> Run:
         """A run whose processes have a limit (of `resource`)."""
         return subprocess.run(
-            self.command("--cores", "2", *arguments, *self.targets), cwd=self.folder, capture_output=True, text=True,
-            env=self.environment, preexec_fn=limit,
-        )  # fmt: skip
+            self.command("--cores", "2", *arguments, *self.targets),
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+            env=self.environment,
+            preexec_fn=limit,
+        )
 
     def watched(self, look: Callable[[dict[str, int]], None], *arguments: str) -> Run:
         """A run; `look` is shown the processes of its jobs again and again, as `jobs` gives them."""
         with tempfile.TemporaryFile("w+") as said:
             process = subprocess.Popen(
-                self.command("--cores", "2", *arguments, *self.targets), cwd=self.folder, env=self.environment,
-                stdout=subprocess.DEVNULL, stderr=said,
-            )  # fmt: skip
+                self.command("--cores", "2", *arguments, *self.targets),
+                cwd=self.folder,
+                env=self.environment,
+                stdout=subprocess.DEVNULL,
+                stderr=said,
+            )
             try:
                 while process.poll() is None:
                     look(self.jobs())

@@ -90,9 +90,13 @@ def with_environment(output: str, name: str, value: Callable[[Study], str]) -> C
     def disturb(study: Study) -> Run:
         (study.results / output).unlink()
         return subprocess.run(
-            study.command("--cores", "2", *study.targets), cwd=study.folder, capture_output=True, text=True,
-            env=study.environment | {name: value(study)}, errors="replace",
-        )  # fmt: skip
+            study.command("--cores", "2", *study.targets),
+            cwd=study.folder,
+            capture_output=True,
+            text=True,
+            env=study.environment | {name: value(study)},
+            errors="replace",
+        )
 
     return disturb
 

@@ -45,9 +45,12 @@ def run(reader: Reader, wanted: int) -> tuple[int, int]:
     with tempfile.TemporaryDirectory() as folder:
 
         @settings(
-            max_examples=wanted, deadline=None, database=None, phases=[Phase.generate, Phase.shrink],
+            max_examples=wanted,
+            deadline=None,
+            database=None,
+            phases=[Phase.generate, Phase.shrink],
             suppress_health_check=list(HealthCheck),
-        )  # fmt: skip
+        )
         @given(content=contents)
         def check(content: bytes) -> None:
             nonlocal count, refused

@@ -101,10 +101,15 @@ def rates(outcomes: Iterable[Outcome]) -> pd.DataFrame:
         (f"of {SHORT + 1} to {wild.MOST_TESTS}", done[~few]),
     ):
         seconds = part["cpu_s"]
-        rows.append({
-            "what": f"CPU seconds, {what}", "n": len(part), "median": seconds.median(),
-            "most_95_percent": seconds.quantile(0.95), "largest": seconds.max(),
-        })  # fmt: skip
+        rows.append(
+            {
+                "what": f"CPU seconds, {what}",
+                "n": len(part),
+                "median": seconds.median(),
+                "most_95_percent": seconds.quantile(0.95),
+                "largest": seconds.max(),
+            }
+        )
     return pd.DataFrame(rows)
 
 

@@ -132,10 +132,15 @@ LAW = {
 }
 CHAIN = _written(
     lambda path: write_chain(
-        path, KelvinChain(1e10, 1e9, (1e10, 2e10), (1e8, 1e7)), source="fuzz", temperature=0.0, error=0.1,
-        lowest_hz=1.0, highest_hz=10.0,
+        path,
+        KelvinChain(1e10, 1e9, (1e10, 2e10), (1e8, 1e7)),
+        source="fuzz",
+        temperature=0.0,
+        error=0.1,
+        lowest_hz=1.0,
+        highest_hz=10.0,
     )
-)  # fmt: skip
+)
 HDF5 = _written(
     lambda path: save(path, "test", {"a/b": np.arange(6.0), "c": np.arange(3)}, {"x": 1.5, "y": "z"})
 )

@@ -132,9 +132,11 @@ def test_devices_against_bonds_step_by_step(beam_system, amplitude):
     """Elastic bonds, some of which break at the larger amplitude, in the same order."""
     driven = sine(amplitude, cycles=0.4)
     twin = CondensedStepper(
-        with_actuator(beam_system, ALL, 1e10), ELASTIC, DT,
+        with_actuator(beam_system, ALL, 1e10),
+        ELASTIC,
+        DT,
         CondensedState.at_rest(with_actuator(beam_system, ALL, 1e10), ELASTIC),
-    )  # fmt: skip
+    )
     reference = march(twin, driven)
     condensed, short = full(beam_system, ELASTIC, ALL), reduced(beam_system, ELASTIC, ALL)
     assert deviation(march(condensed, driven), reference) < 1e-9

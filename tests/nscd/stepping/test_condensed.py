@@ -22,11 +22,15 @@ def system(rows, weight, mass, load=None, driven=0, gap=1.0, strength=np.inf, fr
     rows = np.asarray(rows, float)
     bonds = rows.shape[0] // 3
     return BondedSystem(
-        operator=sparse.csr_matrix(rows), weight=np.full(rows.shape[0], weight), mass=np.asarray(mass, float),
-        load=np.zeros(rows.shape[1]) if load is None else np.asarray(load, float), driven=driven,
-        gap=np.broadcast_to(gap, bonds).astype(float), strength=np.broadcast_to(strength, bonds).astype(float),
+        operator=sparse.csr_matrix(rows),
+        weight=np.full(rows.shape[0], weight),
+        mass=np.asarray(mass, float),
+        load=np.zeros(rows.shape[1]) if load is None else np.asarray(load, float),
+        driven=driven,
+        gap=np.broadcast_to(gap, bonds).astype(float),
+        strength=np.broadcast_to(strength, bonds).astype(float),
         friction=friction,
-    )  # fmt: skip
+    )
 
 
 def stepper(of: BondedSystem, law=LAW, dt=1e-4, broken=()) -> CondensedStepper:

@@ -59,9 +59,15 @@ def held_by_two_bonds(load: float) -> BondedSystem:
     for bond in (1, 2):
         rows[3 * bond, 1] = rows[3 * bond + 1, 2] = 1.0
     return BondedSystem(
-        sparse.csr_matrix(rows), np.full(9, 1e-3), np.array([1.0, 1e-3, 1e-3]), np.array([0.0, 0.0, load]), 0,
-        np.array([1.0, 1e-9, 1e-9]), np.array([np.inf, 0.3, 0.31]), friction=0.5,
-    )  # fmt: skip
+        sparse.csr_matrix(rows),
+        np.full(9, 1e-3),
+        np.array([1.0, 1e-3, 1e-3]),
+        np.array([0.0, 0.0, load]),
+        0,
+        np.array([1.0, 1e-9, 1e-9]),
+        np.array([np.inf, 0.3, 0.31]),
+        friction=0.5,
+    )
 
 
 @pytest.mark.parametrize("load", [0.3, 0.8])

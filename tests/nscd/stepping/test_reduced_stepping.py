@@ -215,9 +215,15 @@ def springs(first, second, masses, gap, strength, bodies=2) -> BondedSystem:
         if j is not None:
             rows[3 * b, j] += 1.0
     return BondedSystem(
-        sparse.csr_matrix(rows), np.full(len(rows), 1e-3), np.asarray(masses, float), np.zeros(bodies), 0,
-        np.asarray(gap, float), np.asarray(strength, float), 0.5,
-    )  # fmt: skip
+        sparse.csr_matrix(rows),
+        np.full(len(rows), 1e-3),
+        np.asarray(masses, float),
+        np.zeros(bodies),
+        0,
+        np.asarray(gap, float),
+        np.asarray(strength, float),
+        0.5,
+    )
 
 
 ELASTIC = BondLaw(1e10, 1e20, np.array([]), np.array([]))

@@ -15,11 +15,17 @@ COUNTS = np.array([2, 4, 6.3, 8, 10]) * 1e-3, np.array([11798, 1588, 492, 211, 7
 def some_tests(ratio=1.1, broken=0):
     return pd.DataFrame(
         {
-            "specimen": "s1", "temperature_C": [0.0, 0.0, 20.0], "frequency_Hz": [3.0, 40.0, 3.0],
-            "E_MPa": np.array([1.0, 1.001, 1.0]) * ratio * 1e4, "E_law_MPa": 1e4, "phase_deg": 10.02,
-            "phase_law_deg": 10.0, "broken_bonds": [broken, 0, 0], "smallest_gap_m": 3e-5,
+            "specimen": "s1",
+            "temperature_C": [0.0, 0.0, 20.0],
+            "frequency_Hz": [3.0, 40.0, 3.0],
+            "E_MPa": np.array([1.0, 1.001, 1.0]) * ratio * 1e4,
+            "E_law_MPa": 1e4,
+            "phase_deg": 10.02,
+            "phase_law_deg": 10.0,
+            "broken_bonds": [broken, 0, 0],
+            "smallest_gap_m": 3e-5,
         }
-    )  # fmt: skip
+    )
 
 
 PACKING = pd.DataFrame(
@@ -106,9 +112,15 @@ def test_counts_that_contradict_each_other():
 
 def test_reduced_study_checks_no_height():
     deposit = {
-        "spheres": 890, "layer_height_m": 0.06, "poured_layer_height_m": 0.0601, "solid_fraction": 0.6,
-        "segregation": 0.0, "largest_overlap_m": 1e-7, "largest_overlap_moving_m": 1e-4, "periods_with_contact": 30,
-    }  # fmt: skip
+        "spheres": 890,
+        "layer_height_m": 0.06,
+        "poured_layer_height_m": 0.0601,
+        "solid_fraction": 0.6,
+        "segregation": 0.0,
+        "largest_overlap_m": 1e-7,
+        "largest_overlap_moving_m": 1e-4,
+        "periods_with_contact": 30,
+    }
     specimen = {"spheres": 500, "density": 3415.0, "loose_grains": 0}
     assert {row.verdict for row in list(preparation.samples([deposit], [specimen]))[:6]} == {UNCHECKED}
 
@@ -116,9 +128,15 @@ def test_reduced_study_checks_no_height():
 def test_a_layer_is_judged_by_its_height_its_density_and_the_wall_that_touched_it():
     """60.0 mm, 0.695 and 30 periods are what was published; 1 % off, or 3 periods without, and it differs."""
     deposit = {
-        "spheres": 14160, "layer_height_m": 0.0604, "poured_layer_height_m": 0.063, "solid_fraction": 0.69,
-        "segregation": 0.0, "largest_overlap_m": 1e-7, "largest_overlap_moving_m": 1e-4, "periods_with_contact": 28,
-    }  # fmt: skip
+        "spheres": 14160,
+        "layer_height_m": 0.0604,
+        "poured_layer_height_m": 0.063,
+        "solid_fraction": 0.69,
+        "segregation": 0.0,
+        "largest_overlap_m": 1e-7,
+        "largest_overlap_moving_m": 1e-4,
+        "periods_with_contact": 28,
+    }
     specimen = {"spheres": 500, "density": 3415.0, "loose_grains": 0}
 
     def verdicts(**changes):

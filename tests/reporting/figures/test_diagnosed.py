@@ -117,8 +117,10 @@ def test_limits_stand_in_units_of_use_beside_what_was_found(results):
     figure = fig_limits.draw(diagnosis=results.diagnosis()["diagnosis"])
     delay, clamp, bias = figure.axes
     assert [axes.get_title(loc="left") for axes in figure.axes] == [
-        "channel delay (ms)", "loose clamp (1/TPa)", "temperature bias (K)",
-    ]  # fmt: skip
+        "channel delay (ms)",
+        "loose clamp (1/TPa)",
+        "temperature bias (K)",
+    ]
     assert [bar.get_width() for bar in delay.patches] == pytest.approx([0.03])
     assert [bar.get_width() for bar in clamp.patches] == pytest.approx([0.9, 0.8])
     assert [label.get_text() for label in clamp.get_yticklabels()] == ["specimen 1", "specimen 2"]

@@ -81,14 +81,19 @@ def test_published_table_is_the_check_of_reconstructed_data_only(page, tmp_path)
 
 def test_what_stays_unexplained_is_said(page):
     miss = {
-        "temperature_C": 20.0, "frequency_Hz": 3.0, "residual_E_percent": -15.13, "residual_phase_deg": -2.77,
+        "temperature_C": 20.0,
+        "frequency_Hz": 3.0,
+        "residual_E_percent": -15.13,
+        "residual_phase_deg": -2.77,
         "z": 6.94,
-    }  # fmt: skip
+    }
     left = {"pattern": "20 degC, slope", "p_value": 1e-9, "z": 11.7}
     html = page(
-        verdict="unexplained_structure", largest_pattern_left=left, unexplained=[miss, {**miss, "specimen": "2"}],
+        verdict="unexplained_structure",
+        largest_pattern_left=left,
+        unexplained=[miss, {**miss, "specimen": "2"}],
         withdrawn=["secondary_process"],
-    )  # fmt: skip
+    )
     assert "the simulation misses by 2 % and 2 %, more than scatter can explain." in html
     assert "<li>20 °C, slope: 11.7 times its standard error</li>" in html
     assert "<td>20 °C</td><td>3</td><td>−15.1</td><td>−2.77</td><td>6.94</td><td>mean</td>" in html
@@ -100,12 +105,18 @@ def test_what_stays_unexplained_is_said(page):
 def test_rivals_and_text_from_the_table_are_shown_as_text(page):
     html = page()
     assert "one of these" not in html
-    ladder = [{
-        "cause": "loose_clamp", "where": "<b>", "p_value": 0.004,
-        "as_good": ["loose_clamp @ <i>", "temperature_bias @ -10.0"],
-        "sentence": "s", "confirmed_by": "c", "gain": {"in_sample": GAIN, "held_out": {}},
-        "parameters": {"compliance": {"value": 3e-12, "std_error": None, "unit": "1/Pa"}},
-    }]  # fmt: skip
+    ladder = [
+        {
+            "cause": "loose_clamp",
+            "where": "<b>",
+            "p_value": 0.004,
+            "as_good": ["loose_clamp @ <i>", "temperature_bias @ -10.0"],
+            "sentence": "s",
+            "confirmed_by": "c",
+            "gain": {"in_sample": GAIN, "held_out": {}},
+            "parameters": {"compliance": {"value": 3e-12, "std_error": None, "unit": "1/Pa"}},
+        }
+    ]
     html = page(ladder=ladder)
     assert (
         "Fits no better than loose clamp (specimen &lt;i&gt;), temperature bias (−10 °C): one of these."
@@ -119,9 +130,7 @@ def test_rivals_and_text_from_the_table_are_shown_as_text(page):
 
 
 def test_without_replicates_nothing_is_called_right_or_established(page, results):
-    alone = {
-        "modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": False,
-    }  # fmt: skip
+    alone = {"modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": False}
     assert "scatter by 1 % and 0.5°. Everything" in page()
     html = page(verdict="nothing_to_explain", ladder=[], tested=False, scatter=alone)
     assert (
@@ -155,10 +164,15 @@ def test_a_law_that_predicts_worse_than_before_is_warned_of(page, after, warned)
     errors = dict.fromkeys(("mre_E_percent", "mre_phase_percent"), {"before": 10.8, "after": after})
     worse = GAIN | {"averages_by_temperature": {"0": errors}}
     rung = {
-        "cause": "relaxation_spectrum", "where": None, "p_value": 0.0, "as_good": [], "sentence": "s",
-        "confirmed_by": "c", "gain": {"in_sample": GAIN, "held_out": {"leave_one_isotherm_out": worse}},
+        "cause": "relaxation_spectrum",
+        "where": None,
+        "p_value": 0.0,
+        "as_good": [],
+        "sentence": "s",
+        "confirmed_by": "c",
+        "gain": {"in_sample": GAIN, "held_out": {"leave_one_isotherm_out": worse}},
         "parameters": {"reference_temperature": {"value": 20.0, "std_error": None, "unit": "degC"}},
-    }  # fmt: skip
+    }
     words = "predicted from the rest. That is more than before: do not use this law there</td>"
     assert (words in page(ladder=[rung])) == warned
 
@@ -170,13 +184,22 @@ def test_without_a_cause_nothing_is_explained(page):
 
 def test_what_a_laboratory_is_to_do_stands_on_the_page(page):
     order = {
-        "text": "2.5 h: test specimens A and B at -6 degC, 25 Hz.", "why": ["It shows as 7.1 deg."], "hours": 2.5,
-        "nats": 3.0, "specimens": ["A", "B"], "temperature_C": -6.0, "frequencies_Hz": [25.0], "half_strain": False,
-    }  # fmt: skip
+        "text": "2.5 h: test specimens A and B at -6 degC, 25 Hz.",
+        "why": ["It shows as 7.1 deg."],
+        "hours": 2.5,
+        "nats": 3.0,
+        "specimens": ["A", "B"],
+        "temperature_C": -6.0,
+        "frequencies_Hz": [25.0],
+        "half_strain": False,
+    }
     suspect = {
-        "specimen": "A", "temperature_C": 4.0, "frequency_Hz": 25.0, "used": False,
+        "specimen": "A",
+        "temperature_C": 4.0,
+        "frequency_Hz": 25.0,
+        "used": False,
         "reasons": ["phase is 18.8 deg +- 1"],
-    }  # fmt: skip
+    }
     other = {"verdict": "explained", "causes": [{"cause": "phase_offset", "where": None}]}
     html = page(
         instructions={"costs": "Counted: 2 h.", "orders": [order]},
@@ -209,11 +232,16 @@ def test_bond_mapping_stands_first_with_its_evidence_and_without_a_chance(page, 
         "0": {name: {"before": 10.2, "after": 2.0} for name in ("mre_E_percent", "mre_phase_percent")}
     }
     rung = {
-        "cause": "bond_mapping", "where": None, "p_value": None, "as_good": [], "sentence": "areas do not fill",
-        "evidence": "1.056 to 1.109 of the law", "confirmed_by": "packings",
+        "cause": "bond_mapping",
+        "where": None,
+        "p_value": None,
+        "as_good": [],
+        "sentence": "areas do not fill",
+        "evidence": "1.056 to 1.109 of the law",
+        "confirmed_by": "packings",
         "parameters": {"modulus_over_law": {"value": 1.09, "std_error": None, "unit": "1"}},
         "gain": {"in_sample": {"averages_by_temperature": averages}, "held_out": {}},
-    }  # fmt: skip
+    }
     html = page(ladder=[rung, *made])
     assert html.index("<b>bond mapping</b>") < html.index("<b>relaxation spectrum</b>")
     assert "Evidence: 1.056 to 1.109 of the law." in html

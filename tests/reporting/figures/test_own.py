@@ -127,11 +127,15 @@ def test_model_of_another_specimen_is_refused(results):
 def test_mappings_by_size_and_packing(tmp_path):
     """Facets with equal stiffnesses and the paper's bonds; the right panel holds the size of most packings."""
     rows = [
-        ("paper", 0.37, 1000, 600, 0.60, 0.55), ("paper", 0.37, 14160, 9000, 0.67, 1.06),
-        ("paper", 0.37, 14160, 9100, 0.65, 1.03), ("paper", 0.37, 30000, 20000, 0.69, 1.2),
-        ("facets", 1.0, 1000, 600, 0.60, 0.98), ("facets", 1.0, 14160, 9000, 0.67, 1.002),
-        ("facets", 0.37, 14160, 9000, 0.67, 0.99), ("facets with moments", 1.0, 14160, 9000, 0.67, 1.006),
-    ]  # fmt: skip
+        ("paper", 0.37, 1000, 600, 0.60, 0.55),
+        ("paper", 0.37, 14160, 9000, 0.67, 1.06),
+        ("paper", 0.37, 14160, 9100, 0.65, 1.03),
+        ("paper", 0.37, 30000, 20000, 0.69, 1.2),
+        ("facets", 1.0, 1000, 600, 0.60, 0.98),
+        ("facets", 1.0, 14160, 9000, 0.67, 1.002),
+        ("facets", 0.37, 14160, 9000, 0.67, 0.99),
+        ("facets with moments", 1.0, 14160, 9000, 0.67, 1.006),
+    ]
     columns = ["mapping", "kt_over_kn", "spheres", "spheres_in_specimen", "solid_fraction", "E_over_law"]
     pd.DataFrame(rows, columns=columns).to_csv(tmp_path / "mapping.csv", index=False)
     size, density = fig_mapping.draw(mapping=[tmp_path / "mapping.csv"]).axes

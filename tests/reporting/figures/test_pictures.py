@@ -99,8 +99,14 @@ def test_drawing_carries_the_numbers_of_the_study(tmp_path):
     (path := tmp_path / "study.json").write_text(json.dumps(study))
     texts = " ".join(text.get_text() for axes in fig01.draw(study=[path]).axes for text in axes.texts)
     for words in (
-        "$b$ = 10 mm", "$B$ = 20 mm", "$e$ = 12 mm", "$h$ = 60 mm",
-        "$M$ = 0.021 kg", "$m$ = 0.008 kg", "10 µm",
-        "clamped", "free to rotate",
-    ):  # fmt: skip
+        "$b$ = 10 mm",
+        "$B$ = 20 mm",
+        "$e$ = 12 mm",
+        "$h$ = 60 mm",
+        "$M$ = 0.021 kg",
+        "$m$ = 0.008 kg",
+        "10 µm",
+        "clamped",
+        "free to rotate",
+    ):
         assert words in texts, words

@@ -48,9 +48,11 @@ def test_first_page_says_what_was_done_and_found(page):
     assert "the simulation misses them by 0.6 % and 5 %" in said["found"]["simulation"]
     assert said["found"]["data"].startswith("All 12 tests can be used. Specimen 2 carries a loose clamp")
     assert said["gained"] == [
-        ("as in the paper", "11.1", "5"), ("facets", "2.5", "5"), ("spectrum", "0.6", "5"),
+        ("as in the paper", "11.1", "5"),
+        ("facets", "2.5", "5"),
+        ("spectrum", "0.6", "5"),
         ("scatter of one test", "1", "4"),
-    ]  # fmt: skip
+    ]
     assert said["held_out"] is None, "two temperatures have none between them"
 
 
@@ -58,9 +60,13 @@ def test_packings_of_another_program_are_named(page, results, tmp_path):
     table = pd.read_csv(tmp_path / "samples.csv").assign(packing=["a.csv", "b.csv"])
     table.to_csv(given := tmp_path / "given.csv", index=False)
     said = first_page(
-        results.measured(), results.simulations(("s1", "s2")), [given], results.diagnosis()["diagnosis"],
-        [tmp_path / "map.png"], results.ladder(),
-    )  # fmt: skip
+        results.measured(),
+        results.simulations(("s1", "s2")),
+        [given],
+        results.diagnosis()["diagnosis"],
+        [tmp_path / "map.png"],
+        results.ladder(),
+    )
     assert "bonded spheres, from packings of another program (a.csv, b.csv), in" in said["simulated"][0]
 
 
@@ -77,9 +83,15 @@ def test_what_to_beware_of_stands_on_the_first_page(page, tmp_path):
 
 def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
     order = {
-        "text": "0.5 h: test a metal reference specimen, 25 Hz.", "why": ["As 7.1 deg."], "hours": 0.5, "nats": 3.0,
-        "specimens": ["m"], "temperature_C": None, "frequencies_Hz": [25.0], "half_strain": False,
-    }  # fmt: skip
+        "text": "0.5 h: test a metal reference specimen, 25 Hz.",
+        "why": ["As 7.1 deg."],
+        "hours": 0.5,
+        "nats": 3.0,
+        "specimens": ["m"],
+        "temperature_C": None,
+        "frequencies_Hz": [25.0],
+        "half_strain": False,
+    }
     html = assemble("mine", page(instructions={"costs": "c", "orders": [order]}), [], tmp_path)
     assert (
         "What to test next" in html

@@ -23,9 +23,11 @@ def inputs(results, parameters=("Em",), factors=(0.5, 1.5)):
                 ratios=lambda sample, factor=factor: factor, name=name, parameter=parameter, factor=factor
             )
     return {
-        "sensitivity": changed, "simulations": results.simulations(), "measured": results.measured(),
+        "sensitivity": changed,
+        "simulations": results.simulations(),
+        "measured": results.measured(),
         "laws": results.laws(20.0),
-    }  # fmt: skip
+    }
 
 
 @pytest.mark.parametrize("parameter", PARAMETERS)
@@ -47,9 +49,7 @@ def test_points_labels_and_units(results):
     filled = [points.get_ydata()[0] for points in drawn if len(points.get_ydata())]  # not the legend's
     expected = modulus(LAWS[20.0], 3.0)[0] / 1e3
     assert filled == pytest.approx([0.5 * expected, expected, 1.5 * expected], rel=1e-9)
-    assert [text.get_text() for text in left.texts] == [
-        "$E_m$ \N{MINUS SIGN}50 %", "$E_m$", "$E_m$ +50 %",
-    ]  # fmt: skip
+    assert [text.get_text() for text in left.texts] == ["$E_m$ \N{MINUS SIGN}50 %", "$E_m$", "$E_m$ +50 %"]
     legend = [text.get_text() for text in figure.legends[0].get_texts()]
     assert legend[0] == "reconstructed, 20 °C"
 

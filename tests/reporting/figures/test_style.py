@@ -65,8 +65,10 @@ def test_labels_at_ends_are_in_the_order_of_the_lines_and_apart():
     low, high, bottom = sorted((text.get_window_extent() for text in axes.texts), key=lambda box: -box.y0)
     assert low.y0 >= high.y1 - 2.0 and high.y0 > bottom.y1
     assert [text.get_text() for text in sorted(axes.texts, key=lambda t: t.get_window_extent().y0)] == [
-        "low", "upper?", "upper",
-    ]  # fmt: skip
+        "low",
+        "upper?",
+        "upper",
+    ]
 
 
 def test_temperatures_have_a_true_minus():

@@ -35,9 +35,13 @@ class Results:
         return paths
 
     def simulations(
-        self, samples: Iterable[str] = ("s1",), frequencies: Iterable[float] = (3.0, 10.0, 40.0),
-        ratios: Callable[[str], float] = lambda sample: 1.0, name: str = "simulations", **columns: object,
-    ) -> list[Path]:  # fmt: skip
+        self,
+        samples: Iterable[str] = ("s1",),
+        frequencies: Iterable[float] = (3.0, 10.0, 40.0),
+        ratios: Callable[[str], float] = lambda sample: 1.0,
+        name: str = "simulations",
+        **columns: object,
+    ) -> list[Path]:
         """Every sample gives `ratios(sample)` times the law, at 0 and 20 degC."""
         rows = []
         for sample in samples:
@@ -46,11 +50,17 @@ class Results:
                     norm, phase = modulus(law, frequency)
                     rows.append(
                         {
-                            "specimen": sample, "temperature_C": temperature, "frequency_Hz": frequency,
-                            "E_MPa": ratios(sample) * norm, "phase_deg": phase + 0.01, "E_law_MPa": norm,
-                            "phase_law_deg": phase, "broken_bonds": 2 if temperature == 0.0 else 0, **columns,
+                            "specimen": sample,
+                            "temperature_C": temperature,
+                            "frequency_Hz": frequency,
+                            "E_MPa": ratios(sample) * norm,
+                            "phase_deg": phase + 0.01,
+                            "E_law_MPa": norm,
+                            "phase_law_deg": phase,
+                            "broken_bonds": 2 if temperature == 0.0 else 0,
+                            **columns,
                         }
-                    )  # fmt: skip
+                    )
         write_table(path := self.folder / f"{name}.csv", pd.DataFrame(rows))
         return [path]
 
@@ -66,9 +76,13 @@ class Results:
         return [path]
 
     def test(
-        self, name: str = "test", lead: float = 0.3, cycles: int = 3, force: float = 40.0,
+        self,
+        name: str = "test",
+        lead: float = 0.3,
+        cycles: int = 3,
+        force: float = 40.0,
         **attributes: object,
-    ) -> list[Path]:  # fmt: skip
+    ) -> list[Path]:
         """A sine of 2 Hz, 50 um and `force` [N] that leads by `lead` [rad]; a linear velocity profile."""
         frequency, amplitude = 2.0, 50e-6
         time = np.arange(1, 1000 * cycles + 1) / 1000.0 / frequency
@@ -95,10 +109,14 @@ class Results:
         box = np.array([0.06, 0.01, 0.2])
         position = rng.uniform(0.0, 1.0, (36, 3)) * box
         arrays = {
-            "initial_position": position, "poured_position": position * [1.0, 1.0, 0.12],
-            "position": position * [1.0, 1.0, 0.1], "radius": radius, "box": box,
-            "course/time": np.array([2.0, 2.5, 3.25]), "course/height": np.array([0.024, 0.021, 0.0203]),
-        }  # fmt: skip
+            "initial_position": position,
+            "poured_position": position * [1.0, 1.0, 0.12],
+            "position": position * [1.0, 1.0, 0.1],
+            "radius": radius,
+            "box": box,
+            "course/time": np.array([2.0, 2.5, 3.25]),
+            "course/height": np.array([0.024, 0.021, 0.0203]),
+        }
         heights = {"poured_layer_height_m": 0.024, "layer_height_m": 0.0203}
         save(path := self.folder / "deposit.h5", "deposit", arrays, heights)
         return [path]
@@ -108,10 +126,12 @@ class Results:
         radius = np.array([1e-3, 1e-3, 2.5e-3, 1e-3]) * 0.9 ** (1.0 / 3.0)
         # The last bond leads to a plate, which comes after the spheres.
         arrays = {
-            "position": position, "radius": radius,
-            "network/first": np.array([0, 0, 0]), "network/second": np.array([1, 2, 4]),
+            "position": position,
+            "radius": radius,
+            "network/first": np.array([0, 0, 0]),
+            "network/second": np.array([1, 2, 4]),
             "network/point": np.array([[0.0015, 0.0002, 0.03], [0.0, 0.001, 0.03], [0.0, 0.0, 0.0]]),
-        }  # fmt: skip
+        }
         shape = {"b": 0.01, "B": 0.02, "e": 0.01, "h": 0.06, "mass": 0.021, "mobile_mass": 0.008}
         save(path := self.folder / "specimen.h5", "specimen", arrays, shape | {"volume_reduction": 0.1})
         return [path]
@@ -125,9 +145,11 @@ class Results:
             operator[row, 6 * first], operator[row, 6 * second] = -1.0, 1.0
         sparse = csr_matrix(operator)
         arrays = {
-            "basis": deflection.reshape(-1, 1), "mass": np.ones(30), "weight": np.repeat([4.0, 2.0, 2.0], 3),
+            "basis": deflection.reshape(-1, 1),
+            "mass": np.ones(30),
+            "weight": np.repeat([4.0, 2.0, 2.0], 3),
             **{f"operator/{part}": getattr(sparse, part) for part in ("data", "indices", "indptr")},
-        }  # fmt: skip
+        }
         save(path := self.folder / "model.h5", "model", arrays, {"name": name})
         return [path]
 
@@ -205,15 +227,21 @@ class Results:
         rungs = {"as in the paper": (10.2, 12.0), "facets": (2.0, 3.0), "spectrum": (0.5, 0.7)}
         rows = [
             {
-                "rung": rung, "temperature_C": temperature, "compared_with": "reconstructed", "mre_E_percent": error,
+                "rung": rung,
+                "temperature_C": temperature,
+                "compared_with": "reconstructed",
+                "mre_E_percent": error,
                 "mre_E_law_percent": error if rung == "spectrum" else 2.1,
-                "mre_E_held_out_percent": 0.9 if rung == "spectrum" else np.nan, "scatter_E_percent": 1.0,
-                "mre_phase_percent": 5.0, "mre_phase_law_percent": 4.9,
-                "mre_phase_held_out_percent": 1.5 if rung == "spectrum" else np.nan, "scatter_phase_percent": 4.0,
+                "mre_E_held_out_percent": 0.9 if rung == "spectrum" else np.nan,
+                "scatter_E_percent": 1.0,
+                "mre_phase_percent": 5.0,
+                "mre_phase_law_percent": 4.9,
+                "mre_phase_held_out_percent": 1.5 if rung == "spectrum" else np.nan,
+                "scatter_phase_percent": 4.0,
             }
             for rung, errors in rungs.items()
             for temperature, error in zip((0.0, 20.0), errors, strict=True)
-        ]  # fmt: skip
+        ]
         write_table(path := self.folder / "ladder.csv", pd.DataFrame(rows))
         return [path]
 
@@ -227,12 +255,17 @@ class Results:
                     doubt = specimen == "1" and temperature == 21.0 and frequency == 25.0
                     rows.append(
                         {
-                            "specimen": specimen, "temperature_C": temperature, "frequency_Hz": frequency,
+                            "specimen": specimen,
+                            "temperature_C": temperature,
+                            "frequency_Hz": frequency,
                             "E_MPa": 1e3 * (2.0 - temperature / 21.0) * frequency**0.2,
-                            "phase_deg": 20.0 + 5.0 * fault, "phase_required_deg": 20.2, "std_error_deg": 1.0,
-                            "quality_flag": int(fault), "reasons": "phase; twice" if fault or doubt else "",
+                            "phase_deg": 20.0 + 5.0 * fault,
+                            "phase_required_deg": 20.2,
+                            "std_error_deg": 1.0,
+                            "quality_flag": int(fault),
+                            "reasons": "phase; twice" if fault or doubt else "",
                             "used": int(not fault),
                         }
-                    )  # fmt: skip
+                    )
         write_table(path := self.folder / "causality.csv", pd.DataFrame(rows))
         return [path]

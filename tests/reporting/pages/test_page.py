@@ -9,9 +9,9 @@ from asphalt_nscd.reporting.pages.style import page
 
 @pytest.fixture
 def table(tmp_path):
-    frame = pd.DataFrame({
-        "specimen": ["01", "s<2>"], "E_MPa": [24300.123456, float("nan")], "bonds": [12, 70_000_000],
-    })  # fmt: skip
+    frame = pd.DataFrame(
+        {"specimen": ["01", "s<2>"], "E_MPa": [24300.123456, float("nan")], "bonds": [12, 70_000_000]}
+    )
     frame.to_csv(tmp_path / "table.csv", index=False)
     return tmp_path / "table.csv"
 

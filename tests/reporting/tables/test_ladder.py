@@ -42,8 +42,10 @@ def data(tmp_path):
 def test_rungs_by_hand(data):
     table = ladder.make(**data).set_index(["rung", "temperature_C"])
     assert list(dict.fromkeys(table.index.get_level_values(0))) == [
-        "as in the paper", "facets", "spectrum, channel delay",
-    ]  # fmt: skip
+        "as in the paper",
+        "facets",
+        "spectrum, channel delay",
+    ]
     assert table.loc[("as in the paper", 0), "mre_E_percent"] == pytest.approx(10.0)
     assert table.loc[("facets", 0), "mre_E_percent"] == pytest.approx(2.0)
     assert table.loc[("spectrum, channel delay", 0), "mre_E_percent"] == pytest.approx(0.5)

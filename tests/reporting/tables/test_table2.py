@@ -32,9 +32,10 @@ def test_sieve_that_retains_nothing_gives_no_spheres():
 
 def test_the_papers_table_follows_from_its_grading_within_four_spheres():
     table = make(
-        grading=["data/paper/table1_grading.csv"], published=["data/paper/table2_counts.csv"],
+        grading=["data/paper/table1_grading.csv"],
+        published=["data/paper/table2_counts.csv"],
         used=["data/paper/table2_counts.csv"],
-    )  # fmt: skip
+    )
     assert list(table["diameter_mm"]) == [2, 4, 6.3, 8, 10]
     assert table["count_from_grading"].sum() == table["count_published"].sum() == 14160
     difference = (table["count_from_grading"] - table["count_published"]).abs()

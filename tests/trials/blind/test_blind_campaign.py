@@ -43,27 +43,38 @@ def test_another_seed_draws_other_cases():
 def line(suite, hidden, named, verdict, ratio=JUDGED, kind="catalogue", covered=True):
     effects = [
         {
-            "cause": cause, "kind": kind, "where": None, "amplitude": 1.0, "unit": "s", "equivalents": {"s": 1.0},
-            "strength": 1.0, "ratio": ratio,
+            "cause": cause,
+            "kind": kind,
+            "where": None,
+            "amplitude": 1.0,
+            "unit": "s",
+            "equivalents": {"s": 1.0},
+            "strength": 1.0,
+            "ratio": ratio,
         }
         for cause in hidden
-    ]  # fmt: skip
+    ]
     error = {
         "mre_E_percent": {"before": 2.0, "after": 1.0},
         "mre_phase_percent": {"before": 1.0, "after": 1.5},
         "rms_over_scatter": {"before": 2.0, "after": 1.0},
         "averages_by_temperature": {
-            t: {"mre_E_percent": {"before": 1.0, "after": 1.0}, "mre_phase_percent": {"before": 1.0, "after": size}}
+            t: {
+                "mre_E_percent": {"before": 1.0, "after": 1.0},
+                "mre_phase_percent": {"before": 1.0, "after": size},
+            }
             for t, size in (("0", 0.5), ("10", 2.5))
         },
-    }  # fmt: skip
+    }
     ladder = [
         {
-            "cause": cause, "where": None, "gain": {"in_sample": error, "held_out": {"frequency": error}},
+            "cause": cause,
+            "where": None,
+            "gain": {"in_sample": error, "held_out": {"frequency": error}},
             "parameters": {"delay": {"value": 1.1 if covered else 2.0, "std_error": 0.1, "unit": "s"}},
         }
         for cause in named
-    ]  # fmt: skip
+    ]
     case = Case(1, suite, tuple(hidden), ratio, shape="huet_sayegh")
     seal = {"seed": 1, "effects": effects}
     diagnosis = {"verdict": verdict, "ladder": ladder, "indistinguishable": [], "detection_limits": {}}
@@ -74,15 +85,21 @@ def line(suite, hidden, named, verdict, ratio=JUDGED, kind="catalogue", covered=
 def opened():
     explained, structure = "explained", "unexplained_structure"
     delay, offset = ["channel_delay"], ["phase_offset"]
-    return tables.cases([
-        *[line("single", delay, delay, explained)] * 8, line("single", delay, offset, explained),
-        line("single", delay, [], explained), line("single", delay, delay, explained, covered=False),
-        *[line("limits", [], [], explained, np.nan)] * 9, line("empty", [], delay, explained, np.nan),
-        line("outside", ["specimen_phase"], [], structure, kind="outside"),
-        line("outside", ["specimen_phase"], delay, explained, kind="outside"),
-        line("removal", delay, [], structure), line("removal", delay, offset, explained),
-        line("single", delay, [], explained, ratio=1.0),
-    ])  # fmt: skip
+    return tables.cases(
+        [
+            *[line("single", delay, delay, explained)] * 8,
+            line("single", delay, offset, explained),
+            line("single", delay, [], explained),
+            line("single", delay, delay, explained, covered=False),
+            *[line("limits", [], [], explained, np.nan)] * 9,
+            line("empty", [], delay, explained, np.nan),
+            line("outside", ["specimen_phase"], [], structure, kind="outside"),
+            line("outside", ["specimen_phase"], delay, explained, kind="outside"),
+            line("removal", delay, [], structure),
+            line("removal", delay, offset, explained),
+            line("single", delay, [], explained, ratio=1.0),
+        ]
+    )
 
 
 def test_rates_are_those_of_the_seals(opened):

@@ -24,9 +24,12 @@ def rung(cause, value=1.0, error=0.1, where=None, **more):
 
 def diagnosis(*ladder, verdict="unexplained_structure", limits=None, estimates=None):
     return {
-        "verdict": verdict, "ladder": [{"cause": "relaxation_spectrum", "where": None}, *ladder],
-        "indistinguishable": [], "detection_limits": limits or {}, "cpu_s": 0.1,
-    } | ({"estimates": estimates} if estimates else {})  # fmt: skip
+        "verdict": verdict,
+        "ladder": [{"cause": "relaxation_spectrum", "where": None}, *ladder],
+        "indistinguishable": [],
+        "detection_limits": limits or {},
+        "cpu_s": 0.1,
+    } | ({"estimates": estimates} if estimates else {})
 
 
 def effect(cause="phase_offset", amplitude=3.0, where=None):
@@ -101,9 +104,11 @@ def test_an_interval_that_is_not_symmetric_is_used():
 def test_confidence_is_the_rungs_own_or_of_the_whole_diagnosis():
     told = rung("phase_offset", 3.0)
     for verdict, flag, sure in (
-        ("explained", {}, True), ("unexplained_structure", {}, False),
-        ("unexplained_structure", {"established": True}, True), ("explained", {"established": False}, False),
-    ):  # fmt: skip
+        ("explained", {}, True),
+        ("unexplained_structure", {}, False),
+        ("unexplained_structure", {"established": True}, True),
+        ("explained", {"established": False}, False),
+    ):
         row = scored(diagnosis(), diagnosis(told | flag, verdict=verdict))
         assert row["named"] and row["established"] == sure
 
@@ -185,9 +190,10 @@ def test_real_tables_get_every_cause_once_with_both_signs(folder):
 
 
 LIMITS = {
-    "phase_offset": {"value": 1.0, "unit": "deg"}, "channel_delay": {"value": 1e-4, "unit": "s"},
+    "phase_offset": {"value": 1.0, "unit": "deg"},
+    "channel_delay": {"value": 1e-4, "unit": "s"},
     "moving_mass": {"value": 0.09, "unit": "kg"},
-}  # fmt: skip
+}
 
 
 def perfect(table, geometry, test_type="bending", use_suspects=False):

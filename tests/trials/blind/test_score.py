@@ -34,9 +34,11 @@ def diagnosis(*entries, verdict="explained", groups=()):
     limits = {DELAY: {"value": 0.1, "unit": "ms"}}
     spectrum = {"cause": TRUE_OF_ALL, "where": None}
     return {
-        "verdict": verdict, "ladder": [spectrum, *entries], "indistinguishable": list(groups),
+        "verdict": verdict,
+        "ladder": [spectrum, *entries],
+        "indistinguishable": list(groups),
         "detection_limits": limits,
-    }  # fmt: skip
+    }
 
 
 def seal(*hidden):

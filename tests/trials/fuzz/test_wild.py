@@ -48,9 +48,15 @@ def test_a_seed_repeats_its_table_and_no_other_does():
 @pytest.mark.parametrize("name", wild.FAULTS)
 def test_every_fault_takes_a_table_of_one_test(name):
     rng = np.random.default_rng(2)
-    one = pd.DataFrame({
-        "specimen": ["A"], "temperature_C": [10.0], "frequency_Hz": [1.0], "E_MPa": [9e3], "phase_deg": [20.0],
-    })  # fmt: skip
+    one = pd.DataFrame(
+        {
+            "specimen": ["A"],
+            "temperature_C": [10.0],
+            "frequency_Hz": [1.0],
+            "E_MPa": [9e3],
+            "phase_deg": [20.0],
+        }
+    )
     table = wild.FAULTS[name](one, rng)
     assert len(table) >= 1 and np.isfinite(table[["E_MPa", "phase_deg"]].to_numpy()).all()
 
