@@ -10,9 +10,10 @@ from test_diagnose import SCATTER, table
 
 from asphalt_nscd.diagnosis import instructions
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.further_tests import METAL, Costs, Sweep, possible
+from asphalt_nscd.diagnosis.further_tests import possible
 from asphalt_nscd.diagnosis.information import Knowledge, Question
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.sweeps import METAL, Costs, Sweep
 
 
 @pytest.fixture(scope="module")

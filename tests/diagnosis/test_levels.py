@@ -9,7 +9,8 @@ from test_diagnose import table
 
 from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.diagnosis.sentences import left, on_simulation
+from asphalt_nscd.diagnosis.sentences import left
+from asphalt_nscd.diagnosis.verdict import on_simulation
 from asphalt_nscd.table_import.campaign import read_campaign
 
 EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"

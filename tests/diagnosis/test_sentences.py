@@ -2,18 +2,10 @@
 
 import pytest
 
-from asphalt_nscd.diagnosis import sentences
+from asphalt_nscd.diagnosis import verdict
 from asphalt_nscd.diagnosis.instructions import _names
-from asphalt_nscd.diagnosis.sentences import (
-    cause_words,
-    causes,
-    left,
-    mixes,
-    on_data,
-    on_doubtful,
-    on_simulation,
-    with_suspects,
-)
+from asphalt_nscd.diagnosis.sentences import cause_words, causes, left, on_doubtful, with_suspects
+from asphalt_nscd.diagnosis.verdict import mixes, on_data, on_simulation
 
 
 def content(used: int, out: int, **then):
@@ -74,10 +66,9 @@ def test_a_bench_that_nobody_stated_is_said_with_what_hangs_on_it():
     }
     stated, assumed = ({"ladder": [rung], "reading": read | more} for more in ({}, {"bench_assumed": True}))
     assert (
-        sentences.test_type(stated)
-        == "two-point bending of a trapezoidal specimen, 2 specimens, 4 and 20 degC"
+        verdict.test_type(stated) == "two-point bending of a trapezoidal specimen, 2 specimens, 4 and 20 degC"
     )
-    assert sentences.test_type(assumed) == (
+    assert verdict.test_type(assumed) == (
         "taken for two-point bending of the paper's specimen, since neither --measured-in nor --geometry was given; "
         "for a cylinder give --measured-in tension-compression. 2 specimens, 4 and 20 degC"
     )
@@ -266,7 +257,7 @@ def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
     assert on_simulation(found, after).endswith(f"more than scatter can explain.{said}")
 
 
-@pytest.mark.parametrize("burgers,law", [(10.5, sentences.SIMPLER), (7.0, sentences.COMMON)])
+@pytest.mark.parametrize("burgers,law", [(10.5, verdict.SIMPLER), (7.0, verdict.COMMON)])
 def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law):
     """Of one specimen no spectrum is told, but its causes are judged beside one."""
     errors = {name: {"before": 10.5, "after": 1.0} for name in ("mre_E_percent", "mre_phase_percent")}

@@ -21,8 +21,8 @@ from asphalt_nscd.api.tables import Measurements, campaign_in
 from asphalt_nscd.diagnosis.measured_limits import Progress, Trials, verify
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.run import Draws, Outcome, Simulated, conclude
-from asphalt_nscd.diagnosis.sentences import on_data, on_simulation
 from asphalt_nscd.diagnosis.summary import summary
+from asphalt_nscd.diagnosis.verdict import on_data, on_simulation
 from asphalt_nscd.diagnosis.written import mean_averages, read_diagnosis
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file

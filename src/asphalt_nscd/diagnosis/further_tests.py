@@ -1,11 +1,9 @@
-"""Tests that a laboratory could do next, what each costs, and the model of a diagnosis at all of them."""
+"""The model of a diagnosis at the tests done and at all that could follow."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,53 +14,24 @@ from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.information import Knowledge, Linear, Tested, parts
-from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint, Noise
+from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.sweeps import (
+    HALF,
+    Costs,
+    Sweep,
+    at_half_strain,
+    every_test,
+    noise_of,
+    on_metal,
+    scatter_of,
+    sweeps_at,
+    sweeps_on_metal,
+    temperatures,
+    with_strain,
+)
 
-NEW, METAL = "a new specimen", "a metal reference specimen"
-METAL_MODULUS, METAL_LEVEL = 70e9, 0.03  # Pa, aluminium; how well its modulus and the form factor are known
-ISOTHERMS = 12  # of a table at most, at which further tests are weighed
-APART = 8.0  # K between isotherms, from which one between them is worth a test
-BEYOND = 10.0  # K beyond the tests
-COLDEST, WARMEST = -20.0, 60.0  # degC
-HALF = 0.5  # of the strain, at which linearity is checked
-
-
-@dataclass(frozen=True)
-class Costs:
-    """Machine hours; those of a usual laboratory."""
-
-    mounting: float = 0.5
-    conditioning: float = 2.0  # of a specimen to a temperature other than that of the room
-    room: tuple[float, float] = (15.0, 25.0)  # degC
-    new_specimen: float = 4.0  # cored, trimmed, glued
-    cycles: float = 20.0
-    pause: float = 1.0 / 60.0  # at each frequency
-
-    def hours(self, specimen: str, temperature: float, frequencies: Sequence[float]) -> float:
-        away = specimen != METAL and not self.room[0] <= temperature <= self.room[1]
-        fixed = self.mounting + self.conditioning * away + self.new_specimen * (specimen == NEW)
-        return fixed + sum(self.cycles / f / 3600.0 + self.pause for f in frequencies)
-
-    @property
-    def sentence(self) -> str:
-        return (
-            f"Hours: {self.mounting:g} h to mount a specimen, {self.conditioning:g} h to bring it to a temperature "
-            f"outside {self.room[0]:g} to {self.room[1]:g} degC, {self.new_specimen:g} h to prepare a new one, "
-            f"{self.cycles:g} cycles and one minute at each frequency."
-        )
-
-
-@dataclass(frozen=True)
-class Sweep:
-    """One specimen at one temperature over some frequencies, at the usual strain or at half of it."""
-
-    specimen: str
-    temperature: float
-    frequencies: tuple[float, ...]
-    half_strain: bool
-    tested: Tested
-    hours: float
+METAL_LEVEL = 0.03  # how well the modulus of a metal specimen and its form factor are known
 
 
 @dataclass(frozen=True)
@@ -86,11 +55,11 @@ class Possible:
 
 def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     """All sweeps, with the model linearised at the last fit."""
-    observed = _with_strain(diagnosis.observed)
+    observed = with_strain(diagnosis.observed)
     fitted, base = diagnosis.ladder.fitted, diagnosis.ladder.joint.base
     laws_between = isinstance(base, FlexibleSpectrum)  # a Burgers law says nothing of another temperature
-    table = _table(observed, temperatures(observed) if laws_between else observed.isotherms.tolist())
-    noise = _noise(diagnosis.noise, observed, table)
+    table = every_test(observed, temperatures(observed) if laws_between else observed.isotherms.tolist())
+    noise = noise_of(diagnosis.noise, observed, table)
     joint = Joint(table, base, noise)
     scales = np.append(fitted.scales, 0.0)
     candidates = _candidates(observed, table, fitted.active)
@@ -105,7 +74,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
         [np.full(root.shape[1], v) for root, v in zip(roots, variances, strict=True)] or [np.zeros(0)]
     )
     precision = _block(precision, 1.0 / sizes)
-    metal = _metal(observed)
+    metal = on_metal(observed)
     rows = _metal_rows(metal, table, names, roots, nuisance.shape[1])
     effects = np.vstack([effects, _metal_effects(metal, candidates)])
     level = np.zeros((rows.shape[0] + table.size, 1), complex)
@@ -113,8 +82,10 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     nuisance = np.hstack([np.vstack([nuisance, rows]), level])
     linear = Linear(nuisance, _block(precision, np.array([METAL_LEVEL**-2])), effects)
     n = observed.size
-    old = Tested(np.arange(n), _scatter(noise.within[:, :n], noise.shared[:, :n], noise.block[:n]))
-    sweeps = tuple([*_sweeps(observed, table, noise, costs), *_metal_sweeps(metal, table.size, noise, costs)])
+    old = Tested(np.arange(n), scatter_of(noise.within[:, :n], noise.shared[:, :n], noise.block[:n]))
+    sweeps = tuple(
+        [*sweeps_at(observed, table, noise, costs), *sweeps_on_metal(metal, table.size, noise, costs)]
+    )
     known = Knowledge(linear, [old])
     # The law stands at its best already, so that only the discrepancy moves.
     left = parts(observed.logarithm - fitted.modelled)
@@ -143,7 +114,7 @@ def _repeats(
             (table.specimen == whole.specimen[one.row])
             & (table.isotherm == t)
             & (table.frequency == f)
-            & ~_half(table)
+            & ~at_half_strain(table)
         )
         if again.any():
             row = int(np.flatnonzero(again)[-1])
@@ -160,7 +131,7 @@ def _odd(
     done = diagnosis.whole or diagnosis.observed
     found: dict[tuple[str, str], NDArray[np.complex128]] = {}
     for one in [*levels.odd(done), *levels.odd_phases(done)]:
-        again = (table.specimen == table.names.index(one["specimen"])) & ~_half(table)
+        again = (table.specimen == table.names.index(one["specimen"])) & ~at_half_strain(table)
         again[: diagnosis.observed.size] = False
         if one["temperature_C"] is not None:
             again &= table.isotherm == one["temperature_C"]
@@ -197,125 +168,12 @@ def _doubtful(diagnosis: Diagnosis) -> list[float]:
     return [float(t) for t in diagnosis.observed.isotherms if f"{t:g} degC" in large]
 
 
-def _half(table: Observations) -> NDArray[np.bool_]:
-    strain = table.known("amplitude")
-    return np.asarray(strain < 0.5 * (1.0 + HALF) * np.median(strain))
-
-
 def _halved(
     table: Observations, t: float, departure: NDArray[np.complex128], linear: Linear
 ) -> NDArray[np.complex128]:
     here = np.zeros(linear.effects.shape[0], bool)
-    here[: table.size] = (table.isotherm == t) & _half(table)
+    here[: table.size] = (table.isotherm == t) & at_half_strain(table)
     return np.where(here, -HALF * departure, 0.0)
-
-
-def _with_strain(observed: Observations) -> Observations:
-    """With amplitudes relative to the usual one, where the table has none."""
-    if observed.amplitude is not None:
-        return observed
-    return replace(observed, amplitude=np.ones(observed.size), whole=None)
-
-
-def temperatures(observed: Observations) -> list[float]:
-    """Isotherms tested (a dozen at most), one between any two that are far apart, one beyond either end [degC]."""
-    tested = _some(observed.isotherms, ISOTHERMS)
-    middle = [round(float(a + b) / 2.0) for a, b in pairwise(tested) if b - a >= APART]
-    ends = [round(float(tested[0] - BEYOND)), round(float(tested[-1] + BEYOND))]
-    inside = [t for t in (*middle, *ends) if COLDEST <= t <= WARMEST]
-    return sorted({*map(float, tested), *map(float, inside)})
-
-
-def frequencies(observed: Observations) -> list[float]:
-    """Frequencies tested (at most eight of them), and one below them [Hz]."""
-    tested = _some(observed.frequencies, 8)
-    lower = float(f"{tested[0] / 3.0:.1g}")
-    return [*([lower] if lower >= 0.01 else []), *map(float, tested)]
-
-
-def _some(values: NDArray[np.float64], most: int) -> NDArray[np.float64]:
-    """At most so many of them, spread evenly, both ends among them."""
-    return values[np.unique(np.linspace(0, values.size - 1, min(most, values.size)).round().astype(int))]
-
-
-def _table(observed: Observations, at: Sequence[float]) -> Observations:
-    """The tests done, then every specimen, with a new one, at every temperature and frequency and two strains."""
-    names = (*observed.names, NEW)
-    full = [(s, t, f, 1.0) for s in range(len(names)) for t in at for f in frequencies(observed)]
-    half = [
-        (s, t, f, HALF)
-        for s in range(len(observed.names))
-        for t in _some(observed.isotherms, ISOTHERMS)
-        for f in observed.frequencies
-    ]
-    specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half, strict=True))
-    like = np.array([np.flatnonzero(observed.specimen == min(s, len(names) - 2))[0] for s in specimen])
-    more = replace(
-        observed.subset(like),
-        specimen=specimen,
-        temperature=temperature,
-        frequency=frequency,
-        amplitude=strain * float(np.median(observed.known("amplitude"))),
-        nominal_temperature=temperature,
-    )
-    course: dict[str, Any] = {
-        name: _after(observed, name, specimen)
-        for name in ("order", "cycles", "time_step")
-        if getattr(observed, name) is not None
-    }
-    more = replace(more, **course)
-    both: dict[str, Any] = {
-        name: np.concatenate([getattr(observed, name), getattr(more, name)])
-        for name in (
-            "specimen",
-            "temperature",
-            "frequency",
-            "modulus",
-            "form_factor",
-            "inertia",
-            "amplitude",
-            *course,
-        )
-    }
-    return replace(
-        observed,
-        **both,
-        names=names,
-        nominal_temperature=np.concatenate([observed.isotherm, temperature]),
-        strain=None,
-        quality={},
-        whole=observed.table,
-    )
-
-
-def _after(observed: Observations, name: str, specimen: NDArray[np.int64]) -> NDArray[np.float64]:
-    """A column for tests to come (n,): a specimen has borne all of its tests, a new one none; steps are as usual."""
-    column = observed.known(name)
-    if name == "time_step":
-        return np.full(specimen.size, float(np.median(column)))
-    borne = [column[observed.specimen == k].max() for k in range(len(observed.names))]
-    return np.array([*borne, column.min()])[specimen]
-
-
-def _noise(noise: Noise, observed: Observations, table: Observations) -> Noise:
-    """Scatter of each isotherm; that of the whole table on a new one. Every sweep is a mounting of its own."""
-    within, shared = (np.empty((2, table.size)) for _ in range(2))
-    for wide, known in ((within, noise.within), (shared, noise.shared)):
-        wide[:] = known.mean(axis=1, keepdims=True)
-        for t in observed.isotherms:
-            wide[:, table.isotherm == t] = known[:, observed.isotherm == t].mean(axis=1, keepdims=True)
-        wide[:, : observed.size] = known
-    block = np.concatenate([noise.block, noise.block.max() + 1 + np.arange(table.size - observed.size)])
-    return replace(noise, within=within, shared=shared, block=block, discrepancy=None)
-
-
-def _scatter(within: NDArray, shared: NDArray, block: NDArray) -> NDArray[np.float64]:
-    same = block[:, None] == block
-    out = np.zeros((2 * block.size, 2 * block.size))
-    for k, (single, common) in enumerate(zip(within, shared, strict=True)):
-        at = slice(k * block.size, (k + 1) * block.size)
-        out[at, at] = np.diag(single**2) + np.outer(common, common) * same
-    return out
 
 
 def _candidates(
@@ -388,56 +246,6 @@ def _variance(name: str, sizes: dict[str, float], tested: NDArray[np.float64]) -
     return float(np.mean(alike)) if alike else 0.0
 
 
-def _sweeps(observed: Observations, table: Observations, noise: Noise, costs: Costs) -> Iterator[Sweep]:
-    first = observed.size
-    halved = _half(table)
-    groups: dict[tuple, dict[float, int]] = {}
-    for row in range(first, table.size):
-        key = (int(table.specimen[row]), float(table.isotherm[row]), bool(halved[row]))
-        groups.setdefault(key, {}).setdefault(float(table.frequency[row]), row)
-    for (specimen, temperature, half), rows in groups.items():
-        for chosen in _frequency_sets(sorted(rows), observed.frequencies, half):
-            at = np.array([rows[f] for f in chosen])
-            yield _sweep(table.names[specimen], temperature, chosen, half, at, noise, costs)
-
-
-def _sweep(
-    specimen: str,
-    temperature: float,
-    chosen: tuple[float, ...],
-    half: bool,
-    at: NDArray[np.int64],
-    noise: Noise,
-    costs: Costs,
-) -> Sweep:
-    one = np.zeros(at.size, int)
-    source = np.minimum(at, noise.within.shape[1] - 1)
-    tested = Tested(at, _scatter(noise.within[:, source], noise.shared[:, source], one))
-    return Sweep(specimen, temperature, chosen, half, tested, costs.hours(specimen, temperature, chosen))
-
-
-def _frequency_sets(every: list[float], tested: NDArray, half: bool) -> list[tuple[float, ...]]:
-    """The whole band, with a lower frequency, its halves and its ends."""
-    usual = [f for f in every if f >= tested[0]]
-    sets = [tuple(usual)]
-    if not half:
-        n = len(usual) // 2
-        sets += [tuple(every), tuple(usual[:n]), tuple(usual[-n:]), (usual[0],), (usual[-1],)]
-    return [chosen for chosen in dict.fromkeys(sets) if chosen]
-
-
-def _metal(observed: Observations) -> Observations:
-    """A metal specimen at the frequencies tested."""
-    at = np.array(
-        [
-            np.flatnonzero(observed.frequency == f)[0]
-            for f in frequencies(observed)
-            if f in observed.frequencies
-        ]
-    )
-    return replace(observed.subset(at), modulus=np.full(at.size, METAL_MODULUS + 0j))
-
-
 def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> NDArray[np.complex128]:
     """What head and channel do to a test on metal; causes of the mix and of a specimen do nothing."""
     out = np.zeros((metal.size, len(candidates)), complex)
@@ -468,14 +276,3 @@ def _metal_rows(
             rows[:, first : first + root.shape[1]] = root[at]
         first += root.shape[1]
     return rows
-
-
-def _metal_sweeps(metal: Observations, first: int, noise: Noise, costs: Costs) -> Iterator[Sweep]:
-    f = [float(value) for value in metal.frequency]
-    ends = sorted({0, len(f) // 2, len(f) - 1})
-    for chosen in dict.fromkeys([tuple(range(len(f))), tuple(ends), (len(f) - 1,), (0, len(f) - 1)]):
-        at = np.array(sorted(set(chosen))) + first
-        one = np.full((2, at.size), np.array(noise.sigma)[:, None])
-        tested = Tested(at, _scatter(one, np.zeros_like(one), np.zeros(at.size, int)))
-        used = tuple(f[k - first] for k in at)
-        yield Sweep(METAL, 20.0, used, False, tested, costs.hours(METAL, 20.0, used))

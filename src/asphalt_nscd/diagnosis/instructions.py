@@ -19,11 +19,12 @@ from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
-from asphalt_nscd.diagnosis.further_tests import METAL, NEW, Costs, Possible, Sweep, possible
+from asphalt_nscd.diagnosis.further_tests import Possible, possible
 from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.sentences import an, joined, size_left
+from asphalt_nscd.diagnosis.sweeps import METAL, NEW, Costs, Sweep
 from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import specimen_named
 

@@ -8,195 +8,25 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from asphalt_nscd.diagnosis import levels, quality
+from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.chance import CHANCE
-from asphalt_nscd.diagnosis.written import CONFIDENCE, mean_averages, shown, three_digits
-from asphalt_nscd.files.words import counted, specimen_named
+from asphalt_nscd.diagnosis.written import CONFIDENCE, shown, three_digits
+from asphalt_nscd.files.words import specimen_named
 
 Content = Mapping[str, Any]
-TEST_TYPES = {
-    "bending": "two-point bending of a trapezoidal specimen",
-    "tension-compression": "axial test of a cylinder (tension-compression, AMPT or UTM)",
-}
-ASSUMED = (
-    "taken for two-point bending of the paper's specimen, since neither --measured-in nor --geometry was given; for a "
-    "cylinder give --measured-in tension-compression."
-)
 SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not None}
 BOUNDS = {
     cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
 }
-OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to} | {
-    "relaxation_spectrum",
-    BOND_MAPPING,
-}
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
-SIMPLER = "one Burgers law for each temperature"
-COMMON = "one law for all temperatures"
-WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 LARGEST = 4  # parts of what stays unexplained that are listed
 
 
-def mixes(content: Content) -> str:
-    """What a reader must know first: specimens that are hardly of one mix; empty where they may be."""
-    spread = (content.get("repeatability") or {}).get("between")
-    if spread is None or spread["E_percent"] <= levels.ONE_MIX:
-        return ""
-    return f"{_spread(spread)}, more than those of one mix do: are there two mixes? Then diagnose each alone."
-
-
-def on_data(content: Content) -> str:
-    """How many tests can be used, which fault they carry, which isotherm contradicts itself: a sentence each."""
-    out = len(not_used(content))
-    tests = content["tests"]
-    parts = [f"{tests} of {tests + out} tests can be used" if out else f"all {tests} tests can be used"]
-    parts += _flagged(content)
-    parts += [_fault(rung) for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
-    spread = (content.get("repeatability") or {}).get("between")
-    if spread is not None and not mixes(content):
-        parts.append(_spread(spread))
-    parts += levels.sentences(*_odd(content))[:LARGEST]
-    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
-    if broken:
-        parts.append(f"at {joined([f'{t:g}' for t in broken])} degC modulus and phase contradict each other")
-    return " ".join(f"{part[:1].upper()}{part[1:]}." for part in parts)
-
-
-def _flagged(content: Content) -> list[str]:
-    """Quality limits that half of the tests exceed or more."""
-    tests = content["tests"] + len(not_used(content))
-    columns = [one["column"] for one in content.get("reading", {}).get("limits_exceeded", [])]
-    return [
-        f"{columns.count(name)} of {tests} exceed the limit of {limit.label} ({limit.limit:g} {limit.unit})"
-        for name, limit in quality.LIMITS.items()
-        if 2 * columns.count(name) >= tests
-    ]
-
-
-def _odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+def odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Odd isotherms in |E*|, then odd isotherms and specimens in phase."""
     return content.get("odd_levels", []), content.get("odd_phases", [])
-
-
-def _holding(content: Content) -> str:
-    """What a scatter holds that is none: it is larger by that, and hides as much."""
-    odd = levels.places(*_odd(content))
-    return (
-        f", but this scatter holds {joined(odd)}, which {'is' if len(odd) == 1 else 'are'} odd" if odd else ""
-    )
-
-
-def _spread(between: Mapping[str, float]) -> str:
-    return f"Specimens differ by {between['E_percent']:.1f} % in |E*| and {between['phase_deg']:.1f} deg in phase"
-
-
-def _fault(rung: Content) -> str:
-    """Who carries a fault; perhaps, where the cause itself says why it is not certain."""
-    where = rung["where"]
-    one = isinstance(where, str)
-    who = specimen_named(where) if one else ("all of them" if where is None else f"those at {where:g} degC")
-    words = an(rung["cause"].replace("_", " "))
-    if rung.get("established", True):
-        return f"{who} {'carries' if one else 'carry'} {words} of {size(rung)}"
-    return f"perhaps {who} {'carries' if one else 'carry'} {words} of {size(rung)} (not certain; the reason is below)"
-
-
-def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:
-    """One sentence: what the simulation misses with the paper's laws, and with what was found.
-
-    left: errors in percent of "E" and "phase" that tests simulated with it have left; else those of the diagnosis.
-    """
-    ladder = content["ladder"]
-    if not ladder:
-        if content["verdict"] != "nothing_to_explain":
-            return f"{SIMPLER} leaves more than scatter, and no cause of the catalogue explains it."
-        if not content["tested"]:
-            return _cannot_judge(content)
-        odd = _holding(content)
-        return f"{SIMPLER} fits these data to within their scatter{odd or '; nothing is to be explained'}."
-    first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
-    names = ("mre_E_percent", "mre_phase_percent")
-    missed = [last[name]["after"] for name in names] if left is None else [left["E"], left["phase"]]
-    before, after = (
-        [f"{three_digits(error)} %" for error in errors]
-        for errors in ([first[name]["before"] for name in names], missed)
-    )
-    facets = ["facets for bonds" for rung in ladder if rung["cause"] == BOND_MAPPING]
-    found = joined([*facets, *(an(cause_words(rung)) for rung in ladder if rung["cause"] != BOND_MAPPING)])
-    simpler = "the simulation of the paper" if facets else _first_law(content)
-    worse = _worse([first[name]["before"] for name in names], missed)
-    missed_by = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
-    return (
-        f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} the "
-        f"simulation misses by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
-    )
-
-
-def _first_law(content: Content) -> str:
-    """The law that the first rung begins with: of too few tests no spectrum is told, but causes rest on one."""
-    rung = content["ladder"][0]
-    if rung["cause"] == "relaxation_spectrum":
-        return SIMPLER
-    first = mean_averages(rung["gain"]["in_sample"])["mre_E_percent"]["before"]
-    burgers = list(content["baseline"]["mre_E_percent"].values())
-    return SIMPLER if abs(first - sum(burgers) / len(burgers)) < 1e-3 * first else COMMON
-
-
-def _worse(before: Sequence[float], after: Sequence[float]) -> str:
-    """A warning where a law with fewer parameters misses what it was made for by more."""
-    worse = [
-        part
-        for part, was, now in zip(("|E*|", "the phase"), before, after, strict=True)
-        if now > max(WORSE * was, was + AT_ALL)
-    ]
-    return f" That is more than before in {joined(worse)}: do not use this law." if worse else ""
-
-
-def _cannot_judge(content: Content) -> str:
-    """Why tests without a finding do not say that the simulation is right, and what to add."""
-    if content["scatter"]["from_replicates"] or content["provenance"].get("scatter_stated"):
-        return (
-            "Two frequencies cannot judge the simulation: a Burgers law fits them exactly, whatever is wrong. Test at "
-            "three frequencies or more."
-        )
-    alone = len(content.get("reading", {}).get("specimens", [])) == 1
-    lacking = "One specimen" if alone else "Specimens without a common temperature and frequency"
-    add = "Test a second one at the same conditions" if alone else "Test two at the same conditions"
-    return (
-        f"{lacking} cannot judge the simulation: nothing was found, but the scatter from test to test is not known. "
-        f"{add}, or state the scatter."
-    )
-
-
-def _beyond_bonds(content: Content) -> str:
-    """Whether more than scatter is left, once what the simulated bonds add to their law is taken off."""
-    doubtful = any(rung.get("doubts") for rung in content["ladder"])
-    unsure = doubtful and content["verdict"] != "explained" and not _more_than_scatter(content)
-    end = "no more" if unsure or content["verdict"] == "explained" else "more"
-    by = ", but not every cause is certain" if unsure else ""
-    by += _holding(content) if end == "no more" else ""
-    bonds = content["numerics"]["largest_modulus_percent"]
-    if bonds <= content["scatter"]["modulus_percent"]:
-        return f"{end} than scatter can explain{by}"
-    added = f"of which the simulated bonds add up to {bonds:.1f} % to |E*|"
-    return f"{added}; the rest is {end} than scatter can explain{by}"
-
-
-def test_type(content: Content) -> str:
-    """The test, its specimens and its isotherms."""
-    read = content.get("reading")
-    if read is None:
-        return ""
-    at = joined([f"{t:g}" for t in read["isotherms_C"]])
-    tests = f"{counted(len(read['specimens']), 'specimen')}, {at} degC"
-    return f"{ASSUMED} {tests}" if read.get("bench_assumed") else f"{TEST_TYPES[read['test_type']]}, {tests}"
-
-
-def files(content: Content) -> str:
-    """Which files of a folder gave no test; empty where all did."""
-    return " ".join(content.get("reading", {}).get("files_without_tests", []))
 
 
 def not_used(content: Content) -> list[Content]:
@@ -314,7 +144,7 @@ def in_words(name: str) -> str:
         return f"{words} at {place}"
 
 
-def _more_than_scatter(content: Content) -> bool:
+def more_than_scatter(content: Content) -> bool:
     """Whether the named causes leave structure, whatever the verdict says of their names."""
     pattern = content["largest_pattern_left"]
     chances = [content.get("lack_of_fit_p_value", 0.0), 1.0 if pattern is None else pattern["p_value"]]
@@ -326,13 +156,13 @@ def left(content: Content) -> list[str]:
     scatter, found = content["scatter"], content.get("discrepancy", {})
     parts = sorted(found.items(), key=lambda item: -item[1])[:LARGEST]
     if parts:
-        odd = levels.places(*_odd(content))
+        places = levels.places(*odd(content))
         return [
             *(_part_left(name, value, scatter) for name, value in parts),
-            *([f"{joined(odd)} took part in these sizes, although odd"] if odd else []),
+            *([f"{joined(places)} took part in these sizes, although odd"] if places else []),
         ]
     pattern = content["largest_pattern_left"]
-    if content["verdict"] == "unexplained_structure" and pattern is not None and _more_than_scatter(content):
+    if content["verdict"] == "unexplained_structure" and pattern is not None and more_than_scatter(content):
         if pattern["pattern"].count("slope over temperature") and _one_isotherm(content):
             return _largest(content)
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]

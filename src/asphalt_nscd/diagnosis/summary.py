@@ -7,7 +7,7 @@ from typing import Any
 
 from tabulate import tabulate
 
-from asphalt_nscd.diagnosis import sentences, table_rows
+from asphalt_nscd.diagnosis import sentences, table_rows, verdict
 
 Content = Mapping[str, Any]
 
@@ -15,14 +15,14 @@ Content = Mapping[str, Any]
 def summary(content: Content) -> str:
     """The first page as text, one part after another; parts with nothing to say are left out."""
     read = content.get("reading", {"notes": []})
-    verdict = [f"Data: {sentences.on_data(content)}", f"Simulation: {sentences.on_simulation(content)}"]
-    test, named, files = sentences.test_type(content), sentences.causes(content), sentences.files(content)
-    mixes = sentences.mixes(content)
+    answer = [f"Data: {verdict.on_data(content)}", f"Simulation: {verdict.on_simulation(content)}"]
+    test, named, files = verdict.test_type(content), sentences.causes(content), verdict.files(content)
+    mixes = verdict.mixes(content)
     head = [*([mixes] if mixes else []), *([f"Test: {test}."] if test else [])]
     head += [f"Files: {files}"] if files else []
     parts = [
         ("What was read", read["notes"]),
-        ("Verdict", [*head, *verdict]),
+        ("Verdict", [*head, *answer]),
         ("Tests not to be used" if sentences.not_used(content) else "Doubtful tests", _suspects(content)),
         (
             "Causes",

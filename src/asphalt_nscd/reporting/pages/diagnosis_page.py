@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis import sentences, table_rows
+from asphalt_nscd.diagnosis import sentences, table_rows, verdict
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
@@ -112,11 +112,11 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
     left = left_by_the_last(read_ladder(ladder)) if ladder else None
     found = content.get("instructions", {"orders": [], "costs": ""})
     return {
-        "test": sentences.test_type(content),
-        "files": sentences.files(content),
-        "mixes": sentences.mixes(content),
-        "data": sentences.on_data(content),
-        "simulation": sentences.on_simulation(content, left),
+        "test": verdict.test_type(content),
+        "files": verdict.files(content),
+        "mixes": verdict.mixes(content),
+        "data": verdict.on_data(content),
+        "simulation": verdict.on_simulation(content, left),
         "not_used": [(sentences.place_of_test(one), one["reasons"]) for one in sentences.not_used(content)],
         "with_suspects": sentences.with_suspects(content),
         "doubtful": sentences.on_doubtful(content),
