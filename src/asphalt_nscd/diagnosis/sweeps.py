@@ -166,7 +166,7 @@ def noise_of(noise: Noise, observed: Observations, table: Observations) -> Noise
 
 
 def scatter_of(within: NDArray, shared: NDArray, block: NDArray) -> NDArray[np.float64]:
-    """Covariance (2n, 2n) of ln|E*| and phase; within, shared (2, n): of a test, and of a mounting; block (n,): which."""
+    """Covariance (2n, 2n) of ln|E*| and phase; within, shared (2, n): of a test and of the mounting block (n,)."""
     same = block[:, None] == block
     out = np.zeros((2 * block.size, 2 * block.size))
     for k, (single, common) in enumerate(zip(within, shared, strict=True)):
