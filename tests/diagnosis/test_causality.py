@@ -27,6 +27,20 @@ def relaxing(f, relative=0.1, time=1.0 / (2 * np.pi * 5.0)):
     return np.log(1.0 + relative * 1j * 2 * np.pi * f * time / (1.0 + 1j * 2 * np.pi * f * time))
 
 
+def test_the_level_of_a_specimen_that_is_alone_at_a_frequency_is_no_slope():
+    """Two of three are missing at the highest frequency, as where they were set aside; the third is 40 % stiffer."""
+    specimen = np.repeat([0, 1, 2], FREQUENCIES.size)
+    f = np.tile(FREQUENCIES, 3)
+    there = (specimen == 2) | (f < FREQUENCIES[-1])
+    law = (22.0 + 0.3 * np.log(f) + 0.15j * np.pi)[there]
+    one = np.ones(there.sum())
+    level = np.where(specimen == 2, np.log(1.4), 0.0)[there]
+    observed = Observations(
+        specimen[there], ("A", "B", "C"), 20.0 * one, f[there], np.exp(law + level), one, 0.0 * one
+    )
+    assert contradictions(observed, SimpleNamespace(modelled=law), NOISE) == []
+
+
 @pytest.mark.parametrize(
     "departure",
     [

@@ -164,9 +164,10 @@ def test_sign_of_an_amplitude_is_said(name, amplitude, meant):
         "where": None,
         "parameters": {"amplitude": {"value": amplitude, "unit": "1", "std_error": None}},
         "as_good": [],
+        "confirmed_by": "c",
         "p_value": 1e-9,
     }
     ((_, said),) = sentences.causes({"ladder": [rung]})
     assert meant in said.split(".")[0] and said.endswith(
-        "Established: by chance this happens in fewer than one of a million tables."
+        "Established: by chance this happens in fewer than one of a million tables. To confirm it: c."
     )

@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.further_tests import possible
 from asphalt_nscd.diagnosis.information import Knowledge, Question
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.sweeps import METAL, Costs, Sweep
+from asphalt_nscd.diagnosis.sweeps import METAL, NEW, Costs, Sweep
 
 
 @pytest.fixture(scope="module")
@@ -101,15 +101,23 @@ def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
 @pytest.mark.parametrize(
     "before,alike,said",
     [
-        (4.0, False, "expected odds more than 1000 to 1 (now 7.4 to 1)."),
-        (13.0, False, "expected odds more than 1000 to 1 (now 670 to 1)."),
-        (14.0, True, "expected odds more than 1000 to 1 (now both fit)."),
+        (
+            4.0,
+            False,
+            "Now the odds are 7.4 to 1 for the first; after this test expect more than 1000 to 1 for the right",
+        ),
+        (
+            13.0,
+            False,
+            "Now the odds are 670 to 1 for the first; after this test expect more than 1000 to 1 for the right",
+        ),
+        (14.0, True, "Now both fit; after this test expect more than 1000 to 1 for the right"),
         (14.0, False, ""),
     ],
 )
 def test_odds_are_told_where_a_test_would_change_them(before, alike, said):
     asked = instructions.Open("apart", None, "channel delay", "phase offset", alike)
-    assert instructions._reason(asked, before, 30.0).endswith(said)
+    assert instructions._reason(asked, before, 30.0).endswith(f"{said} one." if said else "")
     assert bool(instructions._reason(asked, before, 30.0)) == bool(said)
 
 
@@ -235,5 +243,45 @@ def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
 def test_what_a_test_would_show_is_said_with_its_chance():
     one = instructions.Open("reach", None, "a phase offset of 1.5 deg")
     assert instructions._reason(one, 4.0, 47.0) == (
-        "It would show a phase offset of 1.5 deg in 100 % of cases, instead of 4 % without it."
+        "If there is a phase offset of 1.5 deg, it is then found in 100 % of cases; without this test in 4 %."
+    )
+
+
+def test_two_parts_of_a_band_are_one_order():
+    low, high = (Sweep("a", 35.0, band, False, None, 2.6) for band in ((0.1, 1.0), (10.0, 25.0)))
+    other = Sweep("a", 35.0, (10.0, 25.0), True, None, 2.6)
+    orders = [
+        instructions.Order(high, ["a"], 2.6, 3.0, {0: (1.0, 2.0)}),
+        instructions.Order(other, ["a"], 2.6, 1.0, {}),
+        instructions.Order(low, ["a"], 2.6, 1.5, {0: (2.0, 4.0), 1: (0.0, 9.0)}),
+    ]
+    whole, half = instructions._merged(orders, Costs())
+    assert whole.sweep.frequencies == (0.1, 1.0, 10.0, 25.0) and half.sweep.half_strain
+    assert whole.hours == pytest.approx(Costs().hours("a", 35.0, (0.1, 1.0, 10.0, 25.0)))
+    assert whole.nats == 4.5 and whole.helps == {0: (1.0, 4.0), 1: (0.0, 9.0)}
+
+
+def test_metal_is_tested_at_two_frequencies_or_more(delayed):
+    model = possible(delayed, Costs())
+    bands = [sweep.frequencies for sweep in model.sweeps if sweep.specimen == METAL]
+    tested = delayed.observed.frequencies
+    assert bands and all({tested[0], tested[-1]} <= set(band) for band in bands)
+
+
+def test_half_the_strain_is_asked_for_only_beside_the_usual_one():
+    whole = table(3)
+    gone = (whole.specimen == 2) & (whole.isotherm == whole.isotherms[-1])
+    model = possible(diagnose(whole.subset(~gone), draws=1000), Costs())
+    halves = {(sweep.specimen, sweep.temperature) for sweep in model.sweeps if sweep.half_strain}
+    assert ("c", whole.isotherms[-1]) not in halves and ("b", whole.isotherms[-1]) in halves
+
+
+def test_of_one_specimen_the_first_order_is_a_second_one():
+    alone = replace(table(3).subset(table(3).specimen == 0), names=("a",))
+    orders = instructions.instructions(diagnose(alone, draws=1000))["orders"]
+    assert orders[0]["specimens"] == [NEW] and orders[0]["frequencies_Hz"] == alone.frequencies.tolist()
+    assert orders[0]["text"].startswith(f"{orders[0]['hours']:.1f} h: test a new specimen at ")
+    assert len(orders) <= 5
+    assert not any(
+        one["specimens"] == [NEW] for one in instructions.instructions(diagnose(table(3)))["orders"][:1]
     )

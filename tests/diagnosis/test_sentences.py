@@ -2,9 +2,16 @@
 
 import pytest
 
-from asphalt_nscd.diagnosis import verdict
+from asphalt_nscd.diagnosis import sentences, verdict
 from asphalt_nscd.diagnosis.instructions import _names
-from asphalt_nscd.diagnosis.sentences import cause_words, causes, left, on_doubtful, with_suspects
+from asphalt_nscd.diagnosis.sentences import (
+    cause_words,
+    causes,
+    law_of_the_mix,
+    left,
+    on_doubtful,
+    with_suspects,
+)
 from asphalt_nscd.diagnosis.verdict import mixes, on_data, on_simulation
 
 
@@ -63,6 +70,7 @@ def test_a_bench_that_nobody_stated_is_said_with_what_hangs_on_it():
         "parameters": {"moving_mass": mass},
         "p_value": 1e-9,
         "as_good": [],
+        "confirmed_by": "weighing it",
     }
     stated, assumed = ({"ladder": [rung], "reading": read | more} for more in ({}, {"bench_assumed": True}))
     assert (
@@ -91,9 +99,13 @@ def test_the_same_causes_in_another_order_are_the_same():
         (
             ["4 degC", "specimen B"],
             [],
-            "Not certain: it rests on 4 degC and specimen B: leave out any one and it is no longer found.",
+            "Not certain: it is no longer found if 4 degC or specimen B is left out.",
         ),
-        (["4 degC"], [], "Not certain: it rests on 4 degC: leave it out and it is no longer found."),
+        (
+            ["4 degC"],
+            [],
+            "Not certain: it is no longer found if 4 degC is left out.",
+        ),
         (
             [],
             ["temperature_bias @ 21.0"],
@@ -115,19 +127,20 @@ def test_why_a_name_is_only_likely(hangs_on, as_good, sure):
         "p_value": 1e-9,
         "as_good": as_good,
         "hangs_on": hangs_on,
+        "confirmed_by": "a thermometer",
     }
     ((told, meaning),) = causes({"ladder": [rung]})
     assert told == "temperature bias at 4 degC: 8 K or more (the search ends there)"
-    assert meaning.endswith(sure)
+    assert meaning.endswith(f"{sure} To confirm it: a thermometer.")
 
 
 @pytest.mark.parametrize(
     "specimens,replicated,said",
     [
-        (["A"], False, "One specimen cannot judge the simulation: nothing was found, but the scatter from test to "
+        (["A"], False, "One specimen cannot judge a law: nothing was found, but the scatter from test to "
          "test is not known. Test a second one at the same conditions, or state the scatter."),
-        (["A", "B"], False, "Specimens without a common temperature and frequency cannot judge the simulation"),
-        (["A", "B"], True, "Two frequencies cannot judge the simulation"),
+        (["A", "B"], False, "Specimens without a common temperature and frequency cannot judge a law"),
+        (["A", "B"], True, "Two frequencies cannot judge a law"),
     ],
 )  # fmt: skip
 def test_what_cannot_judge_the_simulation_says_why_and_what_to_add(specimens, replicated, said):
@@ -182,8 +195,8 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
     found = {"specimen Specimen 1, spectrum": 2.0, "specimen S2, modulus": 1.5, "37 degC, phase": 1.0}
     scatter = {"modulus_percent": 1.0, "phase_deg": 0.5}
     assert left({"discrepancy": found, "scatter": scatter}) == [
-        "2.0 % in |E*| of Specimen 1, which does not follow the common master curve",
-        "1.5 % in |E*| of specimen S2",
+        "2.0 % in |E*| of Specimen 1: its master curve has another form",
+        "1.5 % in |E*| of specimen S2, changing with frequency and temperature",
         "0.5 deg in the phase at 37 degC",
     ]
     assert [_names(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
@@ -203,13 +216,45 @@ def test_a_doubt_and_the_law_of_the_mix_are_told_for_what_they_are():
         "p_value": 1e-9,
         "as_good": [],
         "doubts": ["Beside a smooth error its size is 2.5", "It was found after a name that is in doubt"],
+        "confirmed_by": "metal",
     }
-    law = rung | {"cause": "relaxation_spectrum", "doubts": [], "parameters": {"wlf_C1": size | {"unit": ""}}}
-    (doubt, of_the_mix) = causes({"ladder": [rung, law]})
+    constants = {
+        "wlf_C1": size | {"unit": ""},
+        "wlf_C2": size | {"value": 173.0, "unit": "K"},
+        "reference_temperature": {"value": 20.0, "std_error": None, "unit": "degC"},
+    }
+    law = rung | {"cause": "relaxation_spectrum", "doubts": [], "parameters": constants, "established": False}
+    (doubt,) = causes({"ladder": [law, rung]})
     assert doubt[1].endswith(
-        "Not certain: beside a smooth error its size is 2.5. It was found after a name that is in doubt."
+        "Not certain: beside a smooth error its size is 2.5. It was found after a name that is in doubt. To confirm "
+        "it: metal."
     )
-    assert of_the_mix[0] == "relaxation spectrum (a property of the mix, no fault): WLF C1 1.5 +- 0.2"
+    assert law_of_the_mix({"ladder": [law, rung]}) == (
+        "relaxation spectrum: WLF C1 1.5 +- 0.2, WLF C2 173 +- 0.2 K, at 20 degC",
+        "Not certain: certainty takes four temperatures, three frequencies and two specimens.",
+    )
+    assert law_of_the_mix({"ladder": [rung]}) is None
+
+
+def test_a_rival_that_was_named_too_is_no_alternative():
+    size = {"value": 1.5, "std_error": 0.1, "unit": "deg"}
+    rung = {
+        "cause": "phase_offset",
+        "where": None,
+        "parameters": {"phase_offset": size},
+        "p_value": 1e-9,
+        "as_good": ["channel_delay"],
+        "confirmed_by": "metal",
+    }
+    assert "Not certain: channel delay fits as well" in causes({"ladder": [rung]})[0][1]
+    both = causes({"ladder": [rung, rung | {"cause": "channel_delay", "as_good": []}]})
+    assert "Not certain: before channel delay was named too, that fitted as well. To" in both[0][1]
+
+
+def test_a_relative_size_is_told_in_percent():
+    size = {"value": -0.316, "std_error": 0.07, "unit": "1"}
+    rung = {"cause": "specimen_geometry", "where": "A", "parameters": {"relative_modulus": size}}
+    assert sentences.size(rung) == "-31.6 +- 14 %"
 
 
 def test_one_temperature_has_no_slope_over_it():
@@ -282,7 +327,15 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
 
 
 @pytest.mark.parametrize(
-    "exceeded,said", [(36, " 36 of 72 exceed the limit of phase uniformity (3 deg)."), (35, "")]
+    "exceeded,said",
+    [
+        (
+            36,
+            " 36 of 72 exceed the limit of phase uniformity (3 deg): check the gauges and the ends of the "
+            "specimens before further tests.",
+        ),
+        (35, ""),
+    ],
 )
 def test_a_quality_limit_that_half_of_the_tests_exceed_stands_in_the_verdict(exceeded, said):
     reading = {"limits_exceeded": [{"column": "phase_uniformity_deg"}] * exceeded}
@@ -302,3 +355,23 @@ def test_a_fault_of_one_isotherm_stands_in_the_verdict():
 def test_what_all_tests_share_is_not_at_a_place():
     found = {"discrepancy": {"all tests, phase": 1.0}, "scatter": {"phase_deg": 0.5}}
     assert left(found) == ["0.5 deg in the phase of all tests"]
+
+
+def test_which_tests_need_care_and_which_are_missing_stands_in_the_verdict():
+    odd = [{"specimen": "A", "temperature_C": 35.0, "factor": 0.7}]
+    broken = [{"temperature_C": 54.0, "sentence": "x"}]
+    found = content(0, 0, tests=72, odd_levels=odd, contradictory_isotherms=broken)
+    found |= {"ladder": [], "reading": {"not_tested": ["specimen B at 4 degC"]}}
+    assert on_data(found).startswith(
+        "All 72 tests can be used, those of specimen A at 35 degC only after the check below, those at 54 degC with "
+        "care, for modulus and phase contradict each other there. Specimen B at 4 degC was not tested. Specimen A at "
+        "35 degC: |E*| 0.70 times"
+    )
+
+
+def test_causes_of_a_bench_that_nobody_stated_do_not_lead_the_verdict():
+    mass = {"value": -0.227, "std_error": 0.01, "unit": "kg"}
+    rung = {"cause": "moving_mass", "where": None, "parameters": {"mass": mass}}
+    found = content(0, 0, tests=72) | {"ladder": [rung]}
+    assert "moving mass" in on_data(found)
+    assert on_data(found | {"reading": {"bench_assumed": True}}) == "All 72 tests can be used."

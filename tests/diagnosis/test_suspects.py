@@ -96,8 +96,8 @@ def test_delay_neither_hides_a_fault_of_the_majority_nor_moves_it(delay):
     found = suspects.find(delayed(altered(observed, wrong, phase_deg=4.0), delay))
     assert [one.row for one in found if not one.used] == wrong
     reason = next(reason for reason in found[0].reasons if reason.startswith("phase is"))
-    assert "a first estimate of the delay (" in reason
-    required = float(reason.split("taken in: ")[1].split(" deg")[0])
+    assert " ms, a first estimate, is allowed for)" in reason
+    required = float(reason.split(" the ")[1].split(" deg")[0])
     right = np.degrees(observed.logarithm.imag[wrong[0]]) + 360.0 * delay * 25.0
     assert required == pytest.approx(right, abs=1.5)
 
@@ -122,8 +122,11 @@ def test_reason_gives_what_was_measured_and_what_the_isotherm_requires():
     (found,) = suspects.find(altered(observed, row, phase_deg=5.0))
     (reason,) = found.reasons
     assert reason.startswith(f"phase is {expected + 5.0:.1f} deg, ")
-    assert "deg above what its |E*| and the other frequencies of this specimen at 4 degC allow: " in reason
-    allowed = float(reason.split("allow: ")[1].split(" deg")[0])
+    assert (
+        " deg that its |E*| and the other frequencies of this specimen at 4 degC ask for (standard error"
+        in reason
+    )
+    allowed = float(reason.split(" above the ")[1].split(" deg")[0])
     assert allowed == pytest.approx(expected, abs=1.5)
 
 
@@ -131,9 +134,11 @@ def test_one_reading_is_called_wrong_and_not_each_beside_the_other():
     observed = campaign()
     row = row_of(observed, 1, 4.0, 5.0)
     (found,) = suspects.find(altered(observed, row, modulus=np.log(1.12)))
-    causal = [reason for reason in found.reasons if "allow: " in reason]
+    causal = [reason for reason in found.reasons if "ask for (" in reason]
     assert len(causal) == 1 and causal[0].startswith("|E*| is ")
-    assert "% above what its phase and the other frequencies of this specimen at 4 degC allow" in causal[0]
+    assert (
+        "% above the " in causal[0] and " MPa that its phase and the other frequencies of this " in causal[0]
+    )
 
 
 def test_isotherm_that_breaks_as_a_whole_is_reported_and_its_tests_are_used():

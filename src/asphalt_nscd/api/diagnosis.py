@@ -272,7 +272,7 @@ def diagnose(
     draws: Draws = Draws(),  # noqa: B008
     progress: Progress = lambda *_: None,
 ) -> Diagnosis:
-    """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
+    """Say which tests can be trusted, what is wrong with the others, which law they follow and what to test next.
 
     measurements: a file, a folder, several of them, or a DataFrame, read as `read` says. measured_in: "bending" or
     "tension-compression"; else tension-compression for machine exports, bending for tables. geometry: b_mm, B_mm,

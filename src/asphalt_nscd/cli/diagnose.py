@@ -83,7 +83,7 @@ def command(
     limits: dict[str, Any],
     written: dict[str, Any],
 ) -> None:
-    """Say what the simulation gets wrong about measurements: causes, gains, limits, a verdict.
+    """Say which tests can be trusted, what is wrong with the others, which law they follow and what to test next.
 
     MEASUREMENTS: files or a folder of them. Read are exports of testing machines (AMPT, UTM) and tables (CSV,
     TSV, XLSX) with a row for each test or a column for each temperature or frequency.

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from asphalt_nscd.diagnosis.joint import Fitted, Noise
@@ -41,17 +40,22 @@ def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list
         at = observed.isotherm == temperature
         frequencies = np.unique(observed.frequency[at])
         for low, high in zip(frequencies[:-1], frequencies[1:], strict=True):
-            first, second = (_mean(left, at & (observed.frequency == f)) for f in (low, high))
+            rows = [at & (observed.frequency == f) for f in (low, high)]
+            common = np.intersect1d(*(observed.specimen[one] for one in rows))
+            if not common.size:
+                continue
+            # Of the same specimens: their levels differ by more than a slope does.
+            rows = [one & np.isin(observed.specimen, common) for one in rows]
+            first, second = (complex(left[one].mean()) for one in rows)
             tried += 1
             quarter = 0.5 * np.pi / np.log(high / low)
             by_slope, by_phase = quarter * (second.real - first.real), 0.5 * (second.imag + first.imag)
-            count = min(np.count_nonzero(at & (observed.frequency == f)) for f in (low, high))
+            count = min(map(np.count_nonzero, rows))
             sigma = np.hypot(quarter * np.sqrt(2.0) * noise.sigma[0], np.sqrt(0.5) * noise.sigma[1])
             z = abs(by_slope - by_phase) / sigma * np.sqrt(count)
             if abs(by_slope - by_phase) < AGREES * max(abs(by_slope), abs(by_phase)):
                 continue
-            rows = at & np.isin(observed.frequency, (low, high))
-            modelled = float(fitted.modelled.imag[rows].mean())
+            modelled = float(fitted.modelled.imag[rows[0] | rows[1]].mean())
             found.append(
                 Contradiction(
                     float(temperature),
@@ -79,7 +83,3 @@ def told(found: list[Contradiction]) -> list[str]:
         f"measured ({worst.z:.1f} standard deviations{f'; likewise {also}' if also else ''}). No linear law "
         "of the mix does that: look for a gain or a resonance of the machine there, or for a response not linear."
     ]
-
-
-def _mean(left: NDArray[np.complex128], rows: NDArray[np.bool_]) -> complex:
-    return complex(left[rows].mean())

@@ -149,9 +149,9 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         yield f"It may be {' or '.join(known)} instead"
     elif least < ENOUGH:
         yield (
-            "A smooth error over frequency, which the catalogue lacks, may take its place: beside such an error its "
-            f"size is {np.floor(10.0 * least) / 10.0:g} standard errors, and a name needs {ENOUGH:g}. The "
-            "95 % interval assumes no such error"
+            "An unknown error that varies smoothly with frequency could look the same: beside one, the size is "
+            f"{np.floor(10.0 * least) / 10.0:g} standard errors, and {ENOUGH:g} are required. The 95 % interval "
+            "assumes no such error"
         )
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))

@@ -80,9 +80,8 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum) -> list[str]:
     if miss < FAR or not diagnosis.replicated:  # else the scatter itself is a guess
         return []
     return [
-        f"law.json, the law of the extended simulation, differs from the law found here by "
-        f"{100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*|, {miss:.2g} times the scatter of a test: it is 2S2P1D "
-        "with WLF, and these tests ask for more."
+        f"law.json (2S2P1D with WLF) differs from the law found here by {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % "
+        f"in |E*|, {miss:.2g} times the scatter of a test: these tests ask for a form that it cannot take."
     ]
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +42,7 @@ class Possible:
     candidates: causes, in the order of the effects. departures: what effects come next, each with what it is about:
     "linear" and an isotherm (what changes at half the strain if the departure is proportional to the strain), "repeat"
     and a test that cannot be used, or "level" and an isotherm or specimen that is odd (by how much they depart).
+    expected: what new tests of an odd isotherm or specimen show if it is sound, in words, by what is odd.
     metal_frequencies: of the rows that follow those of the table [Hz].
     """
 
@@ -50,6 +52,7 @@ class Possible:
     sweeps: tuple[Sweep, ...]
     candidates: tuple[Candidate, ...]
     departures: tuple[tuple[str, str], ...]
+    expected: dict[str, str]
     metal_frequencies: NDArray[np.float64]
 
 
@@ -94,10 +97,12 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
         ("linear", f"{t:g} degC"): _halved(table, t, departure, linear)
         for t, departure in _departures(linear, moved, names, roots, of_law, _doubtful(diagnosis)).items()
     }
-    departures |= _odd(diagnosis, table, linear)
+    odd = _odd(diagnosis)
+    departures |= {("level", levels.described(one)[0]): _again(diagnosis, table, linear, one) for one in odd}
     departures |= _repeats(diagnosis, table, at.modelled + (linear.nuisance @ moved)[: table.size], linear)
     linear = replace(linear, effects=np.column_stack([linear.effects, *departures.values()]))
-    return Possible(table, linear, old, sweeps, candidates, tuple(departures), metal.frequency)
+    expected = {levels.described(one)[0]: levels.if_sound(one) for one in odd}
+    return Possible(table, linear, old, sweeps, candidates, tuple(departures), expected, metal.frequency)
 
 
 def _repeats(
@@ -124,22 +129,24 @@ def _repeats(
     return found
 
 
-def _odd(
-    diagnosis: Diagnosis, table: Observations, linear: Linear
-) -> dict[tuple[str, str], NDArray[np.complex128]]:
-    """By how much an isotherm or specimen is odd, at the rows that repeat it: ln E* (N,)."""
+def _odd(diagnosis: Diagnosis) -> list[dict[str, Any]]:
+    """Isotherms and specimens that are odd."""
     done = diagnosis.whole or diagnosis.observed
-    found: dict[tuple[str, str], NDArray[np.complex128]] = {}
-    for one in [*levels.odd(done), *levels.odd_phases(done)]:
-        again = (table.specimen == table.names.index(one["specimen"])) & ~at_half_strain(table)
-        again[: diagnosis.observed.size] = False
-        if one["temperature_C"] is not None:
-            again &= table.isotherm == one["temperature_C"]
-        size = np.log(one["factor"]) if "factor" in one else 1j * np.radians(one["phase_deg"])
-        effect = np.zeros(linear.effects.shape[0], complex)
-        effect[: table.size][again] = size
-        found["level", levels.described(one)[0]] = effect
-    return found
+    return [*levels.odd(done), *levels.odd_phases(done)]
+
+
+def _again(
+    diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mapping[str, Any]
+) -> NDArray[np.complex128]:
+    """By how much an isotherm or specimen is odd, at the rows that repeat it: ln E* (N,)."""
+    again = (table.specimen == table.names.index(one["specimen"])) & ~at_half_strain(table)
+    again[: diagnosis.observed.size] = False
+    if one["temperature_C"] is not None:
+        again &= table.isotherm == one["temperature_C"]
+    size = np.log(one["factor"]) if "factor" in one else 1j * np.radians(one["phase_deg"])
+    effect = np.zeros(linear.effects.shape[0], complex)
+    effect[: table.size][again] = size
+    return effect
 
 
 def _departures(

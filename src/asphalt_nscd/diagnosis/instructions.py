@@ -10,7 +10,7 @@ next, given the first.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -29,7 +29,7 @@ from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import specimen_named
 
 MOST, REASONS = 5, 3
-NOTICEABLE = 10.0  # percent of cases
+NOTICEABLE = 15.0  # percent of cases
 CLEARER = 0.3  # standard errors
 LEAST = 0.3  # nats, below which a sweep tells nothing
 SURVIVES = 2.0  # standard errors that a cause keeps without what it hangs on
@@ -75,24 +75,65 @@ def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, 
     costs = costs or Costs()
     model = possible(diagnosis, costs)
     questions = open_questions(diagnosis, model)
-    chosen = choose(model, questions)
-    return {
-        "costs": costs.sentence,
-        "orders": [
-            {
-                "text": _text(one, diagnosis.whole or diagnosis.observed),
-                "why": _reasons(one, questions),
-                "hours": round(one.hours, 2),
-                "nats": round(one.nats, 2),
-                "specimens": one.specimens,
-                "temperature_C": None if one.sweep.specimen == METAL else one.sweep.temperature,
-                "frequencies_Hz": list(one.sweep.frequencies),
-                "half_strain": one.sweep.half_strain,
-            }
-            for one in chosen
-            if _reasons(one, questions)
-        ],
-    }
+    chosen = _merged(choose(model, questions), costs)
+    first = [] if diagnosis.replicated else _replicate(diagnosis.observed, costs)
+    orders = [
+        {
+            "text": _text(one, diagnosis.whole or diagnosis.observed),
+            "why": _reasons(one, questions),
+            "hours": round(one.hours, 2),
+            "nats": round(one.nats, 2),
+            "specimens": one.specimens,
+            "temperature_C": None if one.sweep.specimen == METAL else one.sweep.temperature,
+            "frequencies_Hz": list(one.sweep.frequencies),
+            "half_strain": one.sweep.half_strain,
+        }
+        for one in chosen
+        if _reasons(one, questions)
+    ]
+    return {"costs": costs.sentence, "orders": [*first, *orders][:MOST]}
+
+
+def _replicate(done: Observations, costs: Costs) -> list[dict[str, Any]]:
+    """The order of a second specimen, where one alone was tested."""
+    if len(done.names) > 1:
+        return []
+    at, frequencies = done.isotherms.tolist(), done.frequencies.tolist()
+    hours = costs.new_specimen + sum(costs.hours("", t, frequencies) for t in at)
+    return [
+        {
+            "text": f"{hours:.1f} h: test {NEW} at {joined([f'{t:g}' for t in at])} degC, {_band(frequencies)}.",
+            "why": ["Two specimens show the scatter from test to test. Without it nothing here is certain."],
+            "hours": round(hours, 2),
+            "nats": 0.0,
+            "specimens": [NEW],
+            "temperature_C": at[0] if len(at) == 1 else None,
+            "frequencies_Hz": frequencies,
+            "half_strain": False,
+        }
+    ]
+
+
+def _merged(orders: Sequence[Order], costs: Costs) -> list[Order]:
+    """Sweeps of the same specimens over two parts of the band are one order."""
+    out: list[Order] = []
+    for one in orders:
+        other = next((other for other in out if _alike(one, other)), None)
+        if other is None:
+            out.append(one)
+            continue
+        band = tuple(sorted({*other.sweep.frequencies, *one.sweep.frequencies}))
+        other.sweep = replace(other.sweep, frequencies=band)
+        other.hours = sum(costs.hours(name, one.sweep.temperature, band) for name in other.specimens)
+        other.nats += one.nats
+        for k, (before, after) in one.helps.items():
+            other.helps[k] = other.helps.get(k, (before, 0.0))[0], after
+    return out
+
+
+def _alike(one: Order, other: Order) -> bool:
+    sweeps = one.sweep, other.sweep
+    return one.specimens == other.specimens and len({(s.temperature, s.half_strain) for s in sweeps}) == 1
 
 
 def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
@@ -164,7 +205,7 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
                 found.append(Open("apart", Asked(question, everything), *words, as_good))
     for n, (kind, about) in enumerate(model.departures):
         question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART)
-        size = _unexplained(diagnosis, about) if kind == "linear" else ""
+        size = _unexplained(diagnosis, about) if kind == "linear" else model.expected.get(about, "")
         found.append(Open(kind, Asked(question, everything), about, size))
     names = [candidate.cause.name for candidate in model.candidates]
     for j in range(len(active), len(model.candidates)):
@@ -240,11 +281,10 @@ def words_of(candidate: Candidate) -> str:
 def _sized(candidate: Candidate, typical: float) -> str:
     first = candidate.cause.parameters[0]
     value, unit = shown(typical * first.typical, first.unit)
-    if first.unit == "1":
-        value, unit = 100.0 * value, "%"
     unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
-    what = PLAIN.get(candidate.cause.name, an(words_of(candidate)))
-    return f"{what} of {three_digits(value)} {unit}"
+    words = candidate.cause.name.replace("_", " ")
+    place = words_of(candidate).removeprefix(words)
+    return f"{PLAIN.get(candidate.cause.name, an(words))} of {three_digits(value)} {unit}{place}"
 
 
 def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
@@ -270,8 +310,8 @@ def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
         )
     odd = {f"{specimen_named(name)}{at}: " for name in order.specimens for at in ("", f" at {here}")}
     reasons += [
-        f"{one.about[:1].upper()}{one.about[1:]}. If new tests agree with those, the machine, the dimensions or the "
-        "mounting was at fault: use the new tests."
+        f"{one.about[:1].upper()}{one.about[1:]}. If the new {one.other}, the machine, the dimensions or the mounting "
+        "was at fault: use the new tests."
         for one in helped
         if one.kind == "level" and one.about.startswith(tuple(odd))
     ]
@@ -299,13 +339,17 @@ def _reason(one: Open, before: float, after: float) -> str:
     if one.kind == "apart":
         if before >= MOST_TOLD and not one.alike:
             return ""
-        now = "now both fit" if one.alike else f"now {_odds(before)} to 1"
-        return f"It tells the {one.about} from {an(one.other)}: expected odds {_odds(after)} to 1 ({now})."
+        now = "Now both fit" if one.alike else f"Now the odds are {_odds(before)} to 1 for the first"
+        return (
+            f"Is it the {one.about} or {an(one.other)}? {now}; after this test expect {_odds(after)} to 1 for the "
+            "right one."
+        )
     chances = [100.0 * float(ndtr(np.sqrt(strength) - USUAL_THRESHOLD)) for strength in (before, after)]
     if chances[1] - chances[0] < NOTICEABLE:
         return ""
     return (
-        f"It would show {one.about} in {chances[1]:.0f} % of cases, instead of {chances[0]:.0f} % without it."
+        f"If there is {one.about}, it is then found in {chances[1]:.0f} % of cases; without this test in "
+        f"{chances[0]:.0f} %."
     )
 
 

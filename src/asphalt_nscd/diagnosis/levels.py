@@ -173,6 +173,13 @@ def described(one: Mapping[str, Any]) -> tuple[str, str]:
     return f"{size} {others}", "gauges, channels and temperature of these tests"
 
 
+def if_sound(one: Mapping[str, Any]) -> str:
+    """What new tests show if not the specimen but its tests were odd."""
+    if "factor" in one:
+        return f"|E*| is about {1.0 / one['factor']:.2f} times the old one"
+    return f"phase is about {abs(one['phase_deg']):.1f} deg {'lower' if one['phase_deg'] > 0.0 else 'higher'}"
+
+
 def place(one: Mapping[str, Any]) -> str:
     """An odd isotherm or specimen in words."""
     at = "" if one["temperature_C"] is None else f" at {one['temperature_C']:g} degC"

@@ -9,15 +9,20 @@ import numpy as np
 from asphalt_nscd.diagnosis.observations import Observations
 
 STANDARD = "AASHTO T 378, TP 132"
+SPECIMEN, MACHINE = "the gauges and the ends of the specimens", "the control of the machine"
 
 
 @dataclass(frozen=True)
 class Limit:
-    """Largest value of a quality column that the standard accepts, in `unit` ("%" or "deg")."""
+    """Largest value of a quality column that the standard accepts, in `unit` ("%" or "deg").
+
+    check: what to check where most tests exceed it.
+    """
 
     limit: float
     unit: str
     label: str
+    check: str
     source: str = STANDARD
 
 
@@ -34,10 +39,10 @@ class Exceeded:
 # Drift of load and deformation is kept but not judged: no number of the standard could be checked for it, and the
 # sign that means "in the direction of the load" differs from machine to machine.
 LIMITS: dict[str, Limit] = {
-    "load_standard_error_percent": Limit(10.0, "%", "load standard error"),
-    "deformation_standard_error_percent": Limit(10.0, "%", "deformation standard error"),
-    "deformation_uniformity_percent": Limit(30.0, "%", "deformation uniformity"),
-    "phase_uniformity_deg": Limit(3.0, "deg", "phase uniformity"),
+    "load_standard_error_percent": Limit(10.0, "%", "load standard error", MACHINE),
+    "deformation_standard_error_percent": Limit(10.0, "%", "deformation standard error", SPECIMEN),
+    "deformation_uniformity_percent": Limit(30.0, "%", "deformation uniformity", SPECIMEN),
+    "phase_uniformity_deg": Limit(3.0, "deg", "phase uniformity", SPECIMEN),
 }
 UNLIMITED = ("load_drift_percent", "deformation_drift_percent")
 COLUMNS = (*LIMITS, *UNLIMITED)

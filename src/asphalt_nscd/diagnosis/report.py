@@ -14,10 +14,10 @@ from asphalt_nscd.diagnosis.gain import errors, simulated_by, with_burgers_laws
 from asphalt_nscd.diagnosis.heldout import HeldOut
 from asphalt_nscd.diagnosis.joint import Joint
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.rungs import name_at, name_of, of_cause, of_law
+from asphalt_nscd.diagnosis.rungs import name_of, of_cause, of_law
 from asphalt_nscd.diagnosis.scatter import STATED
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION
+from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION, name_at
 
 WIDE_SPREAD = 1.2  # of the estimates, above which it is said
 
@@ -199,10 +199,9 @@ def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"The causes that got no name have estimates {spread:.1f} times their standard errors, where 1 is expected: "
-        "these tests hold more structure than the diagnosis describes. "
-        "The detection limits (diagnosis.html, 'What could not have been seen') assume 1: multiply them by "
-        f"{spread:.1f}."
+        f"These tests deviate more than the diagnosis allows for: the estimates of the causes without a name spread "
+        f"{spread:.1f} times as far as their standard errors say. Multiply the detection limits (diagnosis.html, "
+        f"'What could not have been seen') by {spread:.1f}."
     ]
 
 

@@ -35,6 +35,7 @@ from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
+from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes
 from asphalt_nscd.rheology.spectrum_io import spectrum_content
 
@@ -306,24 +307,24 @@ def reading(
         "notes": [
             *notes,
             *together,
-            *_gaps(observed),
             *_quality_notes(above, observed.size, _shared(observed)),
         ],
+        **({"not_tested": gaps} if (gaps := _gaps(observed)) else {}),
         **({"files_without_tests": list(without_tests)} if without_tests else {}),
     }
 
 
 def _gaps(observed: Observations) -> list[str]:
-    """A sentence on specimens that were not tested at a temperature at which most others were."""
+    """Specimens that were not tested at a temperature at which most others were, in words."""
     tested = {(int(k), float(t)) for k, t in zip(observed.specimen, observed.isotherm, strict=True)}
     missing = [
-        f"{name} at {t:g} degC"
+        f"{specimen_named(name)} at {t:g} degC"
         for k, name in enumerate(observed.names)
         for t in map(float, observed.isotherms)
         if (k, t) not in tested and 2 * sum(at == t for _, at in tested) > len(observed.names)
     ]
-    more = f" and {len(missing) - LISTED} more" if len(missing) > LISTED else ""
-    return [f"Not tested: {', '.join(missing[:LISTED])}{more}."] if missing else []
+    more = [f"{len(missing) - LISTED} more"] if len(missing) > LISTED else []
+    return [*missing[:LISTED], *more]
 
 
 def _shared(observed: Observations) -> Counter[str]:

@@ -7,23 +7,18 @@ from typing import Any
 import numpy as np
 
 from asphalt_nscd.diagnosis.bases import LN10, FlexibleSpectrum
-from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.gain import before_and_after, simulated_by, with_common_law
 from asphalt_nscd.diagnosis.heldout import HeldOut
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted
 from asphalt_nscd.diagnosis.ladder import Rung
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import CONFIDENCE
+from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at
 
 
 def name_of(candidate: Candidate) -> str:
     """`cause` or `cause @ place`."""
     return name_at(*candidate.key)
-
-
-def name_at(cause: str, place: Place) -> str:
-    return cause if place is None else f"{cause} @ {place}"
 
 
 def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import CHANCE
-from asphalt_nscd.diagnosis.written import CONFIDENCE, shown, three_digits
+from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at, shown, three_digits
 from asphalt_nscd.files.words import specimen_named
 
 Content = Mapping[str, Any]
@@ -20,6 +20,8 @@ SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not No
 BOUNDS = {
     cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
 }
+NO_CAUSE = "No cause of the catalogue beats chance."
+ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
 LARGEST = 4  # parts of what stays unexplained that are listed
 
@@ -75,23 +77,42 @@ def place_of_test(one: Content) -> str:
     return f"{one['specimen']}, {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
 
 
+def law_of_the_mix(content: Content) -> tuple[str, str] | None:
+    """The relaxation spectrum with its shift, and how sure it is; none where no test asks for one."""
+    for rung in content["ladder"]:
+        if rung["cause"] == "relaxation_spectrum":
+            return f"{cause_words(rung)}: {_shift(rung)}".removesuffix(": "), _sure(rung, content)
+    return None
+
+
+def _shift(rung: Content) -> str:
+    """The constants of the shift with temperature, and at which temperature they hold."""
+    found = rung["parameters"]
+    constants = [
+        f"{name.replace('_', ' ').replace('wlf ', 'WLF ')} {_estimate(one)}"
+        for name, one in found.items()
+        if name != "reference_temperature"
+    ]
+    if "reference_temperature" in found and constants:
+        constants.append(f"at {three_digits(found['reference_temperature']['value'])} degC")
+    return ", ".join(constants)
+
+
 def causes(content: Content) -> list[tuple[str, str]]:
-    """Each named cause with its size, then what its sign means and how sure the name is."""
+    """Each named cause with its size; what its sign means, how sure the name is and what would confirm it."""
     return [
         (
-            _headed(rung) + _if_bending(rung, content),
-            f"{_meaning(rung)}{_sure(rung, content)}",
+            f"{cause_words(rung)}: {size(rung)}".removesuffix(": ") + _if_bending(rung, content),
+            f"{_meaning(rung)}{_sure(rung, content)}{_to_confirm(rung)}",
         )
         for rung in content["ladder"]
+        if rung["cause"] != "relaxation_spectrum"
     ]
 
 
-def _headed(rung: Content) -> str:
-    """A cause with its size; the law of the mix, which is none of the tests, is said to be so."""
-    if rung["cause"] == "relaxation_spectrum":
-        said = f"{cause_words(rung)} (a property of the mix, no fault): {size(rung)}"
-        return said.removesuffix(": ")
-    return f"{cause_words(rung)}: {size(rung)}".removesuffix(": ")
+def _to_confirm(rung: Content) -> str:
+    """Only where the simulations do not show it by themselves."""
+    return "" if rung["cause"] == BOND_MAPPING else f" To confirm it: {rung['confirmed_by']}."
 
 
 def _if_bending(rung: Content, content: Content) -> str:
@@ -116,21 +137,33 @@ def _sure(rung: Content, content: Content) -> str:
         if rung["p_value"] < 1e-6
         else (f"by chance this happens in {_per_cent(rung['p_value'])} of all tables")
     )
-    if rung["as_good"]:
-        others = joined([in_words(name) for name in rung["as_good"]], "or")
-        return f"Not certain: {others} fits as well; these tests do not say which."
-    if rung.get("hangs_on"):
-        rests = joined(rung["hangs_on"])
-        fails = "leave out any one" if len(rung["hangs_on"]) > 1 else "leave it out"
-        return f"Not certain: it rests on {rests}: {fails} and it is no longer found."
-    if rung.get("doubts"):
-        first, *more = rung["doubts"]
+    doubts = _doubts(rung, content)
+    if doubts:
+        first, *more = doubts
         return f"Not certain: {'. '.join([first[:1].lower() + first[1:], *more])}."
     if not rung.get("established", True):
-        return "Not certain: these tests are too few to exclude a cause outside the catalogue."
+        return f"Not certain: certainty takes {ENOUGH}."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     return f"Established: {chance}."
+
+
+def _doubts(rung: Content, content: Content) -> list[str]:
+    """Why a name is not certain, a sentence each without its full stop."""
+    doubts = []
+    named = {name_at(one["cause"], one["where"]) for one in content["ladder"]}
+    also = [name for name in rung["as_good"] if name in named]
+    others = [name for name in rung["as_good"] if name not in named]
+    if others:
+        doubts.append(
+            f"{joined(list(map(in_words, others)), 'or')} fits as well; these tests do not say which"
+        )
+    if also:
+        doubts.append(f"Before {joined(list(map(in_words, also)))} was named too, that fitted as well")
+    if rung.get("hangs_on"):
+        left_out = f"{joined(rung['hangs_on'], 'or')} is left out"
+        doubts.append(f"It is no longer found if {left_out}")
+    return [*doubts, *rung.get("doubts", [])]
 
 
 def in_words(name: str) -> str:
@@ -191,7 +224,9 @@ def _part_left(name: str, value: float, scatter: Content) -> str:
     else:
         place = f"{'at' if place.endswith(' degC') else 'of'} {place}"
     size = f"{size_left(name, value, scatter)} {place}"
-    return f"{size}, which does not follow the common master curve" if part == "spectrum" else size
+    if part == "spectrum":
+        return f"{size}: its master curve has another form"
+    return f"{size}, changing with frequency and temperature" if name.startswith("specimen ") else size
 
 
 def size_left(name: str, value: float, scatter: Mapping[str, float]) -> str:
@@ -207,23 +242,26 @@ def _one_digit(value: float) -> str:
 
 def size(rung: Content) -> str:
     """Amplitude of a cause with its 95 % interval; empty where these tests do not give one."""
-    name, amplitude = next(iter(rung["parameters"].items()))
-    if name == "reference_temperature":
-        return ""
-    (value, unit), error = shown(amplitude["value"], amplitude["unit"]), amplitude["std_error"]
-    unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
-    if error is None:
-        interval = ""
-    elif amplitude["value"] in BOUNDS.get(rung["cause"], ()):
+    amplitude = next(iter(rung["parameters"].values()))
+    if amplitude["std_error"] is not None and amplitude["value"] in BOUNDS.get(rung["cause"], ()):
+        value, unit = shown(amplitude["value"], amplitude["unit"])
         beyond = "more" if amplitude["value"] > 0.0 else "less"
-        return f"{three_digits(value)} {unit} or {beyond} (the search ends there)"
-    else:
-        half = CONFIDENCE * shown(error, amplitude["unit"])[0]
+        return f"{three_digits(value)} {_typed(unit)} or {beyond} (the search ends there)"
+    return _estimate(amplitude)
+
+
+def _estimate(one: Content) -> str:
+    """A value with its 95 % interval and unit."""
+    value, unit = shown(one["value"], one["unit"])
+    interval = ""
+    if one["std_error"] is not None:
+        half = CONFIDENCE * shown(one["std_error"], one["unit"])[0]
         interval = f" +- {three_digits(float(f'{half:.2g}'))}"
-    label = (
-        f"{name.replace('_', ' ').replace('wlf ', 'WLF ')} " if rung["cause"] == "relaxation_spectrum" else ""
-    )
-    return f"{label}{three_digits(value)}{interval} {unit}".rstrip()
+    return f"{three_digits(value)}{interval} {_typed(unit)}".rstrip()
+
+
+def _typed(unit: str) -> str:
+    return {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
 
 
 def cause_words(rung: Content) -> str:

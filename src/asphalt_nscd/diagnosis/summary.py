@@ -15,8 +15,9 @@ Content = Mapping[str, Any]
 def summary(content: Content) -> str:
     """The first page as text, one part after another; parts with nothing to say are left out."""
     read = content.get("reading", {"notes": []})
-    answer = [f"Data: {verdict.on_data(content)}", f"Simulation: {verdict.on_simulation(content)}"]
-    test, named, files = verdict.test_type(content), sentences.causes(content), verdict.files(content)
+    answer = [f"Data: {verdict.on_data(content)}", verdict.answer(content)]
+    test, files = verdict.test_type(content), verdict.files(content)
+    law, named = sentences.law_of_the_mix(content), sentences.causes(content)
     mixes = verdict.mixes(content)
     head = [*([mixes] if mixes else []), *([f"Test: {test}."] if test else [])]
     head += [f"Files: {files}"] if files else []
@@ -24,12 +25,9 @@ def summary(content: Content) -> str:
         ("What was read", read["notes"]),
         ("Verdict", [*head, *answer]),
         ("Tests not to be used" if sentences.not_used(content) else "Doubtful tests", _suspects(content)),
-        (
-            "Causes",
-            [*(f"{cause}. {sure}" for cause, sure in named), "+- is the 95 % interval."]
-            if named
-            else ["No cause beats chance."],
-        ),
+        ("Law of the mix", [f"{law[0]}. {law[1]}"] if law else []),
+        ("Causes", [f"{cause}. {sure}" for cause, sure in named] or [sentences.NO_CAUSE]),
+        ("", ["+- is the 95 % interval."] if law or named else []),
         ("What stays unexplained", _left(content)),
         ("What to do next", _orders(content)),
         ("Scatter", _scatter(content)),
@@ -40,7 +38,7 @@ def summary(content: Content) -> str:
 
 
 def _part(title: str, lines: Sequence[str]) -> str:
-    return "\n".join([title.upper(), *lines])
+    return "\n".join([*([title.upper()] if title else []), *lines])
 
 
 def _suspects(content: Content) -> list[str]:
@@ -54,7 +52,7 @@ def _suspects(content: Content) -> list[str]:
 def _left(content: Content) -> list[str]:
     dropped = [sentences.in_words(name) for name in content["withdrawn"]]
     return sentences.left(content) + (
-        [f"Considered and dropped, because a discrepancy fits as well: {', '.join(dropped)}."]
+        [f"Considered and dropped, since structure without a name fits as well: {', '.join(dropped)}."]
         if dropped
         else []
     )

@@ -241,20 +241,20 @@ def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[N
 
 
 def _causal_reason(observed: Observations, held: Held, row: int, column: int) -> str:
-    rest = f"the other frequencies of this specimen at {observed.isotherm[row]:g} degC allow"
+    rest = f"the other frequencies of this specimen at {observed.isotherm[row]:g} degC"
     expected, error = held.expected[row, column], held.std_error[row, column]
     if column == 0:
         modulus = abs(observed.modulus[row])
         apart = 100.0 * (modulus / np.exp(expected) - 1.0)
         return (
-            f"|E*| is {modulus / 1e6:.0f} MPa, {abs(apart):.1f} % {_way(apart)} what its phase and {rest}: "
-            f"{np.exp(expected) / 1e6:.0f} MPa, standard error {100.0 * error:.1f} %"
+            f"|E*| is {modulus / 1e6:.0f} MPa, {abs(apart):.1f} % {_way(apart)} the {np.exp(expected) / 1e6:.0f} MPa "
+            f"that its phase and {rest} ask for (standard error {100.0 * error:.1f} %)"
         )
     phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
-    delayed = f", a first estimate of the delay ({1e3 * held.delay:.2g} ms) taken in" if held.delay else ""
+    delay = f"; a delay of {1e3 * held.delay:.2g} ms, a first estimate, is allowed for" if held.delay else ""
     return (
-        f"phase is {phase:.1f} deg, {abs(phase - allowed):.1f} deg {_way(phase - allowed)} what its |E*| and {rest}"
-        f"{delayed}: {allowed:.1f} deg, standard error {np.degrees(error):.1f} deg"
+        f"phase is {phase:.1f} deg, {abs(phase - allowed):.1f} deg {_way(phase - allowed)} the {allowed:.1f} deg that "
+        f"its |E*| and {rest} ask for (standard error {np.degrees(error):.1f} deg{delay})"
     )
 
 

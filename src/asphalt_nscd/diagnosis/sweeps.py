@@ -92,11 +92,13 @@ def every_test(observed: Observations, at: Sequence[float]) -> Observations:
     """The tests done, then every specimen, with a new one, at every temperature and frequency and two strains."""
     names = (*observed.names, NEW)
     full = [(s, t, f, 1.0) for s in range(len(names)) for t in at for f in frequencies(observed)]
-    half = [
+    tested = set(zip(observed.specimen.tolist(), observed.isotherm.tolist(), strict=True))
+    half = [  # beside the tests at the usual strain
         (s, t, f, HALF)
         for s in range(len(observed.names))
-        for t in _some(observed.isotherms, ISOTHERMS)
+        for t in _some(observed.isotherms, ISOTHERMS).tolist()
         for f in observed.frequencies
+        if (s, t) in tested
     ]
     specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half, strict=True))
     like = np.array([np.flatnonzero(observed.specimen == min(s, len(names) - 2))[0] for s in specimen])
@@ -229,9 +231,9 @@ def on_metal(observed: Observations) -> Observations:
 def sweeps_on_metal(metal: Observations, first: int, noise: Noise, costs: Costs) -> Iterator[Sweep]:
     """Sweeps of a metal specimen, whose rows stand behind those of the table."""
     f = [float(value) for value in metal.frequency]
-    ends = sorted({0, len(f) // 2, len(f) - 1})
-    for chosen in dict.fromkeys([tuple(range(len(f))), tuple(ends), (len(f) - 1,), (0, len(f) - 1)]):
-        at = np.array(sorted(set(chosen))) + first
+    ends = sorted({0, len(f) - 1})  # both: of one frequency nobody tells an offset from a delay
+    for chosen in dict.fromkeys([tuple(range(len(f))), tuple(sorted({*ends, len(f) // 2})), tuple(ends)]):
+        at = np.array(chosen) + first
         one = np.full((2, at.size), np.array(noise.sigma)[:, None])
         tested = Tested(at, scatter_of(one, np.zeros_like(one), np.zeros(at.size, int)))
         used = tuple(f[k - first] for k in at)

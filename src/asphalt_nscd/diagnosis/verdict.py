@@ -9,6 +9,7 @@ from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.sentences import (
+    OF_THE_BENCH,
     Content,
     an,
     cause_words,
@@ -23,7 +24,7 @@ from asphalt_nscd.files.words import counted, specimen_named
 
 TEST_TYPES = {
     "bending": "two-point bending of a trapezoidal specimen",
-    "tension-compression": "axial test of a cylinder (tension-compression, AMPT or UTM)",
+    "tension-compression": "axial test of a cylinder (AMPT or UTM)",
 }
 ASSUMED = (
     "taken for two-point bending of the paper's specimen, since neither --measured-in nor --geometry was given; for a "
@@ -48,20 +49,39 @@ def mixes(content: Content) -> str:
 
 
 def on_data(content: Content) -> str:
-    """How many tests can be used, which fault they carry, which isotherm contradicts itself: a sentence each."""
-    out = len(not_used(content))
-    tests = content["tests"]
-    parts = [f"{tests} of {tests + out} tests can be used" if out else f"all {tests} tests can be used"]
+    """How many tests can be used, which fault they carry, what is odd among them: a sentence each."""
+    read = content.get("reading", {})
+    parts = [f"{_usable(content)}{_with_care(content)}"]
+    if read.get("not_tested"):
+        parts.append(
+            f"{joined(read['not_tested'])} {'was' if len(read['not_tested']) == 1 else 'were'} not tested"
+        )
     parts += _flagged(content)
-    parts += [_fault(rung) for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
+    # Of a bench that nobody stated, its causes are told with that condition below.
+    beyond = OF_THE_MIX | (OF_THE_BENCH if read.get("bench_assumed") else set())
+    parts += [_fault(rung) for rung in content["ladder"] if rung["cause"] not in beyond]
     spread = (content.get("repeatability") or {}).get("between")
     if spread is not None and not mixes(content):
         parts.append(_spread(spread))
     parts += levels.sentences(*odd(content))[:MOST_ODD]
-    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
-    if broken:
-        parts.append(f"at {joined([f'{t:g}' for t in broken])} degC modulus and phase contradict each other")
     return " ".join(f"{part[:1].upper()}{part[1:]}." for part in parts)
+
+
+def _usable(content: Content) -> str:
+    out, tests = len(not_used(content)), content["tests"]
+    return f"{tests} of {tests + out} tests can be used" if out else f"all {tests} tests can be used"
+
+
+def _with_care(content: Content) -> str:
+    """Which of the tests that can be used must be checked first."""
+    checked = levels.places(*odd(content))
+    broken = [f"{one['temperature_C']:g}" for one in content.get("contradictory_isotherms", [])]
+    conditions = [f"those of {joined(checked)} only after the check below"] if checked else []
+    if broken:
+        conditions.append(
+            f"those at {joined(broken)} degC with care, for modulus and phase contradict each other there"
+        )
+    return "".join(f", {one}" for one in conditions)
 
 
 def _flagged(content: Content) -> list[str]:
@@ -69,7 +89,8 @@ def _flagged(content: Content) -> list[str]:
     tests = content["tests"] + len(not_used(content))
     columns = [one["column"] for one in content.get("reading", {}).get("limits_exceeded", [])]
     return [
-        f"{columns.count(name)} of {tests} exceed the limit of {limit.label} ({limit.limit:g} {limit.unit})"
+        f"{columns.count(name)} of {tests} exceed the limit of {limit.label} ({limit.limit:g} {limit.unit}): check "
+        f"{limit.check} before further tests"
         for name, limit in quality.LIMITS.items()
         if 2 * columns.count(name) >= tests
     ]
@@ -110,15 +131,27 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
         [f"{three_digits(error)} %" for error in errors]
         for errors in ([first[name]["before"] for name in names], missed)
     )
-    facets = ["facets for bonds" for rung in ladder if rung["cause"] == BOND_MAPPING]
+    facets = ["facets for bonds"] if _simulated(content) else []
     found = joined([*facets, *(an(cause_words(rung)) for rung in ladder if rung["cause"] != BOND_MAPPING)])
     simpler = "the simulation of the paper" if facets else _first_law(content)
     worse = _worse([first[name]["before"] for name in names], missed)
     missed_by = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
+    spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in ladder)
+    extended = "the simulation" if facets else (COMMON if spectrum else "it")
     return (
-        f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} the "
-        f"simulation misses by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
+        f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} {extended} "
+        f"misses by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
     )
+
+
+def _simulated(content: Content) -> bool:
+    """Whether simulations took part: their bonds come first among what they missed."""
+    return any(rung["cause"] == BOND_MAPPING for rung in content["ladder"])
+
+
+def answer(content: Content, left: Mapping[str, float] | None = None) -> str:
+    """`on_simulation` with what it speaks of: of a table alone, only of laws."""
+    return f"{'Simulation' if _simulated(content) else 'Law'}: {on_simulation(content, left)}"
 
 
 def _first_law(content: Content) -> str:
@@ -136,7 +169,8 @@ def _holding(content: Content) -> str:
     places = levels.places(*odd(content))
     if not places:
         return ""
-    return f", but this scatter holds {joined(places)}, which {'is' if len(places) == 1 else 'are'} odd"
+    one = len(places) == 1
+    return f"; {joined(places)}, which {'is odd, makes' if one else 'are odd, make'} this scatter larger"
 
 
 def _worse(before: Sequence[float], after: Sequence[float]) -> str:
@@ -153,14 +187,14 @@ def _cannot_judge(content: Content) -> str:
     """Why tests without a finding do not say that the simulation is right, and what to add."""
     if content["scatter"]["from_replicates"] or content["provenance"].get("scatter_stated"):
         return (
-            "Two frequencies cannot judge the simulation: a Burgers law fits them exactly, whatever is wrong. Test at "
+            "Two frequencies cannot judge a law: a Burgers law fits them exactly, whatever is wrong. Test at "
             "three frequencies or more."
         )
     alone = len(content.get("reading", {}).get("specimens", [])) == 1
     lacking = "One specimen" if alone else "Specimens without a common temperature and frequency"
     add = "Test a second one at the same conditions" if alone else "Test two at the same conditions"
     return (
-        f"{lacking} cannot judge the simulation: nothing was found, but the scatter from test to test is not known. "
+        f"{lacking} cannot judge a law: nothing was found, but the scatter from test to test is not known. "
         f"{add}, or state the scatter."
     )
 

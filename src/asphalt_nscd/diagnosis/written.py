@@ -41,7 +41,8 @@ _SHOWN = {
     "kg": (1e3, "g"),
     "deg": (1.0, "°"),
     "degC": (1.0, "°C"),
-    "1": (1.0, ""),
+    "1": (100.0, "%"),
+    "-": (1.0, ""),  # an exponent
 }
 
 
@@ -133,6 +134,11 @@ def place_name(where: str | float | None) -> str:
     if where is None:
         return ""
     return specimen_named(where) if isinstance(where, str) else f"{where:g} °C".replace("-", "\N{MINUS SIGN}")
+
+
+def name_at(cause: str, place: str | float | None) -> str:
+    """`cause` or `cause @ place`."""
+    return cause if place is None else f"{cause} @ {place}"
 
 
 def limits_by_place(cause: str, limit: dict[str, Any]) -> dict[str, float]:

@@ -22,7 +22,7 @@ def page(results):
 def test_causes_stand_with_size_unit_chance_and_gains(page):
     html = page()
     assert (
-        "with a relaxation spectrum and a loose clamp of specimen 2 the simulation misses by 2 % and 2 %"
+        "with a relaxation spectrum and a loose clamp of specimen 2 one law for all temperatures misses by 2 % and 2 %"
         in html
     )
     assert "Data: All 12 tests can be used. Specimen 2 carries a loose clamp of 3 ± 0.39 1/TPa." in html
@@ -94,7 +94,7 @@ def test_what_stays_unexplained_is_said(page):
         unexplained=[miss, {**miss, "specimen": "2"}],
         withdrawn=["secondary_process"],
     )
-    assert "the simulation misses by 2 % and 2 %, more than scatter can explain." in html
+    assert "one law for all temperatures misses by 2 % and 2 %, more than scatter can explain." in html
     assert "<li>20 °C, slope: 11.7 times its standard error</li>" in html
     assert "<td>20 °C</td><td>3</td><td>−15.1</td><td>−2.77</td><td>6.94</td><td>mean</td>" in html
     assert "<td>specimen 2, set aside</td>" in html
@@ -131,22 +131,21 @@ def test_rivals_and_text_from_the_table_are_shown_as_text(page):
 
 def test_without_replicates_nothing_is_called_right_or_established(page, results):
     alone = {"modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": False}
-    assert "scatter by 1 % and 0.5°. Everything" in page()
+    assert "with the mounting of its specimen, scatters by 1 % and 0.5°. Everything" in page()
     html = page(verdict="nothing_to_explain", ladder=[], tested=False, scatter=alone)
     assert (
-        "cannot judge the simulation: nothing was found, but the scatter from test to test is not known. Test"
-        in html
+        "cannot judge a law: nothing was found, but the scatter from test to test is not known. Test" in html
         and "fits these data" not in html
     )
-    assert "scatter by 1 % and 0.5° as far as a smooth law can tell, for nothing was repeated." in html
+    assert "scatters by 1 % and 0.5° as far as a smooth law can tell, for nothing was repeated." in html
     made = json.loads(results.diagnosis()["diagnosis"][0].read_text())["provenance"]
     stated = page(scatter=alone, provenance=made | {"scatter_stated": [0.01, 0.5]})
-    assert "scatter by 1 % and 0.5°, as was stated." in stated
+    assert "scatters by 1 % and 0.5°, as was stated." in stated
     ladder = json.loads(results.diagnosis()["diagnosis"][0].read_text())["ladder"]
     unsure = [rung | {"established": False} for rung in ladder]
     html = page(verdict="unexplained_structure", ladder=unsure)
     assert "Perhaps specimen 2 carries a loose clamp" in html
-    assert "Not certain: these tests are too few to exclude a cause outside the catalogue." in html
+    assert "Not certain: certainty takes four temperatures, three frequencies and two specimens." in html
 
 
 GAIN = {
@@ -254,9 +253,9 @@ def test_bond_mapping_stands_first_with_its_evidence_and_without_a_chance(page, 
 def test_the_whole_way_stands_by_temperature(page, results):
     html = page()
     assert "run again with each rung" not in html
-    assert "the simulation misses by 2 % and 2 %" in html
+    assert "one law for all temperatures misses by 2 % and 2 %" in html
     html = page(ladder_table=results.ladder())
-    assert "the simulation misses by 0.6 % and 5 %" in html
+    assert "one law for all temperatures misses by 0.6 % and 5 %" in html
     assert "<td>|E*|: as in the paper</td><td>10.2</td><td>12</td><td>11.1</td>" in html
     assert "<td>|E*|: facets</td><td>2</td><td>3</td><td>2.5</td>" in html
     assert "<td>|E*|: the law&#39;s own, as in the paper</td><td>2.1</td>" in html

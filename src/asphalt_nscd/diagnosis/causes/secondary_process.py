@@ -18,7 +18,7 @@ class SecondaryProcess(Cause):
         Parameter("strength", "Pa", 0.0, 2e10, 2e8),
         Parameter("log10_time", "log10(s)", -9.0, 4.0, 1.0),
         Parameter("activation_energy", "kJ/mol", 10.0, 120.0, 30.0),
-        Parameter("exponent", "1", 0.3, 1.0, 0.2),
+        Parameter("exponent", "-", 0.3, 1.0, 0.2),
     )
     sentence = "a second relaxation process, with a shift of its own, adds a loss bump"
     confirmed_by = "tests at more frequencies, or the loss peak of the binder"

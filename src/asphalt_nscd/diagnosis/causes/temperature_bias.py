@@ -13,6 +13,7 @@ class TemperatureBias(Cause):
     sentence = "the specimens were not at the temperature stated for this isotherm"
     signs = ("The specimens were warmer than stated.", "The specimens were colder than stated.")
     confirmed_by = "a thermometer in a dummy specimen at this temperature"
+    shows_in = "a test at a temperature between these or beyond them"
     confined_to = "temperature_C"
 
     def places(self, observed: Observations) -> Sequence[Place]:

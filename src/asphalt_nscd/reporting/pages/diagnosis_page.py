@@ -91,7 +91,7 @@ def sections(
         "scatter": scatter(content),
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
-        "ladder": [_rung(rung) | {"as_good": _members(rung["as_good"])} for rung in rungs],
+        "ladder": [_rung(rung, rung is rungs[-1]) | {"as_good": _members(rung["as_good"])} for rung in rungs],
         "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
         "charts": plots.charts(residuals, diagnosis),
@@ -99,6 +99,7 @@ def sections(
         "limits": _limits(content["detection_limits"]),
         "not_testable": [(member_name(row["cause"]), row["needs"]) for row in content["not_testable"]],
         "alike": [_members(group) for group in content["indistinguishable"]],
+        "notes": [*content.get("reading", {}).get("notes", []), *content["notes"]],
         "suspects": [_suspect(one) for one in content.get("suspect_tests", [])],
         "withdrawn": _members(content["withdrawn"]),
         "confirmed_by": [
@@ -116,11 +117,13 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "files": verdict.files(content),
         "mixes": verdict.mixes(content),
         "data": verdict.on_data(content),
-        "simulation": verdict.on_simulation(content, left),
+        "answer": verdict.answer(content, left),
         "not_used": [(sentences.place_of_test(one), one["reasons"]) for one in sentences.not_used(content)],
         "with_suspects": sentences.with_suspects(content),
         "doubtful": sentences.on_doubtful(content),
+        "law": sentences.law_of_the_mix(content),
         "causes": sentences.causes(content),
+        "no_cause": sentences.NO_CAUSE,
         "left": sentences.left(content),
         "orders": found["orders"],
         "costs": found["costs"],
@@ -135,7 +138,10 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
 
 def scatter(content: dict[str, Any]) -> str:
     scatter = content["scatter"]
-    sizes = f"From test to test they scatter by {scatter['modulus_percent']:.2g} % and {scatter['phase_deg']:.2g}°"
+    sizes = (
+        f"A test, with the mounting of its specimen, scatters by {scatter['modulus_percent']:.2g} % and "
+        f"{scatter['phase_deg']:.2g}°"
+    )
     if scatter["from_replicates"]:
         return f"{sizes}."
     if content["provenance"].get("scatter_stated"):
@@ -157,7 +163,8 @@ def _table4(paths: Sequence[Path]) -> list[list[str]]:
     return [[place_name(row[0]), *map(_number, row[1:])] for row in frame.itertuples(index=False)]
 
 
-def _rung(rung: dict[str, Any]) -> dict[str, Any]:
+def _rung(rung: dict[str, Any], last: bool) -> dict[str, Any]:
+    """A row of the ladder; after the last, whether the law may be used where nothing was tested."""
     gain = rung["gain"]
     return {
         "cause": _cause(rung),
@@ -169,7 +176,7 @@ def _rung(rung: dict[str, Any]) -> dict[str, Any]:
         "doubts": rung.get("doubts", []),
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {
-            HELD_OUT[name] + _worse(gain["held_out"][name]): _gain(gain["held_out"][name])
+            HELD_OUT[name] + (_worse(gain["held_out"][name]) if last else ""): _gain(gain["held_out"][name])
             for name in HELD_OUT
             if name in gain["held_out"]
         },

@@ -99,7 +99,8 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
     return Chart(
         "causality",
         "Phase measured less the phase that |E*| requires",
-        "In degrees; grey numbers are within two standard errors. Cross: suspect, not used. Ring: suspect, used. "
+        "In degrees, by |E*| alone; the list of doubtful tests uses the phases at the other frequencies too, which "
+        "say more. Grey numbers are within two standard errors. Cross: suspect, not used. Ring: suspect, used. "
         "Triangle: a quality limit is exceeded."
         if plots
         else NONE,
