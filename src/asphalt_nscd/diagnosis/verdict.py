@@ -131,27 +131,28 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
         [f"{three_digits(error)} %" for error in errors]
         for errors in ([first[name]["before"] for name in names], missed)
     )
-    facets = ["facets for bonds"] if _simulated(content) else []
+    facets = ["facets for bonds"] if _bonded(content) else []
     found = joined([*facets, *(an(cause_words(rung)) for rung in ladder if rung["cause"] != BOND_MAPPING)])
     simpler = "the simulation of the paper" if facets else _first_law(content)
     worse = _worse([first[name]["before"] for name in names], missed)
     missed_by = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
     spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in ladder)
-    extended = "the simulation" if facets else (COMMON if spectrum else "it")
+    extended = "the simulation" if facets or left is not None else (COMMON if spectrum else "it")
     return (
         f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} {extended} "
         f"misses by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
     )
 
 
-def _simulated(content: Content) -> bool:
-    """Whether simulations took part: their bonds come first among what they missed."""
+def _bonded(content: Content) -> bool:
+    """Whether simulations took part, whose bonds come first among what they missed."""
     return any(rung["cause"] == BOND_MAPPING for rung in content["ladder"])
 
 
 def answer(content: Content, left: Mapping[str, float] | None = None) -> str:
     """`on_simulation` with what it speaks of: of a table alone, only of laws."""
-    return f"{'Simulation' if _simulated(content) else 'Law'}: {on_simulation(content, left)}"
+    simulated = left is not None or _bonded(content)
+    return f"{'Simulation' if simulated else 'Law'}: {on_simulation(content, left)}"
 
 
 def _first_law(content: Content) -> str:

@@ -50,7 +50,8 @@ def test_report_has_nothing_to_complain_of(tmp_path, width):
     sentence = ["A sentence about 120 moduli."]
     page = {
         "measured": sentence, "simulated": sentence, "wrong": sentence, "not_used": sentence, "orders": sentence,
-        "found": {"mixes": "", "data": "Good.", "simulation": "Right.", "causes": [("a cause", "Established.")],
+        "law": ["a law", "Established."],
+        "found": {"mixes": "", "data": "Good.", "answer": "Right.", "causes": [("a cause", "Established.")],
                   "left": sentence, "with_suspects": "The same causes."},
         "notes": sentence, "gained": [("error of |E*|, %", "2", "1")], "held_out": None,
         "map": b64encode(png()).decode(),

@@ -18,7 +18,7 @@ class ChannelDelay(Cause):
         "The displacement is recorded before the force.",
     )
     confirmed_by = (
-        "a test on an elastic reference specimen of metal: its phase must be zero at every frequency"
+        "a test on an elastic reference specimen of metal, whose phase must be zero at every frequency"
     )
 
     def places(self, observed: Observations) -> Sequence[Place]:

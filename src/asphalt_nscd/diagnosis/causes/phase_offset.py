@@ -13,7 +13,7 @@ class PhaseOffset(Cause):
     sentence = "the measured phase is off by the same angle in every test"
     signs = ("The measured phases are too large.", "The measured phases are too small.")
     confirmed_by = (
-        "a test on an elastic reference specimen of metal: its phase must be zero at every frequency"
+        "a test on an elastic reference specimen of metal, whose phase must be zero at every frequency"
     )
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:

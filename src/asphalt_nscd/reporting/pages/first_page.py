@@ -43,8 +43,9 @@ def first_page(
         "wrong": _wrong(way),
         "found": {
             name: _typed(told[name])
-            for name in ("mixes", "data", "simulation", "causes", "left", "with_suspects")
+            for name in ("mixes", "data", "answer", "causes", "left", "with_suspects")
         },
+        "law": _typed(told["law"] or []),
         "not_used": [in_type(where) for where, _ in told["not_used"]],
         "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in told["orders"]],
         "notes": _typed(content["notes"]),
