@@ -90,9 +90,9 @@ def test_a_small_effect_is_only_likely():
     observed = table(lambda omega, temperature: 0.06 * turned(omega, temperature))
     (reason,) = doubts_of(observed, "phase_offset")["phase_offset", None]
     assert reason.startswith(
-        "A smooth error over frequency, which the catalogue lacks, may take its place: beside "
+        "Another error that varies smoothly with frequency could look the same. To rule that out, "
     )
-    assert "standard errors, and a name needs 6. " in reason
+    assert "the size must be 6 standard errors beside such an error; it is " in reason
 
 
 def test_what_follows_a_name_in_doubt_is_in_doubt():

@@ -117,6 +117,6 @@ def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
         "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5},
     }
     assert on_simulation(found).endswith(
-        "fits these data to within their scatter; specimen B at 20 degC, which is odd, makes this scatter larger."
+        "fits these data to within their scatter, but specimen B at 20 degC, which is odd, is part of that scatter."
     )
     assert left(found)[-1] == "specimen B at 20 degC took part in these sizes, although odd"

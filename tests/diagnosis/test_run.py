@@ -13,11 +13,13 @@ import yaml
 from jsonschema import Draft202012Validator
 from test_diagnose import table
 
-from asphalt_nscd.diagnosis import report, run
+from asphalt_nscd.diagnosis import run
 from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.ladder import Ladder
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.diagnosis.suspects import Suspect
+from asphalt_nscd.diagnosis.trust import reading
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.table_import.campaign import read_campaign
@@ -30,7 +32,7 @@ SCHEMA = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8"))
 
 def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
     campaign, _ = read_campaign([EXPORTS])
-    read = run.reading(read_observations(campaign, PAPER_GEOMETRY)[0], ["a note of the import"])
+    read = reading(read_observations(campaign, PAPER_GEOMETRY)[0], ["a note of the import"])
     assert (read["test_type"], read["isotherms_C"]) == ("tension-compression", [4, 20, 35, 50])
     assert read["limits_exceeded"] == [
         {
@@ -57,27 +59,25 @@ def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
     uneven = np.where(observed.specimen == 0, 40.0, 10.0)
     uneven[np.flatnonzero(observed.specimen == 1)[0]] = 35.0
     for values, these in (
-        (uneven, "In 24"),
-        (np.where(observed.specimen == 0, 40.0, 10.0), "In all"),
+        (uneven, "24 of them are"),
+        (np.where(observed.specimen == 0, 40.0, 10.0), "They are"),
     ):
-        notes = run.reading(replace(observed, quality={"deformation_uniformity_percent": values}), [])[
-            "notes"
-        ]
+        notes = reading(replace(observed, quality={"deformation_uniformity_percent": values}), [])["notes"]
         assert notes[-1].endswith(
-            f"{these} of them at least half of the specimen's tests at that temperature exceed it: the specimen or its "
-            "gauges are uneven. No single test stands out, so this limit takes none out."
+            f"{these} of isotherms of which half exceed it or more: that speaks against no single test."
         )
 
 
 def test_a_specimen_that_lacks_a_temperature_of_the_others_is_named():
     observed, _ = read_observations(read_campaign([EXPORTS])[0], PAPER_GEOMETRY)
-    assert not any("Not tested" in note for note in run.reading(observed, [])["notes"])
+    assert "not_tested" not in reading(observed, [])
     lacking = (observed.specimen == 1) & (observed.isotherm == 20)
-    notes = run.reading(observed.subset(np.flatnonzero(~lacking)), [])["notes"]
-    assert "Not tested: Mix-B at 20 degC." in notes
+    assert reading(observed.subset(np.flatnonzero(~lacking)), [])["not_tested"] == [
+        "specimen Mix-B at 20 degC"
+    ]
     alone = observed.isotherm != 20
     alone |= observed.specimen == 1
-    assert not any("Not" in note for note in run.reading(observed.subset(np.flatnonzero(alone)), [])["notes"])
+    assert "not_tested" not in reading(observed.subset(np.flatnonzero(alone)), [])
 
 
 def test_the_verdict_names_files_without_tests(tmp_path):
@@ -101,14 +101,14 @@ def test_estimates_that_spread_further_than_their_errors_widen_the_limits():
         ("temperature_bias", 20.0): (-2.0, 1.0),
         ("channel_delay", None): (0.0, np.inf),
     }
-    found = SimpleNamespace(ladder=SimpleNamespace(rungs=[rung], estimates=estimates))
-    assert report.estimates_spread(found) == pytest.approx(np.sqrt((9.0 + 2.0) / 2.0))
+    found = SimpleNamespace(ladder=Ladder(None, None, rungs=[rung], estimates=estimates))
+    assert found.ladder.estimates_spread == pytest.approx(np.sqrt((9.0 + 2.0) / 2.0))
     estimates["phase_offset", None] = (0.1, 1.0)
-    assert report.estimates_spread(found) == pytest.approx(np.sqrt((0.01 + 2.0) / 2.0))
+    assert found.ladder.estimates_spread == pytest.approx(np.sqrt((0.01 + 2.0) / 2.0))
     estimates["temperature_bias", 20.0] = (0.2, 1.0)
-    assert report.estimates_spread(found) == 1.0
+    assert found.ladder.estimates_spread == 1.0
     estimates.clear()
-    assert report.estimates_spread(found) == 1.0
+    assert found.ladder.estimates_spread == 1.0
 
 
 def test_what_is_named_without_the_doubtful_tests():

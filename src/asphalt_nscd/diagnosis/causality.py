@@ -70,16 +70,18 @@ def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list
     return sorted((one for one in found if one.z > least), key=lambda one: -one.z)
 
 
-def told(found: list[Contradiction]) -> list[str]:
-    """One sentence of all contradictions, none without any."""
+def told(found: list[Contradiction], causes: bool) -> list[str]:
+    """One sentence of all contradictions, none without any; causes: whether named ones are in the fit."""
     if not found:
         return []
     worst, others = found[0], found[1:]
     also = ", ".join(f"{one.low:g} - {one.high:g} Hz at {one.temperature:g} degC" for one in others[:SHOWN])
     also += f" and {len(others) - SHOWN} more" if len(others) > SHOWN else ""
+    also = f"; likewise {also}" if also else ""
+    included = ", the causes above included" if causes else ""
     return [
         f"At {worst.temperature:g} degC, from {worst.low:g} to {worst.high:g} Hz, |E*| rises so steeply "
-        f"that the phase should be {np.degrees(worst.asked):.1f} deg; {np.degrees(worst.measured):.1f} deg were "
-        f"measured ({worst.z:.1f} standard deviations{f'; likewise {also}' if also else ''}). No linear law "
+        f"that the phase should be {np.degrees(worst.asked):.1f} deg{included}; "
+        f"{np.degrees(worst.measured):.1f} deg were measured ({worst.z:.1f} standard deviations{also}). No linear law "
         "of the mix does that: look for a gain or a resonance of the machine there, or for a response not linear."
     ]

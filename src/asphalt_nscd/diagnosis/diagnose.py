@@ -130,7 +130,9 @@ def diagnose(
         diagnosis.verdict = "unexplained_structure"
     notes += _at_bounds(ladder)
     if diagnosis.verdict == "unexplained_structure":
-        diagnosis.notes += causality.told(causality.contradictions(observed, ladder.fitted, noise))
+        diagnosis.notes += causality.told(
+            causality.contradictions(observed, ladder.fitted, noise), bool(ladder.rungs)
+        )
     return diagnosis
 
 

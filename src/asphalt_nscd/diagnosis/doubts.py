@@ -149,9 +149,8 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         yield f"It may be {' or '.join(known)} instead"
     elif least < ENOUGH:
         yield (
-            "An unknown error that varies smoothly with frequency could look the same: beside one, the size is "
-            f"{np.floor(10.0 * least) / 10.0:g} standard errors, and {ENOUGH:g} are required. The 95 % interval "
-            "assumes no such error"
+            "Another error that varies smoothly with frequency could look the same. To rule that out, the size must be "
+            f"{ENOUGH:g} standard errors beside such an error; it is {np.floor(10.0 * least) / 10.0:g}"
         )
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))

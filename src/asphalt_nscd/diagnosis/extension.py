@@ -52,9 +52,10 @@ TERMS = {  # a parameter of the law in words, its unit and how many of it are on
 }
 
 
-def material_law(diagnosis: Diagnosis) -> Fit:
+def material_law(diagnosis: Diagnosis, used: NDArray[np.bool_] | None = None) -> Fit:
     """One 2S2P1D law with a WLF shift (nine parameters) of the measurements without the named causes.
 
+    used (n,): tests that the law is fitted to, all by default.
     Of two temperatures or four tests, which determine no WLF constants, with an Arrhenius shift. What the tests
     leave open is as usual for asphalt concrete. Errors of |E*| and of the phase count alike: the misfit of the
     form exceeds the scatter of the tests, which is therefore no measure of what to trust.
@@ -64,24 +65,32 @@ def material_law(diagnosis: Diagnosis) -> Fit:
     alone = _without_causes(diagnosis)
     with_causes = ladder.joint.apparent(named.law, named.active)[0]
     modulus = observed.modulus * alone / with_causes
+    rows = np.ones(observed.size, bool) if used is None else used
     reference = float(observed.isotherms[observed.isotherms.size // 2])
     shift = "wlf" if observed.isotherms.size > 2 and observed.size > LEAST_TESTS else "arrhenius"
     return fit_spectrum(
-        observed.omega, observed.temperature, modulus, reference, Form(shift=shift), prior=ASPHALT_CONCRETE
+        observed.omega[rows],
+        observed.temperature[rows],
+        modulus[rows],
+        reference,
+        Form(shift=shift),
+        prior=ASPHALT_CONCRETE,
     )
 
 
-def law_notes(diagnosis: Diagnosis, law: Spectrum) -> list[str]:
-    """What to say where the law cannot take the form of the mix, as where the shift is not of its kind."""
+def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) -> list[str]:
+    """What the law is fitted without, in words, and that it cannot take the form of the mix, where it cannot."""
+    notes = [f"law.json is fitted without {joined(without)}."] if without else []
     observed = diagnosis.observed
     off = np.log(law.complex_modulus(observed.omega, observed.temperature) / _without_causes(diagnosis))
     sigma = diagnosis.noise.sigma
     miss = float(np.sqrt(np.mean((off.real / sigma[0]) ** 2 + (off.imag / sigma[1]) ** 2) / 2.0))
     if miss < FAR or not diagnosis.replicated:  # else the scatter itself is a guess
-        return []
+        return notes
     return [
+        *notes,
         f"law.json (2S2P1D with WLF) differs from the law found here by {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % "
-        f"in |E*|, {miss:.2g} times the scatter of a test: these tests ask for a form that it cannot take."
+        f"in |E*|, {miss:.2g} times the scatter of a test: these tests ask for a form that it cannot take.",
     ]
 
 

@@ -208,8 +208,9 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
         size = _unexplained(diagnosis, about) if kind == "linear" else model.expected.get(about, "")
         found.append(Open(kind, Asked(question, everything), about, size))
     names = [candidate.cause.name for candidate in model.candidates]
+    spread = diagnosis.ladder.estimates_spread  # by which an effect is harder to find
     for j in range(len(active), len(model.candidates)):
-        question = Question(j, REACH, active, FOUND, PRESENT / names.count(names[j]))
+        question = Question(j, REACH / spread, active, FOUND, PRESENT / names.count(names[j]))
         found.append(Open("reach", Asked(question, everything), _sized(model.candidates[j], REACH)))
     return found
 

@@ -7,7 +7,7 @@ and the other specimens do.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -151,6 +151,15 @@ def _departures(level: Mapping[Place, float]) -> Iterator[tuple[int, float]]:
             middle = float(np.median(apart))  # the mean could be the doing of one isotherm
             if abs(middle) > max(FAR_PHASE, DEVIATIONS * float(np.sqrt(spread / freedom))):
                 yield k, middle
+
+
+def rows(observed: Observations, found: Iterable[Mapping[str, Any]]) -> NDArray[np.bool_]:
+    """Rows (n,) of odd isotherms and specimens, of `odd` or `odd_phases`."""
+    out = np.zeros(observed.size, bool)
+    for one in found:
+        here = observed.specimen == observed.names.index(one["specimen"])
+        out |= here if one["temperature_C"] is None else here & (observed.isotherm == one["temperature_C"])
+    return out
 
 
 def sentences(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:

@@ -17,9 +17,7 @@ from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.rungs import name_of, of_cause, of_law
 from asphalt_nscd.diagnosis.scatter import STATED
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION, name_at
-
-WIDE_SPREAD = 1.2  # of the estimates, above which it is said
+from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION, WIDE_SPREAD, name_at
 
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
@@ -28,7 +26,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
     if diagnosis.relaxation_spectrum:
         ladder.append(of_law(diagnosis, specimen, held))
     ladder += [of_cause(diagnosis, rung, specimen, held) for rung in diagnosis.ladder.rungs]
-    spread = estimates_spread(diagnosis)
+    spread = diagnosis.ladder.estimates_spread
     remaining = diagnosis.ladder.remaining
     modulus_scatter, phase_scatter = diagnosis.noise.sigma
     return {
@@ -180,28 +178,12 @@ def _estimates(diagnosis: Diagnosis) -> dict[str, Any]:
     return out
 
 
-def estimates_spread(diagnosis: Diagnosis) -> float:
-    """Root mean square of the estimates of causes without a name, in their standard errors; 1 at least.
-
-    What a table holds and no process of its discrepancy describes spreads them all (genomic control of Devlin and
-    Roeder 1999). An effect of a limit times this spread was named in 55 of 61 cases, one of the limit in 41 of 62.
-    """
-    named = {rung.candidate.cause.name for rung in diagnosis.ladder.rungs}
-    squares: dict[str, list[float]] = {}
-    for (name, _), (value, error) in diagnosis.ladder.estimates.items():
-        if name not in named and 0.0 < error < np.inf:
-            squares.setdefault(name, []).append((value / error) ** 2)
-    each = [float(np.mean(one)) for one in squares.values()]
-    return max(1.0, float(np.sqrt(np.mean(each)))) if each else 1.0
-
-
 def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"These tests deviate more than the diagnosis allows for: the estimates of the causes without a name spread "
-        f"{spread:.1f} times as far as their standard errors say. Multiply the detection limits (diagnosis.html, "
-        f"'What could not have been seen') by {spread:.1f}."
+        f"These tests deviate {spread:.1f} times as far from the diagnosis as it allows for. The detection limits in "
+        "diagnosis.html are multiplied by that; those in diagnosis.json are not."
     ]
 
 

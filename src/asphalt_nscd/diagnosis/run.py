@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,6 @@ from asphalt_nscd.diagnosis import (
     gain,
     levels,
     measured_limits,
-    quality,
     repeatability,
     report,
     suspects,
@@ -29,14 +28,13 @@ from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_note
 from asphalt_nscd.diagnosis.instructions import instructions
 from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
-from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.summary import summary
+from asphalt_nscd.diagnosis.trust import reading, trust
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
-from asphalt_nscd.files.words import specimen_named
-from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes
+from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.rheology.spectrum_io import spectrum_content
 
 OF_THE_PAPER = (
@@ -46,7 +44,6 @@ OF_THE_PAPER = (
 TAKEN_AS_BENDING = "is taken as two-point bending"  # as `table_import.campaign` says it without --measured-in
 STEPS = 5  # read, causes, law, second opinion, next tests
 FEW_DRAWS = 1000  # where a second opinion is asked for
-LISTED = 4  # gaps of a table that are named
 MATTERING = 0.02  # share of the tests that doubtful ones must have for one
 
 
@@ -157,10 +154,12 @@ def conclude(
     except InputError as error:
         raise InputError(f"{given}: {error}") from None
     done.step()
-    fit = None if observed.isotherms.size < 2 else material_law(diagnosis)
+    odd = levels.odd(observed), levels.odd_phases(observed)
+    doubtful = levels.rows(diagnosis.observed, chain(*odd))
+    fit = None if observed.isotherms.size < 2 else material_law(diagnosis, ~doubtful)
     content, before = report.as_json(diagnosis, numerical), None
     if fit is not None:
-        content["notes"] += law_notes(diagnosis, fit.law) + prior_notes(fit)
+        content["notes"] += law_notes(diagnosis, fit.law, levels.places(*odd)) + prior_notes(fit)
     done.step()
     notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
     if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:
@@ -176,17 +175,17 @@ def conclude(
     content["origin"] = origin
     held = within_isotherm.hold(observed)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
-    content["odd_levels"] = levels.odd(observed)
-    content["odd_phases"] = levels.odd_phases(observed)
+    content["odd_levels"], content["odd_phases"] = odd
     content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
     content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
     done.step()
     content["instructions"] = instructions(diagnosis)
     done.step()
+    broken = suspects.broken_isotherms(observed, held)
     content["contradictory_isotherms"] = [
-        {"temperature_C": one.temperature, "sentence": one.sentence}
-        for one in suspects.broken_isotherms(observed, held)
+        {"temperature_C": one.temperature, "sentence": one.sentence} for one in broken
     ]
+    content["trust"] = trust(observed, diagnosis, levels.rows(observed, chain(*odd)), broken)
     content["provenance"] = {
         **provenance(),
         "measurements": given.name,
@@ -277,93 +276,6 @@ def _named(other: Diagnosis) -> dict[str, Any]:
     ]
     law = [{"cause": "relaxation_spectrum", "where": None}] if other.relaxation_spectrum else []
     return {"verdict": other.verdict, "causes": [*law, *named]}
-
-
-def reading(
-    observed: Observations, notes: Sequence[str], without_tests: Sequence[str] = ()
-) -> dict[str, Any]:
-    """How the measurements were read: test type, isotherms, quality limits exceeded; notes of the import."""
-    specimen = [observed.names[place] for place in observed.specimen]
-    above = [
-        {
-            "specimen": specimen[one.row],
-            "temperature_C": float(observed.isotherm[one.row]),
-            "frequency_Hz": float(observed.frequency[one.row]),
-            "column": one.column,
-            "value": one.value,
-            "limit": one.limit,
-        }
-        for one in quality.exceeded(observed)
-    ]
-    together = isotherm_notes(observed.temperature, observed.isotherm)
-    if together:
-        together.append("The law is fitted to the measured temperatures.")
-    return {
-        "test_type": observed.test_type,
-        "specimens": list(observed.names),
-        "isotherms_C": observed.isotherms.tolist(),
-        "quality_columns": [name for name in quality.COLUMNS if name in observed.quality],
-        "limits_exceeded": above,
-        "notes": [
-            *notes,
-            *together,
-            *_quality_notes(above, observed.size, _shared(observed)),
-        ],
-        **({"not_tested": gaps} if (gaps := _gaps(observed)) else {}),
-        **({"files_without_tests": list(without_tests)} if without_tests else {}),
-    }
-
-
-def _gaps(observed: Observations) -> list[str]:
-    """Specimens that were not tested at a temperature at which most others were, in words."""
-    tested = {(int(k), float(t)) for k, t in zip(observed.specimen, observed.isotherm, strict=True)}
-    missing = [
-        f"{specimen_named(name)} at {t:g} degC"
-        for k, name in enumerate(observed.names)
-        for t in map(float, observed.isotherms)
-        if (k, t) not in tested and 2 * sum(at == t for _, at in tested) > len(observed.names)
-    ]
-    more = [f"{len(missing) - LISTED} more"] if len(missing) > LISTED else []
-    return [*missing[:LISTED], *more]
-
-
-def _shared(observed: Observations) -> Counter[str]:
-    """By quality column, in how many tests it exceeds its limit as in half of their isotherm and specimen or more."""
-    above, block = quality.exceeded(observed), within_isotherm.blocks(observed)
-    alike = Counter((one.column, block[one.row]) for one in above)
-    size = Counter(block.tolist())
-    return Counter(
-        one.column for one in above if 2 * alike[one.column, block[one.row]] >= size[block[one.row]]
-    )
-
-
-def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int, shared: Mapping[str, int]) -> list[str]:
-    """A sentence for each quality limit that some tests exceed, with the worst of them; what follows if it is usual."""
-    notes = []
-    for name, limit in quality.LIMITS.items():
-        found = sorted((one for one in above if one["column"] == name), key=lambda one: -one["value"])
-        if found:
-            worst = "; ".join(
-                f"{one['specimen']} at {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz: "
-                f"{one['value']:g} {limit.unit}"
-                for one in found[:3]
-            )
-            notes.append(
-                f"{limit.label.capitalize()} above {limit.limit:g} {limit.unit} ({limit.source}) in {len(found)} of "
-                f"{tests} tests: {worst}{'; and others' if len(found) > 3 else ''}."
-                + _used_all_the_same(shared.get(name, 0), len(found))
-            )
-    return notes
-
-
-def _used_all_the_same(shared: int, found: int) -> str:
-    if not shared:
-        return ""
-    these = "In all" if shared == found else f"In {shared}"
-    return (
-        f" {these} of them at least half of the specimen's tests at that temperature exceed it: the specimen or its "
-        "gauges are uneven. No single test stands out, so this limit takes none out."
-    )
 
 
 def _checksums(files: Sequence[Path]) -> dict[str, Any]:

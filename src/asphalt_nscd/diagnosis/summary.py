@@ -32,7 +32,7 @@ def summary(content: Content) -> str:
         ("What to do next", _orders(content)),
         ("Scatter", _scatter(content)),
         ("Limits, stated and measured", _limits(content)),
-        ("Remarks", content["notes"]),
+        ("Remarks", [*content["notes"], *verdict.beyond_the_tests(content)]),
     ]
     return "\n\n".join(_part(title, lines) for title, lines in parts if lines)
 

@@ -251,7 +251,7 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
             f"that its phase and {rest} ask for (standard error {100.0 * error:.1f} %)"
         )
     phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
-    delay = f"; a delay of {1e3 * held.delay:.2g} ms, a first estimate, is allowed for" if held.delay else ""
+    delay = "; the delay of all tests is allowed for" if held.delay else ""
     return (
         f"phase is {phase:.1f} deg, {abs(phase - allowed):.1f} deg {_way(phase - allowed)} the {allowed:.1f} deg that "
         f"its |E*| and {rest} ask for (standard error {np.degrees(error):.1f} deg{delay})"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from asphalt_nscd.diagnosis import levels, quality
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
@@ -37,6 +38,7 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and n
 SIMPLER = "one Burgers law for each temperature"
 COMMON = "one law for all temperatures"
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
+MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of
 MOST_ODD = 4  # odd isotherms and specimens that are listed
 
 
@@ -51,37 +53,45 @@ def mixes(content: Content) -> str:
 def on_data(content: Content) -> str:
     """How many tests can be used, which fault they carry, what is odd among them: a sentence each."""
     read = content.get("reading", {})
-    parts = [f"{_usable(content)}{_with_care(content)}"]
+    parts = [
+        _usable(content),
+        *levels.sentences(*odd(content))[:MOST_ODD],
+        *_contradictory(content),
+        *_flagged(content),
+    ]
     if read.get("not_tested"):
         parts.append(
             f"{joined(read['not_tested'])} {'was' if len(read['not_tested']) == 1 else 'were'} not tested"
         )
-    parts += _flagged(content)
     # Of a bench that nobody stated, its causes are told with that condition below.
     beyond = OF_THE_MIX | (OF_THE_BENCH if read.get("bench_assumed") else set())
     parts += [_fault(rung) for rung in content["ladder"] if rung["cause"] not in beyond]
     spread = (content.get("repeatability") or {}).get("between")
     if spread is not None and not mixes(content):
         parts.append(_spread(spread))
-    parts += levels.sentences(*odd(content))[:MOST_ODD]
     return " ".join(f"{part[:1].upper()}{part[1:]}." for part in parts)
 
 
 def _usable(content: Content) -> str:
+    """How many tests can be used as they are, how many only after a check, how many not at all."""
     out, tests = len(not_used(content)), content["tests"]
-    return f"{tests} of {tests + out} tests can be used" if out else f"all {tests} tests can be used"
+    trust = content.get("trust", {"use": tests, "check": 0, "not_used": out})
+    if not trust["check"] and not trust["not_used"]:
+        return f"all {tests} tests can be used"
+    use = f"{trust['use'] or 'none'} of {tests + out} tests can be used"
+    check = [f"{trust['check']} only after a check"] if trust["check"] else []
+    never = [f"{trust['not_used']} not at all"] if trust["not_used"] else []
+    return ", ".join([f"{use} as they are" if check else use, *check, *never])
 
 
-def _with_care(content: Content) -> str:
-    """Which of the tests that can be used must be checked first."""
-    checked = levels.places(*odd(content))
+def _contradictory(content: Content) -> list[str]:
+    """Isotherms whose modulus and phase contradict each other."""
     broken = [f"{one['temperature_C']:g}" for one in content.get("contradictory_isotherms", [])]
-    conditions = [f"those of {joined(checked)} only after the check below"] if checked else []
-    if broken:
-        conditions.append(
-            f"those at {joined(broken)} degC with care, for modulus and phase contradict each other there"
-        )
-    return "".join(f", {one}" for one in conditions)
+    if not broken:
+        return []
+    return [
+        f"at {joined(broken)} degC modulus and phase contradict each other: check strain and machine there"
+    ]
 
 
 def _flagged(content: Content) -> list[str]:
@@ -90,7 +100,7 @@ def _flagged(content: Content) -> list[str]:
     columns = [one["column"] for one in content.get("reading", {}).get("limits_exceeded", [])]
     return [
         f"{columns.count(name)} of {tests} exceed the limit of {limit.label} ({limit.limit:g} {limit.unit}): check "
-        f"{limit.check} before further tests"
+        f"{limit.check}"
         for name, limit in quality.LIMITS.items()
         if 2 * columns.count(name) >= tests
     ]
@@ -136,11 +146,17 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     simpler = "the simulation of the paper" if facets else _first_law(content)
     worse = _worse([first[name]["before"] for name in names], missed)
     missed_by = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
+    if facets or left is not None:
+        return (
+            f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} the "
+            f"simulation misses by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
+        )
     spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in ladder)
-    extended = "the simulation" if facets or left is not None else (COMMON if spectrum else "it")
+    law = COMMON if spectrum else simpler
+    other = f"without {'it' if len(ladder) == 1 else 'them'}" if law == simpler else f"{simpler} misses"
     return (
-        f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} {extended} "
-        f"misses by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
+        f"{law}, with {found}, misses {missed_by} by {after[0]} of |E*| and {after[1]} of the phase, "
+        f"{_beyond_bonds(content)}. {other[:1].upper()}{other[1:]} by {before[0]} and {before[1]}.{worse}"
     )
 
 
@@ -170,8 +186,8 @@ def _holding(content: Content) -> str:
     places = levels.places(*odd(content))
     if not places:
         return ""
-    one = len(places) == 1
-    return f"; {joined(places)}, which {'is odd, makes' if one else 'are odd, make'} this scatter larger"
+    are = "is odd, is" if len(places) == 1 else "are odd, are"
+    return f", but {joined(places)}, which {are} part of that scatter"
 
 
 def _worse(before: Sequence[float], after: Sequence[float]) -> str:
@@ -204,6 +220,8 @@ def _beyond_bonds(content: Content) -> str:
     """Whether more than scatter is left, once what the simulated bonds add to their law is taken off."""
     doubtful = any(rung.get("doubts") for rung in content["ladder"])
     unsure = doubtful and content["verdict"] != "explained" and not more_than_scatter(content)
+    if not content["tested"] and _alone(content):
+        return "and nobody knows how much of that is scatter"
     end = "no more" if unsure or content["verdict"] == "explained" else "more"
     by = ", but not every cause is certain" if unsure else ""
     by += _holding(content) if end == "no more" else ""
@@ -212,6 +230,35 @@ def _beyond_bonds(content: Content) -> str:
         return f"{end} than scatter can explain{by}"
     added = f"of which the simulated bonds add up to {bonds:.1f} % to |E*|"
     return f"{added}; the rest is {end} than scatter can explain{by}"
+
+
+def _alone(content: Content) -> bool:
+    """Whether nothing tells the scatter: one specimen, and none was stated."""
+    return not content["scatter"]["from_replicates"] and not content["provenance"].get("scatter_stated")
+
+
+def beyond_the_tests(content: Content) -> list[str]:
+    """A warning where the law predicts a temperature that was left out badly."""
+    gain = (
+        content["ladder"][-1]["gain"].get("held_out", {}).get("leave_one_isotherm_out")
+        if content["ladder"]
+        else None
+    )
+    if gain is None or not predicts_badly(gain):
+        return []
+    errors = mean_averages(gain)
+    modulus, phase = (errors[name]["after"] for name in ("mre_E_percent", "mre_phase_percent"))
+    return [
+        f"A temperature left out of the fit is predicted to {three_digits(modulus)} % of |E*| and "
+        f"{three_digits(phase)} % of the phase: do not use the law far from the tested temperatures."
+    ]
+
+
+def predicts_badly(gain: dict[str, Any]) -> bool:
+    """Whether what is left out is predicted much worse than before, which may have seen it."""
+    return any(
+        errors["after"] > max(MUCH_WORSE * errors["before"], POOR) for errors in mean_averages(gain).values()
+    )
 
 
 def test_type(content: Content) -> str:

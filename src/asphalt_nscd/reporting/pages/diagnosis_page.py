@@ -13,6 +13,7 @@ from asphalt_nscd.diagnosis import sentences, table_rows, verdict
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
+    WIDE_SPREAD,
     limits_by_place,
     mean_averages,
     member_name,
@@ -30,11 +31,11 @@ from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_
 
 TEMPLATE = "diagnosis_page.html"
 LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
+NOT_THERE = ". That is more than before: do not use this law there"
 HELD_OUT = {
     "leave_one_isotherm_out": "each inner temperature predicted from the rest",
     "leave_one_frequency_out": "each frequency predicted from the others",
 }
-MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of
 ORIGINS = {
     "measured": "The data are measured.",
     "reconstructed": (
@@ -96,7 +97,8 @@ def sections(
         "baseline": _baseline(content["baseline"]),
         "charts": plots.charts(residuals, diagnosis),
         "unexplained": [_unexplained(row) for row in content["unexplained"]],
-        "limits": _limits(content["detection_limits"]),
+        "limits": _limits(content["detection_limits"], content.get("estimates_spread", 1.0)),
+        "limits_caption": _limits_caption(content.get("estimates_spread", 1.0)),
         "not_testable": [(member_name(row["cause"]), row["needs"]) for row in content["not_testable"]],
         "alike": [_members(group) for group in content["indistinguishable"]],
         "notes": [*content.get("reading", {}).get("notes", []), *content["notes"]],
@@ -176,7 +178,7 @@ def _rung(rung: dict[str, Any], last: bool) -> dict[str, Any]:
         "doubts": rung.get("doubts", []),
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {
-            HELD_OUT[name] + (_worse(gain["held_out"][name]) if last else ""): _gain(gain["held_out"][name])
+            HELD_OUT[name] + _warning(last, gain["held_out"][name]): _gain(gain["held_out"][name])
             for name in HELD_OUT
             if name in gain["held_out"]
         },
@@ -224,18 +226,15 @@ def _estimate(name: str, estimate: dict[str, Any]) -> str:
     return f"{text} {unit}".rstrip()
 
 
+def _warning(last: bool, gain: dict[str, Any]) -> str:
+    """Of the last law, the others being steps on the way to it."""
+    return NOT_THERE if last and verdict.predicts_badly(gain) else ""
+
+
 def _gain(gain: dict[str, Any]) -> list[str]:
     """Errors as in Table 4, mean over temperatures, and residuals over scatter; empty where these are none."""
     pairs = [*mean_averages(gain).values(), gain.get("rms_over_scatter", {})]
     return [" → ".join(map(_number, pair.values())) for pair in pairs]
-
-
-def _worse(gain: dict[str, Any]) -> str:
-    """A warning where what is left out is predicted much worse than before, which may have seen it."""
-    for errors in mean_averages(gain).values():
-        if errors["after"] > max(MUCH_WORSE * errors["before"], POOR):
-            return ". That is more than before: do not use this law there"
-    return ""
 
 
 def _baseline(baseline: dict[str, Any]) -> list[list[str]]:
@@ -250,13 +249,21 @@ def _unexplained(row: dict[str, Any]) -> list[str]:
     return [place_name(row["temperature_C"]), *(_number(row[name]) for name in numbers), specimen]
 
 
-def _limits(limits: dict[str, Any]) -> list[tuple[str, str]]:
-    """Cause, and its limit in words; places that share one stand together."""
+def _limits_caption(spread: float) -> str:
+    caption = "Found with 95 % probability if at least this large; a smaller effect may be there"
+    if spread < WIDE_SPREAD:
+        return caption
+    return f"{caption}. Multiplied by {spread:.1f}: so much further than the diagnosis allows for these tests deviate"
+
+
+def _limits(limits: dict[str, Any], spread: float) -> list[tuple[str, str]]:
+    """Cause, and its limit in words; places that share one stand together. spread: see `estimates_spread`."""
+    factor = spread if spread >= WIDE_SPREAD else 1.0
     rows = []
     for cause, limit in limits.items():
         places: dict[str, list[str]] = {}
         for place, value in limits_by_place(cause, limit).items():
-            size, unit = shown(value, limit["unit"])
+            size, unit = shown(factor * value, limit["unit"])
             places.setdefault(f"{_number(size)} {unit}".rstrip(), []).append(place)
         words = (size + (f" ({', '.join(names)})" if any(names) else "") for size, names in places.items())
         rows.append((_words(cause), "; ".join(words)))
