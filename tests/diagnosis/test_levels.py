@@ -2,14 +2,19 @@
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis import levels
+from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.extension import law_notes, material_law
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.sentences import left
+from asphalt_nscd.diagnosis.suspects import Suspect
+from asphalt_nscd.diagnosis.trust import trust
 from asphalt_nscd.diagnosis.verdict import on_simulation
 from asphalt_nscd.table_import.campaign import read_campaign
 
@@ -120,3 +125,42 @@ def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
         "fits these data to within their scatter, but specimen B at 20 degC, which is odd, is part of that scatter."
     )
     assert left(found)[-1] == "specimen B at 20 degC took part in these sizes, although odd"
+
+
+def test_the_law_is_nearer_to_the_mix_without_an_odd_isotherm(exports):
+    hit = (exports.specimen == 1) & (exports.isotherm == 35)
+    right, wrong = (
+        diagnose(replace(exports, modulus=np.where(hit, factor, 1.0) * exports.modulus), draws=500)
+        for factor in (1.0, 0.7)
+    )
+    odd = levels.odd(wrong.whole)
+    used = ~levels.rows(wrong.observed, odd)
+    assert (~used).sum() == hit.sum()
+    omega, t = exports.omega[hit], exports.temperature[hit]
+    law, without, spoiled = (
+        material_law(found, rows).law.complex_modulus(omega, t)
+        for found, rows in ((right, None), (wrong, used), (wrong, None))
+    )
+    assert np.abs(np.log(without / law)).max() < 0.02 < 0.05 < np.abs(np.log(spoiled / law)).min()
+    assert law_notes(wrong, material_law(wrong, used).law, levels.places(odd, []))[0] == (
+        "law.json is fitted without specimen Mix-B at 35 degC."
+    )
+
+
+def test_every_test_is_counted_once_in_what_can_be_trusted(exports):
+    odd = (exports.specimen == 1) & (exports.isotherm == 35)
+    doubtful = [int(np.flatnonzero(odd)[0]), int(np.flatnonzero(exports.isotherm == 4)[0])]
+    suspects = [
+        Suspect(doubtful[0], ("x",), used=False),
+        Suspect(doubtful[1], ("x",), used=True),
+    ]
+    broken = [SimpleNamespace(temperature=50.0)]
+    found = trust(exports, SimpleNamespace(suspects=suspects), odd, broken)
+    hot = int((exports.isotherm == 50).sum())
+    assert found == {
+        "use": exports.size - hot - int(odd.sum()) - 1, "check": hot + int(odd.sum()) - 1 + 1, "not_used": 1,
+    }  # fmt: skip
+    uneven = replace(exports, quality={"phase_uniformity_deg": np.full(exports.size, 4.0)})
+    assert trust(uneven, SimpleNamespace(suspects=[]), np.zeros(exports.size, bool), []) == {
+        "use": 0, "check": exports.size, "not_used": 0,
+    }  # fmt: skip
