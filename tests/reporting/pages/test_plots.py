@@ -40,7 +40,7 @@ def test_each_test_says_specimen_temperature_frequency_and_what_is_left(results)
     ].iloc[0]
     assert (
         f"specimen 2, 20 °C, 3 Hz: |E*| {float(f'{row.E_MPa:.3g}'):.10g} MPa, phase {row.phase_deg:.1f}°; "
-        "measured less simulated +1.0 %, +0.0°" in titles
+        "measured less modelled +1.0 %, +0.0°" in titles
     )
     assert [key[0] for key in black.keys] == ["0 °C", "20 °C"]
 

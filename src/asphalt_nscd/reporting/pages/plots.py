@@ -51,12 +51,12 @@ def charts(residuals: Sequence[Path], diagnosis: Sequence[Path]) -> list[Chart]:
     means[ISOTHERM] = means["temperature_C"]
     isotherms = sorted(tests[ISOTHERM].unique())
     keys = [(celsius(at), *of) for at, of in zip(isotherms, colours(len(isotherms)), strict=True)]
-    shown = "Points: tests. Lines: simulated after all causes, means over specimens."
+    shown = "Points: tests. Lines: modelled with all causes, means over specimens."
     return [
         Chart(
             "residuals",
             "Residual map",
-            "Measured less simulated, means over specimens. A frame: beyond "
+            "Measured less modelled, means over specimens. A frame: beyond "
             f"{NOTABLE:g} standard deviations of replicates.",
             tuple(_map(tests, means, quantity, when) for quantity in RESIDUALS for when in BEFORE_AFTER),
             hint=HINT.replace("test", "condition"),
@@ -140,7 +140,7 @@ def _map(tests: pd.DataFrame, means: pd.DataFrame, quantity: str, when: str) -> 
             f"{one} {signed(off)}" for one, off in zip(own["specimen"], own[column], strict=True)
         )
         words = (
-            f"{celsius(row['temperature_C'])}, {row['frequency_Hz']:g} Hz: {name} measured less simulated "
+            f"{celsius(row['temperature_C'])}, {row['frequency_Hz']:g} Hz: {name} measured less modelled "
             f"{when}, mean {signed(value)} {unit}; specimens: {each}"
         )
         beyond = abs(row[f"z_{column}"]) > NOTABLE
@@ -154,6 +154,6 @@ def _words(test: dict[str, float | str]) -> str:
     modulus, phase = (f"{three_digits(float(test[name]))}" for name in ("E_MPa", "phase_deg"))
     return (
         f"{specimen_named(str(test['specimen']))}, {celsius(float(test['temperature_C']))}, "
-        f"{test['frequency_Hz']:g} Hz: |E*| {modulus} MPa, phase {minus(phase)}°; measured less simulated "
+        f"{test['frequency_Hz']:g} Hz: |E*| {modulus} MPa, phase {minus(phase)}°; measured less modelled "
         f"{signed(float(test['residual_E_after_percent']))} %, {signed(float(test['residual_phase_after_deg']))}°"
     )
