@@ -95,7 +95,7 @@ def test_what_the_tests_do_not_determine_is_said():
     fit = Fit(LAW, None, 0.0, 10)
     assert prior_notes(fit) == []
     assert prior_notes(replace(fit, from_prior=("glassy_modulus",))) == [
-        "These tests do not determine the glassy modulus of law.json; usual values of asphalt concrete stand there: "
+        "These tests do not determine the glassy modulus of law.json; there it follows published asphalt concretes: "
         "glassy modulus 42 GPa."
     ]
     (said,) = prior_notes(replace(fit, from_prior=("static_modulus", "c1", "c2")))

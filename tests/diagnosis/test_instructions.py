@@ -285,3 +285,19 @@ def test_of_one_specimen_the_first_order_is_a_second_one():
     assert not any(
         one["specimens"] == [NEW] for one in instructions.instructions(diagnose(table(3)))["orders"][:1]
     )
+
+
+def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(delayed):
+    model = possible(delayed, Costs())
+    reach = [one for one in instructions.open_questions(delayed, model) if one.kind == "reach"]
+    bias = next(one for one in model.candidates if one.key == ("temperature_bias", 20.0))
+    spread = delayed.ladder.estimates_spread
+    wide = 3.0 * bias.typical[0] / spread
+    limits = {bias.key: wide}
+    shown = replace(delayed, ladder=replace(delayed.ladder, limits=limits))
+    nowhere = replace(delayed, ladder=replace(delayed.ladder, limits={}))
+    assert instructions._by_limit(shown, bias) == pytest.approx((3.7 + 1.645) ** 2)
+    assert instructions._by_limit(nowhere, bias) == 0.0
+    assert all(one.hidden >= 0.0 for one in reach)
+    asked = instructions.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
+    assert instructions._reason(asked, 9.0, 90.0).endswith("without this test in 0 %.")

@@ -60,11 +60,11 @@ def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
     uneven[np.flatnonzero(observed.specimen == 1)[0]] = 35.0
     for values, these in (
         (uneven, "24 of them are"),
-        (np.where(observed.specimen == 0, 40.0, 10.0), "They are"),
+        (np.where(observed.specimen == 0, 40.0, 10.0), "All of them are"),
     ):
         notes = reading(replace(observed, quality={"deformation_uniformity_percent": values}), [])["notes"]
         assert notes[-1].endswith(
-            f"{these} of isotherms of which half exceed it or more: that speaks against no single test."
+            f"{these} at temperatures where half of the specimen's tests exceed it, so that no test is rejected for it."
         )
 
 

@@ -406,7 +406,7 @@ def test_a_law_that_predicts_badly_is_warned_of(after, warned):
     assert bool(said) == warned and verdict.beyond_the_tests({"ladder": []}) == []
     if warned:
         assert said[0].startswith(
-            "A temperature left out of the fit is predicted to 40.9 % of |E*| and 5 % of the phase"
+            "A temperature left out of the fit is predicted with an error of 40.9 % of |E*| and 5 % of the phase"
         )
 
 

@@ -21,9 +21,6 @@ from asphalt_nscd.diagnosis.written import CONFIDENCE, shown
 from asphalt_nscd.measurements.reduction import require_enough
 
 DRAWS = 4000
-LEAST_ISOTHERMS = (
-    4  # on fewer, what the catalogue lacks passes for a cause: a gain over ln f for an offset of the phase
-)
 FIRST_SCATTER = (0.02, np.radians(0.5))  # of |E*| and phase, where nothing was repeated
 
 
@@ -143,8 +140,8 @@ def _too_few(diagnosis: Diagnosis) -> str:
         return "nothing was repeated on another specimen"
     if observed.frequencies.size < 3:
         return "two frequencies show no curvature"
-    if observed.isotherms.size < LEAST_ISOTHERMS:
-        return f"fewer than {LEAST_ISOTHERMS} temperatures were tested"
+    if observed.isotherms.size < chance.LEAST_ISOTHERMS:
+        return f"fewer than {chance.LEAST_ISOTHERMS} temperatures were tested"
     return ""
 
 

@@ -90,7 +90,7 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
     return [
         *notes,
         f"law.json (2S2P1D with WLF) differs from the law found here by {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % "
-        f"in |E*|, {miss:.2g} times the scatter of a test: these tests ask for a form that it cannot take.",
+        f"in |E*|, {miss:.2g} times the scatter of a test: it cannot fit these tests better.",
     ]
 
 
@@ -105,7 +105,7 @@ def prior_notes(fit: Fit) -> list[str]:
     if not names:
         return []
     return [
-        f"These tests do not determine {joined(names)} of law.json; usual values of asphalt concrete stand there: "
+        f"These tests do not determine {joined(names)} of law.json; there it follows published asphalt concretes: "
         f"{', '.join(sizes)}."
     ]
 

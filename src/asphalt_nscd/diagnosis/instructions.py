@@ -46,7 +46,8 @@ REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that shou
 class Open:
     """An open question: what it is about, and how a reader is told what the tests would do for it.
 
-    alike: whether the two causes that it tells apart fitted the tests equally well.
+    alike: whether the two causes that it tells apart fitted the tests equally well. hidden: strength that the tests
+    done have less than the linear model says, for the law follows a large effect further than a small one.
     """
 
     kind: str  # kept, metal, apart, repeat, level, linear or reach
@@ -54,6 +55,7 @@ class Open:
     about: str
     other: str = ""
     alike: bool = False
+    hidden: float = 0.0
 
 
 @dataclass
@@ -211,7 +213,9 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
     spread = diagnosis.ladder.estimates_spread  # by which an effect is harder to find
     for j in range(len(active), len(model.candidates)):
         question = Question(j, REACH / spread, active, FOUND, PRESENT / names.count(names[j]))
-        found.append(Open("reach", Asked(question, everything), _sized(model.candidates[j], REACH)))
+        hidden = max(float(question.strength(known)) - _by_limit(diagnosis, model.candidates[j]), 0.0)
+        sized = _sized(model.candidates[j], REACH)
+        found.append(Open("reach", Asked(question, everything), sized, hidden=hidden))
     return found
 
 
@@ -223,6 +227,13 @@ def _unexplained(diagnosis: Diagnosis, isotherm: str) -> str:
     return joined(
         [size_left(name, size, scatter) for name, size in sizes if name.startswith(f"{isotherm}, ")]
     )
+
+
+def _by_limit(diagnosis: Diagnosis, candidate: Candidate) -> float:
+    """Strength of a typical effect in the tests done, by the detection limit; none where no effect shows."""
+    ladder = diagnosis.ladder
+    limit = ladder.limits.get(candidate.key, np.inf) * ladder.estimates_spread
+    return float(((USUAL_THRESHOLD + POWER) * REACH * candidate.typical[0] / limit) ** 2)
 
 
 def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, ...]) -> list[Open]:
@@ -345,7 +356,10 @@ def _reason(one: Open, before: float, after: float) -> str:
             f"Is it the {one.about} or {an(one.other)}? {now}; after this test expect {_odds(after)} to 1 for the "
             "right one."
         )
-    chances = [100.0 * float(ndtr(np.sqrt(strength) - USUAL_THRESHOLD)) for strength in (before, after)]
+    chances = [
+        100.0 * float(ndtr(np.sqrt(max(strength - one.hidden, 0.0)) - USUAL_THRESHOLD))
+        for strength in (before, after)
+    ]
     if chances[1] - chances[0] < NOTICEABLE:
         return ""
     return (

@@ -128,7 +128,7 @@ def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
         (name, None if name in nowhere else place) for name, place in diagnosis.ladder.limits.keys() - seen
     ]
     out += [
-        {"cause": name, "needs": "a design in which less of it shows than is physical"}
+        {"cause": name, "needs": "other tests: in these, only an impossibly large one would show"}
         for name in sorted({name_at(*key) for key in beyond})
     ]
     if not diagnosis.relaxation_spectrum and observed.frequencies.size < 3:
@@ -182,8 +182,8 @@ def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"These tests deviate {spread:.1f} times as far from the diagnosis as it allows for. The detection limits in "
-        "diagnosis.html are multiplied by that; those in diagnosis.json are not."
+        f"The misfit that is left is {spread:.1f} times what was assumed. The detection limits in diagnosis.html are "
+        "multiplied by that, and the orders count with it; the limits in diagnosis.json are not."
     ]
 
 

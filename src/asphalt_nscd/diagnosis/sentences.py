@@ -11,7 +11,7 @@ from typing import Any
 from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.chance import CHANCE
+from asphalt_nscd.diagnosis.chance import CHANCE, LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at, shown, three_digits
 from asphalt_nscd.files.words import specimen_named
 
@@ -20,6 +20,7 @@ SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not No
 BOUNDS = {
     cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
 }
+OF_WHAT_IS_LEFT = "Standard deviations, beyond the scatter of a test."
 NO_CAUSE = "No cause of the catalogue beats chance."
 ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
@@ -163,7 +164,11 @@ def _doubts(rung: Content, content: Content) -> list[str]:
     if rung.get("hangs_on"):
         left_out = f"{joined(rung['hangs_on'], 'or')} is left out"
         doubts.append(f"It is no longer found if {left_out}")
-    return [*doubts, *rung.get("doubts", [])]
+    doubts += rung.get("doubts", [])
+    isotherms = content.get("reading", {}).get("isotherms_C", [])
+    if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):
+        doubts.append(f"Besides, certainty takes {ENOUGH}")
+    return doubts
 
 
 def in_words(name: str) -> str:

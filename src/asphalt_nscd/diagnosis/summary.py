@@ -51,7 +51,9 @@ def _suspects(content: Content) -> list[str]:
 
 def _left(content: Content) -> list[str]:
     dropped = [sentences.in_words(name) for name in content["withdrawn"]]
-    return sentences.left(content) + (
+    left = sentences.left(content)
+    left += [sentences.OF_WHAT_IS_LEFT] if content.get("discrepancy") else []
+    return left + (
         [f"Considered and dropped, since structure without a name fits as well: {', '.join(dropped)}."]
         if dropped
         else []

@@ -116,5 +116,5 @@ def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int, shared: Mappi
 def _used_all_the_same(shared: int, found: int) -> str:
     if not shared:
         return ""
-    these = "They are" if shared == found else f"{shared} of them are"
-    return f" {these} of isotherms of which half exceed it or more: that speaks against no single test."
+    these = "All of them are" if shared == found else f"{shared} of them are"
+    return f" {these} at temperatures where half of the specimen's tests exceed it, so that no test is rejected for it."

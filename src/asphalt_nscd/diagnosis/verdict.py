@@ -249,7 +249,7 @@ def beyond_the_tests(content: Content) -> list[str]:
     errors = mean_averages(gain)
     modulus, phase = (errors[name]["after"] for name in ("mre_E_percent", "mre_phase_percent"))
     return [
-        f"A temperature left out of the fit is predicted to {three_digits(modulus)} % of |E*| and "
+        f"A temperature left out of the fit is predicted with an error of {three_digits(modulus)} % of |E*| and "
         f"{three_digits(phase)} % of the phase: do not use the law far from the tested temperatures."
     ]
 

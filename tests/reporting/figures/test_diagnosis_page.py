@@ -263,6 +263,6 @@ def test_the_whole_way_stands_by_temperature(page, results):
 
 
 def test_an_isotherm_stands_with_its_unit_though_no_limit_is_known_there(page):
-    needs = "a design in which less of it shows than is physical"
+    needs = "other tests: in these, only an impossibly large one would show"
     html = page(not_testable=[{"cause": "temperature_bias @ -6.0", "needs": needs}])
     assert "temperature bias (\N{MINUS SIGN}6 °C)" in html

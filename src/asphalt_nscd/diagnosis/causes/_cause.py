@@ -50,7 +50,7 @@ class Cause(ABC):
     signs: ClassVar[tuple[str, str] | None] = None
     confirmed_by: ClassVar[str]
     needs: ClassVar[str] = ""
-    shows_in: ClassVar[str] = "a design in which a smooth law cannot follow it"
+    shows_in: ClassVar[str] = "other tests: in these, the master curve can bend to hide it"
     like_a_law: ClassVar[bool] = False
     confined_to: ClassVar[str] = ""
     benches: ClassVar[tuple[str, ...]] = TEST_TYPES

@@ -12,6 +12,7 @@ class PhaseOffset(Cause):
     parameters = (Parameter("offset", "deg", -30.0, 30.0, 0.5),)
     sentence = "the measured phase is off by the same angle in every test"
     signs = ("The measured phases are too large.", "The measured phases are too small.")
+    shows_in = "a test on a metal reference specimen: in these, the master curve can bend to hide it"
     confirmed_by = (
         "a test on an elastic reference specimen of metal, whose phase must be zero at every frequency"
     )

@@ -126,6 +126,7 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "law": sentences.law_of_the_mix(content),
         "causes": sentences.causes(content),
         "no_cause": sentences.NO_CAUSE,
+        "of_what_is_left": sentences.OF_WHAT_IS_LEFT,
         "left": sentences.left(content),
         "orders": found["orders"],
         "costs": found["costs"],
