@@ -101,4 +101,4 @@ def _range(values: pd.Series) -> str:
 def _estimate(values: pd.Series) -> dict[str, Any]:
     """Mean over samples, and the standard deviation from sample to sample."""
     scatter = float(values.std(ddof=1)) if len(values) > 1 else None
-    return {"value": float(values.mean()), "std_error": scatter, "unit": "1"}
+    return {"value": float(values.mean()), "std_error": scatter, "unit": "-"}
