@@ -100,6 +100,6 @@ def test_what_the_tests_do_not_determine_is_said():
     ]
     (said,) = prior_notes(replace(fit, from_prior=("static_modulus", "c1", "c2")))
     assert "do not determine the static modulus, C1 and C2 of law.json" in said
-    assert said.endswith("stand there: static modulus 1 MPa, C1 12, C2 80 K.")
+    assert said.endswith("asphalt concretes: static modulus 1 MPa, C1 12, C2 80 K.")
     long = replace(fit, law=replace(LAW, beta=506.0), from_prior=("beta",))
     assert "beta 510." in prior_notes(long)[0]

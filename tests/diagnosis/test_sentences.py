@@ -171,10 +171,12 @@ def test_specimens_that_are_hardly_of_one_mix_are_the_first_sentence():
 @pytest.mark.parametrize(
     "where,sure,said",
     [
-        (None, True, "All of them carry a phase offset of 1.5 +- 0.2 deg."),
-        (None, False, "Perhaps all of them carry a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below)."),
-        (21.0, True, "Those at 21 degC carry a phase offset of 1.5 +- 0.2 deg."),
-        ("A", False, "Perhaps specimen A carries a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below)."),
+        (None, True, "All of them carry a phase offset of 1.5 +- 0.2 deg, which law.json leaves out."),
+        (None, False, "Perhaps all of them carry a phase offset of 1.5 +- 0.2 deg, which law.json leaves out (not "
+         "certain; the reason is below)."),
+        (21.0, True, "Those at 21 degC carry a phase offset of 1.5 +- 0.2 deg, which law.json leaves out."),
+        ("A", False, "Perhaps specimen A carries a phase offset of 1.5 +- 0.2 deg, which law.json leaves out (not "
+         "certain; the reason is below)."),
     ],
 )  # fmt: skip
 def test_a_fault_is_told_as_surely_as_it_is_known(where, sure, said):
@@ -354,8 +356,8 @@ def test_a_fault_of_one_isotherm_stands_in_the_verdict():
     bias = {"value": -3.65, "std_error": 0.66, "unit": "K"}
     rung = {"cause": "temperature_bias", "where": 24.0, "established": False, "parameters": {"bias": bias}}
     assert on_data(content(0, 0, tests=72) | {"ladder": [rung]}) == (
-        "All 72 tests can be used. Perhaps those at 24 degC carry a temperature bias of -3.65 +- 1.3 K (not certain; "
-        "the reason is below)."
+        "All 72 tests can be used. Perhaps those at 24 degC carry a temperature bias of -3.65 +- 1.3 K, which law.json "
+        "leaves out (not certain; the reason is below)."
     )
 
 
@@ -368,9 +370,9 @@ def test_what_all_tests_share_is_not_at_a_place():
     "use,check,out,said",
     [
         (72, 0, 0, "All 72 tests can be used."),
-        (65, 6, 1, "65 of 72 tests can be used as they are, 6 only after a check, 1 not at all."),
+        (65, 6, 1, "65 of 72 tests can be used, 6 only after a check, 1 not at all."),
         (71, 0, 1, "71 of 72 tests can be used, 1 not at all."),
-        (0, 72, 0, "None of 72 tests can be used as they are, 72 only after a check."),
+        (0, 72, 0, "None of 72 tests can be used, 72 only after a check."),
     ],
 )
 def test_how_far_each_test_can_be_used_is_one_answer(use, check, out, said):

@@ -97,7 +97,10 @@ def test_the_folder_of_exports_gets_the_answer_of_the_page(workspace):
     said = next(block for kind, block in BLOCKS if not kind and block.startswith("VERDICT"))
     assert done.stdout.endswith(said)
     html = (workspace.folder / "diagnosis/diagnosis.html").read_text(encoding="utf-8")
-    assert "71 of 72 tests can be used. All of them carry a channel delay of 0.792 ± 0.018 ms" in html
+    assert (
+        "71 of 72 tests can be used, 1 not at all. All of them carry a channel delay of 0.792 ± 0.018 ms"
+        in html
+    )
     content = json.loads((workspace.folder / "diagnosis/diagnosis.json").read_text(encoding="utf-8"))
     (aside,) = content["unexplained"]  # of the law with the delay, as the reason above: 4.9 deg
     assert aside["residual_phase_deg"] == pytest.approx(4.9, abs=0.5)

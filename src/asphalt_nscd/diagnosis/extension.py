@@ -90,7 +90,7 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
     return [
         *notes,
         f"law.json (2S2P1D with WLF) differs from the law found here by {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % "
-        f"in |E*|, {miss:.2g} times the scatter of a test: it cannot fit these tests better.",
+        f"in |E*| and {np.degrees(np.sqrt(np.mean(off.imag**2))):.1f} deg in phase: it cannot fit these tests better.",
     ]
 
 

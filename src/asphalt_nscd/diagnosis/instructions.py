@@ -38,7 +38,10 @@ KEPT = (SURVIVES + POWER) ** 2
 TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached in 19 of 20 cases
 PRESENT = 0.1  # chance that a cause nobody has seen is there
 MOST_TOLD = 2.0 * float(np.log(1000.0))  # strength above which odds are not told as a number
-PLAIN = {"secondary_process": "a second loss peak (secondary process)"}  # whose size alone says little
+PLAIN = {  # whose size alone says little
+    "secondary_process": "a second loss peak (secondary process)",
+    "guide_friction": "a loss modulus from friction in the guide",
+}
 REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
 
 

@@ -182,8 +182,8 @@ def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"The misfit that is left is {spread:.1f} times what was assumed. The detection limits in diagnosis.html are "
-        "multiplied by that, and the orders count with it; the limits in diagnosis.json are not."
+        f"These tests deviate {spread:.1f} times as much from the fit as the diagnosis allows for. The limits in "
+        "diagnosis.html and the chances in the orders include this factor; the limits in diagnosis.json do not."
     ]
 
 

@@ -20,7 +20,7 @@ SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not No
 BOUNDS = {
     cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
 }
-OF_WHAT_IS_LEFT = "Standard deviations, beyond the scatter of a test."
+OF_WHAT_IS_LEFT = "These are the four largest at most, as standard deviations beyond the scatter of a test."
 NO_CAUSE = "No cause of the catalogue beats chance."
 ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}

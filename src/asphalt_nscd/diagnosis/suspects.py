@@ -252,8 +252,9 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
         )
     phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
     delay = "; the delay of all tests is allowed for" if held.delay else ""
+    apart = round(phase, 1) - round(allowed, 1)  # as a reader subtracts
     return (
-        f"phase is {phase:.1f} deg, {abs(phase - allowed):.1f} deg {_way(phase - allowed)} the {allowed:.1f} deg that "
+        f"phase is {phase:.1f} deg, {abs(apart):.1f} deg {_way(phase - allowed)} the {allowed:.1f} deg that "
         f"its |E*| and {rest} ask for (standard error {np.degrees(error):.1f} deg{delay})"
     )
 

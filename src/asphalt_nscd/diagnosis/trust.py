@@ -116,5 +116,7 @@ def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int, shared: Mappi
 def _used_all_the_same(shared: int, found: int) -> str:
     if not shared:
         return ""
-    these = "All of them are" if shared == found else f"{shared} of them are"
-    return f" {these} at temperatures where half of the specimen's tests exceed it, so that no test is rejected for it."
+    return (
+        f" In {shared} of these {found} the specimen exceeds it in at least half of its tests at that temperature: "
+        "check its gauges and mounting. No single test is rejected for that."
+    )

@@ -65,7 +65,7 @@ def on_data(content: Content) -> str:
         )
     # Of a bench that nobody stated, its causes are told with that condition below.
     beyond = OF_THE_MIX | (OF_THE_BENCH if read.get("bench_assumed") else set())
-    parts += [_fault(rung) for rung in content["ladder"] if rung["cause"] not in beyond]
+    parts += [_fault(rung, content) for rung in content["ladder"] if rung["cause"] not in beyond]
     spread = (content.get("repeatability") or {}).get("between")
     if spread is not None and not mixes(content):
         parts.append(_spread(spread))
@@ -81,7 +81,7 @@ def _usable(content: Content) -> str:
     use = f"{trust['use'] or 'none'} of {tests + out} tests can be used"
     check = [f"{trust['check']} only after a check"] if trust["check"] else []
     never = [f"{trust['not_used']} not at all"] if trust["not_used"] else []
-    return ", ".join([f"{use} as they are" if check else use, *check, *never])
+    return ", ".join([use, *check, *never])
 
 
 def _contradictory(content: Content) -> list[str]:
@@ -110,15 +110,15 @@ def _spread(between: Mapping[str, float]) -> str:
     return f"Specimens differ by {between['E_percent']:.1f} % in |E*| and {between['phase_deg']:.1f} deg in phase"
 
 
-def _fault(rung: Content) -> str:
+def _fault(rung: Content, content: Content) -> str:
     """Who carries a fault; perhaps, where the cause itself says why it is not certain."""
     where = rung["where"]
     one = isinstance(where, str)
     who = specimen_named(where) if one else ("all of them" if where is None else f"those at {where:g} degC")
-    words = an(rung["cause"].replace("_", " "))
-    if rung.get("established", True):
-        return f"{who} {'carries' if one else 'carry'} {words} of {size(rung)}"
-    return f"perhaps {who} {'carries' if one else 'carry'} {words} of {size(rung)} (not certain; the reason is below)"
+    told = f"{who} {'carries' if one else 'carry'} {an(rung['cause'].replace('_', ' '))} of {size(rung)}"
+    if len(content.get("reading", {}).get("isotherms_C", [])) != 1:  # no law is written of one temperature
+        told += ", which law.json leaves out"
+    return told if rung.get("established", True) else f"perhaps {told} (not certain; the reason is below)"
 
 
 def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:

@@ -25,7 +25,10 @@ def test_causes_stand_with_size_unit_chance_and_gains(page):
         "Law: one law for all temperatures, with a relaxation spectrum and a loose clamp of specimen 2, misses "
         in html
     )
-    assert "Data: All 12 tests can be used. Specimen 2 carries a loose clamp of 3 ± 0.39 1/TPa." in html
+    assert (
+        "Data: All 12 tests can be used. Specimen 2 carries a loose clamp of 3 ± 0.39 1/TPa, which law.json"
+        in html
+    )
     assert (
         "<b>loose clamp of specimen 2: 3 ± 0.39 1/TPa</b>. Established: by chance this happens in fewer than one"
         in html

@@ -124,6 +124,7 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "with_suspects": sentences.with_suspects(content),
         "doubtful": sentences.on_doubtful(content),
         "law": sentences.law_of_the_mix(content),
+        "beyond": verdict.beyond_the_tests(content),
         "causes": sentences.causes(content),
         "no_cause": sentences.NO_CAUSE,
         "of_what_is_left": sentences.OF_WHAT_IS_LEFT,

@@ -99,9 +99,10 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
     return Chart(
         "causality",
         "Phase measured less the phase that |E*| requires",
-        "In degrees, by |E*| alone; the list of doubtful tests uses the phases at the other frequencies too, which "
-        "say more. Grey numbers are within two standard errors. Cross: suspect, not used. Ring: suspect, used. "
-        "Triangle: a quality limit is exceeded."
+        "In degrees. The required phase is computed from |E*| alone, and no delay or offset is taken off; the list of "
+        "doubtful tests uses the phases at the other frequencies too, so that its numbers differ. Grey numbers are "
+        "within two standard errors. Cross: suspect, not used. Ring: suspect, used. Triangle: a quality limit is "
+        "exceeded."
         if plots
         else NONE,
         tuple(plots),
