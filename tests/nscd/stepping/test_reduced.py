@@ -137,5 +137,6 @@ def test_naive_twin_of_the_bounds(beam_system):
             model.bounds.utilisation(unit),
             np.linalg.norm(reaction, axis=1) / beam_system.strength,
         )
-        np.testing.assert_allclose(found, wanted, rtol=1e-14)
-        assert model.bounds.smallest_gap(unit) == (beam_system.gap - np.abs(model.opening[::3, a])).min()
+        np.testing.assert_allclose(found, wanted, rtol=1e-13)  # processors differ in the last bit
+        gap = (beam_system.gap - np.abs(model.opening[::3, a])).min()
+        assert model.bounds.smallest_gap(unit) == pytest.approx(gap, rel=1e-13)
