@@ -301,3 +301,14 @@ def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(de
     assert all(one.hidden >= 0.0 for one in reach)
     asked = instructions.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
     assert instructions._reason(asked, 9.0, 90.0).endswith("without this test in 0 %.")
+
+
+def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):
+    model = possible(empty, Costs())
+
+    def sought(diagnosis):
+        return [one.about for one in instructions.open_questions(diagnosis, model) if one.kind == "reach"]
+
+    hidden = replace(empty, ladder=replace(empty.ladder, discrepancy={"20 degC, phase": 2.0}))
+    assert any("second loss peak" in about for about in sought(empty))
+    assert not any("second loss peak" in about for about in sought(hidden)) and sought(hidden)
