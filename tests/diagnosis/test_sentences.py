@@ -197,10 +197,13 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
     found = {"specimen Specimen 1, spectrum": 2.0, "specimen S2, modulus": 1.5, "37 degC, phase": 1.0}
     scatter = {"modulus_percent": 1.0, "phase_deg": 0.5}
     assert left({"discrepancy": found, "scatter": scatter}) == [
-        "2.0 % in |E*| of Specimen 1: its master curve has another form",
+        "2.0 % in |E*| of Specimen 1: the form of its master curve differs from the common one",
         "1.5 % in |E*| of specimen S2, changing with frequency and temperature",
         "0.5 deg in the phase at 37 degC",
     ]
+    few, many = ({"reading": {"specimens": [*"ABCDE"][:n]}, "discrepancy": found, "scatter": scatter} for n in (3, 5))
+    assert left(few)[3:] == ["Among 3 specimens it is not certain which of them departs"]
+    assert left(many)[3:] == left(few | {"discrepancy": {"37 degC, phase": 1.0}})[1:] == []
     assert [_names(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
         "Specimen 1 and Specimen 2",
         "specimens A and B",

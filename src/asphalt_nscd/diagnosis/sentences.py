@@ -22,6 +22,7 @@ BOUNDS = {
 }
 OF_WHAT_IS_LEFT = "These are the four largest at most, as standard deviations beyond the scatter of a test."
 NO_CAUSE = "No cause of the catalogue beats chance."
+MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
 ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
 LARGEST = 4  # parts of what stays unexplained that are listed
@@ -198,12 +199,21 @@ def left(content: Content) -> list[str]:
         return [
             *(_part_left(name, value, scatter) for name, value in parts),
             *([f"{joined(places)} took part in these sizes, although odd"] if places else []),
+            *_which_departs(content, parts),
         ]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None and more_than_scatter(content):
         if pattern["pattern"].count("slope over temperature") and _one_isotherm(content):
             return _largest(content)
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]
+    return []
+
+
+def _which_departs(content: Content, parts: Sequence[tuple[str, float]]) -> list[str]:
+    """Of few specimens each has a large part in the common curve that it is compared with."""
+    specimens = len(content.get("reading", {}).get("specimens", []))
+    if 1 < specimens < MANY_SPECIMENS and any(name.startswith("specimen ") for name, _ in parts):
+        return [f"Among {specimens} specimens it is not certain which of them departs"]
     return []
 
 
@@ -230,7 +240,7 @@ def _part_left(name: str, value: float, scatter: Content) -> str:
         place = f"{'at' if place.endswith(' degC') else 'of'} {place}"
     size = f"{size_left(name, value, scatter)} {place}"
     if part == "spectrum":
-        return f"{size}: its master curve has another form"
+        return f"{size}: the form of its master curve differs from the common one"
     return f"{size}, changing with frequency and temperature" if name.startswith("specimen ") else size
 
 

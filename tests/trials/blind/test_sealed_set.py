@@ -70,12 +70,13 @@ def test_a_cause_missing_from_the_catalogue_is_replaced_by_no_other():
 def test_a_fresh_case_is_not_misnamed(capsys):
     """Strong enough to be found; whatever is drawn, a wrong name without doubt is a fault."""
     seed = int(os.environ.get("BLIND_SEED") or np.random.SeedSequence().generate_state(1)[0])
-    random = np.random.default_rng(seed)
-    effect = str(random.choice([*SINGLES, *OUTSIDE]))
-    with capsys.disabled():
-        print(f"\nfresh blind case: {effect}; replay with BLIND_SEED={seed}")
-    rows = opened(effect, seed, STRONG, suite="single" if effect in CATALOGUE else "outside")
-    if rows.empty or rows.iloc[-1]["cause"] != effect:
-        pytest.skip(f"{effect} cannot be made so visible in this mix; BLIND_SEED={seed}")
+    effects = np.random.default_rng(seed).permutation([*SINGLES, *OUTSIDE])
+    for effect in map(str, effects):  # until one can be made so visible in the mix of this seed
+        with capsys.disabled():
+            print(f"\nfresh blind case: {effect}; replay with BLIND_SEED={seed}")
+        rows = opened(effect, seed, STRONG, suite="single" if effect in CATALOGUE else "outside")
+        if not rows.empty and rows.iloc[-1]["cause"] == effect:
+            break
     row = rows.iloc[-1]
+    assert row["cause"] == effect, f"BLIND_SEED={seed}: no effect can be made so visible in this mix"
     assert row["wrong"] == 0 or row["verdict"] == score.UNEXPLAINED, f"BLIND_SEED={seed}: {row.to_dict()}"

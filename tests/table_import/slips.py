@@ -1,0 +1,72 @@
+"""Tables and exports with slips that laboratories make, and how they are read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.campaign import read_campaign
+
+EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
+HEADER = ["specimen", "T (°C)", "f (Hz)", "E (MPa)", "phi (°)"]
+ROWS = [
+    [s, t, f, 9000 + 100 * f - 50 * t + k, 20.5] for k, s in enumerate("AB") for t in (4, 21) for f in (10, 1)
+]
+
+
+def read(folder, rows, name="t.csv", **chosen):
+    path = folder / name
+    if name.endswith(".xlsx"):
+        _workbook(path, rows if isinstance(rows, dict) else {"results": rows})
+    else:
+        lines = [",".join("" if cell is None else str(cell) for cell in row) for row in rows]
+        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return read_campaign([path], chosen=chosen)[0]
+
+
+def _workbook(path, sheets):
+    book = openpyxl.Workbook()
+    book.remove(book.active)
+    for name, rows in sheets.items():
+        sheet = book.create_sheet(name)
+        for row in rows:
+            sheet.append(row)
+    book.save(path)
+
+
+def columns(campaign, *names):
+    return [campaign.table.columns[name] for name in names]
+
+
+def said(campaign, part):
+    return [note for note in campaign.notes if part in note]
+
+
+def refusal(folder, rows, name="t.csv", **chosen):
+    with pytest.raises(InputError) as error:
+        read(folder, rows, name, **chosen)
+    assert "t." in str(error.value) and "\n" not in str(error.value)
+    return str(error.value)
+
+
+def as_is(folder):
+    return read(folder, [HEADER, *ROWS]).table.columns
+
+
+EXPORT = """\
+Target test temperature,4
+Identification,Mix-{}
+{}
+,25 Hz,{} Hz,1 Hz
+Dynamic modulus (MPa),9100,{},5000
+Phase angle (Degrees),12.5,13.25,19
+"""
+
+
+def exports(folder, **files):
+    for name, text in files.items():
+        (folder / f"{name}.csv").write_text(text, encoding="utf-8")
+    return read_campaign([folder])[0]
