@@ -90,9 +90,9 @@ def test_a_small_effect_is_only_likely():
     observed = table(lambda omega, temperature: 0.06 * turned(omega, temperature))
     (reason,) = doubts_of(observed, "phase_offset")["phase_offset", None]
     assert reason.startswith(
-        "Another error that varies smoothly with frequency could look the same. With such an error "
+        "Another error that varies smoothly with frequency could look the same. Fitted beside such an error, "
     )
-    assert reason.endswith(" standard errors from zero, and 6 are required")
+    assert reason.endswith(" times the standard error, and 6 times are required")
 
 
 def test_what_follows_a_name_in_doubt_is_in_doubt():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from test_diagnose import SCATTER, table
 
-from asphalt_nscd.diagnosis import instructions
+from asphalt_nscd.diagnosis import fixed_orders, instructions
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.further_tests import possible
 from asphalt_nscd.diagnosis.information import Knowledge, Question
@@ -104,20 +104,20 @@ def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
         (
             4.0,
             False,
-            "Now the odds are 7.4 to 1 for the first; after this test expect more than 1000 to 1 for the right",
+            "the first is favoured by 7.4 to 1 so far; this test should favour the right one by more than 1000 to 1.",
         ),
         (
             13.0,
             False,
-            "Now the odds are 670 to 1 for the first; after this test expect more than 1000 to 1 for the right",
+            "the first is favoured by 670 to 1 so far; this test should favour the right one by more than 1000 to 1.",
         ),
-        (14.0, True, "Now both fit; after this test expect more than 1000 to 1 for the right"),
+        (14.0, True, "both fit so far; this test should favour the right one by more than 1000 to 1."),
         (14.0, False, ""),
     ],
 )
 def test_odds_are_told_where_a_test_would_change_them(before, alike, said):
     asked = instructions.Open("apart", None, "channel delay", "phase offset", alike)
-    assert instructions._reason(asked, before, 30.0).endswith(f"{said} one." if said else "")
+    assert instructions._reason(asked, before, 30.0).endswith(said)
     assert bool(instructions._reason(asked, before, 30.0)) == bool(said)
 
 
@@ -126,7 +126,7 @@ def test_a_test_at_another_temperature_repeats_nothing():
     for temperature, reasons in ((4.0, 1), (-6.0, 0)):
         sweep = Sweep("a", temperature, (10.0, 25.0), False, None, 1.0)
         order = instructions.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
-        assert len(instructions._reasons(order, asked)) == reasons
+        assert len(instructions._reasons(order, asked, later=False)) == reasons
 
 
 def test_a_test_that_cannot_be_used_is_to_be_repeated():
@@ -171,9 +171,9 @@ def test_half_the_strain_is_asked_for_with_the_size_that_it_should_halve(delayed
     order = instructions.Order(
         Sweep("a", 20.0, (10.0,), True, None, 1.0), ["a"], 1.0, 1.0, {0: (0, 1), 1: (0, 1)}
     )
-    (why,) = instructions._reasons(order, asked)
+    (why,) = instructions._reasons(order, asked, later=False)
     assert why.startswith(
-        f"What stays unexplained at 20 degC ({left}) should halve if the mix is not linear. "
+        f"What stays unexplained at 20 degC ({left}) should fall to about half if the mix is not linear. "
     )
 
 
@@ -243,7 +243,7 @@ def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
 def test_what_a_test_would_show_is_said_with_its_chance():
     one = instructions.Open("reach", None, "a phase offset of 1.5 deg")
     assert instructions._reason(one, 4.0, 47.0) == (
-        "If there is a phase offset of 1.5 deg, it is then found in 100 % of cases; without this test in 4 %."
+        "If there is a phase offset of 1.5 deg, it is found in 100 % of cases with this test; in 4 % without it."
     )
 
 
@@ -276,6 +276,51 @@ def test_half_the_strain_is_asked_for_only_beside_the_usual_one():
     assert ("c", whole.isotherms[-1]) not in halves and ("b", whole.isotherms[-1]) in halves
 
 
+def test_of_three_temperatures_the_last_order_is_a_fourth():
+    whole = table(3)
+    three = whole.subset(whole.temperature > 12.0)
+    orders = instructions.instructions(diagnose(three, draws=1000))["orders"]
+    assert len(orders) <= 5
+    assert (orders[-1]["specimens"], orders[-1]["temperature_C"]) == (["a", "b"], 40.0)
+    assert orders[-1]["why"] == ["3 temperatures were tested; law and causes can be certain from 4 on."]
+
+
+@pytest.mark.parametrize("tested,new", [([4, 21, 37], "47"), ([20, 35], "10 and 45"), ([60, 58, 50], "40")])
+def test_temperatures_that_certainty_lacks_lie_beyond_those_tested(tested, new):
+    whole = table(4)
+    part = whole.subset(np.isin(whole.isotherm, whole.isotherms[: len(tested)]))
+    at = np.array(sorted(tested), float)[np.unique(part.isotherm, return_inverse=True)[1]]
+    (order,) = fixed_orders.more_temperatures(replace(part, temperature=at, nominal_temperature=at), Costs())
+    assert f"test specimens a and b at {new} degC, " in order["text"]
+    assert fixed_orders.more_temperatures(table(4), Costs()) == []
+
+
+def test_gauges_are_checked_first_where_half_of_the_tests_exceed_a_limit():
+    whole = table(4)
+    uniform = np.where(whole.specimen < 2, 40.0, 10.0)  # a and b of four
+    flagged = replace(whole, quality={"deformation_uniformity_percent": uniform})
+    order, *_ = instructions.instructions(diagnose(flagged, draws=1000))["orders"]
+    assert order["specimens"] == ["a", "b"] and order["temperature_C"] == 20.0
+    assert (
+        ": check the gauges and the ends of the specimens, mount specimens a and b anew and test"
+        in order["text"]
+    )
+    assert order["why"][0].startswith(f"{np.count_nonzero(uniform > 30.0)} of {whole.size} tests exceed")
+    few = np.where(whole.specimen < 1, 40.0, 10.0)
+    assert fixed_orders.gauges(replace(whole, quality={"deformation_uniformity_percent": few}), Costs()) == []
+
+
+def test_what_is_doubtful_is_tested_before_what_settles_more_per_hour():
+    observed = table(4)
+    odd = (observed.specimen == 1) & (observed.isotherm == 0)
+    delay = np.exp(2j * np.pi * 1e-3 * observed.frequency)
+    modulus = observed.modulus * np.where(odd, 1.3, 1.0) * delay
+    orders = instructions.instructions(diagnose(replace(observed, modulus=modulus), draws=1000))["orders"]
+    assert (orders[0]["specimens"], orders[0]["temperature_C"]) == (["b"], 0.0)
+    hourly = [one["nats"] / one["hours"] for one in orders]
+    assert hourly[0] < max(hourly)
+
+
 def test_of_one_specimen_the_first_order_is_a_second_one():
     alone = replace(table(3).subset(table(3).specimen == 0), names=("a",))
     orders = instructions.instructions(diagnose(alone, draws=1000))["orders"]
@@ -300,7 +345,7 @@ def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(de
     assert instructions._by_limit(nowhere, bias) == 0.0
     assert all(one.hidden >= 0.0 for one in reach)
     asked = instructions.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
-    assert instructions._reason(asked, 9.0, 90.0).endswith("without this test in 0 %.")
+    assert instructions._reason(asked, 9.0, 90.0).endswith("with this test; in 0 % without it.")
 
 
 def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):

@@ -124,7 +124,7 @@ def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
     assert on_simulation(found).endswith(
         "fits these data to within their scatter, but specimen B at 20 degC, which is odd, is part of that scatter."
     )
-    assert left(found)[-1] == "specimen B at 20 degC took part in these sizes, although odd"
+    assert left(found)[-1] == "What is odd (specimen B at 20 degC) is part of these sizes"
 
 
 def test_the_law_is_nearer_to_the_mix_without_an_odd_isotherm(exports):
@@ -143,7 +143,7 @@ def test_the_law_is_nearer_to_the_mix_without_an_odd_isotherm(exports):
     )
     assert np.abs(np.log(without / law)).max() < 0.02 < 0.05 < np.abs(np.log(spoiled / law)).min()
     assert law_notes(wrong, material_law(wrong, used).law, levels.places(odd, []))[0] == (
-        "law.json is fitted without specimen Mix-B at 35 degC."
+        "law.json is fitted without specimen Mix-B at 35 degC, the law found here with it."
     )
 
 

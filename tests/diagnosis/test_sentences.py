@@ -3,7 +3,7 @@
 import pytest
 
 from asphalt_nscd.diagnosis import sentences, verdict
-from asphalt_nscd.diagnosis.instructions import _names
+from asphalt_nscd.diagnosis.fixed_orders import named
 from asphalt_nscd.diagnosis.sentences import (
     cause_words,
     causes,
@@ -47,8 +47,12 @@ def test_doubtful_tests_are_named(used, out, told):
         ),
         ([], "If it were left out, the diagnosis would no longer name a phase offset."),
         (
+            [{"cause": "phase_offset", "where": None}, {"cause": "channel_delay", "where": None}],
+            "If it were left out, the diagnosis would also name a channel delay.",
+        ),
+        (
             [{"cause": "loose_clamp", "where": "A"}],
-            "If it were left out, the diagnosis would also name a loose clamp of specimen A and no longer "
+            "If it were left out, the diagnosis would name a loose clamp of specimen A and no longer "
             "name a phase offset.",
         ),
     ],
@@ -171,12 +175,14 @@ def test_specimens_that_are_hardly_of_one_mix_are_the_first_sentence():
 @pytest.mark.parametrize(
     "where,sure,said",
     [
-        (None, True, "All of them carry a phase offset of 1.5 +- 0.2 deg, which law.json leaves out."),
-        (None, False, "Perhaps all of them carry a phase offset of 1.5 +- 0.2 deg, which law.json leaves out (not "
-         "certain; the reason is below)."),
-        (21.0, True, "Those at 21 degC carry a phase offset of 1.5 +- 0.2 deg, which law.json leaves out."),
-        ("A", False, "Perhaps specimen A carries a phase offset of 1.5 +- 0.2 deg, which law.json leaves out (not "
-         "certain; the reason is below)."),
+        (None, True, "All of them carry a phase offset of 1.5 +- 0.2 deg: correct them for it; "
+         "law.json is the law of the mix without it."),
+        (None, False, "Perhaps all of them carry a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below); "
+         "law.json is the law of the mix without it."),
+        (21.0, True, "Those at 21 degC carry a phase offset of 1.5 +- 0.2 deg: correct them for it; "
+         "law.json is the law of the mix without it."),
+        ("A", False, "Perhaps specimen A carries a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below); "
+         "law.json is the law of the mix without it."),
     ],
 )  # fmt: skip
 def test_a_fault_is_told_as_surely_as_it_is_known(where, sure, said):
@@ -187,7 +193,11 @@ def test_a_fault_is_told_as_surely_as_it_is_known(where, sure, said):
         "parameters": {"phase_offset": offset},
         "established": sure,
     }
-    assert on_data(content(0, 0, tests=72) | {"ladder": [rung]}) == f"All 72 tests can be used. {said}"
+    corrected = ", once corrected" if sure and where is None else ""
+    assert (
+        on_data(content(0, 0, tests=72) | {"ladder": [rung]})
+        == f"All 72 tests can be used{corrected}. {said}"
+    )
 
 
 def test_a_specimen_called_specimen_is_not_called_so_twice():
@@ -201,10 +211,12 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
         "1.5 % in |E*| of specimen S2, changing with frequency and temperature",
         "0.5 deg in the phase at 37 degC",
     ]
-    few, many = ({"reading": {"specimens": [*"ABCDE"][:n]}, "discrepancy": found, "scatter": scatter} for n in (3, 5))
+    few, many = (
+        {"reading": {"specimens": [*"ABCDE"][:n]}, "discrepancy": found, "scatter": scatter} for n in (3, 5)
+    )
     assert left(few)[3:] == ["Among 3 specimens it is not certain which of them departs"]
     assert left(many)[3:] == left(few | {"discrepancy": {"37 degC, phase": 1.0}})[1:] == []
-    assert [_names(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
+    assert [named(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
         "Specimen 1 and Specimen 2",
         "specimens A and B",
         "specimen A",
@@ -330,7 +342,7 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
     }
     assert on_simulation(found) == (
         f"{law}, with a phase offset, misses the mean of the specimens by 1 % of |E*| and 1 % of the phase, more than "
-        "scatter can explain. Without it by 10.5 % and 10.5 %."
+        "scatter can explain. Without this cause by 10.5 % and 10.5 %."
     )
     found["scatter"]["from_replicates"] = False
     assert on_simulation(found).startswith(f"{law}, with a phase offset, misses the tests by 1 % of |E*|")
@@ -359,8 +371,8 @@ def test_a_fault_of_one_isotherm_stands_in_the_verdict():
     bias = {"value": -3.65, "std_error": 0.66, "unit": "K"}
     rung = {"cause": "temperature_bias", "where": 24.0, "established": False, "parameters": {"bias": bias}}
     assert on_data(content(0, 0, tests=72) | {"ladder": [rung]}) == (
-        "All 72 tests can be used. Perhaps those at 24 degC carry a temperature bias of -3.65 +- 1.3 K, which law.json "
-        "leaves out (not certain; the reason is below)."
+        "All 72 tests can be used. Perhaps those at 24 degC carry a temperature bias of -3.65 +- 1.3 K (not "
+        "certain; the reason is below); law.json is the law of the mix without it."
     )
 
 
@@ -373,9 +385,14 @@ def test_what_all_tests_share_is_not_at_a_place():
     "use,check,out,said",
     [
         (72, 0, 0, "All 72 tests can be used."),
-        (65, 6, 1, "65 of 72 tests can be used, 6 only after a check, 1 not at all."),
+        (
+            65,
+            6,
+            1,
+            "65 of 72 tests can be used, 6 only after a check (the law here rests on them too), 1 not at all.",
+        ),
         (71, 0, 1, "71 of 72 tests can be used, 1 not at all."),
-        (0, 72, 0, "None of 72 tests can be used, 72 only after a check."),
+        (0, 72, 0, "None of 72 tests can be used, 72 only after a check (the law here rests on them too)."),
     ],
 )
 def test_how_far_each_test_can_be_used_is_one_answer(use, check, out, said):
@@ -397,22 +414,33 @@ def test_what_to_check_and_what_is_missing_stands_in_the_verdict():
     )
 
 
-@pytest.mark.parametrize("after,warned", [(9.0, False), (40.9, True)])
-def test_a_law_that_predicts_badly_is_warned_of(after, warned):
-    errors = {
-        name: {"before": 10.0, "after": value}
-        for name, value in (("mre_E_percent", after), ("mre_phase_percent", 5.0))
+@pytest.mark.parametrize(
+    "coldest,inner,warned",
+    [
+        (9.0, 8.0, []),
+        (
+            58.3,
+            8.0,
+            ["8 % of |E*|, -4 degC with 58 % and 37 degC with 9 %: do not use the law beyond the tested "],
+        ),
+        (
+            9.0,
+            17.1,
+            ["17 % of |E*|, -4 degC with 9 % and 37 degC with 9 %: do not use the law at temperatures that "],
+        ),
+    ],
+)
+def test_a_law_that_predicts_badly_is_warned_of(coldest, inner, warned):
+    """Between the tested temperatures, or only beyond them."""
+    by = {
+        t: {name: {"before": 2.0, "after": error} for name in ("mre_E_percent", "mre_phase_percent")}
+        for t, error in (("37", 9.0), ("-4", coldest), ("21", inner))
     }
-    gain = {
-        "in_sample": {},
-        "held_out": {"leave_one_isotherm_out": {"averages_by_temperature": {"21": errors}}},
-    }
-    said = verdict.beyond_the_tests({"ladder": [{"gain": gain}]})
-    assert bool(said) == warned and verdict.beyond_the_tests({"ladder": []}) == []
-    if warned:
-        assert said[0].startswith(
-            "A temperature left out of the fit is predicted with an error of 40.9 % of |E*| and 5 % of the phase"
-        )
+    held_out = {"leave_one_isotherm_out": {"averages_by_temperature": by}}
+    said = verdict.beyond_the_tests({"ladder": [{"gain": {"in_sample": {}, "held_out": held_out}}]})
+    assert len(said) == len(warned) and all(part in one for part, one in zip(warned, said, strict=True))
+    assert verdict.beyond_the_tests({"ladder": []}) == []
+    assert verdict.predicts_badly(held_out["leave_one_isotherm_out"], inner=True) == (inner > 10.0)
 
 
 def test_causes_of_a_bench_that_nobody_stated_do_not_lead_the_verdict():

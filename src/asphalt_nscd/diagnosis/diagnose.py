@@ -120,8 +120,8 @@ def diagnose(
         named = dict.fromkeys(rung.candidate.cause.name for rung in ladder.rungs)
         names = ", ".join(named).replace("_", " ")
         notes.append(
-            f"{names}: the likeliest of the catalogue, not established, for {too_few}; an effect that the catalogue "
-            "lacks may look the same."
+            f"{names}: the likeliest of the causes that this program knows; not established, for {too_few}. An effect "
+            "that it does not know may look the same."
         )
     if no_common_law and not ladder.rungs:
         diagnosis.verdict = "unexplained_structure"
@@ -226,9 +226,8 @@ def _noise(
         refined = scatter.estimate(observed, np.hstack([membership, directions, *patterns]), scales)
         return refined or noise, True
     notes.append(
-        "No condition was repeated on another specimen, so the scatter is that of a smooth law: what no smooth law "
-        "shows cannot be told from scatter, and a lack of fit cannot be tested. Measure a second specimen or "
-        "state the scatter."
+        "No condition was repeated on another specimen. What a smooth law misses is therefore taken for scatter, and "
+        "whether a law fits cannot be tested. Measure a second specimen or state the scatter."
     )
     sizes = FIRST_SCATTER
     for _ in range(3):

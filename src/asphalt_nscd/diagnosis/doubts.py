@@ -149,8 +149,8 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         yield f"It may be {' or '.join(known)} instead"
     elif least < ENOUGH:
         yield (
-            "Another error that varies smoothly with frequency could look the same. With such an error fitted too, the "
-            f"size is {np.floor(10.0 * least) / 10.0:g} standard errors from zero, and {ENOUGH:g} are required"
+            "Another error that varies smoothly with frequency could look the same. Fitted beside such an error, its "
+            f"size is {np.floor(10.0 * least) / 10.0:g} times the standard error, and {ENOUGH:g} times are required"
         )
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))

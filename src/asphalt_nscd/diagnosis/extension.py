@@ -80,7 +80,8 @@ def material_law(diagnosis: Diagnosis, used: NDArray[np.bool_] | None = None) ->
 
 def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) -> list[str]:
     """What the law is fitted without, in words, and that it cannot take the form of the mix, where it cannot."""
-    notes = [f"law.json is fitted without {joined(without)}."] if without else []
+    both = f", the law found here with {'it' if len(without) == 1 else 'them'}"
+    notes = [f"law.json is fitted without {joined(without)}{both}."] if without else []
     observed = diagnosis.observed
     off = np.log(law.complex_modulus(observed.omega, observed.temperature) / _without_causes(diagnosis))
     sigma = diagnosis.noise.sigma
@@ -89,8 +90,9 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
         return notes
     return [
         *notes,
-        f"law.json (2S2P1D with WLF) differs from the law found here by {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % "
-        f"in |E*| and {np.degrees(np.sqrt(np.mean(off.imag**2))):.1f} deg in phase: it cannot fit these tests better.",
+        "law.json holds a law of few parameters, 2S2P1D with WLF. It differs from the law found here by "
+        f"{100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*| and {np.degrees(np.sqrt(np.mean(off.imag**2))):.1f} "
+        f"deg in phase{'' if without else ', the nearest that 2S2P1D comes to these tests'}.",
     ]
 
 

@@ -17,14 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr
 
+from asphalt_nscd.diagnosis import fixed_orders
 from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
+from asphalt_nscd.diagnosis.fixed_orders import band, named
 from asphalt_nscd.diagnosis.further_tests import Possible, possible
 from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.sentences import an, joined, size_left
-from asphalt_nscd.diagnosis.sweeps import METAL, NEW, Costs, Sweep
+from asphalt_nscd.diagnosis.sweeps import METAL, Costs, Sweep
 from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import specimen_named
 
@@ -40,7 +42,8 @@ PRESENT = 0.1  # chance that a cause nobody has seen is there
 MOST_TOLD = 2.0 * float(np.log(1000.0))  # strength above which odds are not told as a number
 PLAIN = {  # whose size alone says little
     "secondary_process": "a second loss peak (secondary process)",
-    "guide_friction": "a loss modulus from friction in the guide",
+    "guide_friction": "friction in the guide that adds a loss modulus",
+    "strain_softening": "a softening of |E*| with strain",
 }
 REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
 
@@ -81,11 +84,15 @@ def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, 
     model = possible(diagnosis, costs)
     questions = open_questions(diagnosis, model)
     chosen = _merged(choose(model, questions), costs)
-    first = [] if diagnosis.replicated else _replicate(diagnosis.observed, costs)
+    done = diagnosis.whole or diagnosis.observed
+    first = fixed_orders.gauges(done, costs)
+    first += [] if diagnosis.replicated else fixed_orders.second_specimen(done, costs)
+    last = fixed_orders.more_temperatures(done, costs) if diagnosis.replicated else []
+    told = [(one, _reasons(one, questions, bool(k or first))) for k, one in enumerate(chosen)]
     orders = [
         {
-            "text": _text(one, diagnosis.whole or diagnosis.observed),
-            "why": _reasons(one, questions),
+            "text": _text(one, done),
+            "why": reasons,
             "hours": round(one.hours, 2),
             "nats": round(one.nats, 2),
             "specimens": one.specimens,
@@ -93,30 +100,10 @@ def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, 
             "frequencies_Hz": list(one.sweep.frequencies),
             "half_strain": one.sweep.half_strain,
         }
-        for one in chosen
-        if _reasons(one, questions)
+        for one, reasons in told
+        if reasons
     ]
-    return {"costs": costs.sentence, "orders": [*first, *orders][:MOST]}
-
-
-def _replicate(done: Observations, costs: Costs) -> list[dict[str, Any]]:
-    """The order of a second specimen, where one alone was tested."""
-    if len(done.names) > 1:
-        return []
-    at, frequencies = done.isotherms.tolist(), done.frequencies.tolist()
-    hours = costs.new_specimen + sum(costs.hours("", t, frequencies) for t in at)
-    return [
-        {
-            "text": f"{hours:.1f} h: test {NEW} at {joined([f'{t:g}' for t in at])} degC, {_band(frequencies)}.",
-            "why": ["Two specimens show the scatter from test to test. Without it nothing here is certain."],
-            "hours": round(hours, 2),
-            "nats": 0.0,
-            "specimens": [NEW],
-            "temperature_C": at[0] if len(at) == 1 else None,
-            "frequencies_Hz": frequencies,
-            "half_strain": False,
-        }
-    ]
+    return {"costs": costs.sentence, "orders": [*[*first, *orders][: MOST - len(last)], *last]}
 
 
 def _merged(orders: Sequence[Order], costs: Costs) -> list[Order]:
@@ -146,11 +133,14 @@ def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
     inquiry = Inquiry(model.linear, model.old, [one.asked for one in questions])
     orders: list[Order] = []
     waiting = list(model.sweeps)
+    doubtful = [k for k, one in enumerate(questions) if one.kind in ("repeat", "level")]
     while questions and waiting:
         gains = inquiry.gains([sweep.tested for sweep in waiting])
         totals = gains.sum(axis=1)
         per_hour = np.where(totals > LEAST, totals / [sweep.hours for sweep in waiting], 0.0)
-        best = int(np.argmax(per_hour))
+        # What makes tests doubtful comes first: all else rests on them.
+        of_doubtful = gains[:, doubtful].sum(axis=1) > LEAST
+        best = int(np.argmax(np.where(of_doubtful.any() & ~of_doubtful, 0.0, per_hour)))
         sweep, gain, nats = waiting.pop(best), gains[best], float(totals[best])
         alike = next((one for one in orders if _same(one.sweep, sweep)), None)
         if per_hour[best] == 0.0 or (alike is None and len(orders) == MOST):
@@ -304,8 +294,8 @@ def _sized(candidate: Candidate, typical: float) -> str:
     return f"{PLAIN.get(candidate.cause.name, an(words))} of {three_digits(value)} {unit}{place}"
 
 
-def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
-    """What the tests would do for the questions that they help most."""
+def _reasons(order: Order, questions: Sequence[Open], later: bool) -> list[str]:
+    """What the tests would do for the questions that they help most; later: other orders come before."""
     told = {
         k: strengths
         for k, strengths in order.helps.items()
@@ -333,16 +323,16 @@ def _reasons(order: Order, questions: Sequence[Open]) -> list[str]:
         if one.kind == "level" and one.about.startswith(tuple(odd))
     ]
     reasons += [
-        f"What stays unexplained at {here} ({one.other}) should halve if the mix is not linear. If the machine is at "
-        "fault, it should not change."
+        f"What stays unexplained at {here} ({one.other}) should fall to about half if the mix is not linear. If the "
+        "machine is at fault, it should stay or grow."
         for one in helped
         if one.kind == "linear" and one.about == here and order.sweep.half_strain
     ]
-    reasons += [_reason(questions[k], *strengths) for k, strengths in told.items()]
+    reasons += [_reason(questions[k], *strengths, later) for k, strengths in told.items()]
     return [reason for reason in reasons if reason][:REASONS]
 
 
-def _reason(one: Open, before: float, after: float) -> str:
+def _reason(one: Open, before: float, after: float, later: bool = False) -> str:
     if one.kind == "kept":
         now, then = np.sqrt(before), np.sqrt(after)
         if then - now < CLEARER:
@@ -356,10 +346,10 @@ def _reason(one: Open, before: float, after: float) -> str:
     if one.kind == "apart":
         if before >= MOST_TOLD and not one.alike:
             return ""
-        now = "Now both fit" if one.alike else f"Now the odds are {_odds(before)} to 1 for the first"
+        now = "both fit so far" if one.alike else f"the first is favoured by {_odds(before)} to 1 so far"
         return (
-            f"Is it the {one.about} or {an(one.other)}? {now}; after this test expect {_odds(after)} to 1 for the "
-            "right one."
+            f"Of the {one.about} and {an(one.other)}, {now}; this test should favour the right one by {_odds(after)} "
+            "to 1."
         )
     chances = [
         100.0 * float(ndtr(np.sqrt(max(strength - one.hidden, 0.0)) - USUAL_THRESHOLD))
@@ -368,8 +358,8 @@ def _reason(one: Open, before: float, after: float) -> str:
     if chances[1] - chances[0] < NOTICEABLE:
         return ""
     return (
-        f"If there is {one.about}, it is then found in {chances[1]:.0f} % of cases; without this test in "
-        f"{chances[0]:.0f} %."
+        f"If there is {one.about}, it is found in {chances[1]:.0f} % of cases with this test; in {chances[0]:.0f} % "
+        f"{'after the orders above alone' if later else 'without it'}."
     )
 
 
@@ -383,7 +373,9 @@ def _text(one: Order, done: Observations) -> str:
     where = "" if one.sweep.specimen == METAL else f" at {one.sweep.temperature:g} degC"
     half = ", at half the strain" if one.sweep.half_strain else ""
     again = " again" if _all_tested(one, done) else ""
-    return f"{one.hours:.1f} h: test {_names(one.specimens)}{again}{where}, {_band(one.sweep.frequencies)}{half}."
+    return (
+        f"{one.hours:.1f} h: test {named(one.specimens)}{again}{where}, {band(one.sweep.frequencies)}{half}."
+    )
 
 
 def _all_tested(one: Order, done: Observations) -> bool:
@@ -398,17 +390,3 @@ def _all_tested(one: Order, done: Observations) -> bool:
         for f in one.sweep.frequencies
     }
     return not one.sweep.half_strain and wanted <= tested
-
-
-def _names(specimens: Sequence[str]) -> str:
-    own = [name for name in specimens if name not in (METAL, NEW)]
-    others = [name for name in specimens if name in (METAL, NEW)]
-    if len(own) > 1 and specimen_named(own[0]) != own[0]:
-        return joined([f"specimens {joined(own)}", *others])
-    return joined([*map(specimen_named, own), *others])
-
-
-def _band(f: Sequence[float]) -> str:
-    if len(f) < 4:
-        return f"{joined([f'{x:g}' for x in f])} Hz"
-    return f"{f[0]:g} to {f[-1]:g} Hz ({len(f)} frequencies)"

@@ -182,8 +182,9 @@ def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"These tests deviate {spread:.1f} times as much from the fit as the diagnosis allows for. The limits in "
-        "diagnosis.html and the chances in the orders include this factor; the limits in diagnosis.json do not."
+        f"These tests lie {spread:.1f} times as far from the fit as the diagnosis assumes. The limits in "
+        "diagnosis.html and any chances of finding a cause are worse by this factor. Sizes with their +- and the "
+        "limits in diagnosis.json are without it."
     ]
 
 
@@ -203,9 +204,7 @@ def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:
         for cell in np.argsort(-z):
             if z[cell] < NOTABLE and out:
                 break
-            row = int(np.flatnonzero(observed.cell == cell)[0])
-            at = {"temperature_C": float(observed.isotherm[row])}  # of all specimens in the mean
-            out.append({**_miss(observed, row, mean[cell], z[cell]), **at})
+            out.append(_miss(observed, int(np.flatnonzero(observed.cell == cell)[0]), mean[cell], z[cell]))
     aside, joint = diagnosis.set_aside, diagnosis.ladder.joint
     if not aside.size:
         return out
@@ -220,7 +219,7 @@ def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:
 
 def _miss(observed: Observations, row: int, residual: complex, z: float) -> dict[str, float | str]:
     return {
-        "temperature_C": float(observed.temperature[row]),
+        "temperature_C": float(observed.isotherm[row]),
         "frequency_Hz": float(observed.frequency[row]),
         "residual_E_percent": 100.0 * residual.real,
         "residual_phase_deg": float(np.degrees(residual.imag)),

@@ -38,8 +38,8 @@ from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.rheology.spectrum_io import spectrum_content
 
 OF_THE_PAPER = (
-    "no --geometry: the paper's specimen is taken, 250 mm high, with 235 g that move; a mass, friction or compliance "
-    "of the bench depends on it"
+    "no --geometry: the specimen of Quezada and Chazallon (2020) is taken, 250 mm high, with 235 g that move; sizes of "
+    "causes in the bench (mass, friction, compliance) depend on it"
 )
 TAKEN_AS_BENDING = "is taken as two-point bending"  # as `table_import.campaign` says it without --measured-in
 STEPS = 5  # read, causes, law, second opinion, next tests

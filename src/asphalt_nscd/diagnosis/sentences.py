@@ -13,15 +13,18 @@ from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import CHANCE, LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at, shown, three_digits
-from asphalt_nscd.files.words import specimen_named
+from asphalt_nscd.files.words import counted, specimen_named
 
 Content = Mapping[str, Any]
 SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not None}
 BOUNDS = {
     cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
 }
-OF_WHAT_IS_LEFT = "These are the four largest at most, as standard deviations beyond the scatter of a test."
-NO_CAUSE = "No cause of the catalogue beats chance."
+OF_WHAT_IS_LEFT = (
+    "These are the four largest at most. Each is a standard deviation; the scatter of a test is taken off."
+)
+NO_CAUSE = "No cause that this program knows explains these tests better than chance would."
+RANKED = "Doubtful tests come first, then what settles most per hour."
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
 ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
@@ -70,7 +73,7 @@ def _changed(content: Content, key: str, when: str) -> str:
     other = [cause_words(rung) for rung in then["causes"]]
     more = joined([an(words) for words in other if words not in now])
     less = joined([an(words) for words in now if words not in other])
-    changes = [f"also name {more}"] if more else []
+    changes = [f"{'also ' * any(one in other for one in now)}name {more}"] if more else []
     changes += [f"no longer name {less}"] if less else []
     return f"{when}, the diagnosis would {joined(changes) or 'name the same causes'}."
 
@@ -135,16 +138,16 @@ def _sure(rung: Content, content: Content) -> str:
     if rung["cause"] == BOND_MAPPING:
         return f"Established: {rung['evidence']}."
     chance = (
-        "by chance this happens in fewer than one of a million tables"
+        "scatter alone would look like it in fewer than one of a million tables"
         if rung["p_value"] < 1e-6
-        else (f"by chance this happens in {_per_cent(rung['p_value'])} of all tables")
+        else (f"scatter alone would look like it in {_per_cent(rung['p_value'])} of all tables")
     )
     doubts = _doubts(rung, content)
     if doubts:
         first, *more = doubts
         return f"Not certain: {'. '.join([first[:1].lower() + first[1:], *more])}."
     if not rung.get("established", True):
-        return f"Not certain: certainty takes {ENOUGH}."
+        return f"Not certain: {lacking(content)}."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     return f"Established: {chance}."
@@ -168,8 +171,24 @@ def _doubts(rung: Content, content: Content) -> list[str]:
     doubts += rung.get("doubts", [])
     isotherms = content.get("reading", {}).get("isotherms_C", [])
     if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):
-        doubts.append(f"Besides, certainty takes {ENOUGH}")
+        doubts.append(f"Besides, {lacking(content)}")
     return doubts
+
+
+def lacking(content: Content) -> str:
+    """What a table has too little of for a name to be certain."""
+    at = len(content.get("reading", {}).get("isotherms_C", []))
+    stated = content.get("provenance", {}).get("scatter_stated")
+    few = []
+    if 0 < at < LEAST_ISOTHERMS:
+        few.append(
+            f"{counted(at, 'temperature')} {'was' if at == 1 else 'were'} tested, and {LEAST_ISOTHERMS} are needed"
+        )
+    if not (content.get("scatter", {}).get("from_replicates", True) or stated):
+        few.append("no condition was tested on a second specimen")
+    elif not content.get("tested", True):
+        few.append("two frequencies were tested, and 3 are needed")
+    return "; ".join(few) or f"certainty takes {ENOUGH}"
 
 
 def in_words(name: str) -> str:
@@ -198,7 +217,7 @@ def left(content: Content) -> list[str]:
         places = levels.places(*odd(content))
         return [
             *(_part_left(name, value, scatter) for name, value in parts),
-            *([f"{joined(places)} took part in these sizes, although odd"] if places else []),
+            *([f"What is odd ({joined(places)}) is part of these sizes"] if places else []),
             *_which_departs(content, parts),
         ]
     pattern = content["largest_pattern_left"]

@@ -65,7 +65,7 @@ def _orders(content: Content) -> list[str]:
     lines = []
     for number, one in enumerate(found["orders"], 1):
         lines += [f"{number}. {one['text']}", *(f"   {why}" for why in one["why"])]
-    return [*lines, found["costs"]] if lines else []
+    return [*lines, f"{sentences.RANKED} {found['costs']}"] if lines else []
 
 
 def _limits(content: Content) -> list[str]:

@@ -116,7 +116,8 @@ def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int, shared: Mappi
 def _used_all_the_same(shared: int, found: int) -> str:
     if not shared:
         return ""
+    which = "They" if shared == found else f"{shared} of them"
     return (
-        f" In {shared} of these {found} the specimen exceeds it in at least half of its tests at that temperature: "
-        "check its gauges and mounting. No single test is rejected for that."
+        f" {which} belong to isotherms at which the specimen exceeds the limit in half of its tests or more: check its "
+        "gauges and mounting. No single test is rejected for that."
     )

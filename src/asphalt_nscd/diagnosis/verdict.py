@@ -63,23 +63,34 @@ def on_data(content: Content) -> str:
         parts.append(
             f"{joined(read['not_tested'])} {'was' if len(read['not_tested']) == 1 else 'were'} not tested"
         )
-    # Of a bench that nobody stated, its causes are told with that condition below.
-    beyond = OF_THE_MIX | (OF_THE_BENCH if read.get("bench_assumed") else set())
-    parts += [_fault(rung, content) for rung in content["ladder"] if rung["cause"] not in beyond]
+    parts += [_fault(rung, content) for rung in _faults(content)]
     spread = (content.get("repeatability") or {}).get("between")
     if spread is not None and not mixes(content):
         parts.append(_spread(spread))
     return " ".join(f"{part[:1].upper()}{part[1:]}." for part in parts)
 
 
+def _faults(content: Content) -> list[Content]:
+    """Named faults of the tests; of a bench that nobody stated, its causes are told with that condition elsewhere."""
+    beyond = OF_THE_MIX | (OF_THE_BENCH if content.get("reading", {}).get("bench_assumed") else set())
+    return [rung for rung in content["ladder"] if rung["cause"] not in beyond]
+
+
 def _usable(content: Content) -> str:
     """How many tests can be used as they are, how many only after a check, how many not at all."""
     out, tests = len(not_used(content)), content["tests"]
     trust = content.get("trust", {"use": tests, "check": 0, "not_used": out})
+    faults = [rung for rung in _faults(content) if rung.get("established", True)]
+    corrected = ", once corrected" if any(rung["where"] is None for rung in faults) else ""
     if not trust["check"] and not trust["not_used"]:
-        return f"all {tests} tests can be used"
-    use = f"{trust['use'] or 'none'} of {tests + out} tests can be used"
-    check = [f"{trust['check']} only after a check"] if trust["check"] else []
+        return f"all {tests} tests can be used{corrected}"
+    use = f"{trust['use'] or 'none'} of {tests + out} tests can be used{corrected}"
+    law = (
+        " (the law here rests on them too)"
+        if len(content.get("reading", {}).get("isotherms_C", [])) != 1
+        else ""
+    )
+    check = [f"{trust['check']} only after a check{law}"] if trust["check"] else []
     never = [f"{trust['not_used']} not at all"] if trust["not_used"] else []
     return ", ".join([use, *check, *never])
 
@@ -116,9 +127,14 @@ def _fault(rung: Content, content: Content) -> str:
     one = isinstance(where, str)
     who = specimen_named(where) if one else ("all of them" if where is None else f"those at {where:g} degC")
     told = f"{who} {'carries' if one else 'carry'} {an(rung['cause'].replace('_', ' '))} of {size(rung)}"
+    if not rung.get("established", True):
+        told = f"perhaps {told} (not certain; the reason is below)"
+        correct = ""
+    else:
+        correct = ": correct them for it" if not one else ": correct its tests for it"
     if len(content.get("reading", {}).get("isotherms_C", [])) != 1:  # no law is written of one temperature
-        told += ", which law.json leaves out"
-    return told if rung.get("established", True) else f"perhaps {told} (not certain; the reason is below)"
+        correct += "; law.json is the law of the mix without it"
+    return told + correct
 
 
 def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:
@@ -153,7 +169,11 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
         )
     spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in ladder)
     law = COMMON if spectrum else simpler
-    other = f"without {'it' if len(ladder) == 1 else 'them'}" if law == simpler else f"{simpler} misses"
+    other = (
+        f"without {'this cause' if len(ladder) == 1 else 'these causes'}"
+        if law == simpler
+        else f"{simpler} misses"
+    )
     return (
         f"{law}, with {found}, misses {missed_by} by {after[0]} of |E*| and {after[1]} of the phase, "
         f"{_beyond_bonds(content)}. {other[:1].upper()}{other[1:]} by {before[0]} and {before[1]}.{worse}"
@@ -218,13 +238,14 @@ def _cannot_judge(content: Content) -> str:
 
 def _beyond_bonds(content: Content) -> str:
     """Whether more than scatter is left, once what the simulated bonds add to their law is taken off."""
-    doubtful = any(rung.get("doubts") for rung in content["ladder"])
-    unsure = doubtful and content["verdict"] != "explained" and not more_than_scatter(content)
     if not content["tested"] and _alone(content):
         return "and nobody knows how much of that is scatter"
-    end = "no more" if unsure or content["verdict"] == "explained" else "more"
-    by = ", but not every cause is certain" if unsure else ""
-    by += _holding(content) if end == "no more" else ""
+    fits = content["verdict"] == "explained" or not more_than_scatter(content)
+    named = [rung for rung in content["ladder"] if rung["cause"] not in ("relaxation_spectrum", BOND_MAPPING)]
+    sure = all(rung.get("established", True) for rung in named)
+    end = "no more" if fits else "more"
+    by = "" if sure or not fits else ", but not every cause is certain"
+    by += _holding(content) if fits else ""
     bonds = content["numerics"]["largest_modulus_percent"]
     if bonds <= content["scatter"]["modulus_percent"]:
         return f"{end} than scatter can explain{by}"
@@ -238,27 +259,31 @@ def _alone(content: Content) -> bool:
 
 
 def beyond_the_tests(content: Content) -> list[str]:
-    """A warning where the law predicts a temperature that was left out badly."""
+    """A warning where the law predicts temperatures that were left out of its fit badly: between others, or beyond."""
     gain = (
         content["ladder"][-1]["gain"].get("held_out", {}).get("leave_one_isotherm_out")
         if content["ladder"]
         else None
     )
-    if gain is None or not predicts_badly(gain):
+    if gain is None:
         return []
-    errors = mean_averages(gain)
-    modulus, phase = (errors[name]["after"] for name in ("mre_E_percent", "mre_phase_percent"))
+    errors = {float(t): one["mre_E_percent"]["after"] for t, one in gain["averages_by_temperature"].items()}
+    coldest, warmest = min(errors), max(errors)
+    between = mean_averages(gain, inner=True)["mre_E_percent"]["after"]
+    if max(between, errors[coldest], errors[warmest]) <= POOR:
+        return []
+    where = "at temperatures that were not tested" if between > POOR else "beyond the tested temperatures"
     return [
-        f"A temperature left out of the fit is predicted with an error of {three_digits(modulus)} % of |E*| and "
-        f"{three_digits(phase)} % of the phase: do not use the law far from the tested temperatures."
+        f"Left out of the fit, a temperature between others is predicted with an error of {between:.0f} % of |E*|, "
+        f"{coldest:g} degC with {errors[coldest]:.0f} % and {warmest:g} degC with {errors[warmest]:.0f} %: do not use "
+        f"the law {where}."
     ]
 
 
-def predicts_badly(gain: dict[str, Any]) -> bool:
-    """Whether what is left out is predicted much worse than before, which may have seen it."""
-    return any(
-        errors["after"] > max(MUCH_WORSE * errors["before"], POOR) for errors in mean_averages(gain).values()
-    )
+def predicts_badly(gain: dict[str, Any], inner: bool) -> bool:
+    """Whether what is left out is predicted much worse than before, which may have seen it; inner: between others."""
+    found = mean_averages(gain, inner)
+    return any(errors["after"] > max(MUCH_WORSE * errors["before"], POOR) for errors in found.values())
 
 
 def test_type(content: Content) -> str:

@@ -107,9 +107,13 @@ def conditions(residuals: pd.DataFrame, scatter: dict[str, float]) -> pd.DataFra
     return means
 
 
-def mean_averages(gain: dict[str, Any]) -> dict[str, dict[str, float]]:
-    """Errors of |E*| and phase before and after in percent, as in Table 4, mean over temperatures."""
-    by_temperature = gain["averages_by_temperature"].values()
+def mean_averages(gain: dict[str, Any], inner: bool = False) -> dict[str, dict[str, float]]:
+    """Errors of |E*| and phase before and after in percent, as in Table 4, mean over temperatures.
+
+    inner: over those between others only; an end that is left out of a fit is extrapolated.
+    """
+    at = sorted(gain["averages_by_temperature"], key=float)
+    by_temperature = [gain["averages_by_temperature"][t] for t in ((inner and at[1:-1]) or at)]
     return {
         name: {
             when: sum(errors[name][when] for errors in by_temperature) / len(by_temperature)

@@ -17,10 +17,7 @@ class GuideStiffness(Cause):
     parameters = (Parameter("modulus", "Pa", 0.0, 5e9, 2e7),)
     sentence = "a guide or cable acts as a spring in parallel with the specimen"
     confirmed_by = "a test of the rig without a specimen, or the modulus of the mix at long times"
-    needs = (
-        "two-point bending and the static modulus of the mix (--static-modulus-mpa), of which it is indistinguishable "
-        "otherwise"
-    )
+    needs = "two-point bending and the static modulus of the mix (--static-modulus-mpa), since both add alike to |E*|"
 
     def places(self, observed: Observations) -> Sequence[Place]:
         return () if observed.static_modulus is None or not self.on_bench(observed) else (None,)

@@ -32,8 +32,9 @@ from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_
 TEMPLATE = "diagnosis_page.html"
 LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
 NOT_THERE = ". That is more than before: do not use this law there"
+INNER = "leave_one_isotherm_out"
 HELD_OUT = {
-    "leave_one_isotherm_out": "each inner temperature predicted from the rest",
+    "leave_one_isotherm_out": "each temperature between others predicted from them",
     "leave_one_frequency_out": "each frequency predicted from the others",
 }
 ORIGINS = {
@@ -131,6 +132,7 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "left": sentences.left(content),
         "orders": found["orders"],
         "costs": found["costs"],
+        "ranked": sentences.RANKED,
         "limits_head": table_rows.LIMITS_HEAD,
         "limits_stated": table_rows.LIMITS_STATED,
         "measured_limits": [[in_type(cell) for cell in row] for row in table_rows.measured_limits(content)],
@@ -143,11 +145,11 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
 def scatter(content: dict[str, Any]) -> str:
     scatter = content["scatter"]
     sizes = (
-        f"A test, with the mounting of its specimen, scatters by {scatter['modulus_percent']:.2g} % and "
+        f"The scatter of one test, mounted anew, is {scatter['modulus_percent']:.2g} % of |E*| and "
         f"{scatter['phase_deg']:.2g}°"
     )
     if scatter["from_replicates"]:
-        return f"{sizes}."
+        return f"{sizes}, taken as one number for all isotherms."
     if content["provenance"].get("scatter_stated"):
         return f"{sizes}, as was stated."
     return f"{sizes} as far as a smooth law can tell, for nothing was repeated."
@@ -180,7 +182,9 @@ def _rung(rung: dict[str, Any], last: bool) -> dict[str, Any]:
         "doubts": rung.get("doubts", []),
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {
-            HELD_OUT[name] + _warning(last, gain["held_out"][name]): _gain(gain["held_out"][name])
+            HELD_OUT[name] + _warning(last, gain["held_out"][name], name == INNER): _gain(
+                gain["held_out"][name], name == INNER
+            )
             for name in HELD_OUT
             if name in gain["held_out"]
         },
@@ -228,14 +232,17 @@ def _estimate(name: str, estimate: dict[str, Any]) -> str:
     return f"{text} {unit}".rstrip()
 
 
-def _warning(last: bool, gain: dict[str, Any]) -> str:
+def _warning(last: bool, gain: dict[str, Any], inner: bool) -> str:
     """Of the last law, the others being steps on the way to it."""
-    return NOT_THERE if last and verdict.predicts_badly(gain) else ""
+    return NOT_THERE if last and verdict.predicts_badly(gain, inner) else ""
 
 
-def _gain(gain: dict[str, Any]) -> list[str]:
-    """Errors as in Table 4, mean over temperatures, and residuals over scatter; empty where these are none."""
-    pairs = [*mean_averages(gain).values(), gain.get("rms_over_scatter", {})]
+def _gain(gain: dict[str, Any], inner: bool = False) -> list[str]:
+    """Errors as in Table 4, mean over temperatures, and residuals over scatter; empty where these are none.
+
+    inner: of temperatures between others only.
+    """
+    pairs = [*mean_averages(gain, inner).values(), gain.get("rms_over_scatter", {})]
     return [" → ".join(map(_number, pair.values())) for pair in pairs]
 
 
@@ -255,7 +262,7 @@ def _limits_caption(spread: float) -> str:
     caption = "Found with 95 % probability if at least this large; a smaller effect may be there"
     if spread < WIDE_SPREAD:
         return caption
-    return f"{caption}. Multiplied by {spread:.1f}: so much further than the diagnosis allows for these tests deviate"
+    return f"{caption}. Multiplied by {spread:.1f}, for these tests lie so many times as far from the fit as assumed"
 
 
 def _limits(limits: dict[str, Any], spread: float) -> list[tuple[str, str]]:

@@ -59,7 +59,7 @@ def _side_by_side(tests: pd.DataFrame, content: dict) -> Chart:
     return Chart(
         "specimens",
         "Black diagram and master curves",
-        "Tests of one material lie on one curve. Hollow points mark suspect tests.",
+        "Tests of one material should lie on one curve. Hollow points mark suspect tests.",
         plots,
         [(name, *look) for name, look in looks.items()],
         of="Specimens",
@@ -99,8 +99,8 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
     return Chart(
         "causality",
         "Phase measured less the phase that |E*| requires",
-        "In degrees. The required phase is computed from |E*| alone, and no delay or offset is taken off; the list of "
-        "doubtful tests uses the phases at the other frequencies too, so that its numbers differ. Grey numbers are "
+        "In degrees. The required phase is computed from |E*| alone, and no delay or offset is taken off. The list of "
+        "doubtful tests uses the phases at the other frequencies too: its numbers are others. Grey numbers are "
         "within two standard errors. Cross: suspect, not used. Ring: suspect, used. Triangle: a quality limit is "
         "exceeded."
         if plots

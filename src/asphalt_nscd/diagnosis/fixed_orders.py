@@ -1,0 +1,97 @@
+"""Orders to the laboratory that need no computed gain: what a table lacks, whatever else it says."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from asphalt_nscd.diagnosis import quality
+from asphalt_nscd.diagnosis.chance import LEAST_ISOTHERMS
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.sentences import joined
+from asphalt_nscd.diagnosis.sweeps import BEYOND, COLDEST, METAL, NEW, WARMEST, Costs, temperatures
+from asphalt_nscd.files.words import counted, specimen_named
+
+Orders = list[dict[str, Any]]
+
+
+def gauges(done: Observations, costs: Costs) -> Orders:
+    """Tests again after a check, of specimens beyond a quality limit that half of all tests exceed or more."""
+    above = quality.exceeded(done)
+    orders: Orders = []
+    for name, limit in quality.LIMITS.items():
+        rows = np.array([one.row for one in above if one.column == name], np.int64)
+        if 2 * rows.size < done.size:
+            continue
+        share = np.bincount(done.specimen[rows], minlength=len(done.names)) / np.bincount(done.specimen)
+        names = [done.names[k] for k in np.flatnonzero(share >= 0.5)]
+        room = float(np.mean(costs.room))
+        at = float(min(done.isotherms, key=lambda t: abs(t - room)))
+        why = (
+            f"{rows.size} of {done.size} tests exceed the limit of {limit.label}. If the new tests keep it, the "
+            "mounting was at fault: repeat the other temperatures too. If not, it is the machine or the specimens."
+        )
+        act = f"check {limit.check}, mount {named(names)} anew and test"
+        orders.append(_order(act, names, [at], done, costs, why, "again"))
+    return orders
+
+
+def second_specimen(done: Observations, costs: Costs) -> Orders:
+    """A new specimen at the same conditions, where one alone was tested."""
+    if len(done.names) > 1:
+        return []
+    why = "Two specimens show the scatter from test to test. Without it nothing here is certain."
+    return [_order(f"test {NEW}", [NEW], done.isotherms.tolist(), done, costs, why)]
+
+
+def more_temperatures(done: Observations, costs: Costs) -> Orders:
+    """As many as certainty lacks: beyond those tested, then between them."""
+    tested = done.isotherms
+    beyond = [t for t in (tested[-1] + BEYOND, tested[0] - BEYOND) if COLDEST <= t <= WARMEST]
+    between = [t for t in temperatures(done) if tested[0] < t < tested[-1] and t not in tested]
+    new = [float(round(t)) for t in (*beyond, *between)][: max(LEAST_ISOTHERMS - tested.size, 0)]
+    if not new:
+        return []
+    names = [done.names[k] for k in range(min(2, len(done.names)))]
+    why = (
+        f"{counted(tested.size, 'temperature')} {'was' if tested.size == 1 else 'were'} tested; law and causes can be "
+        f"certain from {LEAST_ISOTHERMS} on."
+    )
+    return [_order(f"test {named(names)}", names, sorted(new), done, costs, why)]
+
+
+def _order(
+    act: str, names: list[str], at: list[float], done: Observations, costs: Costs, why: str, again: str = ""
+) -> dict[str, Any]:
+    frequencies = done.frequencies.tolist()
+    hours = sum(costs.hours("", t, frequencies) for name in names for t in at)
+    hours += costs.new_specimen * (NEW in names)
+    words = " ".join(filter(None, [act, again, f"at {joined([f'{t:g}' for t in at])} degC"]))
+    return {
+        "text": f"{hours:.1f} h: {words}, {band(frequencies)}.",
+        "why": [why],
+        "hours": round(hours, 2),
+        "nats": 0.0,
+        "specimens": names,
+        "temperature_C": at[0] if len(at) == 1 else None,
+        "frequencies_Hz": frequencies,
+        "half_strain": False,
+    }
+
+
+def named(specimens: Sequence[str]) -> str:
+    """`specimens A and B`, `specimen A and a new specimen`."""
+    own = [name for name in specimens if name not in (METAL, NEW)]
+    others = [name for name in specimens if name in (METAL, NEW)]
+    if len(own) > 1 and specimen_named(own[0]) != own[0]:
+        return joined([f"specimens {joined(own)}", *others])
+    return joined([*map(specimen_named, own), *others])
+
+
+def band(f: Sequence[float]) -> str:
+    """`1 and 10 Hz`, `0.1 to 25 Hz (6 frequencies)`."""
+    if len(f) < 4:
+        return f"{joined([f'{x:g}' for x in f])} Hz"
+    return f"{f[0]:g} to {f[-1]:g} Hz ({len(f)} frequencies)"
