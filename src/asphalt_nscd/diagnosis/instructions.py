@@ -79,7 +79,7 @@ class Order:
 
 
 def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, Any]:
-    """Content of `instructions` in diagnosis.json: at most five, the one of largest gain per hour first."""
+    """Content of `instructions` in diagnosis.json: at most five, doubtful tests first, then by gain per hour."""
     costs = costs or Costs()
     model = possible(diagnosis, costs)
     questions = open_questions(diagnosis, model)
