@@ -92,7 +92,7 @@ def test_a_small_effect_is_only_likely():
     assert reason.startswith(
         "Another error that varies smoothly with frequency could look the same. Fitted beside such an error, "
     )
-    assert reason.endswith(" times the standard error, and 6 times are required")
+    assert reason.endswith(" times the standard error, and certainty takes 6")
 
 
 def test_what_follows_a_name_in_doubt_is_in_doubt():

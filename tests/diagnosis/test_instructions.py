@@ -243,7 +243,7 @@ def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
 def test_what_a_test_would_show_is_said_with_its_chance():
     one = instructions.Open("reach", None, "a phase offset of 1.5 deg")
     assert instructions._reason(one, 4.0, 47.0) == (
-        "If there is a phase offset of 1.5 deg, it is found in 100 % of cases with this test; in 4 % without it."
+        "If there is a phase offset of 1.5 deg, it is found in 100 % of cases with this test; without it, in 4 %."
     )
 
 
@@ -345,7 +345,7 @@ def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(de
     assert instructions._by_limit(nowhere, bias) == 0.0
     assert all(one.hidden >= 0.0 for one in reach)
     asked = instructions.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
-    assert instructions._reason(asked, 9.0, 90.0).endswith("with this test; in 0 % without it.")
+    assert instructions._reason(asked, 9.0, 90.0).endswith("with this test; without it, in 0 %.")
 
 
 def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):

@@ -317,7 +317,7 @@ def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
         "largest_pattern_left": None,
         "lack_of_fit_p_value": 1e-9,
     }
-    assert on_simulation(found, after).endswith(f"more than scatter can explain.{said}")
+    assert on_simulation(found, after).endswith(f"more than scatter within specimens can explain.{said}")
 
 
 @pytest.mark.parametrize("burgers,law", [(10.5, verdict.SIMPLER), (7.0, verdict.COMMON)])
@@ -342,7 +342,7 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
     }
     assert on_simulation(found) == (
         f"{law}, with a phase offset, misses the mean of the specimens by 1 % of |E*| and 1 % of the phase, more than "
-        "scatter can explain. Without this cause by 10.5 % and 10.5 %."
+        "scatter within specimens can explain. Without this cause by 10.5 % and 10.5 %."
     )
     found["scatter"]["from_replicates"] = False
     assert on_simulation(found).startswith(f"{law}, with a phase offset, misses the tests by 1 % of |E*|")
@@ -355,14 +355,15 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
     [
         (
             36,
-            " 36 of 72 exceed the limit of phase uniformity (3 deg): check the gauges and the ends of the "
-            "specimens.",
+            " 36 of 72 exceed the limit of phase uniformity (3 deg), 30 of specimen A, 6 of specimen B: check the gauges "
+            "and the ends of the specimens.",
         ),
         (35, ""),
     ],
 )
 def test_a_quality_limit_that_half_of_the_tests_exceed_stands_in_the_verdict(exceeded, said):
-    reading = {"limits_exceeded": [{"column": "phase_uniformity_deg"}] * exceeded}
+    above = [{"column": "phase_uniformity_deg", "specimen": "A" if k < 30 else "B"} for k in range(exceeded)]
+    reading = {"limits_exceeded": above}
     found = content(0, 0, tests=72, reading=reading) | {"ladder": []}
     assert on_data(found) == f"All 72 tests can be used.{said}"
 

@@ -248,3 +248,22 @@ def test_table_holds_what_the_map_shows():
     left = (table["phase_deg"] - table["phase_required_deg"]).drop(row)
     assert left.abs().median() < 0.5 and (left.abs() < 4.0 * table["std_error_deg"].drop(row)).all()
     assert table["phase_deg"][row] - table["phase_required_deg"][row] > 3.0
+
+
+def test_phases_that_lie_on_one_side_are_told():
+    observed = campaign()
+    held = within_isotherm.hold(observed)
+    assert suspects.one_sided(observed, held) == []
+    turned = replace(observed, modulus=observed.modulus * np.exp(1j * np.radians(-4.0)))
+    (said,) = suspects.one_sided(turned, within_isotherm.hold(turned))
+    assert " phases lie below what |E*| alone requires" in said
+
+
+def test_a_decimal_point_that_slipped_is_told():
+    observed = campaign()
+    modulus = observed.modulus.copy()
+    modulus[3] *= 10.0
+    (one,) = [one for one in suspects.find(replace(observed, modulus=modulus)) if one.row == 3]
+    assert " times the " in one.reasons[0] and one.reasons[0].endswith(
+        "; look for a slip of the decimal point"
+    )

@@ -150,7 +150,7 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
     elif least < ENOUGH:
         yield (
             "Another error that varies smoothly with frequency could look the same. Fitted beside such an error, its "
-            f"size is {np.floor(10.0 * least) / 10.0:g} times the standard error, and {ENOUGH:g} times are required"
+            f"size is {np.floor(10.0 * least) / 10.0:g} times the standard error, and certainty takes {ENOUGH:g}"
         )
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))

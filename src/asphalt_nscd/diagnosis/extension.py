@@ -22,9 +22,9 @@ from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
-from asphalt_nscd.diagnosis.sentences import joined
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_json
+from asphalt_nscd.files.words import joined
 from asphalt_nscd.measurements.reduction import LEAST_TESTS
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.fitting import Fit
@@ -92,7 +92,7 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
         *notes,
         "law.json holds a law of few parameters, 2S2P1D with WLF. It differs from the law found here by "
         f"{100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*| and {np.degrees(np.sqrt(np.mean(off.imag**2))):.1f} "
-        f"deg in phase{'' if without else ', the nearest that 2S2P1D comes to these tests'}.",
+        f"deg in phase.{'' if without else ' No 2S2P1D with WLF fits these tests better.'}",
     ]
 
 

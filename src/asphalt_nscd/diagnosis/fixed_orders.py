@@ -10,9 +10,8 @@ import numpy as np
 from asphalt_nscd.diagnosis import quality
 from asphalt_nscd.diagnosis.chance import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.sentences import joined
 from asphalt_nscd.diagnosis.sweeps import BEYOND, COLDEST, METAL, NEW, WARMEST, Costs, temperatures
-from asphalt_nscd.files.words import counted, specimen_named
+from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Orders = list[dict[str, Any]]
 
@@ -30,7 +29,7 @@ def gauges(done: Observations, costs: Costs) -> Orders:
         room = float(np.mean(costs.room))
         at = float(min(done.isotherms, key=lambda t: abs(t - room)))
         why = (
-            f"{rows.size} of {done.size} tests exceed the limit of {limit.label}. If the new tests keep it, the "
+            f"{rows.size} of {done.size} tests exceed the limit of {limit.label}. If the new ones stay below it, the "
             "mounting was at fault: repeat the other temperatures too. If not, it is the machine or the specimens."
         )
         act = f"check {limit.check}, mount {named(names)} anew and test"

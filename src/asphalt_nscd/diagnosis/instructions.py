@@ -25,10 +25,10 @@ from asphalt_nscd.diagnosis.further_tests import Possible, possible
 from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.sentences import an, joined, size_left
+from asphalt_nscd.diagnosis.sentences import an, size_left
 from asphalt_nscd.diagnosis.sweeps import METAL, Costs, Sweep
 from asphalt_nscd.diagnosis.written import shown, three_digits
-from asphalt_nscd.files.words import specimen_named
+from asphalt_nscd.files.words import joined, specimen_named
 
 MOST, REASONS = 5, 3
 NOTICEABLE = 15.0  # percent of cases
@@ -41,9 +41,9 @@ TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached i
 PRESENT = 0.1  # chance that a cause nobody has seen is there
 MOST_TOLD = 2.0 * float(np.log(1000.0))  # strength above which odds are not told as a number
 PLAIN = {  # whose size alone says little
-    "secondary_process": "a second loss peak (secondary process)",
-    "guide_friction": "friction in the guide that adds a loss modulus",
-    "strain_softening": "a softening of |E*| with strain",
+    "secondary_process": "a second loss peak (secondary process) of {}",
+    "guide_friction": "friction in the guide (a loss modulus larger by {})",
+    "strain_softening": "a softening with strain (|E*| lower by {})",
 }
 REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
 
@@ -291,7 +291,10 @@ def _sized(candidate: Candidate, typical: float) -> str:
     unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
     words = candidate.cause.name.replace("_", " ")
     place = words_of(candidate).removeprefix(words)
-    return f"{PLAIN.get(candidate.cause.name, an(words))} of {three_digits(value)} {unit}{place}"
+    return (
+        PLAIN.get(candidate.cause.name, f"{an(words)} of {{}}").format(f"{three_digits(value)} {unit}")
+        + place
+    )
 
 
 def _reasons(order: Order, questions: Sequence[Open], later: bool) -> list[str]:
@@ -358,8 +361,8 @@ def _reason(one: Open, before: float, after: float, later: bool = False) -> str:
     if chances[1] - chances[0] < NOTICEABLE:
         return ""
     return (
-        f"If there is {one.about}, it is found in {chances[1]:.0f} % of cases with this test; in {chances[0]:.0f} % "
-        f"{'after the orders above alone' if later else 'without it'}."
+        f"If there is {one.about}, it is found in {chances[1]:.0f} % of cases with this test; "
+        f"{'with the orders above only' if later else 'without it'}, in {chances[0]:.0f} %."
     )
 
 

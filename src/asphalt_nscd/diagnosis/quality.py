@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.files.words import joined, specimen_named
 
 STANDARD = "AASHTO T 378, TP 132"
 SPECIMEN, MACHINE = "the gauges and the ends of the specimens", "the control of the machine"
@@ -58,3 +59,19 @@ def exceeded(observed: Observations) -> list[Exceeded]:
     ]
     order = list(LIMITS)
     return sorted(found, key=lambda one: (one.row, order.index(one.column)))
+
+
+def where(observed: Observations, column: str) -> str:
+    """Specimens, each at the isotherms where half of its tests or more exceed the limit of a column, in words."""
+    rows = [one.row for one in exceeded(observed) if one.column == column]
+    above = np.isin(np.arange(observed.size), rows)
+    places, parts = [], []
+    for k, name in enumerate(observed.names):
+        own = observed.specimen == k
+        isotherms = np.unique(observed.isotherm[own])
+        at = [f"{t:g}" for t in isotherms if above[own & (observed.isotherm == t)].mean() >= 0.5]
+        if len(at) == isotherms.size:
+            places.append(specimen_named(name))
+        elif at:
+            parts.append(f"{specimen_named(name)} at {joined(at)} degC")
+    return joined([*places, *parts])

@@ -183,8 +183,8 @@ def _spread_note(spread: float) -> list[str]:
         return []
     return [
         f"These tests lie {spread:.1f} times as far from the fit as the diagnosis assumes. The limits in "
-        "diagnosis.html and any chances of finding a cause are worse by this factor. Sizes with their +- and the "
-        "limits in diagnosis.json are without it."
+        "diagnosis.html and any chances in the orders already include this factor; limits and standard errors in "
+        "diagnosis.json do not."
     ]
 
 

@@ -174,6 +174,8 @@ def conclude(
         before = _begin_with_campaigns(content, diagnosis, numerical, simulated.campaign, simulated.facets)
     content["origin"] = origin
     held = within_isotherm.hold(observed)
+    if not diagnosis.ladder.rungs:
+        content["notes"] += suspects.one_sided(observed, held)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["odd_levels"], content["odd_phases"] = odd
     content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)

@@ -12,18 +12,27 @@ from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import CHANCE, LEAST_ISOTHERMS
-from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at, shown, three_digits
-from asphalt_nscd.files.words import counted, specimen_named
+from asphalt_nscd.diagnosis.written import CONFIDENCE, WIDE_SPREAD, name_at, shown, three_digits
+from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Content = Mapping[str, Any]
 SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not None}
 BOUNDS = {
     cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
 }
+ORIGINS = {
+    "measured": "The data are taken as measured: no file says otherwise.",
+    "reconstructed": (
+        "This diagnosis rests on reconstructed data. They are not measurements: they were drawn about one smooth "
+        "law fitted to the published Burgers parameters, so that a cause found here is one of this reconstruction."
+    ),
+    "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
+}
 OF_WHAT_IS_LEFT = (
-    "These are the four largest at most. Each is a standard deviation; the scatter of a test is taken off."
+    "At most the four largest are listed. Each is a standard deviation; the scatter of a test is taken off."
 )
 NO_CAUSE = "No cause that this program knows explains these tests better than chance would."
+LAW = "relaxation spectrum"
 RANKED = "Doubtful tests come first, then what settles most per hour."
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
 ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
@@ -73,13 +82,33 @@ def _changed(content: Content, key: str, when: str) -> str:
     other = [cause_words(rung) for rung in then["causes"]]
     more = joined([an(words) for words in other if words not in now])
     less = joined([an(words) for words in now if words not in other])
-    changes = [f"{'also ' * any(one in other for one in now)}name {more}"] if more else []
+    kept = [one for one in now if one in other and one != LAW]
+    changes = [f"{'also ' * bool(kept)}name {more}"] if more else []
     changes += [f"no longer name {less}"] if less else []
     return f"{when}, the diagnosis would {joined(changes) or 'name the same causes'}."
 
 
 def place_of_test(one: Content) -> str:
     return f"{one['specimen']}, {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
+
+
+def of_intervals(content: Content) -> str:
+    """What a size with +- says, where any is told; more than it says where the tests lie far from the fit."""
+    if not content["ladder"]:
+        return ""
+    spread = content.get("estimates_spread", 1.0)
+    if spread < WIDE_SPREAD:
+        return "+- is the 95 % interval."
+    return (
+        f"+- is the 95 % interval by the fit. These tests lie {spread:.1f} times as far from it as it assumes: take "
+        f"{spread:.1f} times the +-."
+    )
+
+
+def origin(content: Content) -> list[str]:
+    """What the origin of the data means for a reader."""
+    stated = content.get("origin", "measured")
+    return [sentence for word, sentence in ORIGINS.items() if word in stated] or [f"The data are {stated}."]
 
 
 def law_of_the_mix(content: Content) -> tuple[str, str] | None:
@@ -138,9 +167,9 @@ def _sure(rung: Content, content: Content) -> str:
     if rung["cause"] == BOND_MAPPING:
         return f"Established: {rung['evidence']}."
     chance = (
-        "scatter alone would look like it in fewer than one of a million tables"
+        "fewer than one of a million tables"
         if rung["p_value"] < 1e-6
-        else (f"scatter alone would look like it in {_per_cent(rung['p_value'])} of all tables")
+        else f"{_per_cent(rung['p_value'])} of all tables"
     )
     doubts = _doubts(rung, content)
     if doubts:
@@ -150,7 +179,12 @@ def _sure(rung: Content, content: Content) -> str:
         return f"Not certain: {lacking(content)}."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
-    return f"Established: {chance}."
+    if rung["cause"] != "relaxation_spectrum":
+        return f"Established: scatter alone would imitate it in {chance}."
+    missed = " The law found here misses by more than scatter too." if more_than_scatter(content) else ""
+    return (
+        f"Established: scatter alone makes Burgers laws at each temperature miss so far in {chance}.{missed}"
+    )
 
 
 def _doubts(rung: Content, content: Content) -> list[str]:
@@ -308,11 +342,6 @@ def cause_words(rung: Content) -> str:
 
 def an(words: str) -> str:
     return f"{'an' if words[0] in 'aeiou' else 'a'} {words}"
-
-
-def joined(words: Sequence[str], last: str = "and") -> str:
-    """ "a, b and c"."""
-    return f" {last} ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
 
 
 def _per_cent(chance: float) -> str:

@@ -21,13 +21,14 @@ def summary(content: Content) -> str:
     mixes = verdict.mixes(content)
     head = [*([mixes] if mixes else []), *([f"Test: {test}."] if test else [])]
     head += [f"Files: {files}"] if files else []
+    head += [] if content.get("origin", "measured") == "measured" else sentences.origin(content)
     parts = [
         ("What was read", read["notes"]),
         ("Verdict", [*head, *answer]),
         ("Tests not to be used" if sentences.not_used(content) else "Doubtful tests", _suspects(content)),
         ("Law of the mix", [f"{law[0]}. {law[1]}"] if law else []),
         ("Causes", [f"{cause}. {sure}" for cause, sure in named] or [sentences.NO_CAUSE]),
-        ("", ["+- is the 95 % interval."] if law or named else []),
+        ("", list(filter(None, [sentences.of_intervals(content)]))),
         ("What stays unexplained", _left(content)),
         ("What to do next", _orders(content)),
         ("Scatter", _scatter(content)),

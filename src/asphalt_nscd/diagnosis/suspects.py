@@ -28,6 +28,7 @@ STRONG = 6e-3  # chance, times the number of values, below which causality alone
 NOTABLE = 0.1  # the same for a test that is listed and used
 SUPPORTED = 1e-2  # chance of one value, below which it is taken out where a witness agrees
 ALONE = 0.03  # the same for a flagged test of one specimen alone, whose scatter is known less
+SLIP, NEAR_POWER = np.log(3.0), 0.02  # of ln|E*|, told as a factor; of log10 of that, near a power of ten
 FAR = 5e-3  # chance, times the number of values, below which replicates are a witness
 LEANING, VERY_FAR = 0.1, 1e-5  # both limits where replicates say more: at the ends causality knows little
 BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1.5 deg or more
@@ -151,6 +152,20 @@ def broken_isotherms(observed: Observations, held: Held | None = None) -> list[B
     return found
 
 
+def one_sided(observed: Observations, held: Held) -> list[str]:
+    """A sentence where at least half of the phases lie on one side of what |E*| alone requires, beyond error."""
+    apart = np.degrees(observed.logarithm.imag - held.required)[held.judged]
+    far = np.abs(apart) > 2.0 * np.degrees(held.required_error[held.judged])
+    for side, rows in (("above", far & (apart > 0.0)), ("below", far & (apart < 0.0))):
+        if 2 * np.count_nonzero(rows) >= max(apart.size, 1):
+            return [
+                f"{np.count_nonzero(rows)} of {apart.size} phases lie {side} what |E*| alone requires by more than two "
+                f"standard errors, and all by {abs(apart.mean()):.1f} deg in the mean. No cause is named for that; a "
+                "metal reference specimen would show an offset or a delay."
+            ]
+    return []
+
+
 def table(observed: Observations, found: list[Suspect], held: Held) -> pd.DataFrame:
     """One row for each test: the phase measured and the one that |E*| alone requires, and what is suspect."""
     suspect = {one.row: one for one in found}
@@ -245,10 +260,13 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
     expected, error = held.expected[row, column], held.std_error[row, column]
     if column == 0:
         modulus = abs(observed.modulus[row])
-        apart = 100.0 * (modulus / np.exp(expected) - 1.0)
+        times = modulus / np.exp(expected)
+        apart = 100.0 * (times - 1.0)
+        slip = abs(np.log(times)) > SLIP and abs(np.log10(times) - np.round(np.log10(times))) < NEAR_POWER
+        size = f"{times:.3g} times" if abs(np.log(times)) > SLIP else f"{abs(apart):.1f} % {_way(apart)}"
         return (
-            f"|E*| is {modulus / 1e6:.0f} MPa, {abs(apart):.1f} % {_way(apart)} the {np.exp(expected) / 1e6:.0f} MPa "
-            f"that its phase and {rest} ask for (standard error {100.0 * error:.1f} %)"
+            f"|E*| is {modulus / 1e6:.0f} MPa, {size} the {np.exp(expected) / 1e6:.0f} MPa that its phase and {rest} "
+            f"ask for (standard error {100.0 * error:.1f} %){'; look for a slip of the decimal point' * bool(slip)}"
         )
     phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
     delay = "; the delay of all tests is allowed for" if held.delay else ""

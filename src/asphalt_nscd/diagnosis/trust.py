@@ -47,7 +47,7 @@ def reading(
         "notes": [
             *notes,
             *together,
-            *_quality_notes(above, observed.size, _shared(observed)),
+            *_quality_notes(above, observed, _shared(observed)),
         ],
         **({"not_tested": gaps} if (gaps := _gaps(observed)) else {}),
         **({"files_without_tests": list(without_tests)} if without_tests else {}),
@@ -94,7 +94,9 @@ def _shared(observed: Observations) -> Counter[str]:
     )
 
 
-def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int, shared: Mapping[str, int]) -> list[str]:
+def _quality_notes(
+    above: Sequence[Mapping[str, Any]], observed: Observations, shared: Mapping[str, int]
+) -> list[str]:
     """A sentence for each quality limit that some tests exceed, with the worst of them; what follows if it is usual."""
     notes = []
     for name, limit in quality.LIMITS.items():
@@ -107,17 +109,14 @@ def _quality_notes(above: Sequence[Mapping[str, Any]], tests: int, shared: Mappi
             )
             notes.append(
                 f"{limit.label.capitalize()} above {limit.limit:g} {limit.unit} ({limit.source}) in {len(found)} of "
-                f"{tests} tests: {worst}{'; and others' if len(found) > 3 else ''}."
-                + _used_all_the_same(shared.get(name, 0), len(found))
+                f"{observed.size} tests: {worst}{'; and others' if len(found) > 3 else ''}."
+                + (_used_all_the_same(quality.where(observed, name)) if shared.get(name) else "")
             )
     return notes
 
 
-def _used_all_the_same(shared: int, found: int) -> str:
-    if not shared:
-        return ""
-    which = "They" if shared == found else f"{shared} of them"
+def _used_all_the_same(places: str) -> str:
     return (
-        f" {which} belong to isotherms at which the specimen exceeds the limit in half of its tests or more: check its "
-        "gauges and mounting. No single test is rejected for that."
+        f" Half of the tests or more exceed it in {places}: check gauges and mounting. No single test is rejected for "
+        "that."
     )

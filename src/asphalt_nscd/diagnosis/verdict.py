@@ -14,14 +14,13 @@ from asphalt_nscd.diagnosis.sentences import (
     Content,
     an,
     cause_words,
-    joined,
     more_than_scatter,
     not_used,
     odd,
     size,
 )
 from asphalt_nscd.diagnosis.written import mean_averages, three_digits
-from asphalt_nscd.files.words import counted, specimen_named
+from asphalt_nscd.files.words import counted, joined, specimen_named
 
 TEST_TYPES = {
     "bending": "two-point bending of a trapezoidal specimen",
@@ -35,6 +34,9 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and n
     "relaxation_spectrum",
     BOND_MAPPING,
 }
+CARRIED = {
+    "specimen_geometry": "an error of |E*|, as by wrong dimensions,"
+}  # causes that are no noun of a fault
 SIMPLER = "one Burgers law for each temperature"
 COMMON = "one law for all temperatures"
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
@@ -108,13 +110,20 @@ def _contradictory(content: Content) -> list[str]:
 def _flagged(content: Content) -> list[str]:
     """Quality limits that half of the tests exceed or more."""
     tests = content["tests"] + len(not_used(content))
-    columns = [one["column"] for one in content.get("reading", {}).get("limits_exceeded", [])]
+    above = content.get("reading", {}).get("limits_exceeded", [])
+    columns = [one["column"] for one in above]
     return [
-        f"{columns.count(name)} of {tests} exceed the limit of {limit.label} ({limit.limit:g} {limit.unit}): check "
-        f"{limit.check}"
+        f"{columns.count(name)} of {tests} exceed the limit of {limit.label} ({limit.limit:g} {limit.unit}), "
+        f"{_most_of(above, name)}: check {limit.check}"
         for name, limit in quality.LIMITS.items()
         if 2 * columns.count(name) >= tests
     ]
+
+
+def _most_of(above: Sequence[Content], column: str) -> str:
+    """How many of each specimen."""
+    names = [one["specimen"] for one in above if one["column"] == column]
+    return ", ".join(f"{names.count(name)} of {specimen_named(name)}" for name in dict.fromkeys(names))
 
 
 def _spread(between: Mapping[str, float]) -> str:
@@ -126,7 +135,8 @@ def _fault(rung: Content, content: Content) -> str:
     where = rung["where"]
     one = isinstance(where, str)
     who = specimen_named(where) if one else ("all of them" if where is None else f"those at {where:g} degC")
-    told = f"{who} {'carries' if one else 'carry'} {an(rung['cause'].replace('_', ' '))} of {size(rung)}"
+    what = CARRIED.get(rung["cause"]) or an(rung["cause"].replace("_", " "))
+    told = f"{who} {'carries' if one else 'carry'} {what} of {size(rung)}"
     if not rung.get("established", True):
         told = f"perhaps {told} (not certain; the reason is below)"
         correct = ""
@@ -243,14 +253,15 @@ def _beyond_bonds(content: Content) -> str:
     fits = content["verdict"] == "explained" or not more_than_scatter(content)
     named = [rung for rung in content["ladder"] if rung["cause"] not in ("relaxation_spectrum", BOND_MAPPING)]
     sure = all(rung.get("established", True) for rung in named)
-    end = "no more" if fits else "more"
+    within = " within specimens" if content["scatter"]["from_replicates"] else ""
+    scatter = "no more than scatter can explain" if fits else f"more than scatter{within} can explain"
     by = "" if sure or not fits else ", but not every cause is certain"
     by += _holding(content) if fits else ""
     bonds = content["numerics"]["largest_modulus_percent"]
     if bonds <= content["scatter"]["modulus_percent"]:
-        return f"{end} than scatter can explain{by}"
+        return f"{scatter}{by}"
     added = f"of which the simulated bonds add up to {bonds:.1f} % to |E*|"
-    return f"{added}; the rest is {end} than scatter can explain{by}"
+    return f"{added}; the rest is {scatter}{by}"
 
 
 def _alone(content: Content) -> bool:
@@ -274,10 +285,23 @@ def beyond_the_tests(content: Content) -> list[str]:
         return []
     where = "at temperatures that were not tested" if between > POOR else "beyond the tested temperatures"
     return [
-        f"Left out of the fit, a temperature between others is predicted with an error of {between:.0f} % of |E*|, "
-        f"{coldest:g} degC with {errors[coldest]:.0f} % and {warmest:g} degC with {errors[warmest]:.0f} %: do not use "
-        f"the law {where}."
+        f"Left out of the fit, a temperature between others is predicted with an error of {_two(between)} % of |E*|, "
+        + " and ".join(
+            f"{t:g} degC with {_two(errors[t])} %{' (what is wrong there included)' * _wrong(t, content)}"
+            for t in (coldest, warmest)
+        )
+        + f": do not use the law {where}."
     ]
+
+
+def _two(error: float) -> str:
+    return f"{float(f'{error:.2g}'):g}"
+
+
+def _wrong(temperature: float, content: Content) -> bool:
+    """Whether a cause is named at an isotherm, or the isotherm contradicts itself."""
+    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
+    return temperature in [*broken, *(rung.get("where") for rung in content["ladder"])]
 
 
 def predicts_badly(gain: dict[str, Any], inner: bool) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 
 def specimen_named(name: str) -> str:
     """A specimen by its name, without saying the word twice.
@@ -19,3 +21,12 @@ def counted(number: int, word: str) -> str:
     ('1 sphere', '14160 spheres')
     """
     return f"{number} {word}" if number == 1 else f"{number} {word}s"
+
+
+def joined(words: Sequence[str], last: str = "and") -> str:
+    """Words in a list.
+
+    >>> joined(["a", "b", "c"]), joined(["a", "b"], "or"), joined(["a"])
+    ('a, b and c', 'a or b', 'a')
+    """
+    return f" {last} ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))

@@ -288,9 +288,7 @@ def _sources(part: Part) -> list[str]:
     measured = ", ".join(f"{name} from {sources[name]}" for name in _MEASURED if name in sources)
     kept = ", ".join(name for name in MAY_BE_ABSENT if name in sources)
     quality = "" if any(name in sources for name in QUALITY) else "; no quality columns"
-    return [
-        f"machine export: {measured}" + (f"; kept for judging the tests: {kept}" if kept else "") + quality
-    ]
+    return [f"machine export: {measured}" + (f"; also kept: {kept}" if kept else "") + quality]
 
 
 def _said(parts: list[Part]) -> list[str]:

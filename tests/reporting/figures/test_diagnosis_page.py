@@ -50,11 +50,11 @@ def test_what_could_not_be_seen_stands_beside(page):
     ("origin", "sentence"),
     [
         ("reconstructed", "rests on reconstructed data"),
-        ("measured", "The data are measured."),
+        ("measured", "The data are taken as measured"),
         ("synthetic", "The data are synthetic"),
         (
             "mixed: measured, reconstructed",
-            "The data are measured. This diagnosis rests on reconstructed data",
+            "The data are taken as measured: no file says otherwise. This diagnosis rests on reconstructed data",
         ),
         ("borrowed", "The data are borrowed."),
     ],
@@ -94,7 +94,7 @@ def test_what_stays_unexplained_is_said(page):
         unexplained=[miss, {**miss, "specimen": "2"}],
         withdrawn=["secondary_process"],
     )
-    assert " by 2 % of |E*| and 2 % of the phase, more than scatter can explain." in html
+    assert " by 2 % of |E*| and 2 % of the phase, more than scatter within specimens can explain." in html
     assert "<li>20 °C, slope: 11.7 times its standard error</li>" in html
     assert "<td>20 °C</td><td>3</td><td>−15.1</td><td>−2.77</td><td>6.94</td><td>mean</td>" in html
     assert "<td>specimen 2, set aside</td>" in html
@@ -131,18 +131,18 @@ def test_rivals_and_text_from_the_table_are_shown_as_text(page):
 
 def test_without_replicates_nothing_is_called_right_or_established(page, results):
     alone = {"modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": False}
-    assert (
-        "mounted anew, is 1 % of |E*| and 0.5°, taken as one number for all isotherms. Everything" in page()
-    )
+    assert "and what changes from one mounting to the next. Everything" in page()
     html = page(verdict="nothing_to_explain", ladder=[], tested=False, scatter=alone)
     assert (
         "cannot judge a law: nothing was found, but the scatter from test to test is not known. Test" in html
         and "fits these data" not in html
     )
-    assert "is 1 % of |E*| and 0.5° as far as a smooth law can tell, for nothing was repeated." in html
+    assert (
+        "is taken as 1 % of |E*| and 0.5° as far as a smooth law can tell, for nothing was repeated." in html
+    )
     made = json.loads(results.diagnosis()["diagnosis"][0].read_text())["provenance"]
     stated = page(scatter=alone, provenance=made | {"scatter_stated": [0.01, 0.5]})
-    assert "is 1 % of |E*| and 0.5°, as was stated." in stated
+    assert "is taken as 1 % of |E*| and 0.5°, as was stated." in stated
     ladder = json.loads(results.diagnosis()["diagnosis"][0].read_text())["ladder"]
     unsure = [rung | {"established": False} for rung in ladder]
     html = page(verdict="unexplained_structure", ladder=unsure)

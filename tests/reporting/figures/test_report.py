@@ -36,7 +36,7 @@ def test_first_page_says_what_was_done_and_found(page):
     said = page()
     assert said["measured"][0].startswith("12 complex moduli of 2 specimens, 0 to 20 °C, 3 to 40 Hz: |E*| ")
     assert "rests on reconstructed data" in said["measured"][1]
-    assert "scatters by 1 % and 0.5°" in said["measured"][-1]
+    assert "is taken as 1 % of |E*| and 0.5°" in said["measured"][-1]
     assert said["simulated"][0].startswith("2 samples of 90 to 110 bonded spheres")
     assert said["simulated"][0].endswith("at 6 conditions: 12 tests.")
     assert "|E*| times 1.1 to 1.2" in said["simulated"][1]

@@ -22,7 +22,7 @@ class SecondaryProcess(Cause):
     )
     sentence = "a second relaxation process, with a shift of its own, adds a loss bump"
     confirmed_by = "tests at more frequencies, or the loss peak of the binder"
-    shows_in = "tests that a law fits: what no law explains in these would pass for a second loss peak"
+    shows_in = "tests that a law fits; in these, what the law misses would pass for a second loss peak"
 
     def places(self, observed: Observations) -> Sequence[Place]:
         return (None,) if observed.isotherms.size > 2 and observed.frequencies.size > 2 else ()

@@ -11,7 +11,10 @@ class SpecimenGeometry(Cause):
     stage = SPECIMEN
     parameters = (Parameter("relative_modulus", "1", -0.8, 3.0, 0.03),)
     sentence = "the dimensions used for this specimen are wrong beyond the usual scatter of specimens"
-    signs = ("Its modulus comes out too high.", "Its modulus comes out too low.")
+    signs = (
+        "Its modulus comes out too high, or it is stiffer than the others (fewer voids, say).",
+        "Its modulus comes out too low, or it is softer than the others (more voids, say).",
+    )
     confirmed_by = "measuring its dimensions again"
     needs = "two more specimens to compare with"
     confined_to = "specimen"

@@ -37,14 +37,6 @@ HELD_OUT = {
     "leave_one_isotherm_out": "each temperature between others predicted from them",
     "leave_one_frequency_out": "each frequency predicted from the others",
 }
-ORIGINS = {
-    "measured": "The data are measured.",
-    "reconstructed": (
-        "This diagnosis rests on reconstructed data. They are not measurements: they were drawn about one smooth "
-        "law fitted to the published Burgers parameters, so that a cause found here is one of this reconstruction."
-    ),
-    "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
-}
 TABLE4 = (
     "temperature_C",
     *(f"mre_{q}_{k}_percent" for q in ("E", "phase") for k in ("published", "simulated")),
@@ -89,7 +81,7 @@ def sections(
     return {
         "first": first(content, ladder),
         "specimens": specimen_plots.charts(causality, diagnosis),
-        "origin": origin(content["origin"]),
+        "origin": sentences.origin(content),
         "scatter": scatter(content),
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
@@ -125,6 +117,7 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "with_suspects": sentences.with_suspects(content),
         "doubtful": sentences.on_doubtful(content),
         "law": sentences.law_of_the_mix(content),
+        "of_intervals": sentences.of_intervals(content),
         "beyond": verdict.beyond_the_tests(content),
         "causes": sentences.causes(content),
         "no_cause": sentences.NO_CAUSE,
@@ -145,18 +138,14 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
 def scatter(content: dict[str, Any]) -> str:
     scatter = content["scatter"]
     sizes = (
-        f"The scatter of one test, mounted anew, is {scatter['modulus_percent']:.2g} % of |E*| and "
+        f"The scatter of one test is taken as {scatter['modulus_percent']:.2g} % of |E*| and "
         f"{scatter['phase_deg']:.2g}°"
     )
     if scatter["from_replicates"]:
-        return f"{sizes}, taken as one number for all isotherms."
+        return f"{sizes} at all isotherms: within specimens, and what changes from one mounting to the next."
     if content["provenance"].get("scatter_stated"):
         return f"{sizes}, as was stated."
     return f"{sizes} as far as a smooth law can tell, for nothing was repeated."
-
-
-def origin(origin: str) -> list[str]:
-    return [sentence for word, sentence in ORIGINS.items() if word in origin] or [f"The data are {origin}."]
 
 
 def _table4(paths: Sequence[Path]) -> list[list[str]]:
@@ -262,7 +251,7 @@ def _limits_caption(spread: float) -> str:
     caption = "Found with 95 % probability if at least this large; a smaller effect may be there"
     if spread < WIDE_SPREAD:
         return caption
-    return f"{caption}. Multiplied by {spread:.1f}, for these tests lie so many times as far from the fit as assumed"
+    return f"{caption}. A factor {spread:.1f} is included, by which these tests lie farther from the fit than assumed"
 
 
 def _limits(limits: dict[str, Any], spread: float) -> list[tuple[str, str]]:

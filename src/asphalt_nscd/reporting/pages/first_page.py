@@ -9,11 +9,12 @@ from typing import Any
 
 import pandas as pd
 
+from asphalt_nscd.diagnosis import sentences
 from asphalt_nscd.diagnosis.written import read_diagnosis, three_digits
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.reporting.pages.diagnosis_page import first, in_type, origin, scatter
+from asphalt_nscd.reporting.pages.diagnosis_page import first, in_type, scatter
 from asphalt_nscd.reporting.pages.way import inner_held_out, means, read_ladder
 
 ENOUGH = 5000  # spheres
@@ -38,7 +39,7 @@ def first_page(
     way = read_ladder(ladder)
     moduli, tests = _frame(measured, "measured"), _frame(simulations, "simulations")
     return {
-        "measured": [*_measured(moduli), *origin(content["origin"]), scatter(content)],
+        "measured": [*_measured(moduli), *sentences.origin(content), scatter(content)],
         "simulated": _simulated(tests, _frame(samples, "samples")),
         "wrong": _wrong(way),
         "found": {

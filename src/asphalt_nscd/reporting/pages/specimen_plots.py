@@ -131,7 +131,7 @@ def _words(row: dict) -> str:
     )
     if pd.notna(row["phase_required_deg"]):
         off = signed(row["phase_deg"] - row["phase_required_deg"])
-        words += f"; {off}° from what |E*| requires, \N{PLUS-MINUS SIGN} {row['std_error_deg']:.1f}°"
+        words += f"; {off}° from what |E*| alone requires (standard error {row['std_error_deg']:.1f}°)"
     if row["reasons"]:
         words += f"; suspect, {'used' if row['used'] else 'not used'}: {row['reasons']}"
     return words
