@@ -14,9 +14,10 @@ from copy import deepcopy
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from growth import BOX
-from rows import Clock, write_rows
 
+from asphalt_nscd.files.store import write_table
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.counts import read_counts
 from asphalt_nscd.specimen.deposit import REST_SPEED, Course, Shaking, settle, vibrate
@@ -60,7 +61,7 @@ def compared(
     name: str, granulate: Granulate, numerics: PouringNumerics, work, threads: int
 ) -> dict[str, object]:
     """A row: how many times faster so many threads are."""
-    clock, ratios, walls = Clock(), [], []
+    ratios, walls = [], []
     for _ in range(PAIRS):
         one, single = measured(granulate, numerics, work, 1)
         more, several = measured(granulate, numerics, work, threads)
@@ -68,11 +69,15 @@ def compared(
             raise ArithmeticError(f"{name}: one thread and {threads} give different numbers")
         ratios.append(one / more)
         walls.append(one)
-    remark = (
-        f"{np.median(ratios):.2f} times as fast as one thread, {min(ratios):.2f} to {max(ratios):.2f} in {PAIRS} pairs "
-        f"of runs; one thread {np.median(walls):.2f} s; equal bits"
-    )
-    return {"case": f"{name}, {threads} threads", "remark": remark} | clock.row()
+    return {
+        "work": name,
+        "spheres": granulate.radius.size,
+        "threads": threads,
+        "speed_up": float(np.median(ratios)),
+        "lowest": min(ratios),
+        "highest": max(ratios),
+        "wall_s_of_one": float(np.median(walls)),
+    }
 
 
 def main() -> None:
@@ -104,8 +109,7 @@ def main() -> None:
         compared("falling", falling, numerics, fall, told.threads),
         compared("vibrating", granulate, numerics, shake, told.threads),
     ]
-    same = {"topic": "threads", "spheres": radius.size, "time_step_s": numerics.time_step}
-    write_rows(told.output, [same | row for row in rows])
+    write_table(told.output, pd.DataFrame(rows))
 
 
 if __name__ == "__main__":

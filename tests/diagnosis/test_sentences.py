@@ -355,8 +355,8 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
     [
         (
             36,
-            " 36 of 72 exceed the limit of phase uniformity (3 deg), 30 of specimen A, 6 of specimen B: check the gauges "
-            "and the ends of the specimens.",
+            " 36 of 72 exceed the limit of phase uniformity (3 deg), 30 of specimen A, 6 of specimen B: check the "
+            "gauges and the ends of the specimens.",
         ),
         (35, ""),
     ],

@@ -118,15 +118,36 @@ rule benchmark_layer:
         MEASURE + "/layer.py 200000 {input.counts} {input.law} --threads {threads} --output {output.table} > {log} 2>&1"
 
 
-rule publish_layer:
-    # What is committed of it, and its table in docs. Only on request: snakemake --cores 1 publish_layer
+rule benchmark_million:
+    # From it, from the growth published and from the threads: what a million spheres would take.
     input:
-        table="results/benchmark/layer.csv",
+        layer="results/benchmark/layer.csv",
+        growth="results/published/benchmark/growth.csv",
+        threads="results/benchmark/threads.csv",
+        code="benchmarks/million.py",
+    output:
+        "results/benchmark/million.csv",
+    log:
+        "results/benchmark/logs/million.log",
+    message:
+        "Estimate a layer of a million spheres"
+    shell:
+        MEASURE + "/million.py {input.layer} {input.growth} {input.threads} --output {output} > {log} 2>&1"
+
+
+rule publish_layer:
+    # What is committed of these, and their tables in docs. Only on request: snakemake --cores 2 publish_layer
+    input:
+        layer="results/benchmark/layer.csv",
+        threads="results/benchmark/threads.csv",
+        million="results/benchmark/million.csv",
         code=code("publish"),
     message:
-        "Copy the costs of the large layer, and fill their table in docs"
+        "Copy the costs of the large layer, and fill their tables in docs"
     shell:
-        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark --document docs --block layer={input.table}"
+        "asphalt-nscd publish {input.layer} {input.threads} {input.million} --root results/benchmark"
+        " --output results/published/benchmark --document docs"
+        " --block layer={input.layer} --block threads={input.threads} --block million={input.million}"
 
 
 rule benchmark_growth:

@@ -233,6 +233,43 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             {"case": "table", "cpu_s": "CPU time, s", "memory_MB": "memory, MB", "remark": "remark"},
         )
     ],
+    "layer": [
+        Layout(
+            {
+                "stage": "stage",
+                "threads": "threads",
+                "wall_s": "wall time, s",
+                "cpu_s": "CPU time, s",
+                "memory_MB": "memory, MB",
+            }
+        ),
+        Notes(["stage"], "remark"),
+    ],
+    "threads": [
+        Layout(
+            {
+                "work": "work",
+                "spheres": "spheres",
+                "threads": "threads",
+                "speed_up": "times as fast as one",
+                "lowest": "lowest",
+                "highest": "highest",
+                "wall_s_of_one": "wall time of one, s",
+            }
+        )
+    ],
+    "million": [
+        Layout(
+            {
+                "stage": "stage",
+                "exponent_of_time": "exponent of time",
+                "threads": "threads",
+                "speed_up": "times as fast as one",
+                "wall_h": "wall time, h",
+                "memory_GB": "memory, GB",
+            }
+        )
+    ],
     "growth": [
         Layout(
             {
