@@ -90,9 +90,9 @@ def test_a_small_effect_is_only_likely():
     observed = table(lambda omega, temperature: 0.06 * turned(omega, temperature))
     (reason,) = doubts_of(observed, "phase_offset")["phase_offset", None]
     assert reason.startswith(
-        "Another error that varies smoothly with frequency could look the same. Fitted beside such an error, "
+        "Another error that varies smoothly with frequency could look the same. If such an error is allowed for, "
     )
-    assert reason.endswith(" times the standard error, and certainty takes 6")
+    assert reason.endswith(" times the standard error; certainty takes 6")
 
 
 def test_what_follows_a_name_in_doubt_is_in_doubt():

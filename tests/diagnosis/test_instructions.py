@@ -243,7 +243,7 @@ def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
 def test_what_a_test_would_show_is_said_with_its_chance():
     one = instructions.Open("reach", None, "a phase offset of 1.5 deg")
     assert instructions._reason(one, 4.0, 47.0) == (
-        "If there is a phase offset of 1.5 deg, it is found in 100 % of cases with this test; without it, in 4 %."
+        "If there is a phase offset of 1.5 deg, it is found in 100 % of cases if this test is made; in 4 % without it."
     )
 
 
@@ -345,7 +345,7 @@ def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(de
     assert instructions._by_limit(nowhere, bias) == 0.0
     assert all(one.hidden >= 0.0 for one in reach)
     asked = instructions.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
-    assert instructions._reason(asked, 9.0, 90.0).endswith("with this test; without it, in 0 %.")
+    assert instructions._reason(asked, 9.0, 90.0).endswith("if this test is made; in 0 % without it.")
 
 
 def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):
@@ -357,3 +357,13 @@ def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):
     hidden = replace(empty, ladder=replace(empty.ladder, discrepancy={"20 degC, phase": 2.0}))
     assert any("second loss peak" in about for about in sought(empty))
     assert not any("second loss peak" in about for about in sought(hidden)) and sought(hidden)
+
+
+def test_which_test_it_was_is_asked_where_a_cause_hangs_on_it():
+    mass, delay = ({"cause": name} for name in ("moving_mass", "channel_delay"))
+    assert fixed_orders.which_test([delay]) == []
+    (order,) = fixed_orders.which_test([delay, mass])
+    assert (
+        order["why"] == ["Only two-point bending knows a moving mass; it was assumed."]
+        and order["hours"] == 0.0
+    )

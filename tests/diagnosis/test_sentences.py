@@ -161,25 +161,25 @@ def test_specimens_that_are_hardly_of_one_mix_are_the_first_sentence():
     found = content(0, 0, tests=72) | {"ladder": []}
     two = found | spread(32.9, 2.8)
     assert mixes(two) == (
-        "Specimens differ by 32.9 % in |E*| and 2.8 deg in phase, more than those of one mix do: are there two mixes? "
+        "Specimens scatter by 32.9 % in |E*| and 2.8 deg in phase, more than those of one mix do: are there two mixes? "
         "Then diagnose each alone."
     )
     assert on_data(two) == "All 72 tests can be used."
     one = found | spread(3.3, 0.2)
     assert mixes(one) == "" == mixes(found)
     assert on_data(one) == (
-        "All 72 tests can be used. Specimens differ by 3.3 % in |E*| and 0.2 deg in phase."
+        "All 72 tests can be used. Specimens scatter by 3.3 % in |E*| and 0.2 deg in phase."
     )
 
 
 @pytest.mark.parametrize(
     "where,sure,said",
     [
-        (None, True, "All of them carry a phase offset of 1.5 +- 0.2 deg: correct them for it; "
+        (None, True, "All of them carry a phase offset of 1.5 +- 0.2 deg: subtract 1.5 deg from their phases; "
          "law.json is the law of the mix without it."),
         (None, False, "Perhaps all of them carry a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below); "
          "law.json is the law of the mix without it."),
-        (21.0, True, "Those at 21 degC carry a phase offset of 1.5 +- 0.2 deg: correct them for it; "
+        (21.0, True, "Those at 21 degC carry a phase offset of 1.5 +- 0.2 deg: subtract 1.5 deg from their phases; "
          "law.json is the law of the mix without it."),
         ("A", False, "Perhaps specimen A carries a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below); "
          "law.json is the law of the mix without it."),
@@ -271,7 +271,7 @@ def test_a_rival_that_was_named_too_is_no_alternative():
 def test_a_relative_size_is_told_in_percent():
     size = {"value": -0.316, "std_error": 0.07, "unit": "1"}
     rung = {"cause": "specimen_geometry", "where": "A", "parameters": {"relative_modulus": size}}
-    assert sentences.size(rung) == "-31.6 +- 14 %"
+    assert sentences.size(rung, {}) == "-31.6 +- 14 %"
 
 
 def test_one_temperature_has_no_slope_over_it():
@@ -390,10 +390,16 @@ def test_what_all_tests_share_is_not_at_a_place():
             65,
             6,
             1,
-            "65 of 72 tests can be used, 6 only after a check (the law here rests on them too), 1 not at all.",
+            "65 of 72 tests pass all checks, 6 can be used only after a check (the law here rests on them too), "
+            "1 not at all.",
         ),
         (71, 0, 1, "71 of 72 tests can be used, 1 not at all."),
-        (0, 72, 0, "None of 72 tests can be used, 72 only after a check (the law here rests on them too)."),
+        (
+            0,
+            72,
+            0,
+            "None of 72 tests pass all checks, 72 can be used only after a check (the law here rests on them too).",
+        ),
     ],
 )
 def test_how_far_each_test_can_be_used_is_one_answer(use, check, out, said):
@@ -422,12 +428,14 @@ def test_what_to_check_and_what_is_missing_stands_in_the_verdict():
         (
             58.3,
             8.0,
-            ["8 % of |E*|, -4 degC with 58 % and 37 degC with 9 %: do not use the law beyond the tested "],
+            ["58 % at -4 degC, 9 % at 37 degC and 8 % between them. Do not use the law beyond the tested "],
         ),
         (
             9.0,
             17.1,
-            ["17 % of |E*|, -4 degC with 9 % and 37 degC with 9 %: do not use the law at temperatures that "],
+            [
+                "9 % at -4 degC, 9 % at 37 degC and 17 % between them. Do not use the law at temperatures that "
+            ],
         ),
     ],
 )
@@ -450,3 +458,49 @@ def test_causes_of_a_bench_that_nobody_stated_do_not_lead_the_verdict():
     found = content(0, 0, tests=72) | {"ladder": [rung]}
     assert "moving mass" in on_data(found)
     assert on_data(found | {"reading": {"bench_assumed": True}}) == "All 72 tests can be used."
+
+
+def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit():
+    size = {"value": 1.5, "std_error": 0.5, "unit": "deg"}
+    rung = {
+        "cause": "phase_offset",
+        "where": None,
+        "parameters": {"offset": size},
+        "p_value": 1e-9,
+        "as_good": ["channel_delay"],
+        "confirmed_by": "metal",
+    }
+    near, far = ({"ladder": [rung], "estimates_spread": spread} for spread in (1.0, 2.0))
+    assert sentences.size(rung, near) == "1.5 +- 0.98 deg" and sentences.size(rung, far) == "1.5 +- 2 deg"
+    assert "holds zero" not in causes(near)[0][1] and "Its 95 % interval holds zero. To" in causes(far)[0][1]
+    assert sentences.of_intervals(near) == "+- is the 95 % interval."
+    assert sentences.of_intervals(far).startswith("+- is the 95 % interval, 2.0 times that of the fit")
+    assert sentences.of_intervals({"ladder": []}) == ""
+
+
+@pytest.mark.parametrize(
+    "cause,where,value,unit,told",
+    [
+        ("channel_delay", None, 0.8e-3, "s", "subtract 0.288 deg per Hz from their phases"),
+        ("temperature_bias", 20.0, 1.84, "K", "enter 21.8 degC for them"),
+        ("moving_mass", None, 0.1, "kg", "correct them for it"),
+        ("loose_clamp", "A", 3e-12, "1/Pa", "correct its tests for it"),
+    ],
+)
+def test_how_to_be_rid_of_a_fault_is_told(cause, where, value, unit, told):
+    rung = {
+        "cause": cause,
+        "where": where,
+        "parameters": {"size": {"value": value, "std_error": None, "unit": unit}},
+    }
+    assert f": {told}; law.json is" in on_data(content(0, 0, tests=72) | {"ladder": [rung]})
+
+
+def test_a_table_without_quality_columns_is_said_to_be_judged_by_its_curves_alone():
+    reading = {"test_type": "tension-compression", "quality_columns": [], "isotherms_C": [4.0, 21.0]}
+    found = content(0, 0, tests=72, reading=reading) | {"ladder": []}
+    assert on_data(found) == (
+        "All 72 tests can be used (judged by modulus and phase alone: no quality columns)."
+    )
+    flagged = found | {"reading": reading | {"quality_columns": ["phase_uniformity_deg"]}}
+    assert on_data(flagged) == on_data(found | {"reading": {}}) == "All 72 tests can be used."

@@ -70,7 +70,7 @@ def test_summary_export_is_read_as_it_is(tmp_path):
     assert columns["microstrain"] == ["104", "101", "97"]
     notes = " ".join(campaign.notes)
     assert "text read as Windows (cp1252), for it is not UTF-8" in notes
-    assert "say --measured-in if it is not" in notes
+    assert "is taken as an axial test; for bending say --measured-in bending" in notes
     assert "ignored: 'Average confining pressure (kPa)'" in notes
 
 

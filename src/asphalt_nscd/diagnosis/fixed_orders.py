@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from asphalt_nscd.diagnosis import quality
 from asphalt_nscd.diagnosis.chance import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.sentences import OF_THE_BENCH, an
 from asphalt_nscd.diagnosis.sweeps import BEYOND, COLDEST, METAL, NEW, WARMEST, Costs, temperatures
 from asphalt_nscd.files.words import counted, joined, specimen_named
 
@@ -35,6 +36,25 @@ def gauges(done: Observations, costs: Costs) -> Orders:
         act = f"check {limit.check}, mount {named(names)} anew and test"
         orders.append(_order(act, names, [at], done, costs, why, "again"))
     return orders
+
+
+def which_test(ladder: Sequence[Mapping[str, Any]]) -> Orders:
+    """What was tested, where nobody said it and a cause is named that only the bench assumed can have."""
+    named = [rung["cause"].replace("_", " ") for rung in ladder if rung["cause"] in OF_THE_BENCH]
+    if not named:
+        return []
+    return [
+        {
+            "text": "0.0 h: say which test this was, by --measured-in and --geometry.",
+            "why": [f"Only two-point bending knows {joined(list(map(an, named)))}; it was assumed."],
+            "hours": 0.0,
+            "nats": 0.0,
+            "specimens": [],
+            "temperature_C": None,
+            "frequencies_Hz": [],
+            "half_strain": False,
+        }
+    ]
 
 
 def second_specimen(done: Observations, costs: Costs) -> Orders:

@@ -316,7 +316,7 @@ def _reasons(order: Order, questions: Sequence[Open], later: bool) -> list[str]:
                 if len(again) == 1
                 else f"The readings of {joined(again)} contradict the other tests of their isotherms."
             )
-            + " If a new test agrees with those, the machine or the mounting was at fault: use the new test."
+            + " Look for a slip in the record first. If a new test agrees with those, use it instead."
         )
     odd = {f"{specimen_named(name)}{at}: " for name in order.specimens for at in ("", f" at {here}")}
     reasons += [
@@ -361,8 +361,8 @@ def _reason(one: Open, before: float, after: float, later: bool = False) -> str:
     if chances[1] - chances[0] < NOTICEABLE:
         return ""
     return (
-        f"If there is {one.about}, it is found in {chances[1]:.0f} % of cases with this test; "
-        f"{'with the orders above only' if later else 'without it'}, in {chances[0]:.0f} %."
+        f"If there is {one.about}, it is found in {chances[1]:.0f} % of cases if this test is made; in "
+        f"{chances[0]:.0f} % {'if only the steps above are' if later else 'without it'}."
     )
 
 

@@ -182,9 +182,8 @@ def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"These tests lie {spread:.1f} times as far from the fit as the diagnosis assumes. The limits in "
-        "diagnosis.html and any chances in the orders already include this factor; limits and standard errors in "
-        "diagnosis.json do not."
+        f"These tests lie {spread:.1f} times as far from the fit as the diagnosis assumes. Limits, chances and +- told "
+        "here and in diagnosis.html include this factor; limits and standard errors in diagnosis.json do not."
     ]
 
 

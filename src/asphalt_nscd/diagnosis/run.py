@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import (
     bond_mapping,
+    fixed_orders,
     gain,
     levels,
     measured_limits,
@@ -25,7 +26,7 @@ from asphalt_nscd.diagnosis import (
 )
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
-from asphalt_nscd.diagnosis.instructions import instructions
+from asphalt_nscd.diagnosis.instructions import MOST, instructions
 from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
@@ -182,6 +183,9 @@ def conclude(
     content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
     done.step()
     content["instructions"] = instructions(diagnosis)
+    if content["reading"].get("bench_assumed"):
+        orders = content["instructions"]["orders"]
+        orders[:] = [*fixed_orders.which_test(content["ladder"]), *orders][:MOST]
     done.step()
     broken = suspects.broken_isotherms(observed, held)
     content["contradictory_isotherms"] = [

@@ -29,7 +29,8 @@ ORIGINS = {
     "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
 }
 OF_WHAT_IS_LEFT = (
-    "At most the four largest are listed. Each is a standard deviation; the scatter of a test is taken off."
+    "At most the four largest are listed. Each is the standard deviation of one part of what is left; parts add up, "
+    "and the scatter of a test comes on top."
 )
 NO_CAUSE = "No cause that this program knows explains these tests better than chance would."
 LAW = "relaxation spectrum"
@@ -96,13 +97,16 @@ def of_intervals(content: Content) -> str:
     """What a size with +- says, where any is told; more than it says where the tests lie far from the fit."""
     if not content["ladder"]:
         return ""
-    spread = content.get("estimates_spread", 1.0)
-    if spread < WIDE_SPREAD:
+    factor = widened(content)
+    if factor == 1.0:
         return "+- is the 95 % interval."
-    return (
-        f"+- is the 95 % interval by the fit. These tests lie {spread:.1f} times as far from it as it assumes: take "
-        f"{spread:.1f} times the +-."
-    )
+    return f"+- is the 95 % interval, {factor:.1f} times that of the fit, for these tests lie so much further from it."
+
+
+def widened(content: Content) -> float:
+    """Factor on the intervals of a table whose tests lie far from the fit; see `Ladder.estimates_spread`."""
+    spread = content.get("estimates_spread", 1.0)
+    return spread if spread >= WIDE_SPREAD else 1.0
 
 
 def origin(content: Content) -> list[str]:
@@ -115,15 +119,16 @@ def law_of_the_mix(content: Content) -> tuple[str, str] | None:
     """The relaxation spectrum with its shift, and how sure it is; none where no test asks for one."""
     for rung in content["ladder"]:
         if rung["cause"] == "relaxation_spectrum":
-            return f"{cause_words(rung)}: {_shift(rung)}".removesuffix(": "), _sure(rung, content)
+            shift = _shift(rung, widened(content))
+            return f"{cause_words(rung)}: {shift}".removesuffix(": "), _sure(rung, content)
     return None
 
 
-def _shift(rung: Content) -> str:
-    """The constants of the shift with temperature, and at which temperature they hold."""
+def _shift(rung: Content, factor: float) -> str:
+    """The constants of the shift with temperature, and at which temperature they hold; factor: on their intervals."""
     found = rung["parameters"]
     constants = [
-        f"{name.replace('_', ' ').replace('wlf ', 'WLF ')} {_estimate(one)}"
+        f"{name.replace('_', ' ').replace('wlf ', 'WLF ')} {estimate(one, factor)}"
         for name, one in found.items()
         if name != "reference_temperature"
     ]
@@ -136,7 +141,7 @@ def causes(content: Content) -> list[tuple[str, str]]:
     """Each named cause with its size; what its sign means, how sure the name is and what would confirm it."""
     return [
         (
-            f"{cause_words(rung)}: {size(rung)}".removesuffix(": ") + _if_bending(rung, content),
+            f"{cause_words(rung)}: {size(rung, content)}".removesuffix(": ") + _if_bending(rung, content),
             f"{_meaning(rung)}{_sure(rung, content)}{_to_confirm(rung)}",
         )
         for rung in content["ladder"]
@@ -183,7 +188,8 @@ def _sure(rung: Content, content: Content) -> str:
         return f"Established: scatter alone would imitate it in {chance}."
     missed = " The law found here misses by more than scatter too." if more_than_scatter(content) else ""
     return (
-        f"Established: scatter alone makes Burgers laws at each temperature miss so far in {chance}.{missed}"
+        "Established: if a Burgers law held at each temperature, scatter would make it miss so far in "
+        f"{chance}.{missed}"
     )
 
 
@@ -203,6 +209,10 @@ def _doubts(rung: Content, content: Content) -> list[str]:
         left_out = f"{joined(rung['hangs_on'], 'or')} is left out"
         doubts.append(f"It is no longer found if {left_out}")
     doubts += rung.get("doubts", [])
+    first = next(iter(rung["parameters"].values()))
+    half = widened(content) * CONFIDENCE * (first["std_error"] or 0.0)
+    if doubts and abs(first["value"]) < half and not any("holds zero" in doubt for doubt in doubts):
+        doubts.append("Its 95 % interval holds zero")
     isotherms = content.get("reading", {}).get("isotherms_C", [])
     if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):
         doubts.append(f"Besides, {lacking(content)}")
@@ -308,22 +318,22 @@ def _one_digit(value: float) -> str:
     return f"{value:.1f}" if value >= 0.1 else f"{value:.1g}"
 
 
-def size(rung: Content) -> str:
+def size(rung: Content, content: Content) -> str:
     """Amplitude of a cause with its 95 % interval; empty where these tests do not give one."""
     amplitude = next(iter(rung["parameters"].values()))
     if amplitude["std_error"] is not None and amplitude["value"] in BOUNDS.get(rung["cause"], ()):
         value, unit = shown(amplitude["value"], amplitude["unit"])
         beyond = "more" if amplitude["value"] > 0.0 else "less"
         return f"{three_digits(value)} {_typed(unit)} or {beyond} (the search ends there)"
-    return _estimate(amplitude)
+    return estimate(amplitude, 1.0 if rung["cause"] == BOND_MAPPING else widened(content))
 
 
-def _estimate(one: Content) -> str:
-    """A value with its 95 % interval and unit."""
+def estimate(one: Content, factor: float = 1.0) -> str:
+    """A value with its 95 % interval, times a factor, and unit."""
     value, unit = shown(one["value"], one["unit"])
     interval = ""
     if one["std_error"] is not None:
-        half = CONFIDENCE * shown(one["std_error"], one["unit"])[0]
+        half = factor * CONFIDENCE * shown(one["std_error"], one["unit"])[0]
         interval = f" +- {three_digits(float(f'{half:.2g}'))}"
     return f"{three_digits(value)}{interval} {_typed(unit)}".rstrip()
 

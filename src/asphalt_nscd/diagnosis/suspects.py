@@ -160,8 +160,8 @@ def one_sided(observed: Observations, held: Held) -> list[str]:
         if 2 * np.count_nonzero(rows) >= max(apart.size, 1):
             return [
                 f"{np.count_nonzero(rows)} of {apart.size} phases lie {side} what |E*| alone requires by more than two "
-                f"standard errors, and all by {abs(apart.mean()):.1f} deg in the mean. No cause is named for that; a "
-                "metal reference specimen would show an offset or a delay."
+                f"standard errors; the mean over all is {abs(apart.mean()):.1f} deg {side}. No cause is named "
+                "for that; a metal reference specimen would show an offset or a delay."
             ]
     return []
 

@@ -39,8 +39,8 @@ LIMITS_STATED = (
 )
 LIMITS_HEAD = ["cause", "stated limit", "named at the limit", "at twice", "at three times", "other names"]
 SCATTER_CAPTION = (
-    "Scatter at one temperature and frequency. Between: among the specimens. Within: of one specimen about its own "
-    "level."
+    "Standard deviations at one temperature and frequency. Between: among the specimens. Within: of one specimen about "
+    "its own level at that temperature."
 )
 SCATTER_HEAD = ["isotherm", "between, |E*| %", "between, phase deg", "within, |E*| %", "within, phase deg"]
 

@@ -80,21 +80,25 @@ def _faults(content: Content) -> list[Content]:
 
 def _usable(content: Content) -> str:
     """How many tests can be used as they are, how many only after a check, how many not at all."""
-    out, tests = len(not_used(content)), content["tests"]
+    out, tests, read = len(not_used(content)), content["tests"], content.get("reading", {})
     trust = content.get("trust", {"use": tests, "check": 0, "not_used": out})
     faults = [rung for rung in _faults(content) if rung.get("established", True)]
     corrected = ", once corrected" if any(rung["where"] is None for rung in faults) else ""
+    alone = ""
+    if read.get("test_type") == "tension-compression" and not read.get("quality_columns", True):
+        alone = " (judged by modulus and phase alone: no quality columns)"
     if not trust["check"] and not trust["not_used"]:
-        return f"all {tests} tests can be used{corrected}"
-    use = f"{trust['use'] or 'none'} of {tests + out} tests can be used{corrected}"
+        return f"all {tests} tests can be used{corrected}{alone}"
+    can = "pass all checks" if trust["check"] else "can be used"
+    use = f"{trust['use'] or 'none'} of {tests + out} tests {can}{corrected}"
     law = (
         " (the law here rests on them too)"
         if len(content.get("reading", {}).get("isotherms_C", [])) != 1
         else ""
     )
-    check = [f"{trust['check']} only after a check{law}"] if trust["check"] else []
+    check = [f"{trust['check']} can be used only after a check{law}"] if trust["check"] else []
     never = [f"{trust['not_used']} not at all"] if trust["not_used"] else []
-    return ", ".join([use, *check, *never])
+    return ", ".join([use, *check, *never]) + alone
 
 
 def _contradictory(content: Content) -> list[str]:
@@ -127,7 +131,7 @@ def _most_of(above: Sequence[Content], column: str) -> str:
 
 
 def _spread(between: Mapping[str, float]) -> str:
-    return f"Specimens differ by {between['E_percent']:.1f} % in |E*| and {between['phase_deg']:.1f} deg in phase"
+    return f"Specimens scatter by {between['E_percent']:.1f} % in |E*| and {between['phase_deg']:.1f} deg in phase"
 
 
 def _fault(rung: Content, content: Content) -> str:
@@ -136,15 +140,28 @@ def _fault(rung: Content, content: Content) -> str:
     one = isinstance(where, str)
     who = specimen_named(where) if one else ("all of them" if where is None else f"those at {where:g} degC")
     what = CARRIED.get(rung["cause"]) or an(rung["cause"].replace("_", " "))
-    told = f"{who} {'carries' if one else 'carry'} {what} of {size(rung)}"
+    told = f"{who} {'carries' if one else 'carry'} {what} of {size(rung, content)}"
     if not rung.get("established", True):
         told = f"perhaps {told} (not certain; the reason is below)"
         correct = ""
     else:
-        correct = ": correct them for it" if not one else ": correct its tests for it"
+        tests = "its tests" if one else "them"
+        correct = f": {_correction(rung) or f'correct {tests} for it'}"
     if len(content.get("reading", {}).get("isotherms_C", [])) != 1:  # no law is written of one temperature
         correct += "; law.json is the law of the mix without it"
     return told + correct
+
+
+def _correction(rung: Content) -> str:
+    """What to do to the tests to be rid of a fault, where it is one number."""
+    value = next(iter(rung["parameters"].values()))["value"]
+    if rung["cause"] == "channel_delay":
+        return f"subtract {three_digits(360.0 * value)} deg per Hz from their phases"
+    if rung["cause"] == "phase_offset":
+        return f"subtract {three_digits(value)} deg from their phases"
+    if rung["cause"] == "temperature_bias":
+        return f"enter {three_digits(rung['where'] + value)} degC for them"
+    return ""
 
 
 def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:
@@ -285,12 +302,12 @@ def beyond_the_tests(content: Content) -> list[str]:
         return []
     where = "at temperatures that were not tested" if between > POOR else "beyond the tested temperatures"
     return [
-        f"Left out of the fit, a temperature between others is predicted with an error of {_two(between)} % of |E*|, "
-        + " and ".join(
-            f"{t:g} degC with {_two(errors[t])} %{' (what is wrong there included)' * _wrong(t, content)}"
+        "Each temperature predicted from the others: |E*| is off by "
+        + ", ".join(
+            f"{_two(errors[t])} % at {t:g} degC{' (with what is wrong there)' * _wrong(t, content)}"
             for t in (coldest, warmest)
         )
-        + f": do not use the law {where}."
+        + f" and {_two(between)} % between them. Do not use the law {where}."
     ]
 
 

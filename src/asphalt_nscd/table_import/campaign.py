@@ -73,7 +73,7 @@ def read_campaign(
     exported = any(part.exported for part in parts)
     if test_type is None:
         notes.append(
-            "a machine export (AMPT, UTM) is taken as tension-compression; say --measured-in if it is not"
+            "a machine export (AMPT, UTM) is taken as an axial test; for bending say --measured-in bending"
             if exported
             else "a table is taken as two-point bending; say --measured-in tension-compression if it is not"
         )

@@ -85,7 +85,9 @@ def sections(
         "scatter": scatter(content),
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
-        "ladder": [_rung(rung, rung is rungs[-1]) | {"as_good": _members(rung["as_good"])} for rung in rungs],
+        "ladder": [
+            _rung(rung, rung is rungs[-1], content) | {"as_good": _members(rung["as_good"])} for rung in rungs
+        ],
         "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
         "charts": plots.charts(residuals, diagnosis),
@@ -158,15 +160,16 @@ def _table4(paths: Sequence[Path]) -> list[list[str]]:
     return [[place_name(row[0]), *map(_number, row[1:])] for row in frame.itertuples(index=False)]
 
 
-def _rung(rung: dict[str, Any], last: bool) -> dict[str, Any]:
+def _rung(rung: dict[str, Any], last: bool, content: dict[str, Any]) -> dict[str, Any]:
     """A row of the ladder; after the last, whether the law may be used where nothing was tested."""
     gain = rung["gain"]
+    factor = 1.0 if rung["cause"] == BOND_MAPPING else sentences.widened(content)
     return {
         "cause": _cause(rung),
         "sentence": rung["sentence"],
         "p": _chance(rung["p_value"]),
         "evidence": rung.get("evidence"),
-        "parameters": [_estimate(name, value) for name, value in rung["parameters"].items()],
+        "parameters": [_estimate(name, value, factor) for name, value in rung["parameters"].items()],
         "hangs_on": rung.get("hangs_on", []),
         "doubts": rung.get("doubts", []),
         "in_sample": _gain(gain["in_sample"]),
@@ -213,11 +216,11 @@ def _cause(rung: dict[str, Any]) -> str:
     return _words(rung["cause"]) + (f" ({place})" if place else "")
 
 
-def _estimate(name: str, estimate: dict[str, Any]) -> str:
+def _estimate(name: str, estimate: dict[str, Any], factor: float) -> str:
     size, unit = shown(estimate["value"], estimate["unit"])
     text = f"{name.replace('_', ' ')} {_number(size)}"
     if estimate["std_error"] is not None:
-        text += f" ± {_number(CONFIDENCE * shown(estimate['std_error'], estimate['unit'])[0])}"
+        text += f" ± {_number(factor * CONFIDENCE * shown(estimate['std_error'], estimate['unit'])[0])}"
     return f"{text} {unit}".rstrip()
 
 

@@ -100,7 +100,7 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
         "causality",
         "Phase measured less the phase that |E*| requires",
         "In degrees. The required phase is computed from |E*| alone, and no delay or offset is taken off. The list of "
-        "doubtful tests uses the phases at the other frequencies too: its numbers are others. Grey numbers are "
+        "doubtful tests uses the phases at the other frequencies too, so its numbers differ. Grey numbers are "
         "within two standard errors. Cross: suspect, not used. Ring: suspect, used. Triangle: a quality limit is "
         "exceeded."
         if plots
