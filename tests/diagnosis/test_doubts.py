@@ -92,7 +92,7 @@ def test_a_small_effect_is_only_likely():
     assert reason.startswith(
         "Another error that varies smoothly with frequency could look the same. If such an error is allowed for, "
     )
-    assert reason.endswith(" times the standard error; certainty takes 6")
+    assert reason.endswith(" times the standard error of the fit; certainty takes 6")
 
 
 def test_what_follows_a_name_in_doubt_is_in_doubt():

@@ -122,7 +122,7 @@ def test_odds_are_told_where_a_test_would_change_them(before, alike, said):
 
 
 def test_a_test_at_another_temperature_repeats_nothing():
-    asked = [instructions.Open("repeat", None, "a at 4 degC, 25 Hz")]
+    asked = [instructions.Open("repeat", None, "specimen a at 4 degC, 25 Hz")]
     for temperature, reasons in ((4.0, 1), (-6.0, 0)):
         sweep = Sweep("a", temperature, (10.0, 25.0), False, None, 1.0)
         order = instructions.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
@@ -243,7 +243,7 @@ def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
 def test_what_a_test_would_show_is_said_with_its_chance():
     one = instructions.Open("reach", None, "a phase offset of 1.5 deg")
     assert instructions._reason(one, 4.0, 47.0) == (
-        "If there is a phase offset of 1.5 deg, it is found in 100 % of cases if this test is made; in 4 % without it."
+        "If there is a phase offset of 1.5 deg, the chance of finding it is 100 % with this test, 4 % without it."
     )
 
 
@@ -345,7 +345,7 @@ def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(de
     assert instructions._by_limit(nowhere, bias) == 0.0
     assert all(one.hidden >= 0.0 for one in reach)
     asked = instructions.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
-    assert instructions._reason(asked, 9.0, 90.0).endswith("if this test is made; in 0 % without it.")
+    assert instructions._reason(asked, 9.0, 90.0).endswith("100 % with this test, 0 % without it.")
 
 
 def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):

@@ -26,11 +26,12 @@ def content(used: int, out: int, **then):
     "used,out,told",
     [
         (0, 2, ""),
-        (1, 1, "Doubtful but used: A, 4 degC, 25 Hz (x)."),
+        (1, 1, "Doubtful but used: specimen A, 4 degC, 25 Hz (x)."),
         (
             5,
             0,
-            f"Doubtful but used: {'A, 4 degC, 25 Hz (x); ' * 3}and 2 more, see suspect_tests in diagnosis.json.",
+            f"Doubtful but used: {'specimen A, 4 degC, 25 Hz (x); ' * 3}and 2 more, see suspect_tests "
+            "in diagnosis.json.",
         ),
     ],
 )
@@ -390,7 +391,7 @@ def test_what_all_tests_share_is_not_at_a_place():
             65,
             6,
             1,
-            "65 of 72 tests pass all checks, 6 can be used only after a check (the law here rests on them too), "
+            "65 of 72 tests can be used, 6 only after a check (the law here rests on them too), "
             "1 not at all.",
         ),
         (71, 0, 1, "71 of 72 tests can be used, 1 not at all."),
@@ -398,7 +399,7 @@ def test_what_all_tests_share_is_not_at_a_place():
             0,
             72,
             0,
-            "None of 72 tests pass all checks, 72 can be used only after a check (the law here rests on them too).",
+            "None of 72 tests can be used, 72 only after a check (the law here rests on them too).",
         ),
     ],
 )
@@ -472,9 +473,15 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
     }
     near, far = ({"ladder": [rung], "estimates_spread": spread} for spread in (1.0, 2.0))
     assert sentences.size(rung, near) == "1.5 +- 0.98 deg" and sentences.size(rung, far) == "1.5 +- 2 deg"
-    assert "holds zero" not in causes(near)[0][1] and "Its 95 % interval holds zero. To" in causes(far)[0][1]
+    assert (
+        "holds zero" not in causes(near)[0][1]
+        and "Its 95 % interval, as widened below, holds zero. To" in causes(far)[0][1]
+    )
+    worse = rung | {"gain": {"in_sample": {"rms_over_scatter": {"before": 2.2, "after": 3.1}}}}
+    assert "With it the law fits these tests worse" in causes({"ladder": [worse]})[0][1]
+    assert "fits these tests worse" not in causes(near)[0][1]
     assert sentences.of_intervals(near) == "+- is the 95 % interval."
-    assert sentences.of_intervals(far).startswith("+- is the 95 % interval, 2.0 times that of the fit")
+    assert sentences.of_intervals(far).startswith("+- is the 95 % interval, widened 2.0 times since")
     assert sentences.of_intervals({"ladder": []}) == ""
 
 
@@ -503,4 +510,6 @@ def test_a_table_without_quality_columns_is_said_to_be_judged_by_its_curves_alon
         "All 72 tests can be used (judged by modulus and phase alone: no quality columns)."
     )
     flagged = found | {"reading": reading | {"quality_columns": ["phase_uniformity_deg"]}}
+    some = flagged | {"trust": {"use": 60, "check": 12, "not_used": 0}}
+    assert on_data(some).startswith("60 of 72 tests pass all checks, 12 can be used only after a check")
     assert on_data(flagged) == on_data(found | {"reading": {}}) == "All 72 tests can be used."

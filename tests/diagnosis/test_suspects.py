@@ -264,6 +264,4 @@ def test_a_decimal_point_that_slipped_is_told():
     modulus = observed.modulus.copy()
     modulus[3] *= 10.0
     (one,) = [one for one in suspects.find(replace(observed, modulus=modulus)) if one.row == 3]
-    assert " times the " in one.reasons[0] and one.reasons[0].endswith(
-        "; look for a slip of the decimal point"
-    )
+    assert " times the " in one.reasons[0] and one.reasons[0].endswith("; look for a misplaced decimal point")

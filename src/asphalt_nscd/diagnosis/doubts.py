@@ -150,8 +150,8 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
     elif least < ENOUGH:
         yield (
             "Another error that varies smoothly with frequency could look the same. If such an error is allowed "
-            f"for, its size is only {np.floor(10.0 * least) / 10.0:g} times the standard error; certainty "
-            f"takes {ENOUGH:g}"
+            f"for, its size is only {np.floor(10.0 * least) / 10.0:g} times the standard error of the fit; "
+            f"certainty takes {ENOUGH:g}"
         )
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))

@@ -31,6 +31,7 @@ from asphalt_nscd.diagnosis.sweeps import (
     temperatures,
     with_strain,
 )
+from asphalt_nscd.files.words import specimen_named
 
 METAL_LEVEL = 0.03  # how well the modulus of a metal specimen and its form factor are known
 
@@ -125,7 +126,7 @@ def _repeats(
             row = int(np.flatnonzero(again)[-1])
             effect = np.zeros(linear.effects.shape[0], complex)
             effect[row] = whole.logarithm[one.row] - expected[row]
-            found["repeat", f"{name} at {t:g} degC, {f:g} Hz"] = effect
+            found["repeat", f"{specimen_named(name)} at {t:g} degC, {f:g} Hz"] = effect
     return found
 
 

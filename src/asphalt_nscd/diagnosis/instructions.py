@@ -306,7 +306,8 @@ def _reasons(order: Order, questions: Sequence[Open], later: bool) -> list[str]:
     }
     helped = [questions[k] for k in order.helps]
     here = f"{order.sweep.temperature:g} degC"
-    repeated = {f"{name} at {here}, {f:g} Hz" for name in order.specimens for f in order.sweep.frequencies}
+    names = [specimen_named(name) for name in order.specimens]
+    repeated = {f"{name} at {here}, {f:g} Hz" for name in names for f in order.sweep.frequencies}
     again = sorted(repeated & {one.about for one in helped if one.kind == "repeat"})
     reasons = []
     if again:
@@ -316,7 +317,7 @@ def _reasons(order: Order, questions: Sequence[Open], later: bool) -> list[str]:
                 if len(again) == 1
                 else f"The readings of {joined(again)} contradict the other tests of their isotherms."
             )
-            + " Look for a slip in the record first. If a new test agrees with those, use it instead."
+            + " Look first for a typing error in the record. If a new test agrees with those, use it instead."
         )
     odd = {f"{specimen_named(name)}{at}: " for name in order.specimens for at in ("", f" at {here}")}
     reasons += [
@@ -361,8 +362,8 @@ def _reason(one: Open, before: float, after: float, later: bool = False) -> str:
     if chances[1] - chances[0] < NOTICEABLE:
         return ""
     return (
-        f"If there is {one.about}, it is found in {chances[1]:.0f} % of cases if this test is made; in "
-        f"{chances[0]:.0f} % {'if only the steps above are' if later else 'without it'}."
+        f"If there is {one.about}, the chance of finding it is {chances[1]:.0f} % with this test, {chances[0]:.0f} % "
+        f"{'with the steps above only' if later else 'without it'}."
     )
 
 

@@ -182,8 +182,8 @@ def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"These tests lie {spread:.1f} times as far from the fit as the diagnosis assumes. Limits, chances and +- told "
-        "here and in diagnosis.html include this factor; limits and standard errors in diagnosis.json do not."
+        f"These tests lie {spread:.1f} times as far from the fit as the diagnosis assumes. Multiply the limits and "
+        f"standard errors in diagnosis.json by {spread:.1f}; what is told here and in diagnosis.html is so multiplied."
     ]
 
 

@@ -29,8 +29,8 @@ ORIGINS = {
     "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
 }
 OF_WHAT_IS_LEFT = (
-    "At most the four largest are listed. Each is the standard deviation of one part of what is left; parts add up, "
-    "and the scatter of a test comes on top."
+    "At most the four largest are listed, as standard deviations beyond the scatter of a test. Residuals of single "
+    "tests hold all parts and are larger (residuals.csv)."
 )
 NO_CAUSE = "No cause that this program knows explains these tests better than chance would."
 LAW = "relaxation spectrum"
@@ -38,6 +38,7 @@ RANKED = "Doubtful tests come first, then what settles most per hour."
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
 ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
+WORSE = 1.05  # times the misfit without a cause, from which it is told that the cause does not help
 LARGEST = 4  # parts of what stays unexplained that are listed
 
 
@@ -90,7 +91,7 @@ def _changed(content: Content, key: str, when: str) -> str:
 
 
 def place_of_test(one: Content) -> str:
-    return f"{one['specimen']}, {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
+    return f"{specimen_named(one['specimen'])}, {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
 
 
 def of_intervals(content: Content) -> str:
@@ -100,7 +101,10 @@ def of_intervals(content: Content) -> str:
     factor = widened(content)
     if factor == 1.0:
         return "+- is the 95 % interval."
-    return f"+- is the 95 % interval, {factor:.1f} times that of the fit, for these tests lie so much further from it."
+    return (
+        f"+- is the 95 % interval, widened {factor:.1f} times since these tests lie so much further from the law than "
+        "the fit assumes."
+    )
 
 
 def widened(content: Content) -> float:
@@ -171,11 +175,7 @@ def _meaning(rung: Content) -> str:
 def _sure(rung: Content, content: Content) -> str:
     if rung["cause"] == BOND_MAPPING:
         return f"Established: {rung['evidence']}."
-    chance = (
-        "fewer than one of a million tables"
-        if rung["p_value"] < 1e-6
-        else f"{_per_cent(rung['p_value'])} of all tables"
-    )
+    chance = "below one in a million" if rung["p_value"] < 1e-6 else _per_cent(rung["p_value"])
     doubts = _doubts(rung, content)
     if doubts:
         first, *more = doubts
@@ -185,12 +185,9 @@ def _sure(rung: Content, content: Content) -> str:
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     if rung["cause"] != "relaxation_spectrum":
-        return f"Established: scatter alone would imitate it in {chance}."
+        return f"Established: the chance that scatter alone imitates it is {chance}."
     missed = " The law found here misses by more than scatter too." if more_than_scatter(content) else ""
-    return (
-        "Established: if a Burgers law held at each temperature, scatter would make it miss so far in "
-        f"{chance}.{missed}"
-    )
+    return f"Established: the chance that scatter alone makes Burgers laws miss so far is {chance}.{missed}"
 
 
 def _doubts(rung: Content, content: Content) -> list[str]:
@@ -212,7 +209,10 @@ def _doubts(rung: Content, content: Content) -> list[str]:
     first = next(iter(rung["parameters"].values()))
     half = widened(content) * CONFIDENCE * (first["std_error"] or 0.0)
     if doubts and abs(first["value"]) < half and not any("holds zero" in doubt for doubt in doubts):
-        doubts.append("Its 95 % interval holds zero")
+        doubts.append(f"Its 95 % interval{', as widened below,' * (widened(content) > 1.0)} holds zero")
+    fits = rung.get("gain", {}).get("in_sample", {}).get("rms_over_scatter")
+    if doubts and fits and fits["after"] > WORSE * fits["before"]:
+        doubts.append("With it the law fits these tests worse than without it")
     isotherms = content.get("reading", {}).get("isotherms_C", [])
     if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):
         doubts.append(f"Besides, {lacking(content)}")

@@ -45,7 +45,8 @@ def _part(title: str, lines: Sequence[str]) -> str:
 def _suspects(content: Content) -> list[str]:
     lines = []
     for one in sentences.not_used(content):
-        lines.append(f"{sentences.place_of_test(one)}:")
+        where = sentences.place_of_test(one)
+        lines.append(f"{where[:1].upper()}{where[1:]}:")
         lines += [f"  {reason}" for reason in one["reasons"]]
     return lines + list(filter(None, [sentences.with_suspects(content), sentences.on_doubtful(content)]))
 

@@ -266,7 +266,7 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
         size = f"{times:.3g} times" if abs(np.log(times)) > SLIP else f"{abs(apart):.1f} % {_way(apart)}"
         return (
             f"|E*| is {modulus / 1e6:.0f} MPa, {size} the {np.exp(expected) / 1e6:.0f} MPa that its phase and {rest} "
-            f"ask for (standard error {100.0 * error:.1f} %){'; look for a slip of the decimal point' * bool(slip)}"
+            f"ask for (standard error {100.0 * error:.1f} %){'; look for a misplaced decimal point' * bool(slip)}"
         )
     phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
     delay = "; the delay of all tests is allowed for" if held.delay else ""

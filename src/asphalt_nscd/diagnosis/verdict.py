@@ -89,14 +89,15 @@ def _usable(content: Content) -> str:
         alone = " (judged by modulus and phase alone: no quality columns)"
     if not trust["check"] and not trust["not_used"]:
         return f"all {tests} tests can be used{corrected}{alone}"
-    can = "pass all checks" if trust["check"] else "can be used"
+    judged = bool(trust["check"] and read.get("quality_columns"))
+    can = "pass all checks" if judged else "can be used"
     use = f"{trust['use'] or 'none'} of {tests + out} tests {can}{corrected}"
     law = (
         " (the law here rests on them too)"
         if len(content.get("reading", {}).get("isotherms_C", [])) != 1
         else ""
     )
-    check = [f"{trust['check']} can be used only after a check{law}"] if trust["check"] else []
+    check = [f"{trust['check']} {'can be used ' * judged}only after a check{law}"] if trust["check"] else []
     never = [f"{trust['not_used']} not at all"] if trust["not_used"] else []
     return ", ".join([use, *check, *never]) + alone
 

@@ -29,7 +29,9 @@ def test_causes_stand_with_size_unit_chance_and_gains(page):
         "Data: All 12 tests can be used. Specimen 2 carries a loose clamp of 3 ± 0.39 1/TPa: correct its tests"
         in html
     )
-    assert "<b>loose clamp of specimen 2: 3 ± 0.39 1/TPa</b>. Established: scatter alone" in html
+    assert (
+        "<b>loose clamp of specimen 2: 3 ± 0.39 1/TPa</b>. Established: the chance that scatter alone" in html
+    )
     assert "compliance 3 ± 0.392 1/TPa" in html and "<td>below 1e-06</td>" in html
     assert "<td>fitted</td><td>8 → 2</td>" in html
     assert "<td>each frequency predicted from the others</td><td>8 → 2</td>" in html
@@ -209,7 +211,8 @@ def test_what_a_laboratory_is_to_do_stands_on_the_page(page):
     )
     assert "<b>2.5 h: test specimens A and B at −6 °C, 25 Hz.</b> It shows as 7.1°." in html
     assert (
-        "Data: 12 of 13 tests can be used" in html and "<b>A, 4 °C, 25 Hz</b><br>Phase is 18.8° ± 1." in html
+        "Data: 12 of 13 tests can be used" in html
+        and "<b>Specimen A, 4 °C, 25 Hz</b><br>Phase is 18.8° ± 1." in html
     )
     assert (
         "If these tests were kept, the diagnosis would name a phase offset and no longer name a relaxation "
