@@ -20,14 +20,14 @@ ROWS = [
 def read(folder, rows, name="t.csv", **chosen):
     path = folder / name
     if name.endswith(".xlsx"):
-        _workbook(path, rows if isinstance(rows, dict) else {"results": rows})
+        workbook(path, **(rows if isinstance(rows, dict) else {"results": rows}))
     else:
         lines = [",".join("" if cell is None else str(cell) for cell in row) for row in rows]
         path.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return read_campaign([path], chosen=chosen)[0]
 
 
-def _workbook(path, sheets):
+def workbook(path, **sheets):
     book = openpyxl.Workbook()
     book.remove(book.active)
     for name, rows in sheets.items():
@@ -35,6 +35,7 @@ def _workbook(path, sheets):
         for row in rows:
             sheet.append(row)
     book.save(path)
+    return path
 
 
 def columns(campaign, *names):

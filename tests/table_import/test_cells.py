@@ -6,6 +6,7 @@ import zipfile
 
 import openpyxl
 import pytest
+from table_import.slips import workbook
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import import cells
@@ -16,17 +17,6 @@ TABLE = [["T (°C)", "E (GPa)"], ["-10", "27,5"], ["15", "12,1"]]
 
 def text(rows, separator):
     return "\n".join(separator.join(row) for row in rows) + "\n"
-
-
-def workbook(path, **sheets):
-    book = openpyxl.Workbook()
-    book.remove(book.active)
-    for name, rows in sheets.items():
-        sheet = book.create_sheet(name)
-        for row in rows:
-            sheet.append(row)
-    book.save(path)
-    return path
 
 
 @pytest.mark.parametrize("codec", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
