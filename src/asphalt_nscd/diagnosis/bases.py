@@ -104,6 +104,11 @@ class FlexibleSpectrum:
         slope[:, m + 1 :] = along[:, None] * shift_slopes
         return static + terms.sum(axis=1), slope
 
+    def shift_strain(self, x: Vector) -> float:
+        """Squares of the prior of the shift: how far it is from the shifts that mixes have."""
+        away = self.prior(x)[0][-3:]
+        return float(away @ away)
+
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
         m = self.times.size
         rows = np.zeros((m + 2, self.parameters))

@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import discrepancy
+from asphalt_nscd.diagnosis import discrepancy, hidden_bias
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
@@ -134,6 +134,8 @@ class _Table:
 
 def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
     rest, direction, effect = table.without(candidate)
+    if isinstance(candidate.place, float) and hidden_bias.followed(rest, direction):
+        yield "A shift with temperature of unusual form looks the same"
     alone = table.beside(rest, direction, (), 1.0)
     observed, sigma = table.plain.observed, table.plain.noise.sigma
     least = abs(alone.z)
@@ -149,9 +151,8 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         yield f"It may be {' or '.join(known)} instead"
     elif least < ENOUGH:
         yield (
-            "Another error that varies smoothly with frequency could look the same. If such an error is allowed "
-            f"for, its size is only {np.floor(10.0 * least) / 10.0:g} times the standard error of the fit; "
-            f"certainty takes {ENOUGH:g}"
+            "Another error that varies smoothly with frequency could look the same, and too little speaks for this "
+            f"one (a score of {np.floor(10.0 * least) / 10.0:g}; certainty takes {ENOUGH:g})"
         )
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))

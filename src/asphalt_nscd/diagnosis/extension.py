@@ -19,6 +19,7 @@ from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL, SPECIMEN
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
+from asphalt_nscd.diagnosis.gain import errors
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
@@ -94,6 +95,17 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
         f"{100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*| and {np.degrees(np.sqrt(np.mean(off.imag**2))):.1f} "
         f"deg in phase.{'' if without else ' No 2S2P1D with WLF fits these tests better.'}",
     ]
+
+
+def law_misses(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_]) -> dict[str, float]:
+    """Mean relative errors in percent of the law with the named causes, as in Table 4, over the tests it is fitted to.
+
+    used (n,): these tests.
+    """
+    observed = diagnosis.observed
+    own = np.log(law.complex_modulus(observed.omega, observed.temperature) / _without_causes(diagnosis))
+    found = errors(diagnosis, np.where(used, diagnosis.ladder.fitted.modelled + own, np.nan))
+    return {name: float(np.mean(list(by_temperature.values()))) for name, by_temperature in found.items()}
 
 
 def prior_notes(fit: Fit) -> list[str]:

@@ -38,23 +38,27 @@ def gauges(done: Observations, costs: Costs) -> Orders:
     return orders
 
 
+def metal(done: Observations, costs: Costs) -> Orders:
+    """Metal, where the phases lie on one side of what |E*| requires and no cause explains it."""
+    ends = [float(done.frequencies[0]), float(done.frequencies[-1])]
+    hours = costs.hours(METAL, float(np.mean(costs.room)), ends)
+    why = (
+        "Phases lie on one side of what |E*| alone requires (remarks). Metal has no phase of its own: what it shows is "
+        "the machine's. If it shows none, the mix or the mounting is at fault."
+    )
+    return [_content(f"test {METAL}, {band(ends)}", why, hours, [METAL], [], ends)]
+
+
 def which_test(ladder: Sequence[Mapping[str, Any]]) -> Orders:
     """What was tested, where nobody said it and a cause is named that only the bench assumed can have."""
     named = [rung["cause"].replace("_", " ") for rung in ladder if rung["cause"] in OF_THE_BENCH]
     if not named:
         return []
-    return [
-        {
-            "text": "0.0 h: say which test this was, by --measured-in and --geometry.",
-            "why": [f"Only two-point bending knows {joined(list(map(an, named)))}; it was assumed."],
-            "hours": 0.0,
-            "nats": 0.0,
-            "specimens": [],
-            "temperature_C": None,
-            "frequencies_Hz": [],
-            "half_strain": False,
-        }
-    ]
+    why = (
+        f"{joined(list(map(an, named))).capitalize()} can be in two-point bending only, which was assumed since nobody "
+        "said what was tested."
+    )
+    return [_content("say which test this was, by --measured-in and --geometry", why, 0.0, [], [], [])]
 
 
 def second_specimen(done: Observations, costs: Costs) -> Orders:
@@ -88,12 +92,18 @@ def _order(
     hours = sum(costs.hours("", t, frequencies) for name in names for t in at)
     hours += costs.new_specimen * (NEW in names)
     words = " ".join(filter(None, [act, again, f"at {joined([f'{t:g}' for t in at])} degC"]))
+    return _content(f"{words}, {band(frequencies)}", why, hours, names, at, frequencies)
+
+
+def _content(
+    act: str, why: str, hours: float, specimens: list[str], at: list[float], frequencies: list[float]
+) -> dict[str, Any]:
     return {
-        "text": f"{hours:.1f} h: {words}, {band(frequencies)}.",
+        "text": f"{hours:.1f} h: {act}.",
         "why": [why],
         "hours": round(hours, 2),
         "nats": 0.0,
-        "specimens": names,
+        "specimens": specimens,
         "temperature_C": at[0] if len(at) == 1 else None,
         "frequencies_Hz": frequencies,
         "half_strain": False,

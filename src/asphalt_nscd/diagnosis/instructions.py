@@ -78,17 +78,35 @@ class Order:
     helps: dict[int, tuple[float, float]]
 
 
-def instructions(diagnosis: Diagnosis, costs: Costs | None = None) -> dict[str, Any]:
-    """Content of `instructions` in diagnosis.json: at most five, doubtful tests first, then by gain per hour."""
+@dataclass(frozen=True)
+class Context:
+    """What an order stands in: others before it, a check of gauges among them; tests that somebody typed in."""
+
+    later: bool = False
+    checked: bool = False
+    typed: bool = True
+
+
+def instructions(
+    diagnosis: Diagnosis, costs: Costs | None = None, ahead: fixed_orders.Orders | None = None
+) -> dict[str, Any]:
+    """Content of `instructions` in diagnosis.json: at most five, doubtful tests first, then by gain per hour.
+
+    ahead: orders that come before all others.
+    """
     costs = costs or Costs()
     model = possible(diagnosis, costs)
     questions = open_questions(diagnosis, model)
     chosen = _merged(choose(model, questions), costs)
     done = diagnosis.whole or diagnosis.observed
-    first = fixed_orders.gauges(done, costs)
+    checks = fixed_orders.gauges(done, costs)
+    first = [*(ahead or []), *checks]
     first += [] if diagnosis.replicated else fixed_orders.second_specimen(done, costs)
     last = fixed_orders.more_temperatures(done, costs) if diagnosis.replicated else []
-    told = [(one, _reasons(one, questions, bool(k or first))) for k, one in enumerate(chosen)]
+    told = [
+        (one, _reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality)))
+        for k, one in enumerate(chosen)
+    ]
     orders = [
         {
             "text": _text(one, done),
@@ -210,7 +228,8 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
         question = Question(j, REACH / spread, active, FOUND, PRESENT / names.count(names[j]))
         hidden = max(float(question.strength(known)) - _by_limit(diagnosis, model.candidates[j]), 0.0)
         sized = _sized(model.candidates[j], REACH)
-        found.append(Open("reach", Asked(question, everything), sized, hidden=hidden))
+        where = words_of(model.candidates[j]).removeprefix(names[j].replace("_", " ")).strip()
+        found.append(Open("reach", Asked(question, everything), sized, where, hidden=hidden))
     return found
 
 
@@ -290,15 +309,11 @@ def _sized(candidate: Candidate, typical: float) -> str:
     value, unit = shown(typical * first.typical, first.unit)
     unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
     words = candidate.cause.name.replace("_", " ")
-    place = words_of(candidate).removeprefix(words)
-    return (
-        PLAIN.get(candidate.cause.name, f"{an(words)} of {{}}").format(f"{three_digits(value)} {unit}")
-        + place
-    )
+    return PLAIN.get(candidate.cause.name, f"{an(words)} of {{}}").format(f"{three_digits(value)} {unit}")
 
 
-def _reasons(order: Order, questions: Sequence[Open], later: bool) -> list[str]:
-    """What the tests would do for the questions that they help most; later: other orders come before."""
+def _reasons(order: Order, questions: Sequence[Open], context: Context) -> list[str]:
+    """What the tests would do for the questions that they help most."""
     told = {
         k: strengths
         for k, strengths in order.helps.items()
@@ -317,7 +332,9 @@ def _reasons(order: Order, questions: Sequence[Open], later: bool) -> list[str]:
                 if len(again) == 1
                 else f"The readings of {joined(again)} contradict the other tests of their isotherms."
             )
-            + " Look first for a typing error in the record. If a new test agrees with those, use it instead."
+            + " Look first for a typing error in the record." * context.typed
+            + " Check gauges and mounting before." * context.checked
+            + " If the new test agrees with the other frequencies, use the new test."
         )
     odd = {f"{specimen_named(name)}{at}: " for name in order.specimens for at in ("", f" at {here}")}
     reasons += [
@@ -332,11 +349,44 @@ def _reasons(order: Order, questions: Sequence[Open], later: bool) -> list[str]:
         for one in helped
         if one.kind == "linear" and one.about == here and order.sweep.half_strain
     ]
-    reasons += [_reason(questions[k], *strengths, later) for k, strengths in told.items()]
+    reasons += [_reason(questions[k], *told[k]) for k in told if questions[k].kind != "reach"]
+    reasons += _within_reach([(questions[k], *told[k]) for k in told if questions[k].kind == "reach"], context)
     return [reason for reason in reasons if reason][:REASONS]
 
 
-def _reason(one: Open, before: float, after: float, later: bool = False) -> str:
+def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context) -> list[str]:
+    """A sentence for each cause that the tests bring within reach, its isotherms or specimens together."""
+    causes: dict[str, list[tuple[str, float, float]]] = {}
+    for one, *strengths in helped:
+        before, after = (
+            100.0 * float(ndtr(np.sqrt(max(strength - one.hidden, 0.0)) - USUAL_THRESHOLD)) for strength in strengths
+        )
+        if after - before >= NOTICEABLE:
+            causes.setdefault(one.about, []).append((one.other, before, after))
+    without = "with the steps above only" if context.later else "without it"
+    return [
+        f"If there is {about}{_places([place for place, _, _ in found])}, the chance of finding it is "
+        f"{_chances([after for _, _, after in found])} with this test, {_chances([before for _, before, _ in found])} "
+        f"{without}."
+        for about, found in causes.items()
+    ]
+
+
+def _places(places: Sequence[str]) -> str:
+    """` at 4, 20 or 50 degC`, ` of A or B`; nothing for a cause of all tests."""
+    if not places[0]:
+        return ""
+    joint, *_ = places[0].split()
+    names = [place.removeprefix(f"{joint} ").removesuffix(" degC") for place in places]
+    return f" {joint} {joined(sorted(names, key=lambda name: (len(name), name)), 'or')}{' degC' if joint == 'at' else ''}"
+
+
+def _chances(values: Sequence[float]) -> str:
+    least, most = f"{min(values):.0f}", f"{max(values):.0f}"
+    return f"{least} %" if least == most else f"{least} to {most} %"
+
+
+def _reason(one: Open, before: float, after: float) -> str:
     if one.kind == "kept":
         now, then = np.sqrt(before), np.sqrt(after)
         if then - now < CLEARER:
@@ -347,23 +397,12 @@ def _reason(one: Open, before: float, after: float, later: bool = False) -> str:
         )
     if one.kind == "metal":
         return f"The {one.about} must show on metal too, as {one.other}. The mix has no part in that."
-    if one.kind == "apart":
-        if before >= MOST_TOLD and not one.alike:
-            return ""
-        now = "both fit so far" if one.alike else f"the first is favoured by {_odds(before)} to 1 so far"
-        return (
-            f"Of the {one.about} and {an(one.other)}, {now}; this test should favour the right one by {_odds(after)} "
-            "to 1."
-        )
-    chances = [
-        100.0 * float(ndtr(np.sqrt(max(strength - one.hidden, 0.0)) - USUAL_THRESHOLD))
-        for strength in (before, after)
-    ]
-    if chances[1] - chances[0] < NOTICEABLE:
+    if before >= MOST_TOLD and not one.alike:
         return ""
+    now = "both fit so far" if one.alike else f"the first is favoured by {_odds(before)} to 1 so far"
     return (
-        f"If there is {one.about}, the chance of finding it is {chances[1]:.0f} % with this test, {chances[0]:.0f} % "
-        f"{'with the steps above only' if later else 'without it'}."
+        f"Of the {one.about} and {an(one.other)}, {now}; this test should favour the right one by {_odds(after)} "
+        "to 1."
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from asphalt_nscd.diagnosis import beside, chance, limits
+from asphalt_nscd.diagnosis import beside, chance, hidden_bias, limits
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import CHANCE, Scores
@@ -199,7 +199,8 @@ def _scores(
     confined = np.array([isinstance(c.place, str) for c in candidates], bool)
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     found = chance.scores(joint, fitted, directions, confined)
-    return found, one_sided, chance.effective(found, one_sided) ** 2
+    gains = chance.effective(found, one_sided) ** 2
+    return found, one_sided, np.maximum(gains, hidden_bias.gains(joint, fitted, candidates, found.seen))
 
 
 def _best(
@@ -213,7 +214,8 @@ def _best(
     """The candidate of largest gain when refitted jointly, among those that come near it by their score.
 
     With them the other isotherms of such a cause: a shift bent towards the one that is off hides it. Of those
-    as good the one of fewest parameters: a loss bump far above the band is a delay with three more.
+    as good the one of fewest parameters: a loss bump far above the band is a delay with three more. Of one cause at
+    several places the smallest: one isotherm off by 3 K is likelier than the next by 8 K.
     """
     order = np.argsort(-gains)
     least = min(least, gains.max())  # few draws know the tail better than its quantile
@@ -230,6 +232,9 @@ def _best(
     gained -= [2.0 * (len(c.values) - 1) for c in shortlist.values()]
     as_good = np.flatnonzero(gained.max() - gained < AS_GOOD)
     best = min(as_good, key=lambda k: (len(refits[k].active[-1].values), -gained[k]))
+    cause = refits[best].active[-1].cause
+    same = [k for k in as_good if refits[k].active[-1].cause is cause]
+    best = min(same, key=lambda k: abs(refits[k].active[-1].values[0]))
     rivals = tuple(refits[k].active[-1] for k in as_good if k != best)
     return Rung(refits[best].active[-1], p_value, fitted, refits[best], rivals)
 

@@ -16,6 +16,7 @@ from asphalt_nscd.diagnosis.start import of_likeliest_roughness
 CLOSE = 0.05  # share of a direction left by the law, below which the law is refitted to see what it follows
 AT_LEAST = 0.5  # share of the strength that must survive the refit
 MOST = 0.9  # of the shapes of a cause
+HIDDEN = 5.0  # typical sizes, at which the search begins for an error of temperature that the shift law follows
 CONVERGED = 0.01  # change of the objective at which such a refit ends
 STRONGEST = 3.0 * (3.7 + chance.POWER)  # three times a usual limit
 
@@ -38,19 +39,40 @@ def detection_limits(
             if np.isfinite(size):
                 sizes.setdefault(candidate.key, []).append(size)
                 continue
+        hidden = _hidden_bias(joint, fitted, candidate, threshold)
+        if hidden is not None:
+            sizes[candidate.key] = [hidden]
         unseen.setdefault(candidate.key, candidate)
     limits = {key: float(np.quantile(values, MOST)) for key, values in sizes.items()}
     return limits, [candidate for key, candidate in unseen.items() if key not in limits]
 
 
-def _by_refit(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, threshold: float) -> float:
-    """By how much the limit grows when the law may follow the effect as far as it can; infinite if it does.
+def _hidden_bias(joint: Joint, fitted: Fitted, candidate: Candidate, threshold: float) -> float | None:
+    """Limit of an error of temperature that the shift law follows, by how it must bend; None where none shows."""
+    first = candidate.cause.parameters[0]
+    size = HIDDEN * first.typical
+    hidden = isinstance(candidate.place, float) and isinstance(joint.base, FlexibleSpectrum)
+    while hidden and size <= first.high:
+        factor = _beyond(joint, fitted, candidate, size, threshold)
+        if np.isfinite(factor):
+            return factor * size
+        size *= 2.0
+    return None
 
-    The fitted model with the effect at its limit stands for the table, without scatter; what the law without
-    the effect leaves of it is the strength that is seen.
-    """
+
+def _by_refit(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, threshold: float) -> float:
+    """By how much the limit grows when the law may follow the effect as far as it can; infinite if it does."""
     if isinstance(candidate.place, str) or not isinstance(joint.base, FlexibleSpectrum):
         return 1.0
+    return max(_beyond(joint, fitted, candidate, size, threshold), 1.0)
+
+
+def _beyond(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, threshold: float) -> float:
+    """The limit over a size near it; infinite where the law follows an effect of this size.
+
+    The fitted model with the effect stands for the table, without scatter; what the law without the effect leaves
+    of it is the strength that is seen.
+    """
     present = (*fitted.active, candidate.with_values(np.array([size, *candidate.values[1:]])))
     modulus = joint.apparent(fitted.law, present, fitted.scales)[0]
     shown = Joint(replace(joint.observed, modulus=modulus), joint.base, joint.noise)
@@ -58,7 +80,7 @@ def _by_refit(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, t
     follows = shown.fit(fitted.law, fitted.scales, fitted.active, CONVERGED)
     left = of_likeliest_roughness(shown, follows, CONVERGED)[1].objective - truth
     strength = float(np.sqrt(max(left, 0.0)))
-    return max(threshold / strength, 1.0) if strength > AT_LEAST * threshold else np.inf
+    return threshold / strength if strength > AT_LEAST * threshold else np.inf
 
 
 def alike(

@@ -71,7 +71,8 @@ def where(observed: Observations, column: str) -> str:
         isotherms = np.unique(observed.isotherm[own])
         at = [f"{t:g}" for t in isotherms if above[own & (observed.isotherm == t)].mean() >= 0.5]
         if len(at) == isotherms.size:
-            places.append(specimen_named(name))
+            places.append(name)
         elif at:
             parts.append(f"{specimen_named(name)} at {joined(at)} degC")
-    return joined([*places, *parts])
+    alike = len(places) > 1 and not places[0].casefold().startswith("specimen")
+    return joined([f"specimens {joined(places)}" if alike else joined(list(map(specimen_named, places))), *parts])

@@ -183,7 +183,7 @@ def _spread_note(spread: float) -> list[str]:
         return []
     return [
         f"These tests lie {spread:.1f} times as far from the fit as the diagnosis assumes. Multiply the limits and "
-        f"standard errors in diagnosis.json by {spread:.1f}; what is told here and in diagnosis.html is so multiplied."
+        f"standard errors in diagnosis.json by {spread:.1f}; the numbers here and in diagnosis.html hold this factor already."
     ]
 
 

@@ -25,13 +25,14 @@ from asphalt_nscd.diagnosis import (
     within_isotherm,
 )
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.extension import law_notes, material_law, prior_notes
-from asphalt_nscd.diagnosis.instructions import MOST, instructions
+from asphalt_nscd.diagnosis.extension import law_misses, law_notes, material_law, prior_notes
+from asphalt_nscd.diagnosis.instructions import instructions
 from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.summary import summary
+from asphalt_nscd.diagnosis.sweeps import Costs
 from asphalt_nscd.diagnosis.trust import reading, trust
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
@@ -160,6 +161,7 @@ def conclude(
     fit = None if observed.isotherms.size < 2 else material_law(diagnosis, ~doubtful)
     content, before = report.as_json(diagnosis, numerical), None
     if fit is not None:
+        content["law_misses"] = law_misses(diagnosis, fit.law, ~doubtful)
         content["notes"] += law_notes(diagnosis, fit.law, levels.places(*odd)) + prior_notes(fit)
     done.step()
     notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
@@ -175,17 +177,17 @@ def conclude(
         before = _begin_with_campaigns(content, diagnosis, numerical, simulated.campaign, simulated.facets)
     content["origin"] = origin
     held = within_isotherm.hold(observed)
-    if not diagnosis.ladder.rungs:
-        content["notes"] += suspects.one_sided(observed, held)
+    one_sided = [] if diagnosis.ladder.rungs else suspects.one_sided(observed, held)
+    content["notes"] += one_sided
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["odd_levels"], content["odd_phases"] = odd
     content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
     content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
     done.step()
-    content["instructions"] = instructions(diagnosis)
-    if content["reading"].get("bench_assumed"):
-        orders = content["instructions"]["orders"]
-        orders[:] = [*fixed_orders.which_test(content["ladder"]), *orders][:MOST]
+    assumed = content["reading"].get("bench_assumed")
+    ahead = fixed_orders.which_test(content["ladder"]) if assumed else []
+    ahead += fixed_orders.metal(observed, Costs()) if one_sided else []
+    content["instructions"] = instructions(diagnosis, ahead=ahead)
     done.step()
     broken = suspects.broken_isotherms(observed, held)
     content["contradictory_isotherms"] = [

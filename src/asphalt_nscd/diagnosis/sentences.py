@@ -12,7 +12,7 @@ from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import CHANCE, LEAST_ISOTHERMS
-from asphalt_nscd.diagnosis.written import CONFIDENCE, WIDE_SPREAD, name_at, shown, three_digits
+from asphalt_nscd.diagnosis.written import CONFIDENCE, WIDE_SPREAD, limits_by_place, name_at, shown, three_digits
 from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Content = Mapping[str, Any]
@@ -21,7 +21,7 @@ BOUNDS = {
     cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
 }
 ORIGINS = {
-    "measured": "The data are taken as measured: no file says otherwise.",
+    "measured": "No file says that the data are synthetic or reconstructed: they are taken for measurements.",
     "reconstructed": (
         "This diagnosis rests on reconstructed data. They are not measurements: they were drawn about one smooth "
         "law fitted to the published Burgers parameters, so that a cause found here is one of this reconstruction."
@@ -29,10 +29,10 @@ ORIGINS = {
     "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
 }
 OF_WHAT_IS_LEFT = (
-    "At most the four largest are listed, as standard deviations beyond the scatter of a test. Residuals of single "
-    "tests hold all parts and are larger (residuals.csv)."
+    "Standard deviations, with the scatter of a test taken off, of the four largest parts at most. The residual of one "
+    "test is the sum of all parts and of its scatter (residuals.csv)."
 )
-NO_CAUSE = "No cause that this program knows explains these tests better than chance would."
+UNSEEN = ("phase_offset", "channel_delay", "temperature_bias")  # the commonest, whose limits everybody is told
 LAW = "relaxation spectrum"
 RANKED = "Doubtful tests come first, then what settles most per hour."
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
@@ -102,7 +102,7 @@ def of_intervals(content: Content) -> str:
     if factor == 1.0:
         return "+- is the 95 % interval."
     return (
-        f"+- is the 95 % interval, widened {factor:.1f} times since these tests lie so much further from the law than "
+        f"+- is the 95 % interval, widened {factor:.1f} times because these tests lie so much farther from the law than "
         "the fit assumes."
     )
 
@@ -153,6 +153,36 @@ def causes(content: Content) -> list[tuple[str, str]]:
     ]
 
 
+def no_cause(content: Content) -> str:
+    """That nothing was named, where nothing was."""
+    return "" if any(rung["cause"] != "relaxation_spectrum" for rung in content["ladder"]) else "No cause is named."
+
+
+def unseen(content: Content) -> str:
+    """How large the commonest faults may be without these tests showing them; empty where none was judged."""
+    named = {rung["cause"] for rung in content["ladder"]}
+    never = [one["cause"] for one in content["not_testable"]]
+    told = []
+    for cause in UNSEEN:
+        limit = content["detection_limits"].get(cause)
+        if limit and cause not in named:
+            found = [shown(widened(content) * size, limit["unit"]) for size in limits_by_place(cause, limit).values()]
+            values = sorted((float(f"{value:.2g}") for value, _ in found))
+            size = " to ".join(dict.fromkeys(f"{value:g}" for value in (values[0], values[-1])))
+            told.append(f"{an(cause.replace('_', ' '))} of {size} {_typed(found[0][1])}{_at(limit, content)}")
+    sentences = [f"Faults smaller than these would not be seen: {joined(told)}."] if told else []
+    sentences += [f"No {cause.replace('_', ' ')} can be seen in these tests." for cause in UNSEEN if cause in never]
+    return " ".join(sentences)
+
+
+def _at(limit: Content, content: Content) -> str:
+    """Where a limit holds: at some isotherms only, or depending on them."""
+    places = limit.get("places", {})
+    if len(places) in (0, len(content.get("reading", {}).get("isotherms_C", []))):
+        return " (depending on the isotherm)" if len(set(places.values())) > 1 else ""
+    return f" (at {joined([f'{float(t):g}' for t in places])} degC; at the others none would)"
+
+
 def _to_confirm(rung: Content) -> str:
     """Only where the simulations do not show it by themselves."""
     return "" if rung["cause"] == BOND_MAPPING else f" To confirm it: {rung['confirmed_by']}."
@@ -186,8 +216,11 @@ def _sure(rung: Content, content: Content) -> str:
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     if rung["cause"] != "relaxation_spectrum":
         return f"Established: the chance that scatter alone imitates it is {chance}."
-    missed = " The law found here misses by more than scatter too." if more_than_scatter(content) else ""
-    return f"Established: the chance that scatter alone makes Burgers laws miss so far is {chance}.{missed}"
+    missed = " One law misses by more than scatter too." if more_than_scatter(content) else ""
+    return (
+        f"Established is that Burgers laws do not fit: the chance that scatter makes them miss by so much is {chance}. "
+        f"How well the constants are known, their intervals say.{missed}"
+    )
 
 
 def _doubts(rung: Content, content: Content) -> list[str]:

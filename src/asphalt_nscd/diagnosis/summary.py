@@ -15,7 +15,7 @@ Content = Mapping[str, Any]
 def summary(content: Content) -> str:
     """The first page as text, one part after another; parts with nothing to say are left out."""
     read = content.get("reading", {"notes": []})
-    answer = [f"Data: {verdict.on_data(content)}", verdict.answer(content)]
+    answer = [f"Data: {verdict.on_data(content)}", verdict.answer(content), verdict.first_order(content)]
     test, files = verdict.test_type(content), verdict.files(content)
     law, named = sentences.law_of_the_mix(content), sentences.causes(content)
     mixes = verdict.mixes(content)
@@ -23,23 +23,28 @@ def summary(content: Content) -> str:
     head += [f"Files: {files}"] if files else []
     head += [] if content.get("origin", "measured") == "measured" else sentences.origin(content)
     parts = [
-        ("What was read", read["notes"]),
-        ("Verdict", [*head, *answer]),
+        ("Verdict", [*head, *filter(None, answer)]),
         ("Tests not to be used" if sentences.not_used(content) else "Doubtful tests", _suspects(content)),
-        ("Law of the mix", [f"{law[0]}. {law[1]}"] if law else []),
-        ("Causes", [f"{cause}. {sure}" for cause, sure in named] or [sentences.NO_CAUSE]),
+        ("Law of the mix", [*([f"{law[0]}. {law[1]}"] if law else []), *verdict.beyond_the_tests(content)]),
+        ("Causes", [*(f"{cause}. {sure}" for cause, sure in named), *_on_others(content)]),
         ("", list(filter(None, [sentences.of_intervals(content)]))),
         ("What stays unexplained", _left(content)),
         ("What to do next", _orders(content)),
         ("Scatter", _scatter(content)),
         ("Limits, stated and measured", _limits(content)),
-        ("Remarks", [*content["notes"], *verdict.beyond_the_tests(content)]),
+        ("Remarks", content["notes"]),
+        ("What was read", read["notes"]),
     ]
     return "\n\n".join(_part(title, lines) for title, lines in parts if lines)
 
 
 def _part(title: str, lines: Sequence[str]) -> str:
     return "\n".join([*([title.upper()] if title else []), *lines])
+
+
+def _on_others(content: Content) -> list[str]:
+    """Of the causes that were not named."""
+    return list(filter(None, [sentences.no_cause(content), sentences.unseen(content)]))
 
 
 def _suspects(content: Content) -> list[str]:

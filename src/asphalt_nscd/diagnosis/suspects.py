@@ -161,7 +161,7 @@ def one_sided(observed: Observations, held: Held) -> list[str]:
             return [
                 f"{np.count_nonzero(rows)} of {apart.size} phases lie {side} what |E*| alone requires by more than two "
                 f"standard errors; the mean over all is {abs(apart.mean()):.1f} deg {side}. No cause is named "
-                "for that; a metal reference specimen would show an offset or a delay."
+                "for that."
             ]
     return []
 
@@ -212,7 +212,7 @@ def _singled_out(observed: Observations) -> list[list[str]]:
             limit = quality.LIMITS[one.column]
             unit = limit.unit
             sentences[one.row].append(
-                f"{limit.label} {one.value:.3g} {unit}, limit {one.limit:g} {unit} ({limit.source})"
+                f"{limit.label} {one.value:.3g} {unit}, limit {one.limit:g} {unit}"
             )
     return sentences
 
@@ -266,14 +266,14 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
         size = f"{times:.3g} times" if abs(np.log(times)) > SLIP else f"{abs(apart):.1f} % {_way(apart)}"
         return (
             f"|E*| is {modulus / 1e6:.0f} MPa, {size} the {np.exp(expected) / 1e6:.0f} MPa that its phase and {rest} "
-            f"ask for (standard error {100.0 * error:.1f} %){'; look for a misplaced decimal point' * bool(slip)}"
+            f"lead to expect (standard error {100.0 * error:.1f} %){'; look for a misplaced decimal point' * bool(slip)}"
         )
     phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
     delay = "; the delay of all tests is allowed for" if held.delay else ""
     apart = round(phase, 1) - round(allowed, 1)  # as a reader subtracts
     return (
         f"phase is {phase:.1f} deg, {abs(apart):.1f} deg {_way(phase - allowed)} the {allowed:.1f} deg that "
-        f"its |E*| and {rest} ask for (standard error {np.degrees(error):.1f} deg{delay})"
+        f"its |E*| and {rest} lead to expect (standard error {np.degrees(error):.1f} deg{delay})"
     )
 
 

@@ -65,7 +65,10 @@ def on_data(content: Content) -> str:
         parts.append(
             f"{joined(read['not_tested'])} {'was' if len(read['not_tested']) == 1 else 'were'} not tested"
         )
-    parts += [_fault(rung, content) for rung in _faults(content)]
+    faults = _faults(content)
+    parts += [_fault(rung, content) for rung in faults]
+    if faults and len(read.get("isotherms_C", [])) != 1:  # no law is written of one temperature
+        parts.append(f"In law.json {'it is' if len(faults) == 1 else 'they are'} taken off already")
     spread = (content.get("repeatability") or {}).get("between")
     if spread is not None and not mixes(content):
         parts.append(_spread(spread))
@@ -83,7 +86,7 @@ def _usable(content: Content) -> str:
     out, tests, read = len(not_used(content)), content["tests"], content.get("reading", {})
     trust = content.get("trust", {"use": tests, "check": 0, "not_used": out})
     faults = [rung for rung in _faults(content) if rung.get("established", True)]
-    corrected = ", once corrected" if any(rung["where"] is None for rung in faults) else ""
+    corrected = " after correction" if any(rung["where"] is None for rung in faults) else ""
     alone = ""
     if read.get("test_type") == "tension-compression" and not read.get("quality_columns", True):
         alone = " (judged by modulus and phase alone: no quality columns)"
@@ -139,7 +142,7 @@ def _fault(rung: Content, content: Content) -> str:
     """Who carries a fault; perhaps, where the cause itself says why it is not certain."""
     where = rung["where"]
     one = isinstance(where, str)
-    who = specimen_named(where) if one else ("all of them" if where is None else f"those at {where:g} degC")
+    who = specimen_named(where) if one else ("all tests" if where is None else f"those at {where:g} degC")
     what = CARRIED.get(rung["cause"]) or an(rung["cause"].replace("_", " "))
     told = f"{who} {'carries' if one else 'carry'} {what} of {size(rung, content)}"
     if not rung.get("established", True):
@@ -148,8 +151,6 @@ def _fault(rung: Content, content: Content) -> str:
     else:
         tests = "its tests" if one else "them"
         correct = f": {_correction(rung) or f'correct {tests} for it'}"
-    if len(content.get("reading", {}).get("isotherms_C", [])) != 1:  # no law is written of one temperature
-        correct += "; law.json is the law of the mix without it"
     return told + correct
 
 
@@ -197,15 +198,21 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
         )
     spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in ladder)
     law = COMMON if spectrum else simpler
-    other = (
-        f"without {'this cause' if len(ladder) == 1 else 'these causes'}"
-        if law == simpler
-        else f"{simpler} misses"
-    )
+    found = joined([an(cause_words(rung)) for rung in ladder if rung["cause"] != "relaxation_spectrum"])
+    without = f" Without {'this cause' if len(ladder) == 1 else 'these causes'} by {before[0]} and {before[1]}."
     return (
-        f"{law}, with {found}, misses {missed_by} by {after[0]} of |E*| and {after[1]} of the phase, "
-        f"{_beyond_bonds(content)}. {other[:1].upper()}{other[1:]} by {before[0]} and {before[1]}.{worse}"
+        f"{law}{f', with {found},' * bool(found)} misses {missed_by} by {after[0]} of |E*| and {after[1]} of the phase, "
+        f"{_beyond_bonds(content)}.{without * (law == simpler)}{_of_the_file(content)}{worse}"
     )
+
+
+def _of_the_file(content: Content) -> str:
+    """What the law that is written misses; empty where none is."""
+    misses = content.get("law_misses")
+    if misses is None:
+        return ""
+    modulus, phase = (three_digits(misses[name]) for name in ("mre_E_percent", "mre_phase_percent"))
+    return f" law.json, a law of few parameters for other programs, misses by {modulus} % and {phase} %."
 
 
 def _bonded(content: Content) -> bool:
@@ -214,9 +221,20 @@ def _bonded(content: Content) -> bool:
 
 
 def answer(content: Content, left: Mapping[str, float] | None = None) -> str:
-    """`on_simulation` with what it speaks of: of a table alone, only of laws."""
+    """`on_simulation` with what it speaks of, of a table alone only of laws; and where the law is not to be used."""
     simulated = left is not None or _bonded(content)
-    return f"{'Simulation' if simulated else 'Law'}: {on_simulation(content, left)}"
+    where = _predicted_badly(content)
+    warning = f" Do not use the law {where}." if where else ""
+    return f"{'Simulation' if simulated else 'Law'}: {on_simulation(content, left)}{warning}"
+
+
+def first_order(content: Content) -> str:
+    """What to do first; empty where nothing is ordered."""
+    orders = content.get("instructions", {"orders": []})["orders"]
+    if not orders:
+        return ""
+    hours, act = orders[0]["text"].removesuffix(".").split(": ", 1)
+    return f"First: {act} ({hours})."
 
 
 def _first_law(content: Content) -> str:
@@ -287,28 +305,41 @@ def _alone(content: Content) -> bool:
     return not content["scatter"]["from_replicates"] and not content["provenance"].get("scatter_stated")
 
 
-def beyond_the_tests(content: Content) -> list[str]:
-    """A warning where the law predicts temperatures that were left out of its fit badly: between others, or beyond."""
-    gain = (
-        content["ladder"][-1]["gain"].get("held_out", {}).get("leave_one_isotherm_out")
-        if content["ladder"]
-        else None
-    )
+def _left_out(content: Content) -> tuple[dict[float, float], float] | None:
+    """Errors of |E*| in percent of each isotherm predicted from the others, and their mean between the two ends."""
+    rungs = content["ladder"]
+    gain = rungs[-1]["gain"].get("held_out", {}).get("leave_one_isotherm_out") if rungs else None
     if gain is None:
-        return []
+        return None
     errors = {float(t): one["mre_E_percent"]["after"] for t, one in gain["averages_by_temperature"].items()}
-    coldest, warmest = min(errors), max(errors)
-    between = mean_averages(gain, inner=True)["mre_E_percent"]["after"]
-    if max(between, errors[coldest], errors[warmest]) <= POOR:
+    return errors, mean_averages(gain, inner=True)["mre_E_percent"]["after"]
+
+
+def _predicted_badly(content: Content) -> str:
+    """Where the law predicts temperatures that were left out of its fit badly, between others or beyond; else empty."""
+    found = _left_out(content)
+    if found is None:
+        return ""
+    errors, between = found
+    if between > POOR:
+        return "at temperatures that were not tested"
+    return "beyond the tested temperatures" if max(errors[min(errors)], errors[max(errors)]) > POOR else ""
+
+
+def beyond_the_tests(content: Content) -> list[str]:
+    """How far off the law is at temperatures left out of its fit, where that forbids to use it there."""
+    found = _left_out(content)
+    if found is None or not _predicted_badly(content):
         return []
-    where = "at temperatures that were not tested" if between > POOR else "beyond the tested temperatures"
+    errors, between = found
+    coldest, warmest = min(errors), max(errors)
     return [
         "Each temperature predicted from the others: |E*| is off by "
         + ", ".join(
-            f"{_two(errors[t])} % at {t:g} degC{' (with what is wrong there)' * _wrong(t, content)}"
+            f"{_two(errors[t])} % at {t:g} degC{' (errors found there included)' * _wrong(t, content)}"
             for t in (coldest, warmest)
         )
-        + f" and {_two(between)} % between them. Do not use the law {where}."
+        + f" and {_two(between)} % between them."
     ]
 
 

@@ -18,7 +18,10 @@ class MovingMass(Cause):
     needs = "two-point bending at several frequencies"
     parameters = (Parameter("mass", "kg", -2.0, 2.0, 0.02),)
     sentence = "the mass moving with the head differs from the one used in the reduction"
-    signs = ("More mass moves than the reduction counts.", "Less mass moves than the reduction counts.")
+    signs = (
+        "More mass moves than the evaluation of the tests counts.",
+        "Less mass moves than the evaluation of the tests counts.",
+    )
     confirmed_by = "weighing what moves with the head, or a test of the rig without a specimen"
 
     def places(self, observed: Observations) -> Sequence[Place]:
