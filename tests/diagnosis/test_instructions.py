@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from test_diagnose import SCATTER, table
 
-from asphalt_nscd.diagnosis import fixed_orders, instructions
+from asphalt_nscd.diagnosis import fixed_orders, instructions, order_words
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.further_tests import possible
 from asphalt_nscd.diagnosis.information import Knowledge, Question
@@ -116,17 +116,17 @@ def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
     ],
 )
 def test_odds_are_told_where_a_test_would_change_them(before, alike, said):
-    asked = instructions.Open("apart", None, "channel delay", "phase offset", alike)
-    assert instructions._reason(asked, before, 30.0).endswith(said)
-    assert bool(instructions._reason(asked, before, 30.0)) == bool(said)
+    asked = order_words.Open("apart", None, "channel delay", "phase offset", alike)
+    assert order_words._reason(asked, before, 30.0).endswith(said)
+    assert bool(order_words._reason(asked, before, 30.0)) == bool(said)
 
 
 def test_a_test_at_another_temperature_repeats_nothing():
-    asked = [instructions.Open("repeat", None, "specimen a at 4 degC, 25 Hz")]
+    asked = [order_words.Open("repeat", None, "specimen a at 4 degC, 25 Hz")]
     for temperature, reasons in ((4.0, 1), (-6.0, 0)):
         sweep = Sweep("a", temperature, (10.0, 25.0), False, None, 1.0)
-        order = instructions.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
-        assert len(instructions._reasons(order, asked, later=False)) == reasons
+        order = order_words.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
+        assert len(order_words.reasons(order, asked, order_words.Context())) == reasons
 
 
 def test_a_test_that_cannot_be_used_is_to_be_repeated():
@@ -165,22 +165,22 @@ def test_half_the_strain_is_asked_for_with_the_size_that_it_should_halve(delayed
     modulus, phase = delayed.noise.sigma
     assert left == f"{np.degrees(3.0 * phase):.1f} deg in the phase and {200.0 * modulus:.1f} % in |E*|"
     asked = [
-        instructions.Open("linear", None, "20 degC", left),
-        instructions.Open("linear", None, "0 degC", "other"),
+        order_words.Open("linear", None, "20 degC", left),
+        order_words.Open("linear", None, "0 degC", "other"),
     ]
-    order = instructions.Order(
+    order = order_words.Order(
         Sweep("a", 20.0, (10.0,), True, None, 1.0), ["a"], 1.0, 1.0, {0: (0, 1), 1: (0, 1)}
     )
-    (why,) = instructions._reasons(order, asked, later=False)
+    (why,) = order_words.reasons(order, asked, order_words.Context())
     assert why.startswith(
         f"What stays unexplained at 20 degC ({left}) should fall to about half if the mix is not linear. "
     )
 
 
 def test_a_gain_too_small_to_matter_is_no_reason():
-    asked = instructions.Open("kept", None, "moving mass", "54 degC")
-    assert instructions._reason(asked, 1.8**2, 1.9**2) == ""
-    assert instructions._reason(asked, 1.8**2, 2.4**2).endswith("by 2.4 standard errors (now 1.8).")
+    asked = order_words.Open("kept", None, "moving mass", "54 degC")
+    assert order_words._reason(asked, 1.8**2, 1.9**2) == ""
+    assert order_words._reason(asked, 1.8**2, 2.4**2).endswith("by 2.4 standard errors (now 1.8).")
 
 
 def test_a_sweep_that_was_asked_for_lowers_the_limit_as_promised(empty):
@@ -234,26 +234,38 @@ def _with(observed: Observations, specimen: str, temperature: float, frequencies
     ],
 )
 def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
-    order = instructions.Order(Sweep(specimens[0], t, f, half, None, 1.0), specimens, 2.5, 1.0, {})
+    order = order_words.Order(Sweep(specimens[0], t, f, half, None, 1.0), specimens, 2.5, 1.0, {})
     who = {1: f"specimen {specimens[0]}", 2: "specimens a and b"}[len(specimens)]
     who = METAL if specimens == [METAL] else who
-    assert instructions._text(order, table(3)).startswith(f"2.5 h: test {who}{again}")
+    assert order_words.in_a_sentence(order, table(3)).startswith(f"2.5 h: test {who}{again}")
 
 
 def test_what_a_test_would_show_is_said_with_its_chance():
-    one = instructions.Open("reach", None, "a phase offset of 1.5 deg")
-    assert instructions._reason(one, 4.0, 47.0) == (
+    one = order_words.Open("reach", None, "a phase offset of 1.5 deg")
+    assert order_words._within_reach([(one, 4.0, 47.0)], order_words.Context()) == [
         "If there is a phase offset of 1.5 deg, the chance of finding it is 100 % with this test, 4 % without it."
+    ]
+
+
+def test_places_of_one_cause_are_told_together():
+    cold, warm, hot, nothing = (
+        order_words.Open("reach", None, "a temperature bias of 0.9 K", f"at {t} degC")
+        for t in (4, 20, 50, 35)
     )
+    helped = [(warm, 0.0, 47.0), (cold, 0.0, 25.0), (hot, 9.0, 47.0), (nothing, 9.0, 9.1)]
+    assert order_words._within_reach(helped, order_words.Context(later=True)) == [
+        "If there is a temperature bias of 0.9 K at 4, 20 or 50 degC, the chance of finding it is 90 to 100 % with "
+        "this test, 0 to 24 % with the steps above only."
+    ]
 
 
 def test_two_parts_of_a_band_are_one_order():
     low, high = (Sweep("a", 35.0, band, False, None, 2.6) for band in ((0.1, 1.0), (10.0, 25.0)))
     other = Sweep("a", 35.0, (10.0, 25.0), True, None, 2.6)
     orders = [
-        instructions.Order(high, ["a"], 2.6, 3.0, {0: (1.0, 2.0)}),
-        instructions.Order(other, ["a"], 2.6, 1.0, {}),
-        instructions.Order(low, ["a"], 2.6, 1.5, {0: (2.0, 4.0), 1: (0.0, 9.0)}),
+        order_words.Order(high, ["a"], 2.6, 3.0, {0: (1.0, 2.0)}),
+        order_words.Order(other, ["a"], 2.6, 1.0, {}),
+        order_words.Order(low, ["a"], 2.6, 1.5, {0: (2.0, 4.0), 1: (0.0, 9.0)}),
     ]
     whole, half = instructions._merged(orders, Costs())
     assert whole.sweep.frequencies == (0.1, 1.0, 10.0, 25.0) and half.sweep.half_strain
@@ -344,8 +356,9 @@ def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(de
     assert instructions._by_limit(shown, bias) == pytest.approx((3.7 + 1.645) ** 2)
     assert instructions._by_limit(nowhere, bias) == 0.0
     assert all(one.hidden >= 0.0 for one in reach)
-    asked = instructions.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
-    assert instructions._reason(asked, 9.0, 90.0).endswith("100 % with this test, 0 % without it.")
+    asked = order_words.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
+    (said,) = order_words._within_reach([(asked, 9.0, 90.0)], order_words.Context())
+    assert said.endswith("100 % with this test, 0 % without it.")
 
 
 def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):
@@ -359,11 +372,34 @@ def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):
     assert not any("second loss peak" in about for about in sought(hidden)) and sought(hidden)
 
 
+def test_metal_is_ordered_at_both_ends_of_the_band_where_phases_lie_on_one_side(empty):
+    (order,) = fixed_orders.metal(empty.observed, Costs())
+    ends = empty.observed.frequencies[[0, -1]].tolist()
+    assert (order["specimens"], order["frequencies_Hz"], order["temperature_C"]) == ([METAL], ends, None)
+    assert order["hours"] == pytest.approx(Costs().hours(METAL, 20.0, ends), abs=0.005)
+    told = instructions.instructions(empty, ahead=[order])["orders"]
+    assert told[0] == order and len(told) <= instructions.MOST
+
+
+def test_a_doubtful_test_waits_for_a_check_of_the_gauges():
+    asked = [order_words.Open("repeat", None, "specimen a at 4 degC, 25 Hz")]
+    order = order_words.Order(Sweep("a", 4.0, (25.0,), False, None, 1.0), ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
+    typed, machine = (
+        order_words.reasons(order, asked, context)[0]
+        for context in (order_words.Context(), order_words.Context(checked=True, typed=False))
+    )
+    assert "typing error" in typed and "gauges" not in typed
+    assert "typing error" not in machine and "Check gauges and mounting before." in machine
+
+
 def test_which_test_it_was_is_asked_where_a_cause_hangs_on_it():
     mass, delay = ({"cause": name} for name in ("moving_mass", "channel_delay"))
     assert fixed_orders.which_test([delay]) == []
     (order,) = fixed_orders.which_test([delay, mass])
     assert (
-        order["why"] == ["Only two-point bending knows a moving mass; it was assumed."]
+        order["why"]
+        == [
+            "A moving mass can be in two-point bending only, which was assumed since nobody said what was tested."
+        ]
         and order["hours"] == 0.0
     )

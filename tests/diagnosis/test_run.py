@@ -22,6 +22,7 @@ from asphalt_nscd.diagnosis.suspects import Suspect
 from asphalt_nscd.diagnosis.trust import reading
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
+from asphalt_nscd.rheology.spectrum_io import read_spectrum
 from asphalt_nscd.table_import.campaign import read_campaign
 
 PUBLISHED = Path(__file__).parents[2] / "results/published/paper"
@@ -197,3 +198,43 @@ def test_a_table_of_an_unknown_bench_says_so(stated):
     content = run.conclude(campaign, PAPER_GEOMETRY, draws=FEW).content
     assert content["reading"].get("bench_assumed") == (True if stated is None else None)
     assert not list(Draft202012Validator(SCHEMA).iter_errors(json.loads(json.dumps(content))))
+
+
+def test_the_verdict_tells_what_the_law_that_is_written_misses(tmp_path):
+    """Computed again: the law of the file with the delay added, averages over specimens, mean over all."""
+    outcome = run.conclude(read_campaign([EXPORTS])[0], PAPER_GEOMETRY, draws=FEW)
+    outcome.write(tmp_path)
+    observed = outcome.diagnosis.observed
+    modulus = read_spectrum(tmp_path / "law.json").complex_modulus(observed.omega, observed.temperature)
+    (delay,) = [one["parameters"] for one in outcome.content["ladder"] if one["cause"] == "channel_delay"]
+    late = observed.omega * next(iter(delay.values()))["value"]
+    by_hand = pd.DataFrame(
+        {
+            "at": observed.isotherm,
+            "f": observed.frequency,
+            "E": np.abs(observed.modulus),
+            "phase": np.degrees(np.angle(observed.modulus)),
+            "E_law": np.abs(modulus),
+            "phase_law": np.degrees(np.angle(modulus) + late),
+        }
+    )
+    means = by_hand.groupby(["at", "f"]).mean()
+    misses = outcome.content["law_misses"]
+    for name in ("E", "phase"):
+        error = 100.0 * np.abs(means[f"{name}_law"] / means[name] - 1.0).groupby("at").mean().mean()
+        assert misses[f"mre_{name}_percent"] == pytest.approx(error, rel=1e-6), name
+    said = [f"{misses[f'mre_{name}_percent']:.3g} %" for name in ("E", "phase")]
+    assert f"law.json, a law of few parameters for other programs, misses by {' and '.join(said)}" in summary(
+        outcome.content
+    )
+
+
+def test_metal_comes_first_where_phases_lie_on_one_side(monkeypatch):
+    monkeypatch.setattr(run.suspects, "one_sided", lambda *_: ["32 of 54 phases lie above."])
+    monkeypatch.setattr(run, "diagnose", lambda *_, **__: diagnose(table(4), draws=500))
+    content = run.conclude(read_campaign([EXPORTS])[0], PAPER_GEOMETRY, draws=FEW).content
+    assert content["notes"].count("32 of 54 phases lie above.") == 1
+    first = content["instructions"]["orders"][0]
+    assert first["specimens"] == ["a metal reference specimen"] and first["why"][0].startswith(
+        "Phases lie on one side"
+    )

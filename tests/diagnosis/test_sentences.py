@@ -247,5 +247,55 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
     assert "With it the law fits these tests worse" in causes({"ladder": [worse]})[0][1]
     assert "fits these tests worse" not in causes(near)[0][1]
     assert sentences.of_intervals(near) == "+- is the 95 % interval."
-    assert sentences.of_intervals(far).startswith("+- is the 95 % interval, widened 2.0 times since")
+    assert sentences.of_intervals(far).startswith("+- is the 95 % interval, widened 2.0 times because")
     assert sentences.of_intervals({"ladder": []}) == ""
+
+
+LIMITS = {
+    "phase_offset": {"value": 0.5, "unit": "deg"},
+    "temperature_bias": {
+        "value": 0.9,
+        "unit": "K",
+        "confined_to": "temperature_C",
+        "places": {"20.0": 1.24, "35.0": 0.883},
+    },
+}
+
+
+@pytest.mark.parametrize(
+    "isotherms,spread,never,said",
+    [
+        (
+            [20.0, 35.0],
+            1.0,
+            [],
+            "Faults smaller than these would not be seen: a phase offset of 0.5 deg and a temperature bias of 0.88 to "
+            "1.2 K (depending on the isotherm).",
+        ),
+        (
+            [4.0, 20.0, 35.0],
+            3.0,
+            [],
+            "Faults smaller than these would not be seen: a phase offset of 1.5 deg and a temperature bias of 2.6 to "
+            "3.7 K (at 20 and 35 degC; at the others none would).",
+        ),
+        (
+            [20.0, 35.0],
+            1.0,
+            ["channel_delay"],
+            "Faults smaller than these would not be seen: a phase offset of 0.5 deg and a temperature bias of 0.88 to "
+            "1.2 K (depending on the isotherm). No channel delay can be seen in these tests.",
+        ),
+    ],
+)
+def test_what_would_not_be_seen_is_told(isotherms, spread, never, said):
+    content = {
+        "ladder": [],
+        "detection_limits": LIMITS,
+        "estimates_spread": spread,
+        "not_testable": [{"cause": name} for name in never],
+        "reading": {"isotherms_C": isotherms},
+    }
+    assert sentences.unseen(content) == said
+    named = content | {"ladder": [{"cause": "temperature_bias"}]}
+    assert "temperature bias" not in sentences.unseen(named)

@@ -30,6 +30,14 @@ def test_a_unit_that_the_name_of_the_column_confirms(tmp_path):
     assert read(tmp_path, below, E_ksi="Wert").table.columns["E_MPa"][0] == "67568.62147"
 
 
+def test_degrees_under_a_heading_of_radians(tmp_path):
+    table = [[*HEADER[:4], "Phase (rad)"], *ROWS]
+    assert (
+        "a phase of 4.2 rad is 241 deg, more than any material has; if the numbers are degrees, write deg"
+        in refusal(tmp_path, [table[0], [*ROWS[0][:4], "4.2"], *ROWS[1:]])
+    )
+
+
 @pytest.mark.parametrize(
     ("name", "quantity", "unit"),
     [

@@ -48,7 +48,9 @@ def picture(program: str, report: Path, output: Path) -> None:
         page.open(report.resolve().as_uri(), WIDTHS[0])
         page.evaluate("document.fonts.ready.then(() => true)")
         page.evaluate("Promise.all([...document.images].map(image => image.decode().catch(() => null)))")
-        height = page.evaluate("document.querySelector('nav, .details').getBoundingClientRect().top + scrollY")
+        height = page.evaluate(
+            "document.querySelector('nav, .details').getBoundingClientRect().top + scrollY"
+        )
         clip = {"x": 0, "y": 0, "width": WIDTHS[0], "height": height, "scale": 1}
         shot = page.call("Page.captureScreenshot", format="png", clip=clip, captureBeyondViewport=True)
         output.write_bytes(b64decode(shot["data"]))

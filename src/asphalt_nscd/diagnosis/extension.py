@@ -102,9 +102,10 @@ def law_misses(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_]) -> 
 
     used (n,): these tests.
     """
-    observed = diagnosis.observed
-    own = np.log(law.complex_modulus(observed.omega, observed.temperature) / _without_causes(diagnosis))
-    found = errors(diagnosis, np.where(used, diagnosis.ladder.fitted.modelled + own, np.nan))
+    observed, ladder = diagnosis.observed, diagnosis.ladder
+    named = ladder.joint.apparent(ladder.fitted.law, ladder.fitted.active)[0] / _without_causes(diagnosis)
+    shown = named * law.complex_modulus(observed.omega, observed.temperature)
+    found = errors(diagnosis, np.where(used, np.log(np.abs(shown)) + 1j * np.angle(shown), np.nan))
     return {name: float(np.mean(list(by_temperature.values()))) for name, by_temperature in found.items()}
 
 

@@ -49,13 +49,13 @@ def _frame(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> pd.DataFr
 
 
 def errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, dict[str, float]]:
-    """Mean relative errors by isotherm, as in Table 4, of what was simulated (NaN: not)."""
-    isotherm = diagnosis.observed.isotherm
-    simulated = _frame(diagnosis, logarithm).assign(temperature_C=isotherm).dropna()
+    """Mean relative errors by isotherm, as in Table 4, of the tests that were simulated (NaN: not)."""
+    isotherm, there = diagnosis.observed.isotherm, ~np.isnan(logarithm)
+    simulated = _frame(diagnosis, logarithm).assign(temperature_C=isotherm)[there]
     if simulated.empty:
         return {name: {} for name in ERRORS}
     scatter = float(np.degrees(diagnosis.noise.sigma[1]))
-    measured = _frame(diagnosis, diagnosis.observed.logarithm).assign(temperature_C=isotherm)
+    measured = _frame(diagnosis, diagnosis.observed.logarithm).assign(temperature_C=isotherm)[there]
     found = mean_relative_error(measured, simulated, scatter)
     by = [f"{t:g}" for t in found["temperature_C"]]
     return {name: dict(zip(by, found[name].tolist(), strict=True)) for name in ERRORS}

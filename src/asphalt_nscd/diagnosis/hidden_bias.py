@@ -26,7 +26,10 @@ def gains(
     gives, nothing is fitted.
     """
     out = np.zeros(len(candidates))
-    if not isinstance(joint.base, FlexibleSpectrum) or joint.base.shift_strain(fitted.law) < USUAL_THRESHOLD**2:
+    if (
+        not isinstance(joint.base, FlexibleSpectrum)
+        or joint.base.shift_strain(fitted.law) < USUAL_THRESHOLD**2
+    ):
         return out
     for k, candidate in enumerate(candidates):
         if isinstance(candidate.place, float) and not seen[k]:

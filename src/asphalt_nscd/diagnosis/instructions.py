@@ -10,81 +10,38 @@ next, given the first.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis import fixed_orders
 from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
-from asphalt_nscd.diagnosis.fixed_orders import band, named
 from asphalt_nscd.diagnosis.further_tests import Possible, possible
 from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.order_words import Context, Open, Order, in_a_sentence, reasons
 from asphalt_nscd.diagnosis.sentences import an, size_left
 from asphalt_nscd.diagnosis.sweeps import METAL, Costs, Sweep
 from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
-MOST, REASONS = 5, 3
-NOTICEABLE = 15.0  # percent of cases
-CLEARER = 0.3  # standard errors
+MOST = 5
 LEAST = 0.3  # nats, below which a sweep tells nothing
 SURVIVES = 2.0  # standard errors that a cause keeps without what it hangs on
 FOUND = (USUAL_THRESHOLD + POWER) ** 2  # strength of a cause that is found in 19 of 20 cases
 KEPT = (SURVIVES + POWER) ** 2
 TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached in 19 of 20 cases
 PRESENT = 0.1  # chance that a cause nobody has seen is there
-MOST_TOLD = 2.0 * float(np.log(1000.0))  # strength above which odds are not told as a number
 PLAIN = {  # whose size alone says little
     "secondary_process": "a second loss peak (secondary process) of {}",
     "guide_friction": "friction in the guide (a loss modulus larger by {})",
     "strain_softening": "a softening with strain (|E*| lower by {})",
 }
 REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
-
-
-@dataclass(frozen=True)
-class Open:
-    """An open question: what it is about, and how a reader is told what the tests would do for it.
-
-    alike: whether the two causes that it tells apart fitted the tests equally well. hidden: strength that the tests
-    done have less than the linear model says, for the law follows a large effect further than a small one.
-    """
-
-    kind: str  # kept, metal, apart, repeat, level, linear or reach
-    asked: Asked
-    about: str
-    other: str = ""
-    alike: bool = False
-    hidden: float = 0.0
-
-
-@dataclass
-class Order:
-    """One order to the laboratory; hours, nats: what it costs and is expected to tell.
-
-    helps: of each question that it helps, the strength before and after.
-    """
-
-    sweep: Sweep
-    specimens: list[str]
-    hours: float
-    nats: float
-    helps: dict[int, tuple[float, float]]
-
-
-@dataclass(frozen=True)
-class Context:
-    """What an order stands in: others before it, a check of gauges among them; tests that somebody typed in."""
-
-    later: bool = False
-    checked: bool = False
-    typed: bool = True
 
 
 def instructions(
@@ -104,13 +61,13 @@ def instructions(
     first += [] if diagnosis.replicated else fixed_orders.second_specimen(done, costs)
     last = fixed_orders.more_temperatures(done, costs) if diagnosis.replicated else []
     told = [
-        (one, _reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality)))
+        (one, reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality)))
         for k, one in enumerate(chosen)
     ]
     orders = [
         {
-            "text": _text(one, done),
-            "why": reasons,
+            "text": in_a_sentence(one, done),
+            "why": why,
             "hours": round(one.hours, 2),
             "nats": round(one.nats, 2),
             "specimens": one.specimens,
@@ -118,8 +75,8 @@ def instructions(
             "frequencies_Hz": list(one.sweep.frequencies),
             "half_strain": one.sweep.half_strain,
         }
-        for one, reasons in told
-        if reasons
+        for one, why in told
+        if why
     ]
     return {"costs": costs.sentence, "orders": [*[*first, *orders][: MOST - len(last)], *last]}
 
@@ -310,126 +267,3 @@ def _sized(candidate: Candidate, typical: float) -> str:
     unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
     words = candidate.cause.name.replace("_", " ")
     return PLAIN.get(candidate.cause.name, f"{an(words)} of {{}}").format(f"{three_digits(value)} {unit}")
-
-
-def _reasons(order: Order, questions: Sequence[Open], context: Context) -> list[str]:
-    """What the tests would do for the questions that they help most."""
-    told = {
-        k: strengths
-        for k, strengths in order.helps.items()
-        if questions[k].kind not in ("repeat", "level", "linear")
-    }
-    helped = [questions[k] for k in order.helps]
-    here = f"{order.sweep.temperature:g} degC"
-    names = [specimen_named(name) for name in order.specimens]
-    repeated = {f"{name} at {here}, {f:g} Hz" for name in names for f in order.sweep.frequencies}
-    again = sorted(repeated & {one.about for one in helped if one.kind == "repeat"})
-    reasons = []
-    if again:
-        reasons.append(
-            (
-                f"The reading of {again[0]} contradicts the other tests of its isotherm."
-                if len(again) == 1
-                else f"The readings of {joined(again)} contradict the other tests of their isotherms."
-            )
-            + " Look first for a typing error in the record." * context.typed
-            + " Check gauges and mounting before." * context.checked
-            + " If the new test agrees with the other frequencies, use the new test."
-        )
-    odd = {f"{specimen_named(name)}{at}: " for name in order.specimens for at in ("", f" at {here}")}
-    reasons += [
-        f"{one.about[:1].upper()}{one.about[1:]}. If the new {one.other}, the machine, the dimensions or the mounting "
-        "was at fault: use the new tests."
-        for one in helped
-        if one.kind == "level" and one.about.startswith(tuple(odd))
-    ]
-    reasons += [
-        f"What stays unexplained at {here} ({one.other}) should fall to about half if the mix is not linear. If the "
-        "machine is at fault, it should stay or grow."
-        for one in helped
-        if one.kind == "linear" and one.about == here and order.sweep.half_strain
-    ]
-    reasons += [_reason(questions[k], *told[k]) for k in told if questions[k].kind != "reach"]
-    reasons += _within_reach([(questions[k], *told[k]) for k in told if questions[k].kind == "reach"], context)
-    return [reason for reason in reasons if reason][:REASONS]
-
-
-def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context) -> list[str]:
-    """A sentence for each cause that the tests bring within reach, its isotherms or specimens together."""
-    causes: dict[str, list[tuple[str, float, float]]] = {}
-    for one, *strengths in helped:
-        before, after = (
-            100.0 * float(ndtr(np.sqrt(max(strength - one.hidden, 0.0)) - USUAL_THRESHOLD)) for strength in strengths
-        )
-        if after - before >= NOTICEABLE:
-            causes.setdefault(one.about, []).append((one.other, before, after))
-    without = "with the steps above only" if context.later else "without it"
-    return [
-        f"If there is {about}{_places([place for place, _, _ in found])}, the chance of finding it is "
-        f"{_chances([after for _, _, after in found])} with this test, {_chances([before for _, before, _ in found])} "
-        f"{without}."
-        for about, found in causes.items()
-    ]
-
-
-def _places(places: Sequence[str]) -> str:
-    """` at 4, 20 or 50 degC`, ` of A or B`; nothing for a cause of all tests."""
-    if not places[0]:
-        return ""
-    joint, *_ = places[0].split()
-    names = [place.removeprefix(f"{joint} ").removesuffix(" degC") for place in places]
-    return f" {joint} {joined(sorted(names, key=lambda name: (len(name), name)), 'or')}{' degC' if joint == 'at' else ''}"
-
-
-def _chances(values: Sequence[float]) -> str:
-    least, most = f"{min(values):.0f}", f"{max(values):.0f}"
-    return f"{least} %" if least == most else f"{least} to {most} %"
-
-
-def _reason(one: Open, before: float, after: float) -> str:
-    if one.kind == "kept":
-        now, then = np.sqrt(before), np.sqrt(after)
-        if then - now < CLEARER:
-            return ""
-        return (
-            f"The {one.about} should then show without {one.other} too, by {then:.1f} standard errors "
-            f"(now {now:.1f})."
-        )
-    if one.kind == "metal":
-        return f"The {one.about} must show on metal too, as {one.other}. The mix has no part in that."
-    if before >= MOST_TOLD and not one.alike:
-        return ""
-    now = "both fit so far" if one.alike else f"the first is favoured by {_odds(before)} to 1 so far"
-    return (
-        f"Of the {one.about} and {an(one.other)}, {now}; this test should favour the right one by {_odds(after)} "
-        "to 1."
-    )
-
-
-def _odds(strength: float) -> str:
-    odds = float(np.exp(0.5 * min(strength, MOST_TOLD)))
-    return "more than 1000" if strength >= MOST_TOLD else three_digits(float(f"{odds:.2g}"))
-
-
-def _text(one: Order, done: Observations) -> str:
-    """An order in one sentence, its time first; done: the tests there are."""
-    where = "" if one.sweep.specimen == METAL else f" at {one.sweep.temperature:g} degC"
-    half = ", at half the strain" if one.sweep.half_strain else ""
-    again = " again" if _all_tested(one, done) else ""
-    return (
-        f"{one.hours:.1f} h: test {named(one.specimens)}{again}{where}, {band(one.sweep.frequencies)}{half}."
-    )
-
-
-def _all_tested(one: Order, done: Observations) -> bool:
-    """Whether an order asks for tests that were all made."""
-    tested = {
-        (done.names[k], round(t, 6), round(f, 6))
-        for k, t, f in zip(done.specimen, done.isotherm, done.frequency, strict=True)
-    }
-    wanted = {
-        (name, round(one.sweep.temperature, 6), round(f, 6))
-        for name in one.specimens
-        for f in one.sweep.frequencies
-    }
-    return not one.sweep.half_strain and wanted <= tested

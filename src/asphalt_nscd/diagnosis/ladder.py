@@ -21,6 +21,7 @@ SHORTLIST = 0.4  # candidates whose score gain is above this share of the best a
 MOST_REFITS = 8
 MOST_PLACES = 20  # isotherms of a cause that are refitted beside them
 AS_GOOD = 6.0  # gains of the objective closer than this are a likelihood ratio of 20: not told apart
+USUAL = 7.0  # typical amplitudes, standard deviation of errors in laboratories: 2 K, say
 AS_MUCH = 0.97  # of the gain of the best nameless pattern, which may be the cause's own
 EXCESS = 4.0  # standard deviations of the misfit above which it is structure
 MOSTLY = 0.75  # share of the structure that named causes must explain, else no name is given
@@ -215,7 +216,7 @@ def _best(
 
     With them the other isotherms of such a cause: a shift bent towards the one that is off hides it. Of those
     as good the one of fewest parameters: a loss bump far above the band is a delay with three more. Of one cause at
-    several places the smallest: one isotherm off by 3 K is likelier than the next by 8 K.
+    several places the likeliest by its size too: one isotherm off by 3 K rather than the next by 8 K.
     """
     order = np.argsort(-gains)
     least = min(least, gains.max())  # few draws know the tail better than its quantile
@@ -234,9 +235,14 @@ def _best(
     best = min(as_good, key=lambda k: (len(refits[k].active[-1].values), -gained[k]))
     cause = refits[best].active[-1].cause
     same = [k for k in as_good if refits[k].active[-1].cause is cause]
-    best = min(same, key=lambda k: abs(refits[k].active[-1].values[0]))
+    best = max(same, key=lambda k: gained[k] - _by_size(refits[k].active[-1]))
     rivals = tuple(refits[k].active[-1] for k in as_good if k != best)
     return Rung(refits[best].active[-1], p_value, fitted, refits[best], rivals)
+
+
+def _by_size(candidate: Candidate) -> float:
+    """What the objective takes for the size of an error, as large as errors usually are."""
+    return float((candidate.values[0] / (USUAL * candidate.typical[0])) ** 2)
 
 
 def _begun_with(

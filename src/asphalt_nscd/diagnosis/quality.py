@@ -75,4 +75,6 @@ def where(observed: Observations, column: str) -> str:
         elif at:
             parts.append(f"{specimen_named(name)} at {joined(at)} degC")
     alike = len(places) > 1 and not places[0].casefold().startswith("specimen")
-    return joined([f"specimens {joined(places)}" if alike else joined(list(map(specimen_named, places))), *parts])
+    return joined(
+        [f"specimens {joined(places)}" if alike else joined(list(map(specimen_named, places))), *parts]
+    )

@@ -183,7 +183,8 @@ def _spread_note(spread: float) -> list[str]:
         return []
     return [
         f"These tests lie {spread:.1f} times as far from the fit as the diagnosis assumes. Multiply the limits and "
-        f"standard errors in diagnosis.json by {spread:.1f}; the numbers here and in diagnosis.html hold this factor already."
+        f"standard errors in diagnosis.json by {spread:.1f}; the numbers here and in diagnosis.html hold this factor "
+        "already."
     ]
 
 

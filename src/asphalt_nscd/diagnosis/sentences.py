@@ -12,7 +12,14 @@ from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import CHANCE, LEAST_ISOTHERMS
-from asphalt_nscd.diagnosis.written import CONFIDENCE, WIDE_SPREAD, limits_by_place, name_at, shown, three_digits
+from asphalt_nscd.diagnosis.written import (
+    CONFIDENCE,
+    WIDE_SPREAD,
+    limits_by_place,
+    name_at,
+    shown,
+    three_digits,
+)
 from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Content = Mapping[str, Any]
@@ -32,7 +39,11 @@ OF_WHAT_IS_LEFT = (
     "Standard deviations, with the scatter of a test taken off, of the four largest parts at most. The residual of one "
     "test is the sum of all parts and of its scatter (residuals.csv)."
 )
-UNSEEN = ("phase_offset", "channel_delay", "temperature_bias")  # the commonest, whose limits everybody is told
+UNSEEN = (
+    "phase_offset",
+    "channel_delay",
+    "temperature_bias",
+)  # the commonest, whose limits everybody is told
 LAW = "relaxation spectrum"
 RANKED = "Doubtful tests come first, then what settles most per hour."
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
@@ -102,8 +113,8 @@ def of_intervals(content: Content) -> str:
     if factor == 1.0:
         return "+- is the 95 % interval."
     return (
-        f"+- is the 95 % interval, widened {factor:.1f} times because these tests lie so much farther from the law than "
-        "the fit assumes."
+        f"+- is the 95 % interval, widened {factor:.1f} times because these tests lie so much farther from the law "
+        "than the fit assumes."
     )
 
 
@@ -155,7 +166,11 @@ def causes(content: Content) -> list[tuple[str, str]]:
 
 def no_cause(content: Content) -> str:
     """That nothing was named, where nothing was."""
-    return "" if any(rung["cause"] != "relaxation_spectrum" for rung in content["ladder"]) else "No cause is named."
+    return (
+        ""
+        if any(rung["cause"] != "relaxation_spectrum" for rung in content["ladder"])
+        else "No cause is named."
+    )
 
 
 def unseen(content: Content) -> str:
@@ -166,12 +181,17 @@ def unseen(content: Content) -> str:
     for cause in UNSEEN:
         limit = content["detection_limits"].get(cause)
         if limit and cause not in named:
-            found = [shown(widened(content) * size, limit["unit"]) for size in limits_by_place(cause, limit).values()]
+            found = [
+                shown(widened(content) * size, limit["unit"])
+                for size in limits_by_place(cause, limit).values()
+            ]
             values = sorted((float(f"{value:.2g}") for value, _ in found))
             size = " to ".join(dict.fromkeys(f"{value:g}" for value in (values[0], values[-1])))
             told.append(f"{an(cause.replace('_', ' '))} of {size} {_typed(found[0][1])}{_at(limit, content)}")
     sentences = [f"Faults smaller than these would not be seen: {joined(told)}."] if told else []
-    sentences += [f"No {cause.replace('_', ' ')} can be seen in these tests." for cause in UNSEEN if cause in never]
+    sentences += [
+        f"No {cause.replace('_', ' ')} can be seen in these tests." for cause in UNSEEN if cause in never
+    ]
     return " ".join(sentences)
 
 

@@ -211,9 +211,7 @@ def _singled_out(observed: Observations) -> list[list[str]]:
         if 2 * alike < np.count_nonzero(block == block[one.row]):
             limit = quality.LIMITS[one.column]
             unit = limit.unit
-            sentences[one.row].append(
-                f"{limit.label} {one.value:.3g} {unit}, limit {one.limit:g} {unit}"
-            )
+            sentences[one.row].append(f"{limit.label} {one.value:.3g} {unit}, limit {one.limit:g} {unit}")
     return sentences
 
 
@@ -266,7 +264,8 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
         size = f"{times:.3g} times" if abs(np.log(times)) > SLIP else f"{abs(apart):.1f} % {_way(apart)}"
         return (
             f"|E*| is {modulus / 1e6:.0f} MPa, {size} the {np.exp(expected) / 1e6:.0f} MPa that its phase and {rest} "
-            f"lead to expect (standard error {100.0 * error:.1f} %){'; look for a misplaced decimal point' * bool(slip)}"
+            f"lead to expect (standard error {100.0 * error:.1f} %)"
+            f"{'; look for a misplaced decimal point' * bool(slip)}"
         )
     phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
     delay = "; the delay of all tests is allowed for" if held.delay else ""

@@ -199,10 +199,12 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in ladder)
     law = COMMON if spectrum else simpler
     found = joined([an(cause_words(rung)) for rung in ladder if rung["cause"] != "relaxation_spectrum"])
-    without = f" Without {'this cause' if len(ladder) == 1 else 'these causes'} by {before[0]} and {before[1]}."
+    without = (
+        f" Without {'this cause' if len(ladder) == 1 else 'these causes'} by {before[0]} and {before[1]}."
+    )
     return (
-        f"{law}{f', with {found},' * bool(found)} misses {missed_by} by {after[0]} of |E*| and {after[1]} of the phase, "
-        f"{_beyond_bonds(content)}.{without * (law == simpler)}{_of_the_file(content)}{worse}"
+        f"{law}{f', with {found},' * bool(found)} misses {missed_by} by {after[0]} of |E*| and {after[1]} of the "
+        f"phase, {_beyond_bonds(content)}.{without * (law == simpler)}{_of_the_file(content)}{worse}"
     )
 
 

@@ -231,8 +231,8 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
             in_ours = value * column.factor + column.offset
             if name == "phase_deg" and column.unit == "rad" and 90.0 < abs(in_ours) and abs(value) <= 90.0:
                 raise InputError(
-                    f"{cells.path}, line {line}: a phase of {row[place]} rad is {in_ours:.0f} deg, more than any material "
-                    f"has; if the numbers are degrees, write deg for rad into {cells.header[place]!r}."
+                    f"{cells.path}, line {line}: a phase of {row[place]} rad is {in_ours:.0f} deg, more than any "
+                    f"material has; if the numbers are degrees, write deg for rad into {cells.header[place]!r}."
                 )
             converted = f"{round(in_ours, 2) if column.offset else in_ours:.10g}"  # 0.01 K of degF
             values[name].append(converted if _converts(column) else with_point(row[place], mark))
