@@ -182,7 +182,7 @@ def test_a_size_whose_interval_holds_zero_is_in_doubt():
     for error, doubted in ((0.6 * delay, True), (0.4 * delay, False)):
         named.ladder.estimates = {rung.candidate.key: (delay, error)}
         reasons = _doubts(named.ladder, named.noise).get(rung.candidate.key, [])
-        assert ("Its 95 % interval holds zero" in reasons) == doubted
+        assert ("Its 95 % interval includes zero" in reasons) == doubted
 
 
 @pytest.mark.parametrize(

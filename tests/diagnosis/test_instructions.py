@@ -373,7 +373,7 @@ def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):
 
 
 def test_metal_is_ordered_at_both_ends_of_the_band_where_phases_lie_on_one_side(empty):
-    (order,) = fixed_orders.metal(empty.observed, Costs())
+    (order,) = fixed_orders.metal(empty.observed, Costs(), "All phases lie above.")
     ends = empty.observed.frequencies[[0, -1]].tolist()
     assert (order["specimens"], order["frequencies_Hz"], order["temperature_C"]) == ([METAL], ends, None)
     assert order["hours"] == pytest.approx(Costs().hours(METAL, 20.0, ends), abs=0.005)

@@ -12,9 +12,9 @@ from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.extension import law_notes, material_law
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.diagnosis.sentences import left
 from asphalt_nscd.diagnosis.suspects import Suspect
 from asphalt_nscd.diagnosis.trust import trust
+from asphalt_nscd.diagnosis.unexplained import left
 from asphalt_nscd.diagnosis.verdict import on_simulation
 from asphalt_nscd.table_import.campaign import read_campaign
 

@@ -4,9 +4,7 @@ import pytest
 from test_sentences import content
 
 from asphalt_nscd.diagnosis import verdict
-from asphalt_nscd.diagnosis.sentences import (
-    left,
-)
+from asphalt_nscd.diagnosis.unexplained import left
 from asphalt_nscd.diagnosis.verdict import mixes, on_data, on_simulation
 
 
@@ -48,13 +46,13 @@ def test_specimens_that_are_hardly_of_one_mix_are_the_first_sentence():
     "where,sure,said",
     [
         (None, True, "All tests carry a phase offset of 1.5 +- 0.2 deg: subtract 1.5 deg from their phases. "
-         "In law.json it is taken off already."),
+         "The law in law.json is free of it already."),
         (None, False, "Perhaps all tests carry a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below). "
-         "In law.json it is taken off already."),
+         "The law in law.json is free of it already."),
         (21.0, True, "Those at 21 degC carry a phase offset of 1.5 +- 0.2 deg: subtract 1.5 deg from their phases. "
-         "In law.json it is taken off already."),
+         "The law in law.json is free of it already."),
         ("A", False, "Perhaps specimen A carries a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below). "
-         "In law.json it is taken off already."),
+         "The law in law.json is free of it already."),
     ],
 )  # fmt: skip
 def test_a_fault_is_told_as_surely_as_it_is_known(where, sure, said):
@@ -156,7 +154,7 @@ def test_a_fault_of_one_isotherm_stands_in_the_verdict():
     rung = {"cause": "temperature_bias", "where": 24.0, "established": False, "parameters": {"bias": bias}}
     assert on_data(content(0, 0, tests=72) | {"ladder": [rung]}) == (
         "All 72 tests can be used. Perhaps those at 24 degC carry a temperature bias of -3.65 +- 1.3 K (not "
-        "certain; the reason is below). In law.json it is taken off already."
+        "certain; the reason is below). The law in law.json is free of it already."
     )
 
 

@@ -161,7 +161,7 @@ def _doubts(ladder: Ladder, noise: Noise) -> dict[Key, list[str]]:
     found = find_doubts(plain, ladder.fitted, named, tuple(ladder.discrepancy.values()))
     for one in ladder.fitted.active:
         if abs(one.values[0]) < CONFIDENCE * ladder.estimates.get(one.key, (0.0, 0.0))[1]:
-            found.setdefault(one.key, []).append("Its 95 % interval holds zero")
+            found.setdefault(one.key, []).append("Its 95 % interval includes zero")
     return found
 
 

@@ -151,8 +151,7 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         yield f"It may be {' or '.join(known)} instead"
     elif least < ENOUGH:
         yield (
-            "Another error that varies smoothly with frequency could look the same, and too little speaks for this "
-            f"one (a score of {np.floor(10.0 * least) / 10.0:g}; certainty takes {ENOUGH:g})"
+            "Another error that varies smoothly with frequency could look the same, and too little speaks for this one"
         )
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))

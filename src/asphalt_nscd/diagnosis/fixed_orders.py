@@ -38,13 +38,13 @@ def gauges(done: Observations, costs: Costs) -> Orders:
     return orders
 
 
-def metal(done: Observations, costs: Costs) -> Orders:
-    """Metal, where the phases lie on one side of what |E*| requires and no cause explains it."""
+def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
+    """Metal, where the phases lie on one side of what |E*| requires, in words, and no cause explains it."""
     ends = [float(done.frequencies[0]), float(done.frequencies[-1])]
     hours = costs.hours(METAL, float(np.mean(costs.room)), ends)
     why = (
-        "Phases lie on one side of what |E*| alone requires (remarks). Metal has no phase of its own: what it shows is "
-        "the machine's. If it shows none, the mix or the mounting is at fault."
+        f"{one_sided} Metal has no phase of its own: what it shows is the machine's. If it shows none, the mix or the "
+        "mounting is at fault."
     )
     return [_content(f"test {METAL}, {band(ends)}", why, hours, [METAL], [], ends)]
 

@@ -24,8 +24,9 @@ from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Questi
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.order_words import Context, Open, Order, in_a_sentence, reasons
-from asphalt_nscd.diagnosis.sentences import an, size_left
+from asphalt_nscd.diagnosis.sentences import an
 from asphalt_nscd.diagnosis.sweeps import METAL, Costs, Sweep
+from asphalt_nscd.diagnosis.unexplained import size_left
 from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
@@ -39,7 +40,7 @@ PRESENT = 0.1  # chance that a cause nobody has seen is there
 PLAIN = {  # whose size alone says little
     "secondary_process": "a second loss peak (secondary process) of {}",
     "guide_friction": "friction in the guide (a loss modulus larger by {})",
-    "strain_softening": "a softening with strain (|E*| lower by {})",
+    "strain_softening": "a softening with strain (|E*| lower by {} at the usual strain)",
 }
 REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
 

@@ -24,7 +24,10 @@ Place = tuple[int, float]  # number of the specimen, isotherm [degC]
 LEAST = 3  # specimens of an isotherm, and isotherms of a specimen: of two, neither is the odd one
 FAR, DEVIATIONS = 0.2, 5.0  # of ln|E*|, and times the usual deviation, above which a level is odd
 NEAR = 0.08  # of ln|E*|: enough where the other levels leave no doubt
-FAR_PHASE = 2.0  # deg above which the phase of a specimen or of one of its isotherms is odd
+FAR_PHASE = 2.0  # deg above which the phase of one isotherm of a specimen is odd
+FAR_SPECIMEN = (
+    1.0  # the same for a specimen that is off at all isotherms alike; no drawn table without a fault has one
+)
 MOST = 3  # odd phases looked for at once; of |E*| one, since specimens that wobble by themselves would pass for two
 LEAST_FREEDOM = 2  # degrees of freedom of the levels that judge one
 CHANCE = 0.003  # share of the tables without an odd level in which the levels name one by chance
@@ -149,7 +152,7 @@ def _departures(level: Mapping[Place, float]) -> Iterator[tuple[int, float]]:
                 freedom += others.size - 1
         if apart and abs(np.sign(apart).sum()) == len(apart):
             middle = float(np.median(apart))  # the mean could be the doing of one isotherm
-            if abs(middle) > max(FAR_PHASE, DEVIATIONS * float(np.sqrt(spread / freedom))):
+            if abs(middle) > max(FAR_SPECIMEN, DEVIATIONS * float(np.sqrt(spread / freedom))):
                 yield k, middle
 
 

@@ -177,8 +177,7 @@ def conclude(
         before = _begin_with_campaigns(content, diagnosis, numerical, simulated.campaign, simulated.facets)
     content["origin"] = origin
     held = within_isotherm.hold(observed)
-    one_sided = [] if diagnosis.ladder.rungs else suspects.one_sided(observed, held)
-    content["notes"] += one_sided
+    one_sided = "" if diagnosis.ladder.rungs else suspects.one_sided(observed, held)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["odd_levels"], content["odd_phases"] = odd
     content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
@@ -186,7 +185,7 @@ def conclude(
     done.step()
     assumed = content["reading"].get("bench_assumed")
     ahead = fixed_orders.which_test(content["ladder"]) if assumed else []
-    ahead += fixed_orders.metal(observed, Costs()) if one_sided else []
+    ahead += fixed_orders.metal(observed, Costs(), one_sided) if one_sided else []
     content["instructions"] = instructions(diagnosis, ahead=ahead)
     done.step()
     broken = suspects.broken_isotherms(observed, held)

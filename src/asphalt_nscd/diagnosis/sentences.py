@@ -5,17 +5,15 @@ Units are written as on a terminal (degC, deg, +-); the page sets them in type.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
-from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import CHANCE, LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
     WIDE_SPREAD,
-    limits_by_place,
     name_at,
     shown,
     three_digits,
@@ -35,22 +33,11 @@ ORIGINS = {
     ),
     "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
 }
-OF_WHAT_IS_LEFT = (
-    "Standard deviations, with the scatter of a test taken off, of the four largest parts at most. The residual of one "
-    "test is the sum of all parts and of its scatter (residuals.csv)."
-)
-UNSEEN = (
-    "phase_offset",
-    "channel_delay",
-    "temperature_bias",
-)  # the commonest, whose limits everybody is told
 LAW = "relaxation spectrum"
-RANKED = "Doubtful tests come first, then what settles most per hour."
-MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
+RANKED = "Checks and doubtful tests come first, then what settles most per hour."
 ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
 WORSE = 1.05  # times the misfit without a cause, from which it is told that the cause does not help
-LARGEST = 4  # parts of what stays unexplained that are listed
 
 
 def odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
@@ -164,45 +151,6 @@ def causes(content: Content) -> list[tuple[str, str]]:
     ]
 
 
-def no_cause(content: Content) -> str:
-    """That nothing was named, where nothing was."""
-    return (
-        ""
-        if any(rung["cause"] != "relaxation_spectrum" for rung in content["ladder"])
-        else "No cause is named."
-    )
-
-
-def unseen(content: Content) -> str:
-    """How large the commonest faults may be without these tests showing them; empty where none was judged."""
-    named = {rung["cause"] for rung in content["ladder"]}
-    never = [one["cause"] for one in content["not_testable"]]
-    told = []
-    for cause in UNSEEN:
-        limit = content["detection_limits"].get(cause)
-        if limit and cause not in named:
-            found = [
-                shown(widened(content) * size, limit["unit"])
-                for size in limits_by_place(cause, limit).values()
-            ]
-            values = sorted((float(f"{value:.2g}") for value, _ in found))
-            size = " to ".join(dict.fromkeys(f"{value:g}" for value in (values[0], values[-1])))
-            told.append(f"{an(cause.replace('_', ' '))} of {size} {_typed(found[0][1])}{_at(limit, content)}")
-    sentences = [f"Faults smaller than these would not be seen: {joined(told)}."] if told else []
-    sentences += [
-        f"No {cause.replace('_', ' ')} can be seen in these tests." for cause in UNSEEN if cause in never
-    ]
-    return " ".join(sentences)
-
-
-def _at(limit: Content, content: Content) -> str:
-    """Where a limit holds: at some isotherms only, or depending on them."""
-    places = limit.get("places", {})
-    if len(places) in (0, len(content.get("reading", {}).get("isotherms_C", []))):
-        return " (depending on the isotherm)" if len(set(places.values())) > 1 else ""
-    return f" (at {joined([f'{float(t):g}' for t in places])} degC; at the others none would)"
-
-
 def _to_confirm(rung: Content) -> str:
     """Only where the simulations do not show it by themselves."""
     return "" if rung["cause"] == BOND_MAPPING else f" To confirm it: {rung['confirmed_by']}."
@@ -238,8 +186,8 @@ def _sure(rung: Content, content: Content) -> str:
         return f"Established: the chance that scatter alone imitates it is {chance}."
     missed = " One law misses by more than scatter too." if more_than_scatter(content) else ""
     return (
-        f"Established is that Burgers laws do not fit: the chance that scatter makes them miss by so much is {chance}. "
-        f"How well the constants are known, their intervals say.{missed}"
+        "It is established that a Burgers law at each temperature does not do: the chance that scatter makes such laws "
+        f"miss by so much is {chance}. The intervals say how well the constants are known.{missed}"
     )
 
 
@@ -261,8 +209,8 @@ def _doubts(rung: Content, content: Content) -> list[str]:
     doubts += rung.get("doubts", [])
     first = next(iter(rung["parameters"].values()))
     half = widened(content) * CONFIDENCE * (first["std_error"] or 0.0)
-    if doubts and abs(first["value"]) < half and not any("holds zero" in doubt for doubt in doubts):
-        doubts.append(f"Its 95 % interval{', as widened below,' * (widened(content) > 1.0)} holds zero")
+    if doubts and abs(first["value"]) < half and not any("includes zero" in doubt for doubt in doubts):
+        doubts.append(f"Its 95 % interval{', as widened below,' * (widened(content) > 1.0)} includes zero")
     fits = rung.get("gain", {}).get("in_sample", {}).get("rms_over_scatter")
     if doubts and fits and fits["after"] > WORSE * fits["before"]:
         doubts.append("With it the law fits these tests worse than without it")
@@ -306,78 +254,13 @@ def more_than_scatter(content: Content) -> bool:
     return min(chances) <= 0.5 * CHANCE
 
 
-def left(content: Content) -> list[str]:
-    """What no cause explains, largest first, in percent of |E*| or degrees of phase."""
-    scatter, found = content["scatter"], content.get("discrepancy", {})
-    parts = sorted(found.items(), key=lambda item: -item[1])[:LARGEST]
-    if parts:
-        places = levels.places(*odd(content))
-        return [
-            *(_part_left(name, value, scatter) for name, value in parts),
-            *([f"What is odd ({joined(places)}) is part of these sizes"] if places else []),
-            *_which_departs(content, parts),
-        ]
-    pattern = content["largest_pattern_left"]
-    if content["verdict"] == "unexplained_structure" and pattern is not None and more_than_scatter(content):
-        if pattern["pattern"].count("slope over temperature") and _one_isotherm(content):
-            return _largest(content)
-        return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]
-    return []
-
-
-def _which_departs(content: Content, parts: Sequence[tuple[str, float]]) -> list[str]:
-    """Of few specimens each has a large part in the common curve that it is compared with."""
-    specimens = len(content.get("reading", {}).get("specimens", []))
-    if 1 < specimens < MANY_SPECIMENS and any(name.startswith("specimen ") for name, _ in parts):
-        return [f"Among {specimens} specimens it is not certain which of them departs"]
-    return []
-
-
-def _one_isotherm(content: Content) -> bool:
-    return len(content.get("reading", {}).get("isotherms_C", [])) == 1
-
-
-def _largest(content: Content) -> list[str]:
-    """The mean residual that is left over most, where a slope over temperature has no meaning."""
-    found = [one for one in content.get("unexplained", []) if "specimen" not in one][:1]
-    return [
-        f"{abs(one['residual_E_percent']):.1f} % in |E*| and {abs(one['residual_phase_deg']):.1f} deg in the phase at "
-        f"{one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
-        for one in found
-    ]
-
-
-def _part_left(name: str, value: float, scatter: Content) -> str:
-    """`specimen A, spectrum` or `37 degC, phase`, its size first."""
-    place, part = name.removeprefix("specimen ").rsplit(", ", 1)
-    if name.startswith("specimen "):
-        place = f"of {specimen_named(place)}"
-    else:
-        place = f"{'at' if place.endswith(' degC') else 'of'} {place}"
-    size = f"{size_left(name, value, scatter)} {place}"
-    if part == "spectrum":
-        return f"{size}: the form of its master curve differs from the common one"
-    return f"{size}, changing with frequency and temperature" if name.startswith("specimen ") else size
-
-
-def size_left(name: str, value: float, scatter: Mapping[str, float]) -> str:
-    """Size of a part of the discrepancy, whose value is in units of the scatter."""
-    if name.endswith(", phase"):
-        return f"{_one_digit(value * scatter['phase_deg'])} deg in the phase"
-    return f"{_one_digit(value * scatter['modulus_percent'])} % in |E*|"
-
-
-def _one_digit(value: float) -> str:
-    return f"{value:.1f}" if value >= 0.1 else f"{value:.1g}"
-
-
 def size(rung: Content, content: Content) -> str:
     """Amplitude of a cause with its 95 % interval; empty where these tests do not give one."""
     amplitude = next(iter(rung["parameters"].values()))
     if amplitude["std_error"] is not None and amplitude["value"] in BOUNDS.get(rung["cause"], ()):
         value, unit = shown(amplitude["value"], amplitude["unit"])
         beyond = "more" if amplitude["value"] > 0.0 else "less"
-        return f"{three_digits(value)} {_typed(unit)} or {beyond} (the search ends there)"
+        return f"{three_digits(value)} {typed(unit)} or {beyond} (the search ends there)"
     return estimate(amplitude, 1.0 if rung["cause"] == BOND_MAPPING else widened(content))
 
 
@@ -388,10 +271,10 @@ def estimate(one: Content, factor: float = 1.0) -> str:
     if one["std_error"] is not None:
         half = factor * CONFIDENCE * shown(one["std_error"], one["unit"])[0]
         interval = f" +- {three_digits(float(f'{half:.2g}'))}"
-    return f"{three_digits(value)}{interval} {_typed(unit)}".rstrip()
+    return f"{three_digits(value)}{interval} {typed(unit)}".rstrip()
 
 
-def _typed(unit: str) -> str:
+def typed(unit: str) -> str:
     return {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
 
 

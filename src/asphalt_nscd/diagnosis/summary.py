@@ -7,7 +7,7 @@ from typing import Any
 
 from tabulate import tabulate
 
-from asphalt_nscd.diagnosis import sentences, table_rows, verdict
+from asphalt_nscd.diagnosis import sentences, table_rows, unexplained, verdict
 
 Content = Mapping[str, Any]
 
@@ -44,7 +44,7 @@ def _part(title: str, lines: Sequence[str]) -> str:
 
 def _on_others(content: Content) -> list[str]:
     """Of the causes that were not named."""
-    return list(filter(None, [sentences.no_cause(content), sentences.unseen(content)]))
+    return list(filter(None, [unexplained.no_cause(content), unexplained.unseen(content)]))
 
 
 def _suspects(content: Content) -> list[str]:
@@ -58,8 +58,8 @@ def _suspects(content: Content) -> list[str]:
 
 def _left(content: Content) -> list[str]:
     dropped = [sentences.in_words(name) for name in content["withdrawn"]]
-    left = sentences.left(content)
-    left += [sentences.OF_WHAT_IS_LEFT] if content.get("discrepancy") else []
+    left = unexplained.left(content)
+    left += [unexplained.OF_WHAT_IS_LEFT] if content.get("discrepancy") else []
     return left + (
         [f"Considered and dropped, since structure without a name fits as well: {', '.join(dropped)}."]
         if dropped

@@ -152,18 +152,17 @@ def broken_isotherms(observed: Observations, held: Held | None = None) -> list[B
     return found
 
 
-def one_sided(observed: Observations, held: Held) -> list[str]:
+def one_sided(observed: Observations, held: Held) -> str:
     """A sentence where at least half of the phases lie on one side of what |E*| alone requires, beyond error."""
     apart = np.degrees(observed.logarithm.imag - held.required)[held.judged]
     far = np.abs(apart) > 2.0 * np.degrees(held.required_error[held.judged])
     for side, rows in (("above", far & (apart > 0.0)), ("below", far & (apart < 0.0))):
         if 2 * np.count_nonzero(rows) >= max(apart.size, 1):
-            return [
-                f"{np.count_nonzero(rows)} of {apart.size} phases lie {side} what |E*| alone requires by more than two "
-                f"standard errors; the mean over all is {abs(apart.mean()):.1f} deg {side}. No cause is named "
-                "for that."
-            ]
-    return []
+            return (
+                f"{np.count_nonzero(rows)} of {apart.size} phases lie {side} what |E*| alone requires, beyond the "
+                f"error of that, and all by {abs(apart.mean()):.1f} deg in the mean."
+            )
+    return ""
 
 
 def table(observed: Observations, found: list[Suspect], held: Held) -> pd.DataFrame:

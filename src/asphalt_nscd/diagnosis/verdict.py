@@ -14,9 +14,11 @@ from asphalt_nscd.diagnosis.sentences import (
     Content,
     an,
     cause_words,
+    in_words,
     more_than_scatter,
     not_used,
     odd,
+    place_of_test,
     size,
 )
 from asphalt_nscd.diagnosis.written import mean_averages, three_digits
@@ -27,8 +29,8 @@ TEST_TYPES = {
     "tension-compression": "axial test of a cylinder (AMPT or UTM)",
 }
 ASSUMED = (
-    "taken for two-point bending of the paper's specimen, since neither --measured-in nor --geometry was given; for a "
-    "cylinder give --measured-in tension-compression."
+    "taken for two-point bending of the specimen of Quezada and Chazallon (2020), since neither --measured-in nor "
+    "--geometry was given; for a cylinder give --measured-in tension-compression."
 )
 OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to} | {
     "relaxation_spectrum",
@@ -42,6 +44,7 @@ COMMON = "one law for all temperatures"
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of
 MOST_ODD = 4  # odd isotherms and specimens that are listed
+MOST_NAMED = 3  # tests not to be used that the verdict names
 
 
 def mixes(content: Content) -> str:
@@ -68,7 +71,7 @@ def on_data(content: Content) -> str:
     faults = _faults(content)
     parts += [_fault(rung, content) for rung in faults]
     if faults and len(read.get("isotherms_C", [])) != 1:  # no law is written of one temperature
-        parts.append(f"In law.json {'it is' if len(faults) == 1 else 'they are'} taken off already")
+        parts.append(f"the law in law.json is free of {'it' if len(faults) == 1 else 'them'} already")
     spread = (content.get("repeatability") or {}).get("between")
     if spread is not None and not mixes(content):
         parts.append(_spread(spread))
@@ -101,7 +104,8 @@ def _usable(content: Content) -> str:
         else ""
     )
     check = [f"{trust['check']} {'can be used ' * judged}only after a check{law}"] if trust["check"] else []
-    never = [f"{trust['not_used']} not at all"] if trust["not_used"] else []
+    named = joined([place_of_test(one) for one in not_used(content)]) if out <= MOST_NAMED else ""
+    never = [f"{trust['not_used']} not at all{f' ({named})' * bool(named)}"] if trust["not_used"] else []
     return ", ".join([use, *check, *never]) + alone
 
 
@@ -146,7 +150,9 @@ def _fault(rung: Content, content: Content) -> str:
     what = CARRIED.get(rung["cause"]) or an(rung["cause"].replace("_", " "))
     told = f"{who} {'carries' if one else 'carry'} {what} of {size(rung, content)}"
     if not rung.get("established", True):
-        told = f"perhaps {told} (not certain; the reason is below)"
+        same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
+        reason = f"{joined(list(map(in_words, same)), 'or')} fits as well" if same else "the reason is below"
+        told = f"perhaps {told} (not certain; {reason})"
         correct = ""
     else:
         tests = "its tests" if one else "them"
@@ -214,7 +220,7 @@ def _of_the_file(content: Content) -> str:
     if misses is None:
         return ""
     modulus, phase = (three_digits(misses[name]) for name in ("mre_E_percent", "mre_phase_percent"))
-    return f" law.json, a law of few parameters for other programs, misses by {modulus} % and {phase} %."
+    return f" law.json, of fewer parameters and with |E*| and phase weighed alike, misses by {modulus} % and {phase} %."
 
 
 def _bonded(content: Content) -> bool:
@@ -236,7 +242,8 @@ def first_order(content: Content) -> str:
     if not orders:
         return ""
     hours, act = orders[0]["text"].removesuffix(".").split(": ", 1)
-    return f"First: {act} ({hours})."
+    why = orders[0]["why"][0].split(". ")[0].removesuffix(".") if orders[0]["why"] else ""
+    return f"First: {act} ({hours}). {why}.".removesuffix(" .")
 
 
 def _first_law(content: Content) -> str:
@@ -334,14 +341,15 @@ def beyond_the_tests(content: Content) -> list[str]:
     if found is None or not _predicted_badly(content):
         return []
     errors, between = found
-    coldest, warmest = min(errors), max(errors)
+    coldest, *inner, warmest = sorted(errors)
+    between_them = f"at {inner[0]:g} degC" if len(inner) == 1 else "between them"
     return [
         "Each temperature predicted from the others: |E*| is off by "
         + ", ".join(
-            f"{_two(errors[t])} % at {t:g} degC{' (errors found there included)' * _wrong(t, content)}"
+            f"{_two(errors[t])} % at {t:g} degC{' (where these tests are doubtful)' * _wrong(t, content)}"
             for t in (coldest, warmest)
         )
-        + f" and {_two(between)} % between them."
+        + f" and {_two(between)} % {between_them}."
     ]
 
 

@@ -19,8 +19,8 @@ class MovingMass(Cause):
     parameters = (Parameter("mass", "kg", -2.0, 2.0, 0.02),)
     sentence = "the mass moving with the head differs from the one used in the reduction"
     signs = (
-        "More mass moves than the evaluation of the tests counts.",
-        "Less mass moves than the evaluation of the tests counts.",
+        "The mass entered for the parts that move is too small.",
+        "The mass entered for the parts that move is too large.",
     )
     confirmed_by = "weighing what moves with the head, or a test of the rig without a specimen"
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis import sentences, table_rows, verdict
+from asphalt_nscd.diagnosis import sentences, table_rows, unexplained, verdict
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
@@ -123,10 +123,10 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "of_intervals": sentences.of_intervals(content),
         "beyond": verdict.beyond_the_tests(content),
         "causes": sentences.causes(content),
-        "no_cause": sentences.no_cause(content),
-        "unseen": sentences.unseen(content),
-        "of_what_is_left": sentences.OF_WHAT_IS_LEFT,
-        "left": sentences.left(content),
+        "no_cause": unexplained.no_cause(content),
+        "unseen": unexplained.unseen(content),
+        "of_what_is_left": unexplained.OF_WHAT_IS_LEFT,
+        "left": unexplained.left(content),
         "orders": found["orders"],
         "costs": found["costs"],
         "ranked": sentences.RANKED,

@@ -1,0 +1,126 @@
+"""What a diagnosis leaves unexplained, and what it could not have seen, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from asphalt_nscd.diagnosis import levels
+from asphalt_nscd.diagnosis.sentences import Content, more_than_scatter, odd, typed, widened
+from asphalt_nscd.diagnosis.written import limits_by_place, shown, three_digits
+from asphalt_nscd.files.words import joined, specimen_named
+
+OF_WHAT_IS_LEFT = (
+    "At most four parts are listed, as standard deviations without the scatter of a test. The residual of one test is "
+    "the sum of all parts and of its scatter (residuals.csv)."
+)
+UNSEEN = {  # the commonest faults, whose limits everybody is told
+    "phase_offset": "an offset of all phases",
+    "channel_delay": "a delay of all tests",
+    "temperature_bias": "a wrong temperature of one isotherm",
+}
+MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
+LARGEST = 4  # parts of what stays unexplained that are listed
+
+
+def no_cause(content: Content) -> str:
+    """That nothing was named, where nothing was."""
+    named = any(rung["cause"] != "relaxation_spectrum" for rung in content["ladder"])
+    return "" if named else "No cause is named."
+
+
+def unseen(content: Content) -> str:
+    """How large the commonest faults may be without these tests showing them; empty where none was judged."""
+    named = {rung["cause"] for rung in content["ladder"]}
+    never = [one["cause"] for one in content["not_testable"]]
+    told = []
+    for cause, words in UNSEEN.items():
+        limit = content["detection_limits"].get(cause)
+        if limit and cause not in named:
+            each = limits_by_place(cause, limit).values()
+            sizes = [shown(widened(content) * size, limit["unit"]) for size in each]
+            values = sorted(float(f"{value:.2g}") for value, _ in sizes)
+            size = " to ".join(dict.fromkeys(f"{value:g}" for value in (values[0], values[-1])))
+            told.append(f"{words} below {size} {typed(sizes[0][1])}{_at(limit, content)}")
+    said = [f"Smaller ones stay unseen: {joined(told)}."] if told else []
+    said += [
+        f"{words[:1].upper()}{words[1:]} stays unseen in these tests, whatever its size."
+        for cause, words in UNSEEN.items()
+        if cause in never
+    ]
+    return " ".join(said)
+
+
+def _at(limit: Content, content: Content) -> str:
+    """That a limit depends on the isotherm, or at which there is none."""
+    places = limit.get("places", {})
+    tested = content.get("reading", {}).get("isotherms_C", [])
+    never = [f"{t:g}" for t in tested if places and t not in map(float, places)]
+    if never:
+        return f" (at {joined(never)} degC of any size)"
+    return " (depending on the isotherm)" if len(set(places.values())) > 1 else ""
+
+
+def left(content: Content) -> list[str]:
+    """What no cause explains, largest first, in percent of |E*| or degrees of phase."""
+    parts = sorted(content.get("discrepancy", {}).items(), key=lambda item: -item[1])[:LARGEST]
+    if parts:
+        places = levels.places(*odd(content))
+        return [
+            *(_part_left(name, value, content) for name, value in parts),
+            *([f"What is odd ({joined(places)}) is part of these sizes"] if places else []),
+            *_which_departs(content, parts),
+        ]
+    pattern = content["largest_pattern_left"]
+    if content["verdict"] == "unexplained_structure" and pattern is not None and more_than_scatter(content):
+        if pattern["pattern"].count("slope over temperature") and _one_isotherm(content):
+            return _largest(content)
+        return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]
+    return []
+
+
+def _which_departs(content: Content, parts: Sequence[tuple[str, float]]) -> list[str]:
+    """Of few specimens each has a large part in the common curve that it is compared with."""
+    specimens = len(content.get("reading", {}).get("specimens", []))
+    if 1 < specimens < MANY_SPECIMENS and any(name.startswith("specimen ") for name, _ in parts):
+        return [f"Among {specimens} specimens it is not certain which of them departs"]
+    return []
+
+
+def _one_isotherm(content: Content) -> bool:
+    return len(content.get("reading", {}).get("isotherms_C", [])) == 1
+
+
+def _largest(content: Content) -> list[str]:
+    """The mean residual that is left over most, where a slope over temperature has no meaning."""
+    found = [one for one in content.get("unexplained", []) if "specimen" not in one][:1]
+    return [
+        f"{abs(one['residual_E_percent']):.1f} % in |E*| and {abs(one['residual_phase_deg']):.1f} deg in the phase at "
+        f"{one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
+        for one in found
+    ]
+
+
+def _part_left(name: str, value: float, content: Content) -> str:
+    """`specimen A, spectrum` or `37 degC, phase`, its size first."""
+    place, part = name.removeprefix("specimen ").rsplit(", ", 1)
+    if not name.startswith("specimen "):
+        at = f"{'at' if place.endswith(' degC') else 'of'} {place}"
+        return f"{size_left(name, value, content['scatter'])} {at}"
+    size = f"{size_left(name, value, content['scatter'])} of {specimen_named(place)}"
+    if part == "spectrum":
+        return f"{size}: the form of its master curve differs from the common one"
+    whole = [one["specimen"] for one in content.get("odd_phases", []) if one["temperature_C"] is None]
+    if part == "phase" and place in whole:
+        return f"{size}, most of it alike in all its tests"
+    return f"{size}, changing with frequency and temperature"
+
+
+def size_left(name: str, value: float, scatter: Mapping[str, float]) -> str:
+    """Size of a part of the discrepancy, whose value is in units of the scatter."""
+    if name.endswith(", phase"):
+        return f"{_one_digit(value * scatter['phase_deg'])} deg in the phase"
+    return f"{_one_digit(value * scatter['modulus_percent'])} % in |E*|"
+
+
+def _one_digit(value: float) -> str:
+    return f"{value:.1f}" if value >= 0.1 else f"{value:.1g}"
