@@ -78,7 +78,7 @@ def test_a_look_alike_is_in_doubt_and_the_cause_itself_is_not(effect, right, wro
     observed = table(effect)
     assert doubts_of(observed, right) == {}
     (reason, *_) = doubts_of(observed, wrong)[wrong, None]
-    assert "size" in reason or "smooth effect" in reason
+    assert "could look the same" in reason or "Its size may differ" in reason or "instead" in reason
 
 
 def test_an_effect_that_grows_with_temperature_is_no_offset():
@@ -89,10 +89,9 @@ def test_an_effect_that_grows_with_temperature_is_no_offset():
 def test_a_small_effect_is_only_likely():
     observed = table(lambda omega, temperature: 0.06 * turned(omega, temperature))
     (reason,) = doubts_of(observed, "phase_offset")["phase_offset", None]
-    assert reason.startswith(
-        "Another error that varies smoothly with frequency could look the same. If such an error is allowed for, "
+    assert reason == (
+        "Another error that varies smoothly with frequency could look the same, and too little speaks for this one"
     )
-    assert reason.endswith(" times the standard error of the fit; certainty takes 6")
 
 
 def test_what_follows_a_name_in_doubt_is_in_doubt():

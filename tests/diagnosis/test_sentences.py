@@ -81,7 +81,8 @@ def test_a_bench_that_nobody_stated_is_said_with_what_hangs_on_it():
         verdict.test_type(stated) == "two-point bending of a trapezoidal specimen, 2 specimens, 4 and 20 degC"
     )
     assert verdict.test_type(assumed) == (
-        "taken for two-point bending of the paper's specimen, since neither --measured-in nor --geometry was given; "
+        "taken for two-point bending of the specimen of Quezada and Chazallon (2020), since "
+        "neither --measured-in nor --geometry was given; "
         "for a cylinder give --measured-in tension-compression. 2 specimens, 4 and 20 degC"
     )
     (plain,), (conditional,) = causes(stated), causes(assumed)

@@ -172,9 +172,9 @@ def test_what_all_tests_share_is_not_at_a_place():
             6,
             1,
             "65 of 72 tests can be used, 6 only after a check (the law here rests on them too), "
-            "1 not at all.",
+            "1 not at all (specimen A, 4 degC, 25 Hz).",
         ),
-        (71, 0, 1, "71 of 72 tests can be used, 1 not at all."),
+        (71, 0, 1, "71 of 72 tests can be used, 1 not at all (specimen A, 4 degC, 25 Hz)."),
         (
             0,
             72,
@@ -209,13 +209,13 @@ def test_what_to_check_and_what_is_missing_stands_in_the_verdict():
         (
             58.3,
             8.0,
-            "58 % at -4 degC, 9 % at 37 degC and 8 % between them.",
+            "58 % at -4 degC, 9 % at 37 degC and 8 % at 21 degC.",
             "beyond the tested temperatures",
         ),
         (
             9.0,
             17.1,
-            "9 % at -4 degC, 9 % at 37 degC and 17 % between them.",
+            "9 % at -4 degC, 9 % at 37 degC and 17 % at 21 degC.",
             "at temperatures that were not tested",
         ),
     ],
@@ -231,6 +231,9 @@ def test_a_law_that_predicts_badly_is_warned_of(coldest, inner, told, where):
     said = " ".join(verdict.beyond_the_tests(found))
     assert said.endswith(told) and bool(said) == bool(told)
     assert verdict._predicted_badly(found) == where
+    one = {"leave_one_isotherm_out": {"averages_by_temperature": {"21": by["21"]}}}
+    alone = verdict.beyond_the_tests({"ladder": [{"gain": {"in_sample": {}, "held_out": one}}]})
+    assert bool(alone) == (inner > 10.0)  # one temperature is both ends
     assert verdict.beyond_the_tests({"ladder": []}) == []
     assert verdict.predicts_badly(held_out["leave_one_isotherm_out"], inner=True) == (inner > 10.0)
 
@@ -258,7 +261,9 @@ def test_how_to_be_rid_of_a_fault_is_told(cause, where, value, unit, told):
         "where": where,
         "parameters": {"size": {"value": value, "std_error": None, "unit": unit}},
     }
-    assert f": {told}. In law.json it is" in on_data(content(0, 0, tests=72) | {"ladder": [rung]})
+    assert f": {told}. The law in law.json is free of it" in on_data(
+        content(0, 0, tests=72) | {"ladder": [rung]}
+    )
 
 
 def test_a_table_without_quality_columns_is_said_to_be_judged_by_its_curves_alone():

@@ -153,7 +153,10 @@ def test_tests_outside_the_full_grid_are_left_out_and_said():
         (rows(frequencies=[10]), "only one frequency at 10 degC"),
         ([(1, 15, 1, 9000.0, 0.3), (1, 15, 10, 9500.0, 0.3)], "read as MPa it fits: is the unit MPa?"),
         ([(1, 15, 1, 0.009, 0.3), (1, 15, 10, 0.0095, 0.3)], "softer than any asphalt"),
-        ([(1, 15, 1, 9.0, 20), (1, 15, 10, 9.5, 20)], "line 2: phase_deg = 1145.92 is outside"),
+        (
+            [(1, 15, 1, 9.0, 20), (1, 15, 10, 9.5, 20)],
+            "line 2: a phase of 20,00000 rad is 1146 deg, more than any material has",
+        ),
     ],
 )
 def test_what_cannot_be_meant_is_refused_and_leaves_nothing(folder, tests, sentence):

@@ -341,7 +341,8 @@ def beyond_the_tests(content: Content) -> list[str]:
     if found is None or not _predicted_badly(content):
         return []
     errors, between = found
-    coldest, *inner, warmest = sorted(errors)
+    coldest, warmest = min(errors), max(errors)
+    inner = sorted({*errors} - {coldest, warmest})
     between_them = f"at {inner[0]:g} degC" if len(inner) == 1 else "between them"
     return [
         "Each temperature predicted from the others: |E*| is off by "
