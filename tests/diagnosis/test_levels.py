@@ -99,6 +99,17 @@ def test_a_phase_that_is_off_at_all_temperatures_belongs_to_the_specimen(exports
     )
 
 
+def test_a_degree_and_a_half_of_a_whole_specimen_is_odd_and_told_as_steady(exports):
+    (one,) = levels.odd_phases(turned(exports, exports.specimen == 2, 1.5))
+    assert (one["specimen"], one["temperature_C"]) == ("Mix-C", None)
+    assert one["phase_deg"] == pytest.approx(1.5, abs=0.2)
+    found = {"discrepancy": {"specimen Mix-C, phase": 2.0}, "scatter": {"phase_deg": 0.5}}
+    (steady, _) = left(found | {"odd_phases": [one]})
+    (changing,) = left(found)
+    assert steady == "1.0 deg in the phase of specimen Mix-C, most of it alike in all its tests"
+    assert changing.endswith("changing with frequency and temperature")
+
+
 def test_a_phase_off_in_proportion_names_no_isotherm(exports):
     """Another mix, say: the departure grows with the phase itself."""
     phase = np.degrees(exports.logarithm.imag)

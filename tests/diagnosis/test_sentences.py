@@ -270,23 +270,23 @@ LIMITS = {
             [20.0, 35.0],
             1.0,
             [],
-            "Smaller ones stay unseen: an offset of all phases below 0.5 deg and a wrong temperature of one isotherm "
-            "below 0.88 to 1.2 K (depending on the isotherm).",
+            "Not to be seen in these tests: an offset of all phases below 0.5 deg and a wrong temperature of one "
+            "isotherm below 0.88 to 1.2 K (depending on the isotherm).",
         ),
         (
             [4.0, 20.0, 35.0],
             3.0,
             [],
-            "Smaller ones stay unseen: an offset of all phases below 1.5 deg and a wrong temperature of one isotherm "
-            "below 2.6 to 3.7 K (at 4 degC of any size).",
+            "Not to be seen in these tests: an offset of all phases below 1.5 deg and a wrong temperature of one "
+            "isotherm below 2.6 to 3.7 K (at 4 degC of any size).",
         ),
         (
             [20.0, 35.0],
             1.0,
             ["channel_delay"],
-            "Smaller ones stay unseen: an offset of all phases below 0.5 deg and a wrong temperature of one isotherm "
-            "below 0.88 to 1.2 K (depending on the isotherm). A delay of all tests stays unseen in these tests, "
-            "whatever its size.",
+            "Not to be seen in these tests: an offset of all phases below 0.5 deg and a wrong temperature of one "
+            "isotherm below 0.88 to 1.2 K (depending on the isotherm). A delay of all tests stays unseen in these "
+            "tests, whatever its size.",
         ),
     ],
 )

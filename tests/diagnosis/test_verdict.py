@@ -8,6 +8,18 @@ from asphalt_nscd.diagnosis.unexplained import left
 from asphalt_nscd.diagnosis.verdict import mixes, on_data, on_simulation
 
 
+def structure_left():
+    """What stays on a table that no cause explains to within scatter."""
+    return {
+        "verdict": "unexplained_structure",
+        "tested": True,
+        "numerics": {"largest_modulus_percent": 0.1},
+        "scatter": {"modulus_percent": 1.0, "from_replicates": True},
+        "largest_pattern_left": None,
+        "lack_of_fit_p_value": 1e-9,
+    }
+
+
 @pytest.mark.parametrize(
     "specimens,replicated,said",
     [
@@ -91,12 +103,7 @@ def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
     }
     found = {
         "ladder": [rung],
-        "verdict": "unexplained_structure",
-        "tested": True,
-        "numerics": {"largest_modulus_percent": 0.1},
-        "scatter": {"modulus_percent": 1.0, "from_replicates": True},
-        "largest_pattern_left": None,
-        "lack_of_fit_p_value": 1e-9,
+        **structure_left(),
     }
     assert on_simulation(found, after).endswith(f"more than scatter within specimens can explain.{said}")
 
@@ -114,12 +121,7 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
             }
         ],
         "baseline": {"mre_E_percent": {"20": burgers}},
-        "verdict": "unexplained_structure",
-        "tested": True,
-        "numerics": {"largest_modulus_percent": 0.1},
-        "scatter": {"modulus_percent": 1.0, "from_replicates": True},
-        "largest_pattern_left": None,
-        "lack_of_fit_p_value": 1e-9,
+        **structure_left(),
     }
     assert on_simulation(found) == (
         f"{law}, with a phase offset, misses the mean of the specimens by 1 % of |E*| and 1 % of the phase, more than "
@@ -276,3 +278,22 @@ def test_a_table_without_quality_columns_is_said_to_be_judged_by_its_curves_alon
     some = flagged | {"trust": {"use": 60, "check": 12, "not_used": 0}}
     assert on_data(some).startswith("60 of 72 tests pass all checks, 12 can be used only after a check")
     assert on_data(flagged) == on_data(found | {"reading": {}}) == "All 72 tests can be used."
+
+
+def test_an_error_of_temperature_is_told_with_the_isotherm_that_fits_as_well():
+    bias = {"value": -3.0, "std_error": 0.18, "unit": "K"}
+    rung = {"cause": "temperature_bias", "where": 38.0, "established": False, "parameters": {"bias": bias}}
+    rivals = ["temperature_bias @ 50.0", "damage"]
+    said = on_data(content(0, 0, tests=72) | {"ladder": [rung | {"as_good": rivals}]})
+    assert "of -3 +- 0.35 K (not certain; temperature bias at 50 degC fits as well)." in said
+
+
+def test_what_to_do_first_is_told_with_its_hours_and_its_reason():
+    order = {
+        "text": "0.6 h: test metal, 0.1 and 25 Hz.",
+        "why": ["32 of 54 lie above. Metal has none.", "More."],
+    }
+    assert verdict.first_order({"instructions": {"orders": [order]}}) == (
+        "First: test metal, 0.1 and 25 Hz (0.6 h). 32 of 54 lie above."
+    )
+    assert verdict.first_order({"instructions": {"orders": []}}) == verdict.first_order({}) == ""

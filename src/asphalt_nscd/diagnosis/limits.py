@@ -16,9 +16,7 @@ from asphalt_nscd.diagnosis.start import of_likeliest_roughness
 CLOSE = 0.05  # share of a direction left by the law, below which the law is refitted to see what it follows
 AT_LEAST = 0.5  # share of the strength that must survive the refit
 MOST = 0.9  # of the shapes of a cause
-HIDDEN = (
-    5.0  # typical sizes, at which the search begins for an error of temperature that the shift law follows
-)
+HIDDEN = 5.0  # typical sizes, where the search begins for an error of temperature that the shift follows
 CONVERGED = 0.01  # change of the objective at which such a refit ends
 STRONGEST = 3.0 * (3.7 + chance.POWER)  # three times a usual limit
 

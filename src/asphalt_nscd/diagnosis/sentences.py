@@ -11,13 +11,7 @@ from typing import Any
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import CHANCE, LEAST_ISOTHERMS
-from asphalt_nscd.diagnosis.written import (
-    CONFIDENCE,
-    WIDE_SPREAD,
-    name_at,
-    shown,
-    three_digits,
-)
+from asphalt_nscd.diagnosis.written import CONFIDENCE, WIDE_SPREAD, name_at, shown, three_digits
 from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Content = Mapping[str, Any]
@@ -186,8 +180,8 @@ def _sure(rung: Content, content: Content) -> str:
         return f"Established: the chance that scatter alone imitates it is {chance}."
     missed = " One law misses by more than scatter too." if more_than_scatter(content) else ""
     return (
-        "It is established that a Burgers law at each temperature does not do: the chance that scatter makes such laws "
-        f"miss by so much is {chance}. The intervals say how well the constants are known.{missed}"
+        "It is established that a Burgers law at each temperature does not fit: the chance that scatter makes such "
+        f"laws miss by so much is {chance}. The intervals say how well the constants are known.{missed}"
     )
 
 

@@ -41,7 +41,7 @@ def unseen(content: Content) -> str:
             values = sorted(float(f"{value:.2g}") for value, _ in sizes)
             size = " to ".join(dict.fromkeys(f"{value:g}" for value in (values[0], values[-1])))
             told.append(f"{words} below {size} {typed(sizes[0][1])}{_at(limit, content)}")
-    said = [f"Smaller ones stay unseen: {joined(told)}."] if told else []
+    said = [f"Not to be seen in these tests: {joined(told)}."] if told else []
     said += [
         f"{words[:1].upper()}{words[1:]} stays unseen in these tests, whatever its size."
         for cause, words in UNSEEN.items()
