@@ -80,6 +80,19 @@ def test_causes_of_the_mix_change_the_law_and_those_of_the_rig_the_rig(folder):
     assert rig.clamp_compliance == pytest.approx(2e-12 * GAMMA)
 
 
+def test_a_cause_that_the_table_speaks_against_is_not_simulated(folder):
+    doubted = [
+        rung(name, **values) | {"taken_off": False}
+        for name, values in (
+            ("self_heating", {"largest_temperature_rise": 5.0}),
+            ("channel_delay", {"delay": 1e-3}),
+        )
+    ]
+    modulus, rig = extended(folder, doubted)
+    assert np.abs(np.log(modulus / LAW.complex_modulus(OMEGA, 15.0))).max() < 1.1e-3
+    assert rig.channel_delay == 0.0
+
+
 def test_self_heating_warms_the_fast_tests_most(folder):
     modulus, _ = extended(folder, [rung("self_heating", largest_temperature_rise=5.0)])
     rise = 5.0 * OMEGA / OMEGA.max()

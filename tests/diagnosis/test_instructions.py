@@ -104,14 +104,20 @@ def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
         (
             4.0,
             False,
-            "the first is favoured by 7.4 to 1 so far; this test should favour the right one by more than 1000 to 1.",
+            "the first is 7.4 times as likely so far; after this test the right one should be "
+            "more than 1000 times as likely.",
         ),
         (
             13.0,
             False,
-            "the first is favoured by 670 to 1 so far; this test should favour the right one by more than 1000 to 1.",
+            "the first is 670 times as likely so far; after this test the right one should be "
+            "more than 1000 times as likely.",
         ),
-        (14.0, True, "both fit so far; this test should favour the right one by more than 1000 to 1."),
+        (
+            14.0,
+            True,
+            "both fit so far; after this test the right one should be more than 1000 times as likely.",
+        ),
         (14.0, False, ""),
     ],
 )
@@ -243,7 +249,8 @@ def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
 def test_what_a_test_would_show_is_said_with_its_chance():
     one = order_words.Open("reach", None, "a phase offset of 1.5 deg")
     assert order_words._within_reach([(one, 4.0, 47.0)], order_words.Context()) == [
-        "If there is a phase offset of 1.5 deg, the chance of finding it is 100 % with this test, 4 % without it."
+        "If there is a phase offset of 1.5 deg, this test finds it with a chance of 100 %; without it the chance is "
+        "4 %."
     ]
 
 
@@ -254,8 +261,8 @@ def test_places_of_one_cause_are_told_together():
     )
     helped = [(warm, 0.0, 47.0), (cold, 0.0, 25.0), (hot, 9.0, 47.0), (nothing, 9.0, 9.1)]
     assert order_words._within_reach(helped, order_words.Context(later=True)) == [
-        "If there is a temperature bias of 0.9 K at 4, 20 or 50 degC, the chance of finding it is 90 to 100 % with "
-        "this test, 0 to 24 % with the steps above only."
+        "If there is a temperature bias of 0.9 K at 4, 20 or 50 degC, this test finds it with a chance of 90 to "
+        "100 %; with the steps above only the chance is 0 to 24 %, depending on the place."
     ]
 
 
@@ -358,7 +365,7 @@ def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(de
     assert all(one.hidden >= 0.0 for one in reach)
     asked = order_words.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
     (said,) = order_words._within_reach([(asked, 9.0, 90.0)], order_words.Context())
-    assert said.endswith("100 % with this test, 0 % without it.")
+    assert said.endswith("with a chance of 100 %; without it the chance is 0 %.")
 
 
 def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):
@@ -399,7 +406,8 @@ def test_which_test_it_was_is_asked_where_a_cause_hangs_on_it():
     assert (
         order["why"]
         == [
-            "A moving mass can be in two-point bending only, which was assumed since nobody said what was tested."
+            "A moving mass can be found in two-point bending only, and bending was assumed, since nobody said what was "
+            "tested."
         ]
         and order["hours"] == 0.0
     )

@@ -225,9 +225,9 @@ def test_the_verdict_tells_what_the_law_that_is_written_misses(tmp_path):
         assert misses[f"mre_{name}_percent"] == pytest.approx(error, rel=1e-6), name
     said = [f"{misses[f'mre_{name}_percent']:.3g} %" for name in ("E", "phase")]
     assert (
-        f"law.json, of fewer parameters and with |E*| and phase weighed alike, misses by {' and '.join(said)}"
-        in summary(outcome.content)
-    )
+        "law.json holds a simpler law for other programs (2S2P1D), fitted with the channel delay taken off: it misses "
+        f"by {' and '.join(said)}."
+    ) in summary(outcome.content)
 
 
 def test_metal_comes_first_where_phases_lie_on_one_side(monkeypatch):

@@ -153,7 +153,7 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
     few, many = (
         {"reading": {"specimens": [*"ABCDE"][:n]}, "discrepancy": found, "scatter": scatter} for n in (3, 5)
     )
-    assert left(few)[3:] == ["Among 3 specimens it is not certain which of them departs"]
+    assert left(few)[3:] == ["Of only 3 specimens nobody can say which one is wrong"]
     assert left(many)[3:] == left(few | {"discrepancy": {"37 degC, phase": 1.0}})[1:] == []
     assert [named(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
         "Specimen 1 and Specimen 2",
@@ -248,7 +248,7 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
     assert "With it the law fits these tests worse" in causes({"ladder": [worse]})[0][1]
     assert "fits these tests worse" not in causes(near)[0][1]
     assert sentences.of_intervals(near) == "+- is the 95 % interval."
-    assert sentences.of_intervals(far).startswith("+- is the 95 % interval, widened 2.0 times because")
+    assert sentences.of_intervals(far).startswith("+- is the 95 % interval, made 2.0 times as wide because")
     assert sentences.of_intervals({"ladder": []}) == ""
 
 
@@ -270,22 +270,22 @@ LIMITS = {
             [20.0, 35.0],
             1.0,
             [],
-            "Not to be seen in these tests: an offset of all phases below 0.5 deg and a wrong temperature of one "
+            "Too small to be seen in these tests: an offset of all phases below 0.5 deg and a wrong temperature of one "
             "isotherm below 0.88 to 1.2 K (depending on the isotherm).",
         ),
         (
             [4.0, 20.0, 35.0],
             3.0,
             [],
-            "Not to be seen in these tests: an offset of all phases below 1.5 deg and a wrong temperature of one "
-            "isotherm below 2.6 to 3.7 K (at 4 degC of any size).",
+            "Too small to be seen in these tests: an offset of all phases below 1.5 deg and a wrong temperature of one "
+            "isotherm below 2.6 to 3.7 K (at 4 degC it cannot be seen at all).",
         ),
         (
             [20.0, 35.0],
             1.0,
             ["channel_delay"],
-            "Not to be seen in these tests: an offset of all phases below 0.5 deg and a wrong temperature of one "
-            "isotherm below 0.88 to 1.2 K (depending on the isotherm). A delay of all tests stays unseen in these "
+            "Too small to be seen in these tests: an offset of all phases below 0.5 deg and a wrong temperature of one "
+            "isotherm below 0.88 to 1.2 K (depending on the isotherm). A delay of all tests cannot be seen in these "
             "tests, whatever its size.",
         ),
     ],

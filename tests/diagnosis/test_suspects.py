@@ -256,7 +256,7 @@ def test_phases_that_lie_on_one_side_are_told():
     assert suspects.one_sided(observed, held) == ""
     turned = replace(observed, modulus=observed.modulus * np.exp(1j * np.radians(-4.0)))
     said = suspects.one_sided(turned, within_isotherm.hold(turned))
-    assert " phases lie below what |E*| alone requires" in said
+    assert " phases lie below it by more than two standard errors" in said
 
 
 def test_a_decimal_point_that_slipped_is_told():

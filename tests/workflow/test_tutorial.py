@@ -98,7 +98,7 @@ def test_the_folder_of_exports_gets_the_answer_of_the_page(workspace):
     assert done.stdout.endswith(said)
     html = (workspace.folder / "diagnosis/diagnosis.html").read_text(encoding="utf-8")
     assert (
-        "71 of 72 tests can be used after correction, 1 not at all (specimen Mix-B, 4 °C, 25 Hz). All tests carry"
+        "71 of 72 tests can be used after correction; 1 not to be used (specimen Mix-B, 4 °C, 25 Hz). All tests show"
         in html
     )
     assert "channel delay of 0.792 ± 0.018 ms: subtract 0.285° per Hz from their phases" in html

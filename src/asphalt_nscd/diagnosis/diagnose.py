@@ -47,11 +47,18 @@ class Diagnosis:
 
     def established(self, rung: Rung) -> bool:
         """Whether a name is more than the likeliest: no rival, with a name or without, carried by the whole table."""
-        if self.too_few or rung.rivals or rung.candidate.key in self.doubts:
+        return not self.too_few and self.taken_off(rung)
+
+    def taken_off(self, rung: Rung) -> bool:
+        """Whether law.json is free of a cause, and the extended simulation holds it.
+
+        What the table itself speaks against stays in the data. Of a table too small to say, the likeliest is taken off.
+        """
+        if rung.rivals or rung.candidate.key in self.doubts:
             return False
         if self.ladder.discrepancy:
             return not self.ladder.hangs_on[rung.candidate.key]
-        return self.verdict == "explained"
+        return self.verdict == "explained" or bool(self.too_few)
 
 
 def diagnose(

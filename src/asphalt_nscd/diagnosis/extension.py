@@ -1,8 +1,9 @@
 """The simulation extended by what a diagnosis named: a law for each test, and a rig for each sample.
 
 One continuous law holds for all temperatures. It is fitted to the measurements with the effect of the
-named causes taken out; a test gets the Kelvin chain of this law at its temperature, changed by the
-causes that sit in the material or the specimen; those at the head and in the channel become the rig.
+named causes taken off, except those that the measurements themselves speak against; a test gets the
+Kelvin chain of this law at its temperature, changed by the causes that sit in the material or the
+specimen; those at the head and in the channel become the rig.
 """
 
 from __future__ import annotations
@@ -54,18 +55,15 @@ TERMS = {  # a parameter of the law in words, its unit and how many of it are on
 
 
 def material_law(diagnosis: Diagnosis, used: NDArray[np.bool_] | None = None) -> Fit:
-    """One 2S2P1D law with a WLF shift (nine parameters) of the measurements without the named causes.
+    """One 2S2P1D law with a WLF shift (nine parameters) of the measurements without the causes that are taken off.
 
     used (n,): tests that the law is fitted to, all by default.
     Of two temperatures or four tests, which determine no WLF constants, with an Arrhenius shift. What the tests
     leave open is as usual for asphalt concrete. Errors of |E*| and of the phase count alike: the misfit of the
     form exceeds the scatter of the tests, which is therefore no measure of what to trust.
     """
-    observed, ladder = diagnosis.observed, diagnosis.ladder
-    named = ladder.fitted
-    alone = _without_causes(diagnosis)
-    with_causes = ladder.joint.apparent(named.law, named.active)[0]
-    modulus = observed.modulus * alone / with_causes
+    observed = diagnosis.observed
+    modulus = observed.modulus / _effect_taken_off(diagnosis)
     rows = np.ones(observed.size, bool) if used is None else used
     reference = float(observed.isotherms[observed.isotherms.size // 2])
     shift = "wlf" if observed.isotherms.size > 2 and observed.size > LEAST_TESTS else "arrhenius"
@@ -91,20 +89,20 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
         return notes
     return [
         *notes,
-        "law.json holds a law of few parameters, 2S2P1D with WLF. It differs from the law found here by "
+        "law.json holds a law of few parameters, 2S2P1D with WLF, and constants of its own: do not mix them with "
+        "those of the law found here. It differs from that law by "
         f"{100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*| and {np.degrees(np.sqrt(np.mean(off.imag**2))):.1f} "
         f"deg in phase.{'' if without else ' No 2S2P1D with WLF fits these tests better.'}",
     ]
 
 
 def law_misses(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_]) -> dict[str, float]:
-    """Mean relative errors in percent of the law with the named causes, as in Table 4, over the tests it is fitted to.
+    """Mean relative errors in percent of the law with what was taken off, as in Table 4, over the tests of its fit.
 
     used (n,): these tests.
     """
-    observed, ladder = diagnosis.observed, diagnosis.ladder
-    named = ladder.joint.apparent(ladder.fitted.law, ladder.fitted.active)[0] / _without_causes(diagnosis)
-    shown = named * law.complex_modulus(observed.omega, observed.temperature)
+    observed = diagnosis.observed
+    shown = _effect_taken_off(diagnosis) * law.complex_modulus(observed.omega, observed.temperature)
     found = errors(diagnosis, np.where(used, np.log(np.abs(shown)) + 1j * np.angle(shown), np.nan))
     return {name: float(np.mean(list(by_temperature.values()))) for name, by_temperature in found.items()}
 
@@ -123,6 +121,14 @@ def prior_notes(fit: Fit) -> list[str]:
         f"These tests do not determine {joined(names)} of law.json; there it follows published asphalt concretes: "
         f"{', '.join(sizes)}."
     ]
+
+
+def _effect_taken_off(diagnosis: Diagnosis) -> Complex:
+    """E* with the causes that are taken off over that of the mix alone (n,), by the last fit."""
+    ladder = diagnosis.ladder
+    off = {rung.candidate.key for rung in ladder.rungs if diagnosis.taken_off(rung)}
+    active = tuple(candidate for candidate in ladder.fitted.active if candidate.key in off)
+    return ladder.joint.apparent(ladder.fitted.law, active)[0] / _without_causes(diagnosis)
 
 
 def _without_causes(diagnosis: Diagnosis) -> Complex:
@@ -151,7 +157,7 @@ def extend(
 
     The law goes into the bonds as it is: with facets, |E*| of a specimen is that of its law (docs/mapping.md).
     """
-    named = named_causes(diagnosis_file)
+    named = causes_taken_off(diagnosis_file)
     observed, _ = read_observations(measured, geometry)
     law = read_spectrum(law_file)
     stands_for = sample.number % len(observed.names)
@@ -199,14 +205,14 @@ def _bond_modulus(
     return modulus
 
 
-def named_causes(diagnosis_file: str | Path) -> list[Candidate]:
-    """The causes on the ladder of a diagnosis.json, with their values; bonds and law are not among them."""
+def causes_taken_off(diagnosis_file: str | Path) -> list[Candidate]:
+    """The causes of a diagnosis.json that its law is free of, with their values; bonds and law are not among them."""
     content = read_json(diagnosis_file)
     causes = {cause.name: cause for cause in CATALOGUE}
     out = []
     try:
         for rung in content["ladder"]:
-            if rung["cause"] in ("relaxation_spectrum", BOND_MAPPING):
+            if rung["cause"] in ("relaxation_spectrum", BOND_MAPPING) or not rung.get("taken_off", True):
                 continue
             cause = causes[rung["cause"]]
             values = tuple(float(rung["parameters"][p.name]["value"]) for p in cause.parameters)

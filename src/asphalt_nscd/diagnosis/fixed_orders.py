@@ -15,6 +15,10 @@ from asphalt_nscd.diagnosis.sweeps import BEYOND, COLDEST, METAL, NEW, WARMEST, 
 from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Orders = list[dict[str, Any]]
+WHICH_TEST = (
+    "run this again with --measured-in tension-compression for a cylinder, or with --geometry and the file of your "
+    "specimen's dimensions for two-point bending (docs/tutorial.md)"
+)
 
 
 def gauges(done: Observations, costs: Costs) -> Orders:
@@ -55,10 +59,10 @@ def which_test(ladder: Sequence[Mapping[str, Any]]) -> Orders:
     if not named:
         return []
     why = (
-        f"{joined(list(map(an, named))).capitalize()} can be in two-point bending only, which was assumed since nobody "
-        "said what was tested."
+        f"{joined(list(map(an, named))).capitalize()} can be found in two-point bending only, and bending was assumed, "
+        "since nobody said what was tested."
     )
-    return [_content("say which test this was, by --measured-in and --geometry", why, 0.0, [], [], [])]
+    return [_content(WHICH_TEST, why, 0.0, [], [], [])]
 
 
 def second_specimen(done: Observations, costs: Costs) -> Orders:

@@ -27,6 +27,7 @@ NEAR = 0.08  # of ln|E*|: enough where the other levels leave no doubt
 FAR_PHASE = 2.0  # deg above which the phase of one isotherm of a specimen is odd
 FAR_SPECIMEN = 1.0  # the same for a specimen off at all isotherms; none in 549 drawn tables without one
 MOST = 3  # odd phases looked for at once; of |E*| one, since specimens that wobble by themselves would pass for two
+ALIKE = 2.0  # factor between the temperatures by |E*| and by phase, within which one error of both is told
 LEAST_FREEDOM = 2  # degrees of freedom of the levels that judge one
 CHANCE = 0.003  # share of the tables without an odd level in which the levels name one by chance
 NORMAL = 1.4826  # standard deviation over the median absolute deviation
@@ -62,6 +63,52 @@ def odd_phases(observed: Observations) -> list[dict[str, Any]]:
         {"specimen": observed.names[k], "temperature_C": t, "phase_deg": value}
         for k, t, value in [*((k, None, value) for k, value in whole.items()), *found]
     ]
+
+
+def odd_temperatures(
+    observed: Observations, levels: list[dict[str, Any]], phases: list[dict[str, Any]]
+) -> list[dict[str, Any]]:
+    """Where an odd |E*| and an odd phase are those of one wrong temperature: specimen, temperature [degC], kelvin.
+
+    levels, phases: of `odd` and `odd_phases`. kelvin: by how much the specimen seems warmer than stated; both changes
+    ask for a temperature of one sign, within ALIKE of each other.
+    """
+    found = []
+    for level in levels:
+        for phase in phases:
+            if (level["specimen"], level["temperature_C"]) != (phase["specimen"], phase["temperature_C"]):
+                continue
+            by_modulus, by_phase = (
+                change / slope
+                for change, slope in zip(
+                    (np.log(level["factor"]), phase["phase_deg"]),
+                    _per_kelvin(observed, level["temperature_C"]),
+                    strict=True,
+                )
+            )
+            if 1.0 / ALIKE < by_modulus / by_phase < ALIKE:
+                kelvin = 0.5 * (by_modulus + by_phase)
+                found.append(
+                    {"specimen": level["specimen"], "temperature_C": level["temperature_C"], "kelvin": kelvin}
+                )
+    return found
+
+
+def _per_kelvin(observed: Observations, temperature: float) -> tuple[float, float]:
+    """Change of ln|E*| and of the phase [deg] per kelvin at an isotherm, between those beside it."""
+    at = int(np.searchsorted(observed.isotherms, temperature))
+    ends = observed.isotherms[[max(at - 1, 0), min(at + 1, observed.isotherms.size - 1)]]
+    cold, warm = (observed.isotherm == t for t in ends)
+    shared = np.intersect1d(observed.frequency[cold], observed.frequency[warm])
+    means = [
+        [
+            values[here & np.isin(observed.frequency, shared)].mean()
+            for values in (observed.logarithm.real, np.degrees(observed.logarithm.imag))
+        ]
+        for here in (cold, warm)
+    ]
+    slopes = (np.array(means[1]) - means[0]) / (ends[1] - ends[0])
+    return float(slopes[0]), float(slopes[1])
 
 
 def _levels(observed: Observations, values: Vector) -> dict[Place, float]:
@@ -166,6 +213,15 @@ def rows(observed: Observations, found: Iterable[Mapping[str, Any]]) -> NDArray[
 def sentences(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:
     """What is odd and what to check, a sentence each without its full stop."""
     return [f"{what}: check {check}" for what, check in map(described, [*levels, *phases])]
+
+
+def of_temperatures(found: Iterable[Mapping[str, Any]]) -> list[str]:
+    """What `odd_temperatures` found and what to check first, a sentence each without its full stop."""
+    return [
+        f"at {one['temperature_C']:g} degC {specimen_named(one['specimen'])} seems {abs(one['kelvin']):.2g} K "
+        f"{'warmer' if one['kelvin'] > 0.0 else 'colder'} than stated, which explains both: check that first"
+        for one in found
+    ]
 
 
 def described(one: Mapping[str, Any]) -> tuple[str, str]:

@@ -76,20 +76,20 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
     again = sorted(repeated & {one.about for one in helped if one.kind == "repeat"})
     found = []
     if again:
+        several = len(again) > 1
+        whole = len(again) == len(repeated)  # the order itself has named them
+        old = f"test{'s' * several}" if whole else f"reading{'s' * several} of {joined(again)}"
         found.append(
-            (
-                f"The reading of {again[0]} contradicts the other tests of its isotherm."
-                if len(again) == 1
-                else f"The readings of {joined(again)} contradict the other tests of their isotherms."
-            )
+            f"The old {old} contradict{'s' * (not several)} the other frequencies of "
+            f"{'their isotherms' if several else 'its isotherm'}."
             + " Look first for a typing error in the record." * context.typed
             + " Check gauges and mounting before." * context.checked
             + " If the new test agrees with the other frequencies, use the new test."
         )
     odd = {f"{specimen_named(name)}{at}: " for name in order.specimens for at in ("", f" at {here}")}
     found += [
-        f"{one.about[:1].upper()}{one.about[1:]}. If the new {one.other}, the machine, the dimensions or the mounting "
-        "was at fault: use the new tests."
+        f"{one.about[:1].upper()}{one.about[1:]}. If the new {one.other}, the machine, the temperature, the "
+        "dimensions or the mounting was at fault: use the new tests."
         for one in helped
         if one.kind == "level" and one.about.startswith(tuple(odd))
     ]
@@ -116,9 +116,9 @@ def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context)
             causes.setdefault(one.about, []).append((one.other, before, after))
     without = "with the steps above only" if context.later else "without it"
     return [
-        f"If there is {about}{_places([place for place, _, _ in found])}, the chance of finding it is "
-        f"{_chances([after for _, _, after in found])} with this test, {_chances([before for _, before, _ in found])} "
-        f"{without}."
+        f"If there is {about}{_places([place for place, _, _ in found])}, this test finds it with a chance of "
+        f"{_chances([after for _, _, after in found])}; {without} the chance is "
+        f"{_chances([before for _, before, _ in found])}{', depending on the place' * (len(found) > 1)}."
         for about, found in causes.items()
     ]
 
@@ -151,10 +151,10 @@ def _reason(one: Open, before: float, after: float) -> str:
         return f"The {one.about} must show on metal too, as {one.other}. The mix has no part in that."
     if before >= MOST_TOLD and not one.alike:
         return ""
-    now = "both fit so far" if one.alike else f"the first is favoured by {_odds(before)} to 1 so far"
+    now = "both fit so far" if one.alike else f"the first is {_odds(before)} times as likely so far"
     return (
-        f"Of the {one.about} and {an(one.other)}, {now}; this test should favour the right one by {_odds(after)} "
-        "to 1."
+        f"Of the {one.about} and {an(one.other)}, {now}; after this test the right one should be {_odds(after)} times "
+        "as likely."
     )
 
 

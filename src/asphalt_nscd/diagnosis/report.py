@@ -182,9 +182,9 @@ def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"These tests lie {spread:.1f} times as far from the fit as the diagnosis assumes. The limits and standard "
+        f"These tests lie {spread:.1f} times as far from the law as the assumed scatter. The limits and standard "
         f"errors in diagnosis.json are not yet widened: multiply them by {spread:.1f}. The numbers here and in "
-        "diagnosis.html are."
+        "diagnosis.html are widened already."
     ]
 
 

@@ -180,6 +180,7 @@ def conclude(
     one_sided = "" if diagnosis.ladder.rungs else suspects.one_sided(observed, held)
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["odd_levels"], content["odd_phases"] = odd
+    content["odd_temperatures"] = levels.odd_temperatures(observed, *odd)
     content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
     content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
     done.step()

@@ -42,6 +42,7 @@ def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held
         "gain": gain,
         "as_good": [name_of(rival) for rival in rung.rivals],
         "established": diagnosis.established(rung),
+        "taken_off": diagnosis.taken_off(rung),
         "hangs_on": diagnosis.ladder.hangs_on.get(rung.candidate.key, []),
         "doubts": diagnosis.doubts.get(rung.candidate.key, []),
         "sentence": rung.candidate.cause.sentence,

@@ -28,7 +28,7 @@ ORIGINS = {
     "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
 }
 LAW = "relaxation spectrum"
-RANKED = "Checks and doubtful tests come first, then what settles most per hour."
+RANKED = "In this order: checks, doubtful tests again, then the tests that tell most per hour."
 ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
 OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
 WORSE = 1.05  # times the misfit without a cause, from which it is told that the cause does not help
@@ -94,8 +94,8 @@ def of_intervals(content: Content) -> str:
     if factor == 1.0:
         return "+- is the 95 % interval."
     return (
-        f"+- is the 95 % interval, widened {factor:.1f} times because these tests lie so much farther from the law "
-        "than the fit assumes."
+        f"+- is the 95 % interval, made {factor:.1f} times as wide because these tests lie that much farther from the "
+        "law than the assumed scatter."
     )
 
 
@@ -177,11 +177,11 @@ def _sure(rung: Content, content: Content) -> str:
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     if rung["cause"] != "relaxation_spectrum":
-        return f"Established: the chance that scatter alone imitates it is {chance}."
-    missed = " One law misses by more than scatter too." if more_than_scatter(content) else ""
+        return f"Established: the chance that scatter alone produces it is {chance}."
+    missed = " The law found here misses by more than scatter too." if more_than_scatter(content) else ""
     return (
-        "It is established that a Burgers law at each temperature does not fit: the chance that scatter makes such "
-        f"laws miss by so much is {chance}. The intervals say how well the constants are known.{missed}"
+        "Established: Burgers laws, one for each temperature, do not fit these tests; the chance that scatter alone "
+        f"makes them miss by so much is {chance}.{missed}"
     )
 
 

@@ -16,6 +16,7 @@ def summary(content: Content) -> str:
     """The first page as text, one part after another; parts with nothing to say are left out."""
     read = content.get("reading", {"notes": []})
     answer = [f"Data: {verdict.on_data(content)}", verdict.answer(content), verdict.first_order(content)]
+    answer += verdict.then(content)
     test, files = verdict.test_type(content), verdict.files(content)
     law, named = sentences.law_of_the_mix(content), sentences.causes(content)
     mixes = verdict.mixes(content)

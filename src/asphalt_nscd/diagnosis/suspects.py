@@ -159,8 +159,9 @@ def one_sided(observed: Observations, held: Held) -> str:
     for side, rows in (("above", far & (apart > 0.0)), ("below", far & (apart < 0.0))):
         if 2 * np.count_nonzero(rows) >= max(apart.size, 1):
             return (
-                f"{np.count_nonzero(rows)} of {apart.size} phases lie {side} what |E*| alone requires, by more "
-                f"than its error; the mean of all is {abs(apart.mean()):.1f} deg {side}."
+                f"The slope of |E*| over frequency requires a phase (Kramers-Kronig): {np.count_nonzero(rows)} of "
+                f"{apart.size} phases lie {side} it by more than two standard errors, and the mean of all by "
+                f"{abs(apart.mean()):.1f} deg."
             )
     return ""
 

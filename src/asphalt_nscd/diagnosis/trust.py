@@ -56,8 +56,8 @@ def reading(
 
 def trust(
     observed: Observations, diagnosis: Diagnosis, odd: NDArray[np.bool_], broken: Sequence[BrokenIsotherm]
-) -> dict[str, int]:
-    """How many tests can be used as they are, how many only after a check, and how many not at all."""
+) -> dict[str, Any]:
+    """How many tests can be used as they are, of each specimen too, how many after a check, how many not at all."""
     out = np.zeros(observed.size, bool)
     out[[one.row for one in diagnosis.suspects if not one.used]] = True
     check = odd | np.isin(observed.isotherm, [one.temperature for one in broken])
@@ -68,7 +68,15 @@ def trust(
             check[rows] = True
     check[[one.row for one in diagnosis.suspects if one.used]] = True
     check &= ~out
-    return {"use": int((~check & ~out).sum()), "check": int(check.sum()), "not_used": int(out.sum())}
+    use = ~check & ~out
+    return {
+        "use": int(use.sum()),
+        "check": int(check.sum()),
+        "not_used": int(out.sum()),
+        "use_by_specimen": {
+            name: int(use[observed.specimen == k].sum()) for k, name in enumerate(observed.names)
+        },
+    }
 
 
 def _gaps(observed: Observations) -> list[str]:

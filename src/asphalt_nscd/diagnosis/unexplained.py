@@ -10,8 +10,8 @@ from asphalt_nscd.diagnosis.written import limits_by_place, shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
 OF_WHAT_IS_LEFT = (
-    "At most four parts are listed, as standard deviations without the scatter of a test. The residual of one test is "
-    "the sum of all parts and of its scatter (residuals.csv)."
+    "These are standard deviations, without the scatter of single tests; the four largest are listed. How far each "
+    "test is off stands in residuals.csv."
 )
 UNSEEN = {  # the commonest faults, whose limits everybody is told
     "phase_offset": "an offset of all phases",
@@ -41,9 +41,9 @@ def unseen(content: Content) -> str:
             values = sorted(float(f"{value:.2g}") for value, _ in sizes)
             size = " to ".join(dict.fromkeys(f"{value:g}" for value in (values[0], values[-1])))
             told.append(f"{words} below {size} {typed(sizes[0][1])}{_at(limit, content)}")
-    said = [f"Not to be seen in these tests: {joined(told)}."] if told else []
+    said = [f"Too small to be seen in these tests: {joined(told)}."] if told else []
     said += [
-        f"{words[:1].upper()}{words[1:]} stays unseen in these tests, whatever its size."
+        f"{words[:1].upper()}{words[1:]} cannot be seen in these tests, whatever its size."
         for cause, words in UNSEEN.items()
         if cause in never
     ]
@@ -56,7 +56,7 @@ def _at(limit: Content, content: Content) -> str:
     tested = content.get("reading", {}).get("isotherms_C", [])
     never = [f"{t:g}" for t in tested if places and t not in map(float, places)]
     if never:
-        return f" (at {joined(never)} degC of any size)"
+        return f" (at {joined(never)} degC it cannot be seen at all)"
     return " (depending on the isotherm)" if len(set(places.values())) > 1 else ""
 
 
@@ -82,7 +82,7 @@ def _which_departs(content: Content, parts: Sequence[tuple[str, float]]) -> list
     """Of few specimens each has a large part in the common curve that it is compared with."""
     specimens = len(content.get("reading", {}).get("specimens", []))
     if 1 < specimens < MANY_SPECIMENS and any(name.startswith("specimen ") for name, _ in parts):
-        return [f"Among {specimens} specimens it is not certain which of them departs"]
+        return [f"Of only {specimens} specimens nobody can say which one is wrong"]
     return []
 
 

@@ -37,7 +37,7 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and n
     BOND_MAPPING,
 }
 CARRIED = {
-    "specimen_geometry": "an error of |E*|, as by wrong dimensions,"
+    "specimen_geometry": "an error of |E*|, as by wrong dimensions or gauge length,"
 }  # causes that are no noun of a fault
 SIMPLER = "one Burgers law for each temperature"
 COMMON = "one law for all temperatures"
@@ -61,6 +61,7 @@ def on_data(content: Content) -> str:
     parts = [
         _usable(content),
         *levels.sentences(*odd(content))[:MOST_ODD],
+        *levels.of_temperatures(content.get("odd_temperatures", [])),
         *_contradictory(content),
         *_flagged(content),
     ]
@@ -70,8 +71,6 @@ def on_data(content: Content) -> str:
         )
     faults = _faults(content)
     parts += [_fault(rung, content) for rung in faults]
-    if faults and len(read.get("isotherms_C", [])) != 1:  # no law is written of one temperature
-        parts.append(f"the law in law.json is free of {'it' if len(faults) == 1 else 'them'} already")
     spread = (content.get("repeatability") or {}).get("between")
     if spread is not None and not mixes(content):
         parts.append(_spread(spread))
@@ -96,17 +95,16 @@ def _usable(content: Content) -> str:
     if not trust["check"] and not trust["not_used"]:
         return f"all {tests} tests can be used{corrected}{alone}"
     judged = bool(trust["check"] and read.get("quality_columns"))
-    can = "pass all checks" if judged else "can be used"
-    use = f"{trust['use'] or 'none'} of {tests + out} tests {can}{corrected}"
-    law = (
-        " (the law here rests on them too)"
-        if len(content.get("reading", {}).get("isotherms_C", [])) != 1
-        else ""
-    )
-    check = [f"{trust['check']} {'can be used ' * judged}only after a check{law}"] if trust["check"] else []
+    can = "pass the limits of the standard" if judged else "can be used"
+    only = [name for name, count in trust.get("use_by_specimen", {}).items() if count]
+    of_one = f", all of {specimen_named(only[0])}" if judged and len(only) == 1 else ""
+    use = f"{trust['use'] or 'none'} of {tests + out} tests {can}{corrected}{of_one}"
+    one_isotherm = len(read.get("isotherms_C", [])) == 1
+    law = " (the law here is fitted with them)" * (not one_isotherm)
+    check = [f"{trust['check']} are doubtful: use them only after a check{law}"] if trust["check"] else []
     named = joined([place_of_test(one) for one in not_used(content)]) if out <= MOST_NAMED else ""
-    never = [f"{trust['not_used']} not at all{f' ({named})' * bool(named)}"] if trust["not_used"] else []
-    return ", ".join([use, *check, *never]) + alone
+    never = [f"{trust['not_used']} not to be used{f' ({named})' * bool(named)}"] if trust["not_used"] else []
+    return "; ".join([use, *check, *never]) + alone
 
 
 def _contradictory(content: Content) -> list[str]:
@@ -126,7 +124,7 @@ def _flagged(content: Content) -> list[str]:
     columns = [one["column"] for one in above]
     return [
         f"{columns.count(name)} of {tests} exceed the limit of {limit.label} ({limit.limit:g} {limit.unit}), "
-        f"{_most_of(above, name)}: check {limit.check}"
+        f"{_most_of(above, name)}: {limit.check} are in doubt"
         for name, limit in quality.LIMITS.items()
         if 2 * columns.count(name) >= tests
     ]
@@ -148,11 +146,12 @@ def _fault(rung: Content, content: Content) -> str:
     one = isinstance(where, str)
     who = specimen_named(where) if one else ("all tests" if where is None else f"those at {where:g} degC")
     what = CARRIED.get(rung["cause"]) or an(rung["cause"].replace("_", " "))
-    told = f"{who} {'carries' if one else 'carry'} {what} of {size(rung, content)}"
+    told = f"{who} {'shows' if one else 'show'} {what} of {size(rung, content)}"
     if not rung.get("established", True):
         same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
         reason = f"{joined(list(map(in_words, same)), 'or')} fits as well" if same else "the reason is below"
-        told = f"perhaps {told} (not certain; {reason})"
+        kept = "" if rung.get("taken_off", True) else ", and left in the data"
+        told = f"perhaps {told} (not certain{kept}; {reason})"
         correct = ""
     else:
         tests = "its tests" if one else "them"
@@ -167,6 +166,8 @@ def _correction(rung: Content) -> str:
         return f"subtract {three_digits(360.0 * value)} deg per Hz from their phases"
     if rung["cause"] == "phase_offset":
         return f"subtract {three_digits(value)} deg from their phases"
+    if rung["cause"] == "specimen_geometry":
+        return f"if its dimensions prove wrong, divide its |E*| by {three_digits(1.0 + value)}"
     if rung["cause"] == "temperature_bias":
         return f"enter {three_digits(rung['where'] + value)} degC for them"
     return ""
@@ -193,7 +194,7 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
         for errors in ([first[name]["before"] for name in names], missed)
     )
     facets = ["facets for bonds"] if _bonded(content) else []
-    found = joined([*facets, *(an(cause_words(rung)) for rung in ladder if rung["cause"] != BOND_MAPPING)])
+    found = joined([*facets, *(_noun(rung) for rung in ladder if rung["cause"] != BOND_MAPPING)])
     simpler = "the simulation of the paper" if facets else _first_law(content)
     worse = _worse([first[name]["before"] for name in names], missed)
     missed_by = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
@@ -204,7 +205,7 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
         )
     spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in ladder)
     law = COMMON if spectrum else simpler
-    found = joined([an(cause_words(rung)) for rung in ladder if rung["cause"] != "relaxation_spectrum"])
+    found = joined([_noun(rung) for rung in ladder if rung["cause"] != "relaxation_spectrum"])
     without = (
         f" Without {'this cause' if len(ladder) == 1 else 'these causes'} by {before[0]} and {before[1]}."
     )
@@ -214,13 +215,28 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     )
 
 
+def _noun(rung: Content) -> str:
+    """A named cause as a thing that tests show."""
+    words = cause_words(rung)
+    return an(words.replace("specimen geometry", "error of the dimensions") if rung["where"] else words)
+
+
 def _of_the_file(content: Content) -> str:
-    """What the law that is written misses; empty where none is."""
+    """How the law that is written was fitted, and what it misses; empty where none is."""
     misses = content.get("law_misses")
     if misses is None:
         return ""
+    off = [
+        _noun(rung).split(" ", 1)[1]
+        for rung in content["ladder"]
+        if rung["cause"] not in ("relaxation_spectrum", BOND_MAPPING) and rung.get("taken_off", True)
+    ]
+    without = levels.places(*odd(content))
+    how = [f"with the {joined(off)} taken off"] if off else []
+    how += [f"without {joined(without)}"] if without else []
+    fitted = f", fitted {' and '.join(how)}" if how else ""
     modulus, phase = (three_digits(misses[name]) for name in ("mre_E_percent", "mre_phase_percent"))
-    return f" law.json, of fewer parameters and with |E*| and phase weighed alike, misses by {modulus} % and {phase} %."
+    return f" law.json holds a simpler law for other programs (2S2P1D){fitted}: it misses by {modulus} % and {phase} %."
 
 
 def _bonded(content: Content) -> bool:
@@ -237,13 +253,19 @@ def answer(content: Content, left: Mapping[str, float] | None = None) -> str:
 
 
 def first_order(content: Content) -> str:
-    """What to do first; empty where nothing is ordered."""
+    """What to do first and why; empty where nothing is ordered."""
     orders = content.get("instructions", {"orders": []})["orders"]
     if not orders:
         return ""
     hours, act = orders[0]["text"].removesuffix(".").split(": ", 1)
     why = orders[0]["why"][0].split(". ")[0].removesuffix(".") if orders[0]["why"] else ""
-    return f"First: {act} ({hours}). {why}.".removesuffix(" .")
+    return f"First: {act}{f' ({hours})' * (orders[0]['hours'] > 0.0)}. {why}.".removesuffix(" .")
+
+
+def then(content: Content) -> list[str]:
+    """What to do after that, a line each; the reasons are told elsewhere."""
+    _, *orders = content.get("instructions", {"orders": []})["orders"] or [None]
+    return [f"Then, {order['text']}" for order in orders]
 
 
 def _first_law(content: Content) -> str:
@@ -261,8 +283,8 @@ def _holding(content: Content) -> str:
     places = levels.places(*odd(content))
     if not places:
         return ""
-    are = "is odd, is" if len(places) == 1 else "are odd, are"
-    return f", but {joined(places)}, which {are} part of that scatter"
+    are = "is" if len(places) == 1 else "are"
+    return f", but that scatter includes {joined(places)}, which {are} odd"
 
 
 def _worse(before: Sequence[float], after: Sequence[float]) -> str:
@@ -301,7 +323,7 @@ def _beyond_bonds(content: Content) -> str:
     within = " within specimens" if content["scatter"]["from_replicates"] else ""
     scatter = "no more than scatter can explain" if fits else f"more than scatter{within} can explain"
     by = "" if sure or not fits else ", but not every cause is certain"
-    by += _holding(content) if fits else ""
+    by += _holding(content) if fits else "" if named else ", and no cause is named for that"
     bonds = content["numerics"]["largest_modulus_percent"]
     if bonds <= content["scatter"]["modulus_percent"]:
         return f"{scatter}{by}"

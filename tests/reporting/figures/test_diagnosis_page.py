@@ -23,7 +23,7 @@ def test_causes_stand_with_size_unit_chance_and_gains(page):
     html = page()
     assert "Law: one law for all temperatures, with a loose clamp of specimen 2, misses " in html
     assert (
-        "Data: All 12 tests can be used. Specimen 2 carries a loose clamp of 3 ± 0.39 1/TPa: correct its tests"
+        "Data: All 12 tests can be used. Specimen 2 shows a loose clamp of 3 ± 0.39 1/TPa: correct its tests"
         in html
     )
     assert (
@@ -145,7 +145,7 @@ def test_without_replicates_nothing_is_called_right_or_established(page, results
     ladder = json.loads(results.diagnosis()["diagnosis"][0].read_text())["ladder"]
     unsure = [rung | {"established": False} for rung in ladder]
     html = page(verdict="unexplained_structure", ladder=unsure)
-    assert "Perhaps specimen 2 carries a loose clamp" in html
+    assert "Perhaps specimen 2 shows a loose clamp" in html
     assert "Not certain: certainty takes four temperatures, three frequencies and two specimens." in html
 
 

@@ -46,7 +46,7 @@ def test_first_page_says_what_was_done_and_found(page):
     assert "with a relaxation spectrum and a loose clamp of specimen 2" in said["found"]["answer"]
     # As the table of gains: by the tests simulated again, not by the diagnosis.
     assert "the simulation misses by 0.6 % and 5 %" in said["found"]["answer"]
-    assert said["found"]["data"].startswith("All 12 tests can be used. Specimen 2 carries a loose clamp")
+    assert said["found"]["data"].startswith("All 12 tests can be used. Specimen 2 shows a loose clamp")
     assert said["gained"] == [
         ("as in the paper", "11.1", "5"),
         ("facets", "2.5", "5"),

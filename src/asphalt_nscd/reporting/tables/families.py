@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.diagnosis.extension import named_causes
+from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
@@ -17,6 +17,8 @@ from asphalt_nscd.reporting.pages.way import read_ladder
 from asphalt_nscd.reporting.tables.table4 import ERRORS
 from asphalt_nscd.rheology.spectrum import Spectrum
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
+
+OF_LAW = ("relaxation_spectrum", BOND_MAPPING)  # rungs that are no cause in the measurements
 
 
 def make(
@@ -42,7 +44,9 @@ def make(
         row = {
             "data": found.parent.name if number else content["origin"],
             "origin": content["origin"],
-            "causes_named": ", ".join(candidate.cause.name for candidate in named_causes(found)),
+            "causes_named": ", ".join(
+                rung["cause"] for rung in content["ladder"] if rung["cause"] not in OF_LAW
+            ),
         }
         last = read_ladder(ladder) if ladder and not number else None
         for error in ERRORS:

@@ -8,7 +8,7 @@ from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis.extension import named_causes
+from asphalt_nscd.diagnosis.extension import causes_taken_off
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.measurements.tables import (
@@ -76,7 +76,9 @@ def make(
 
 def _extension(diagnosis: Sequence[Path]) -> str:
     """What the extended campaign has beside facets, in words: "spectrum", and causes at their place."""
-    named = dict.fromkeys(candidate.cause.name.replace("_", " ") for candidate in named_causes(diagnosis[0]))
+    named = dict.fromkeys(
+        candidate.cause.name.replace("_", " ") for candidate in causes_taken_off(diagnosis[0])
+    )
     return ", ".join(["spectrum", *named])
 
 
