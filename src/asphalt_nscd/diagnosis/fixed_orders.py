@@ -16,8 +16,8 @@ from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Orders = list[dict[str, Any]]
 WHICH_TEST = (
-    "run this again with --measured-in tension-compression for a cylinder, or with --geometry and the file of your "
-    "specimen's dimensions for two-point bending (docs/tutorial.md)"
+    "run this again, for a cylinder with --measured-in tension-compression, for two-point bending with your own "
+    "numbers in --geometry b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 )
 
 
