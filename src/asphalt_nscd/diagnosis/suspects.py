@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from scipy.special import logsumexp, stdtr
 
 from asphalt_nscd.diagnosis import quality, within_isotherm
+from asphalt_nscd.diagnosis.exchanged import Exchange
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.within_isotherm import BEND_WEIGHTS, BENDS, Held
 from asphalt_nscd.files.words import counted
@@ -93,19 +94,20 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
     left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
     strong = worst < STRONG * limit
     shared = _shared(observed, held, strong, left)
-    out = (strong & ~shared) | (against.any(axis=1) & flagged)
+    out = (strong & ~shared) | (against.any(axis=1) & flagged) | ~held.in_place
     # What is already out is no replicate of the others.
     apart, chance = _from_replicates(observed, ~out)
     far = chance * values < FAR
     agree = (np.sign(apart) == np.sign(left)) & ~broken[:, None]
     supported = agree & ((doubtful & far) | ((single < LEANING) & (chance * values < VERY_FAR)))
     out |= supported.any(axis=1)
-    listed = out | (worst < NOTABLE * limit)
+    listed = (out & held.in_place) | (worst < NOTABLE * limit)
     # Beside a wrong phase the modulus seems wrong too: the less likely of the two is named, or the one with a witness.
     wrong = np.where(supported | ~supported.any(axis=1, keepdims=True), single, 1.0).argmin(axis=1)
     found = []
-    for row in np.flatnonzero(listed | flagged | far.any(axis=1)):
-        reasons = [_causal_reason(observed, held, int(row), int(wrong[row]))] if listed[row] else []
+    for row in np.flatnonzero(out | listed | flagged | far.any(axis=1)):
+        reasons = [_exchange_reason(observed, one) for one in held.exchanged if row in one.rows]
+        reasons += [_causal_reason(observed, held, int(row), int(wrong[row]))] if listed[row] else []
         reasons += flags[row] + [ONE_WITNESS] * bool(flagged[row] and held.judged[row] and not listed[row])
         reasons += [
             _replicate_reason(observed, apart, int(row), int(column)) for column in np.flatnonzero(far[row])
@@ -137,7 +139,7 @@ def broken_isotherms(observed: Observations, held: Held | None = None) -> list[B
     error = np.degrees(np.hypot(held.required_error, held.scatter[:, 1]))
     found = []
     for temperature in _broken_temperatures(observed, held):
-        rows = held.judged & (observed.isotherm == temperature)
+        rows = held.judged & held.in_place & (observed.isotherm == temperature)
         frequency, at = np.unique(observed.frequency[rows], return_inverse=True)
         count = np.bincount(at)
         found.append(
@@ -154,12 +156,13 @@ def broken_isotherms(observed: Observations, held: Held | None = None) -> list[B
 
 def one_sided(observed: Observations, held: Held) -> str:
     """A sentence where at least half of the phases lie on one side of what |E*| alone requires, beyond error."""
-    apart = np.degrees(observed.logarithm.imag - held.required)[held.judged]
-    far = np.abs(apart) > 2.0 * np.degrees(held.required_error[held.judged])
-    for side, rows in (("above", far & (apart > 0.0)), ("below", far & (apart < 0.0))):
-        if 2 * np.count_nonzero(rows) >= max(apart.size, 1):
+    rows = held.judged & held.in_place
+    apart = np.degrees(observed.logarithm.imag - held.required)[rows]
+    far = np.abs(apart) > 2.0 * np.degrees(held.required_error[rows])
+    for side, there in (("above", far & (apart > 0.0)), ("below", far & (apart < 0.0))):
+        if 2 * np.count_nonzero(there) >= max(apart.size, 1):
             return (
-                f"The slope of |E*| over frequency requires a phase (Kramers-Kronig): {np.count_nonzero(rows)} of "
+                f"The slope of |E*| over frequency requires a phase (Kramers-Kronig): {np.count_nonzero(there)} of "
                 f"{apart.size} phases lie {side} it by more than two standard errors, and the mean of all by "
                 f"{abs(apart.mean()):.1f} deg."
             )
@@ -273,6 +276,20 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
     return (
         f"phase is {phase:.1f} deg, {abs(apart):.1f} deg {_way(phase - allowed)} the {allowed:.1f} deg that "
         f"its |E*| and {rest} lead to expect (standard error {np.degrees(error):.1f} deg{delay})"
+    )
+
+
+def _exchange_reason(observed: Observations, one: Exchange) -> str:
+    names = [("|E*|", "phase")[column] for column in one.columns]
+    places = []
+    for row in sorted(one.rows, key=lambda row: -observed.frequency[row]):
+        phase = np.degrees(observed.logarithm.imag[row])
+        said = f"{abs(observed.modulus[row]) / 1e6:.0f} MPa", f"{phase:.1f} deg"
+        values = ", ".join(said[column] for column in one.columns)
+        places.append(f"{values} at {observed.frequency[row]:g} Hz")
+    return (
+        f"{' and '.join(names)} {' and '.join(places)}: each would fit in the place of the other; look in the record "
+        f"whether the two {'tests' if len(names) > 1 else 'readings'} were exchanged"
     )
 
 

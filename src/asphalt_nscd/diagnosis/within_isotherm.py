@@ -12,12 +12,15 @@ or make one. Each isotherm gives a delay of its own; their weighted median is ta
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc, logsumexp, stdtr
 
+from asphalt_nscd.diagnosis import exchanged
+from asphalt_nscd.diagnosis.exchanged import Exchange
 from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances, required_phase
 from asphalt_nscd.diagnosis.observations import Observations
 
@@ -51,7 +54,8 @@ class Held:
     for, the scatter of one test included; chance (n, 3): of a departure as large in ln|E*|, in the phase, or in both,
     where neither is asked for the other; required, required_error (n,) [rad]: phase that |E*| alone requires;
     bent (n, 4, 5): ln evidence of each ripple and bend; scatter (n, 2): of single tests; delay [s]: between the
-    channels, common to all tests, which the expected phase holds.
+    channels, common to all tests, which the expected phase holds; exchanged: readings that stand in each other's
+    place; everything else here is of the readings put right.
     """
 
     judged: NDArray[np.bool_]
@@ -63,6 +67,12 @@ class Held:
     bent: NDArray
     scatter: NDArray
     delay: float = 0.0
+    exchanged: tuple[Exchange, ...] = ()
+
+    @property
+    def in_place(self) -> NDArray[np.bool_]:
+        """(n,) tests whose readings are not exchanged."""
+        return ~np.isin(np.arange(self.judged.size), [row for one in self.exchanged for row in one.rows])
 
 
 @dataclass(frozen=True)
@@ -82,7 +92,8 @@ class _Table:
 
     def __init__(self, observed: Observations) -> None:
         logarithm = observed.logarithm
-        self.values = np.column_stack([logarithm.real, logarithm.imag])
+        self.readings = np.column_stack([logarithm.real, logarithm.imag])
+        self.values = self.readings.copy()  # of which a delay is taken off
         self.specimen, self.isotherm = observed.specimen, observed.isotherm
         self.groups = _groups(observed)
         n = observed.size
@@ -115,15 +126,10 @@ class _Table:
 
     def _hold_group(self, group: _Group, held: Held) -> None:
         rows, k = group.rows, group.rows.shape[1]
-        centred = self.values - np.array([self.values[self.judged, 0].mean(), 0.0])
-        values = _side_by_side(centred, rows)
         out = _side_by_side(ASIDE * self.aside, rows)
-        variance = _side_by_side(self.scatter**2, rows) + out
-        precision = np.linalg.inv(group.covariance + variance[:, None, :, None] * np.eye(2 * k))
-        pull = np.einsum("bmij,bj->bmi", precision, values)
+        precision, pull, evidence = self._evidence(group, _side_by_side(self.scatter**2, rows) + out)
         own = np.einsum("bmii->bmi", precision)
-        # Evidence of each ripple and bend; then without one value, whose departure and variance are in closed form.
-        evidence = 0.5 * np.linalg.slogdet(precision)[1] - 0.5 * np.einsum("bmi,bi->bm", pull, values)
+        # Evidence without one value, whose departure and variance are in closed form.
         weighed = evidence + self.weights[group.first].reshape(rows.shape[0], -1)
         left, spread = pull / own, 1.0 / own
         others = weighed[:, :, None] + 0.5 * left**2 / spread + 0.5 * np.log(spread)
@@ -142,6 +148,17 @@ class _Table:
             held.chance[rows, column] = chance[:, part]
         held.chance[rows, 2] = self._both(group, precision, pull, weighed)
         held.bent[rows] = evidence.reshape(-1, 1, len(WEIGHTS), BENDS.size)
+
+    def _evidence(self, group: _Group, variance: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+        """Precision (b, m, 2k, 2k), that times the values (b, m, 2k), and ln evidence (b, m), of each ripple and bend.
+
+        variance (b, 2k): of single values.
+        """
+        values = _side_by_side(self.values - np.array([self.values[self.judged, 0].mean(), 0.0]), group.rows)
+        precision = np.linalg.inv(group.covariance + variance[:, None, :, None] * np.eye(values.shape[1]))
+        pull = np.einsum("bmij,bj->bmi", precision, values)
+        evidence = 0.5 * np.linalg.slogdet(precision)[1] - 0.5 * np.einsum("bmi,bi->bm", pull, values)
+        return precision, pull, evidence
 
     def _both(self, group: _Group, precision: NDArray, pull: NDArray, weighed: NDArray) -> NDArray:
         """Chance (b, k) that ln|E*| and phase of a test are both this far from what the other tests ask for."""
@@ -240,6 +257,73 @@ class _Table:
             rows = (self.isotherm == temperature) & (self.specimen == name)
             self.weights[rows] = np.log(np.multiply.outer(ripples, usual / usual.sum()))
 
+    def put_right(self) -> tuple[Exchange, ...]:
+        """Exchange readings that stand in each other's place, one pair of an isotherm at most; those exchanged."""
+        found = self._exchanges()
+        if not found:
+            return ()
+        for one in found.values():
+            self._exchange(one)
+        self.learn(ROUNDS[1])
+        stand = self._stand(found)
+        if len(stand) < len(found):
+            for one in set(found.values()) - set(stand):
+                self._exchange(one)
+            self.learn(ROUNDS[1])
+        return stand
+
+    def _exchange(self, one: Exchange) -> None:
+        first, second = one.rows
+        for column in one.columns:
+            moved = self.readings[second, column] - self.readings[first, column]
+            for table in (self.readings, self.values):
+                table[first, column] += moved
+                table[second, column] -= moved
+
+    def _exchanges(self) -> dict[tuple[int, ...], Exchange]:
+        """What seems exchanged, by number of the isotherm, of the columns, and of the pair of tests."""
+        found: dict[tuple[int, ...], Exchange] = {}
+        # An exchange makes the scatter of its isotherm larger, that usual in the table hardly.
+        scatter = np.minimum(self.scatter, self._usual_scatter())
+        for number, (rows, gain, rival) in enumerate(self._gains(scatter)):
+            columns, pair = np.unravel_index(int(gain.argmax()), gain.shape)
+            if gain[columns, pair] > max(self._least_gain(), rival + exchanged.RIVAL):
+                first, second = (int(rows[place[pair]]) for place in exchanged.pairs(rows.size))
+                at = number, int(columns), int(pair)
+                beyond = float(gain[columns, pair] - rival)
+                found[at] = Exchange((first, second), exchanged.COLUMNS[columns], beyond)
+        return found
+
+    def _stand(self, found: dict[tuple[int, ...], Exchange]) -> tuple[Exchange, ...]:
+        """Those that, done, left good readings in an isotherm in order, and would cost as much if undone."""
+        chance, most = self.hold().chance, UNEVEN[1] * self._usual_scatter()
+        gain = [gain for _, gain, _ in self._gains(self.scatter)]
+        return tuple(
+            one
+            for (number, *at), one in found.items()
+            if gain[number][tuple(at)] < -self._least_gain()
+            and one.beyond > exchanged.least_beyond(chance[list(one.rows)].min())
+            # Where there is no order, some exchange always helps.
+            and (self.scatter[one.rows[0]] < most).all()
+        )
+
+    def _usual_scatter(self) -> Vector:
+        """That (2,) of ln|E*| and phase which half of the isotherms do not exceed."""
+        labels, first = np.unique(self.isotherm[self.judged], return_index=True)
+        scatter: Vector = np.sort(self.scatter[self.judged][first], axis=0)[(labels.size - 1) // 2]
+        return scatter
+
+    def _least_gain(self) -> float:
+        return exchanged.least_gain(np.array([rows.size for group in self.groups for rows in group.rows]))
+
+    def _gains(self, scatter: NDArray) -> Iterator[tuple[NDArray[np.int64], NDArray, float]]:
+        """Rows (k,) of each isotherm, what exchanges (3, p) gain there, and what one wrong value; scatter (n, 2)."""
+        for group in self.groups:
+            precision, pull, evidence = self._evidence(group, _side_by_side(scatter**2, group.rows))
+            weighed = evidence + self.weights[group.first].reshape(evidence.shape)
+            gain = exchanged.gains(precision, pull, weighed, self.readings[group.rows])
+            yield from zip(group.rows, gain, exchanged.one_wrong(precision, pull, weighed), strict=True)
+
     def set_doubtful_aside(self) -> None:
         """Take out the most doubtful value of each isotherm, again and again, lest it accuse its neighbours."""
         changed = True
@@ -264,10 +348,11 @@ def hold(observed: Observations) -> Held:
         table = _Table(observed)
         table.values[:, 1] -= delay * observed.omega
         table.learn(ROUNDS[0])
+    in_each_others_place = table.put_right()
     table.set_doubtful_aside()
     table.learn(ROUNDS[1])
     held = table.hold()
-    held.delay = delay
+    held.delay, held.exchanged = delay, in_each_others_place
     held.expected[:, 1] += delay * observed.omega
     for rows in (rows for group in table.groups for rows in group.rows):
         required = required_phase(

@@ -1,0 +1,150 @@
+"""Readings exchanged within an isotherm: both tests are named, nothing else is, and nothing is put right silently."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from test_suspects import FREQUENCIES, altered, campaign, delayed, out, row_of
+
+from asphalt_nscd.diagnosis import exchanged, suspects, within_isotherm
+
+KINDS = {"phase": (1,), "modulus": (0,), "both": (0, 1)}
+
+
+def with_exchange(observed, rows, what):
+    """The same with the phases, the moduli or both of two rows exchanged."""
+    parts = np.array([observed.logarithm.real, observed.logarithm.imag])
+    for column in KINDS[what]:
+        parts[column, rows] = parts[column, rows[::-1]]
+    return replace(observed, modulus=np.exp(parts[0] + 1j * parts[1]))
+
+
+def places(observed, temperature=21.0):
+    """Rows of 0.5 and 5 Hz of one specimen."""
+    return [row_of(observed, 1, temperature, frequency) for frequency in (0.5, 5.0)]
+
+
+@pytest.mark.parametrize("temperature", [4.0, 21.0])
+@pytest.mark.parametrize("what", KINDS)
+def test_exchange_is_named_by_both_tests_and_nothing_else_is_set_aside(what, temperature):
+    observed = campaign()
+    rows = places(observed, temperature)
+    wrong = with_exchange(observed, rows, what)
+    held = within_isotherm.hold(wrong)
+    assert [(sorted(one.rows), one.columns) for one in held.exchanged] == [(rows, KINDS[what])]
+    found = suspects.find(wrong, held)
+    assert [one.row for one in found] == rows and not any(one.used for one in found)
+    assert found[0].reasons == found[1].reasons and len(found[0].reasons) == 1
+    assert not suspects.broken_isotherms(wrong, held)
+
+
+@pytest.mark.parametrize("delay", [-1e-3, 1e-3])
+def test_exchange_is_found_beside_a_delay(delay):
+    observed = campaign()
+    rows = places(observed)
+    wrong = with_exchange(delayed(observed, delay), rows, "phase")
+    held = within_isotherm.hold(wrong)
+    assert held.delay == pytest.approx(delay, rel=0.1)
+    assert [sorted(one.rows) for one in held.exchanged] == [rows]
+    assert (held.chance[rows] > 0.05).all()
+
+
+def test_each_isotherm_may_have_one():
+    observed = campaign()
+    wrong = with_exchange(observed, cold := places(observed, 4.0), "modulus")
+    wrong = with_exchange(wrong, warm := places(observed, 21.0), "phase")
+    assert out(wrong) == sorted(cold + warm)
+
+
+def test_exchange_in_a_broken_isotherm_leaves_the_size_of_the_break():
+    observed = campaign()
+    hot = observed.temperature == 37.0
+    departure = -12.0 * (np.log(observed.frequency / 0.1) / np.log(250.0)) ** 2
+    broken = altered(observed, hot, phase_deg=departure[hot])
+    wrong = with_exchange(broken, rows := places(observed, 37.0), "both")
+    assert out(wrong) == rows
+    (given,), (found,) = suspects.broken_isotherms(broken), suspects.broken_isotherms(wrong)
+    assert found.frequency == pytest.approx(FREQUENCIES)
+    assert found.difference == pytest.approx(given.difference, abs=0.7)
+
+
+def test_exchanged_phases_lie_on_no_side():
+    observed = campaign().subset(np.arange(6))
+    wrong = with_exchange(observed, [0, 5], "phase")
+    held = within_isotherm.hold(wrong)
+    held.exchanged = (exchanged.Exchange((0, 5), (1,), 9.0),)
+    held.required[:] = observed.logarithm.imag
+    held.required_error[:] = 1e-9
+    held.required[1:5] += np.array([1.0, 1.0, -1.0, -1.0]) * np.radians(0.01)
+    said = suspects.one_sided(wrong, held)
+    assert said.startswith("2 of 4 phases lie above")
+
+
+@pytest.mark.parametrize("scatter", [(0.003, 0.1), (0.01, 0.3)])
+@pytest.mark.parametrize("seed", range(4))
+def test_table_without_one_has_none(seed, scatter):
+    assert not within_isotherm.hold(campaign(seed, scatter)).exchanged
+
+
+@pytest.mark.parametrize(
+    "change", [{"modulus": 0.3}, {"phase_deg": 6.0}, {"modulus": 0.3, "phase_deg": -5.0}]
+)
+@pytest.mark.parametrize("frequency", FREQUENCIES)
+def test_one_wrong_reading_is_no_exchange(frequency, change):
+    observed = campaign()
+    wrong = altered(observed, row_of(observed, 1, 21.0, frequency), **change)
+    assert not within_isotherm.hold(wrong).exchanged
+
+
+@pytest.mark.parametrize("size", [2.0, 5.0])
+@pytest.mark.parametrize("seed", range(3))
+def test_in_an_isotherm_without_order_nothing_is_exchanged(seed, size):
+    observed = campaign(seed)
+    hot = observed.temperature == 37.0
+    disorder = size * np.random.default_rng(seed).standard_normal(observed.size)
+    assert not within_isotherm.hold(altered(observed, hot, phase_deg=disorder[hot])).exchanged
+
+
+def test_sentence_tells_both_readings_and_where_to_look():
+    observed = campaign()
+    rows = places(observed)
+    low, high = np.degrees(observed.logarithm.imag[rows])
+    for what, words in (
+        (
+            "phase",
+            f"phase {low:.1f} deg at 5 Hz and {high:.1f} deg at 0.5 Hz: each would fit in the place of ",
+        ),
+        ("modulus", "|E*| "),
+        ("both", "|E*| and phase "),
+    ):
+        (reason,) = suspects.find(with_exchange(observed, rows, what))[0].reasons
+        assert reason.startswith(words)
+        assert reason.endswith(f"the two {'tests' if what == 'both' else 'readings'} were exchanged")
+
+
+@pytest.mark.parametrize("columns", exchanged.COLUMNS)
+def test_gain_is_that_of_the_evidence_computed_anew(columns):
+    random = np.random.default_rng(1)
+    k, m = 5, 3
+    root = random.normal(size=(m, 2 * k, 2 * k))
+    precision = root @ root.transpose(0, 2, 1) / k
+    readings = random.normal(size=(k, 2))
+    offset = random.normal(size=(k, 2))  # taken off before, as a delay is
+    weights = random.normal(size=m)
+
+    def evidence(readings):
+        values = (readings - offset).T.ravel()
+        return weights - 0.5 * np.einsum("i,mij,j->m", values, precision, values)
+
+    pull = np.einsum("mij,j->mi", precision, (readings - offset).T.ravel())
+    given = evidence(readings)
+    gain = exchanged.gains(precision[None], pull[None], given[None], readings[None])[0]
+    first, second = exchanged.pairs(k)
+    for pair, (one, other) in enumerate(zip(first, second, strict=True)):
+        moved = readings.copy()
+        for column in columns:
+            moved[[one, other], column] = moved[[other, one], column]
+        expected = np.logaddexp.reduce(evidence(moved)) - np.logaddexp.reduce(given)
+        assert gain[exchanged.COLUMNS.index(columns), pair] == pytest.approx(expected, abs=1e-9)
