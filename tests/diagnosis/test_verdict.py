@@ -274,7 +274,7 @@ def test_a_table_without_quality_columns_is_said_to_be_judged_by_its_curves_alon
     reading = {"test_type": "tension-compression", "quality_columns": [], "isotherms_C": [4.0, 21.0]}
     found = content(0, 0, tests=72, reading=reading) | {"ladder": []}
     assert on_data(found) == (
-        "All 72 tests can be used (judged by modulus and phase alone: no quality columns)."
+        "All 72 tests can be used; judged by modulus and phase alone, for there are no quality columns."
     )
     flagged = found | {"reading": reading | {"quality_columns": ["phase_uniformity_deg"]}}
     some = flagged | {"trust": {"use": 60, "check": 12, "not_used": 0, "use_by_specimen": {"A": 30, "B": 30}}}

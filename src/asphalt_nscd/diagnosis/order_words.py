@@ -79,10 +79,9 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
         several = len(again) > 1
         whole = len(again) == len(repeated)  # the order itself has named them
         old = f"test{'s' * several}" if whole else f"reading{'s' * several} of {joined(again)}"
+        look = "Look for a typing error in the record first: the" if context.typed else "The"
         found.append(
-            f"The old {old} contradict{'s' * (not several)} the other frequencies of "
-            f"{'their isotherms' if several else 'its isotherm'}."
-            + " Look first for a typing error in the record." * context.typed
+            f"{look} old {old} contradict{'s' * (not several)} the other frequencies at {here}."
             + " Check gauges and mounting before." * context.checked
             + " If the new test agrees with the other frequencies, use the new test."
         )

@@ -91,7 +91,7 @@ def _usable(content: Content) -> str:
     corrected = " after correction" if any(rung["where"] is None for rung in faults) else ""
     alone = ""
     if read.get("test_type") == "tension-compression" and not read.get("quality_columns", True):
-        alone = " (judged by modulus and phase alone: no quality columns)"
+        alone = "; judged by modulus and phase alone, for there are no quality columns"
     if not trust["check"] and not trust["not_used"]:
         return f"all {tests} tests can be used{corrected}{alone}"
     judged = bool(trust["check"] and read.get("quality_columns"))
