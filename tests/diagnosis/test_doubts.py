@@ -190,12 +190,12 @@ def test_a_size_whose_interval_holds_zero_is_in_doubt():
         (
             "phase_offset",
             lambda e: np.abs(e) * np.exp(0.9j * np.angle(e)),
-            "It may be a phase read on a wrong scale instead",
+            "A phase read on a wrong scale would look the same",
         ),
         (
             "phase_offset",
             lambda e: e / (1.0 + np.abs(e) / 100e9),
-            "It may be a machine's compliance taken off |E*| alone instead",
+            "A machine's compliance taken off |E*| alone would look the same",
         ),
     ],
 )

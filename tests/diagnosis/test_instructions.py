@@ -104,19 +104,20 @@ def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
         (
             4.0,
             False,
-            "the first is 7.4 times as likely so far; after this test the right one should be "
+            "is so far 7.4 times as likely as a phase offset; after this test the right one should be "
             "more than 1000 times as likely.",
         ),
         (
             13.0,
             False,
-            "the first is 670 times as likely so far; after this test the right one should be "
+            "is so far 670 times as likely as a phase offset; after this test the right one should be "
             "more than 1000 times as likely.",
         ),
         (
             14.0,
             True,
-            "both fit so far; after this test the right one should be more than 1000 times as likely.",
+            "and a phase offset fit alike so far; after this test the right one should be more than 1000 times as "
+            "likely.",
         ),
         (14.0, False, ""),
     ],
@@ -262,7 +263,7 @@ def test_places_of_one_cause_are_told_together():
     helped = [(warm, 0.0, 47.0), (cold, 0.0, 25.0), (hot, 9.0, 47.0), (nothing, 9.0, 9.1)]
     assert order_words._within_reach(helped, order_words.Context(later=True)) == [
         "If there is a temperature bias of 0.9 K at 4, 20 or 50 degC, this test finds it with a chance of 90 to "
-        "100 %; with the steps above only the chance is 0 to 24 %, depending on the place."
+        "100 %; with only the steps above the chance is 0 to 24 %, depending on the temperature."
     ]
 
 

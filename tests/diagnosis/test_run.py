@@ -225,7 +225,7 @@ def test_the_verdict_tells_what_the_law_that_is_written_misses(tmp_path):
         assert misses[f"mre_{name}_percent"] == pytest.approx(error, rel=1e-6), name
     said = [f"{misses[f'mre_{name}_percent']:.3g} %" for name in ("E", "phase")]
     assert (
-        "law.json holds a simpler law for other programs (2S2P1D), fitted with the channel delay taken off: it misses "
+        "The law to use is law.json: a simpler one (2S2P1D), fitted with the channel delay taken off, which misses "
         f"by {' and '.join(said)}."
     ) in summary(outcome.content)
 

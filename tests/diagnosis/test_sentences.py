@@ -245,10 +245,10 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
         and "Its 95 % interval, as widened below, includes zero. To" in causes(far)[0][1]
     )
     worse = rung | {"gain": {"in_sample": {"rms_over_scatter": {"before": 2.2, "after": 3.1}}}}
-    assert "With it the law fits these tests worse" in causes({"ladder": [worse]})[0][1]
-    assert "fits these tests worse" not in causes(near)[0][1]
+    assert "counted alike, these tests fit worse with it" in causes({"ladder": [worse]})[0][1]
+    assert "fit worse with it" not in causes(near)[0][1]
     assert sentences.of_intervals(near) == "+- is the 95 % interval."
-    assert sentences.of_intervals(far).startswith("+- is the 95 % interval, made 2.0 times as wide because")
+    assert sentences.of_intervals(far).startswith("+- is the 95 % interval, multiplied by 2.0, because")
     assert sentences.of_intervals({"ladder": []}) == ""
 
 

@@ -59,7 +59,7 @@ def test_specimens_that_are_hardly_of_one_mix_are_the_first_sentence():
     [
         (None, True, "All tests show a phase offset of 1.5 +- 0.2 deg: subtract 1.5 deg from their phases."),
         (None, False, "Perhaps all tests show a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below)."),
-        (21.0, True, "Those at 21 degC show a phase offset of 1.5 +- 0.2 deg: subtract 1.5 deg from their phases."),
+        (21.0, True, "The tests at 21 degC show a phase offset of 1.5 +- 0.2 deg: subtract 1.5 deg from their phases."),
         ("A", False, "Perhaps specimen A shows a phase offset of 1.5 +- 0.2 deg (not certain; the reason is below)."),
     ],
 )  # fmt: skip
@@ -102,7 +102,7 @@ def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
         **structure_left(),
     }
     assert on_simulation(found, after).endswith(
-        f"more than scatter within specimens can explain, and no cause is named for that.{said}"
+        f"more than scatter within specimens can explain, and no cause was found.{said}"
     )
 
 
@@ -136,8 +136,8 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
     [
         (
             36,
-            " 36 of 72 exceed the limit of phase uniformity (3 deg), 30 of specimen A, 6 of specimen B: the "
-            "gauges and the ends of the specimens are in doubt.",
+            " 36 of 72 exceed the limit of phase uniformity (3 deg): 30 of specimen A and 6 of specimen B. "
+            "So the gauges and the ends of the specimens are in doubt.",
         ),
         (35, ""),
     ],
@@ -147,13 +147,18 @@ def test_a_quality_limit_that_half_of_the_tests_exceed_stands_in_the_verdict(exc
     reading = {"limits_exceeded": above}
     found = content(0, 0, tests=72, reading=reading) | {"ladder": []}
     assert on_data(found) == f"All 72 tests can be used.{said}"
+    some = found | {"trust": {"use": 36, "check": 36, "not_used": 0, "use_by_specimen": {"A": 10, "B": 26}}}
+    pass_them = "36 of 72 tests pass the limits of the standard"
+    assert on_data(some).startswith(f"{pass_them}; 36 are" if said else "36 of 72 tests can be used; 36 are")
+    of_one = some | {"trust": some["trust"] | {"use_by_specimen": {"A": 0, "B": 36}}}
+    assert (f"{pass_them}, and all 36 are of specimen B; 36 are" in on_data(of_one)) == bool(said)
 
 
 def test_a_fault_of_one_isotherm_stands_in_the_verdict():
     bias = {"value": -3.65, "std_error": 0.66, "unit": "K"}
     rung = {"cause": "temperature_bias", "where": 24.0, "established": False, "parameters": {"bias": bias}}
     assert on_data(content(0, 0, tests=72) | {"ladder": [rung]}) == (
-        "All 72 tests can be used. Perhaps those at 24 degC show a temperature bias of -3.65 +- 1.3 K (not "
+        "All 72 tests can be used. Perhaps the tests at 24 degC show a temperature bias of -3.65 +- 1.3 K (not "
         "certain; the reason is below)."
     )
     left_in = rung | {"taken_off": False}
@@ -202,8 +207,8 @@ def test_what_to_check_and_what_is_missing_stands_in_the_verdict():
     found |= {"ladder": [], "reading": {"not_tested": ["specimen B at 4 degC"]}}
     assert on_data(found) == (
         "All 72 tests can be used. Specimen A at 35 degC: |E*| 0.70 times what its other temperatures and the other "
-        "specimens say: check dimensions, gain and unit of these tests. At 54 degC modulus and phase contradict each "
-        "other: check strain and machine there. Specimen B at 4 degC was not tested."
+        "specimens say: check gauges, gain, unit and entered dimensions of these tests. At 54 degC modulus and "
+        "phase contradict each other: check strain and machine there. Specimen B at 4 degC has no test here."
     )
 
 
@@ -279,11 +284,7 @@ def test_a_table_without_quality_columns_is_said_to_be_judged_by_its_curves_alon
     flagged = found | {"reading": reading | {"quality_columns": ["phase_uniformity_deg"]}}
     some = flagged | {"trust": {"use": 60, "check": 12, "not_used": 0, "use_by_specimen": {"A": 30, "B": 30}}}
     assert on_data(some).startswith(
-        "60 of 72 tests pass the limits of the standard; 12 are doubtful: use them only after a check"
-    )
-    of_one = some | {"trust": some["trust"] | {"use_by_specimen": {"A": 60, "B": 0}}}
-    assert on_data(of_one).startswith(
-        "60 of 72 tests pass the limits of the standard, all of specimen A; 12 are"
+        "60 of 72 tests can be used; 12 are doubtful: use them only after a check"
     )
     assert on_data(flagged) == on_data(found | {"reading": {}}) == "All 72 tests can be used."
 

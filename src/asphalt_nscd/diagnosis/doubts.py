@@ -148,7 +148,8 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         if table.beside(rest, None, roots, 1.0).misfit < alone.misfit - BETTER
     ]
     if known:
-        yield f"It may be {' or '.join(known)} instead"
+        alike = " or ".join(known)
+        yield f"{alike[:1].upper()}{alike[1:]} would look the same"
     elif least < ENOUGH:
         yield (
             "Another error that varies smoothly with frequency could look the same, and too little speaks for this one"

@@ -230,7 +230,7 @@ def described(one: Mapping[str, Any]) -> tuple[str, str]:
     if "factor" in one:
         return (
             f"{place(one)}: |E*| {one['factor']:.2f} times {others}",
-            "dimensions, gain and unit of these tests",
+            "gauges, gain, unit and entered dimensions of these tests",
         )
     side = "above" if one["phase_deg"] > 0.0 else "below"
     size = f"{place(one)}: phase {abs(one['phase_deg']):.1f} deg {side}"

@@ -113,13 +113,20 @@ def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context)
         )
         if after - before >= NOTICEABLE:
             causes.setdefault(one.about, []).append((one.other, before, after))
-    without = "with the steps above only" if context.later else "without it"
+    without = "with only the steps above" if context.later else "without it"
     return [
         f"If there is {about}{_places([place for place, _, _ in found])}, this test finds it with a chance of "
         f"{_chances([after for _, _, after in found])}; {without} the chance is "
-        f"{_chances([before for _, before, _ in found])}{', depending on the place' * (len(found) > 1)}."
+        f"{_chances([before for _, before, _ in found])}{_depending([place for place, _, _ in found])}."
         for about, found in causes.items()
     ]
+
+
+def _depending(places: Sequence[str]) -> str:
+    """On what a range of chances depends; nothing for a cause at one place or none."""
+    if len(places) < 2:
+        return ""
+    return f", depending on the {'temperature' if places[0].startswith('at ') else 'specimen'}"
 
 
 def _places(places: Sequence[str]) -> str:
@@ -150,11 +157,12 @@ def _reason(one: Open, before: float, after: float) -> str:
         return f"The {one.about} must show on metal too, as {one.other}. The mix has no part in that."
     if before >= MOST_TOLD and not one.alike:
         return ""
-    now = "both fit so far" if one.alike else f"the first is {_odds(before)} times as likely so far"
-    return (
-        f"Of the {one.about} and {an(one.other)}, {now}; after this test the right one should be {_odds(after)} times "
-        "as likely."
+    now = (
+        f"The {one.about} and {an(one.other)} fit alike so far"
+        if one.alike
+        else f"The {one.about} is so far {_odds(before)} times as likely as {an(one.other)}"
     )
+    return f"{now}; after this test the right one should be {_odds(after)} times as likely."
 
 
 def _odds(strength: float) -> str:

@@ -94,8 +94,8 @@ def of_intervals(content: Content) -> str:
     if factor == 1.0:
         return "+- is the 95 % interval."
     return (
-        f"+- is the 95 % interval, made {factor:.1f} times as wide because these tests lie that much farther from the "
-        "law than the assumed scatter."
+        f"+- is the 95 % interval, multiplied by {factor:.1f}, because these tests miss the law by {factor:.1f} times "
+        "the assumed scatter."
     )
 
 
@@ -207,7 +207,10 @@ def _doubts(rung: Content, content: Content) -> list[str]:
         doubts.append(f"Its 95 % interval{', as widened below,' * (widened(content) > 1.0)} includes zero")
     fits = rung.get("gain", {}).get("in_sample", {}).get("rms_over_scatter")
     if doubts and fits and fits["after"] > WORSE * fits["before"]:
-        doubts.append("With it the law fits these tests worse than without it")
+        doubts.append(
+            "It fits better only if isotherms with much left unexplained count less; counted alike, these tests fit "
+            "worse with it"
+        )
     isotherms = content.get("reading", {}).get("isotherms_C", [])
     if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):
         doubts.append(f"Besides, {lacking(content)}")

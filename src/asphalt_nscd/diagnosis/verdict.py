@@ -67,7 +67,7 @@ def on_data(content: Content) -> str:
     ]
     if read.get("not_tested"):
         parts.append(
-            f"{joined(read['not_tested'])} {'was' if len(read['not_tested']) == 1 else 'were'} not tested"
+            f"{joined(read['not_tested'])} {'has' if len(read['not_tested']) == 1 else 'have'} no test here"
         )
     faults = _faults(content)
     parts += [_fault(rung, content) for rung in faults]
@@ -94,10 +94,10 @@ def _usable(content: Content) -> str:
         alone = "; judged by modulus and phase alone, for there are no quality columns"
     if not trust["check"] and not trust["not_used"]:
         return f"all {tests} tests can be used{corrected}{alone}"
-    judged = bool(trust["check"] and read.get("quality_columns"))
+    judged = bool(trust["check"] and _flagged(content))
     can = "pass the limits of the standard" if judged else "can be used"
     only = [name for name, count in trust.get("use_by_specimen", {}).items() if count]
-    of_one = f", all of {specimen_named(only[0])}" if judged and len(only) == 1 else ""
+    of_one = f", and all {trust['use']} are of {specimen_named(only[0])}" if judged and len(only) == 1 else ""
     use = f"{trust['use'] or 'none'} of {tests + out} tests {can}{corrected}{of_one}"
     one_isotherm = len(read.get("isotherms_C", [])) == 1
     law = " (the law here is fitted with them)" * (not one_isotherm)
@@ -123,8 +123,8 @@ def _flagged(content: Content) -> list[str]:
     above = content.get("reading", {}).get("limits_exceeded", [])
     columns = [one["column"] for one in above]
     return [
-        f"{columns.count(name)} of {tests} exceed the limit of {limit.label} ({limit.limit:g} {limit.unit}), "
-        f"{_most_of(above, name)}: {limit.check} are in doubt"
+        f"{columns.count(name)} of {tests} exceed the limit of {limit.label} ({limit.limit:g} {limit.unit}): "
+        f"{_most_of(above, name)}. So {limit.check} are in doubt"
         for name, limit in quality.LIMITS.items()
         if 2 * columns.count(name) >= tests
     ]
@@ -133,7 +133,7 @@ def _flagged(content: Content) -> list[str]:
 def _most_of(above: Sequence[Content], column: str) -> str:
     """How many of each specimen."""
     names = [one["specimen"] for one in above if one["column"] == column]
-    return ", ".join(f"{names.count(name)} of {specimen_named(name)}" for name in dict.fromkeys(names))
+    return joined([f"{names.count(name)} of {specimen_named(name)}" for name in dict.fromkeys(names)])
 
 
 def _spread(between: Mapping[str, float]) -> str:
@@ -144,7 +144,7 @@ def _fault(rung: Content, content: Content) -> str:
     """Who carries a fault; perhaps, where the cause itself says why it is not certain."""
     where = rung["where"]
     one = isinstance(where, str)
-    who = specimen_named(where) if one else ("all tests" if where is None else f"those at {where:g} degC")
+    who = specimen_named(where) if one else ("all tests" if where is None else f"the tests at {where:g} degC")
     what = CARRIED.get(rung["cause"]) or an(rung["cause"].replace("_", " "))
     told = f"{who} {'shows' if one else 'show'} {what} of {size(rung, content)}"
     if not rung.get("established", True):
@@ -231,12 +231,13 @@ def _of_the_file(content: Content) -> str:
         for rung in content["ladder"]
         if rung["cause"] not in ("relaxation_spectrum", BOND_MAPPING) and rung.get("taken_off", True)
     ]
+    left_in = [rung for rung in content["ladder"] if not rung.get("taken_off", True)]
     without = levels.places(*odd(content))
-    how = [f"with the {joined(off)} taken off"] if off else []
+    how = [f"with the {joined(off)} taken off"] if off else ["to the tests uncorrected"] if left_in else []
     how += [f"without {joined(without)}"] if without else []
     fitted = f", fitted {' and '.join(how)}" if how else ""
     modulus, phase = (three_digits(misses[name]) for name in ("mre_E_percent", "mre_phase_percent"))
-    return f" law.json holds a simpler law for other programs (2S2P1D){fitted}: it misses by {modulus} % and {phase} %."
+    return f" The law to use is law.json: a simpler one (2S2P1D){fitted}, which misses by {modulus} % and {phase} %."
 
 
 def _bonded(content: Content) -> bool:
@@ -323,7 +324,7 @@ def _beyond_bonds(content: Content) -> str:
     within = " within specimens" if content["scatter"]["from_replicates"] else ""
     scatter = "no more than scatter can explain" if fits else f"more than scatter{within} can explain"
     by = "" if sure or not fits else ", but not every cause is certain"
-    by += _holding(content) if fits else "" if named else ", and no cause is named for that"
+    by += _holding(content) if fits else "" if named else ", and no cause was found"
     bonds = content["numerics"]["largest_modulus_percent"]
     if bonds <= content["scatter"]["modulus_percent"]:
         return f"{scatter}{by}"
