@@ -24,7 +24,7 @@ cd "$place"
 unset PYTHONPATH
 PATH="$place/venv/bin:/usr/bin:/bin"
 python -c "import importlib.util as u; assert u.find_spec('snakemake') is None, 'Snakemake came along'"
-python -c "import asphalt_nscd as an; print(an.diagnose('exports', draws=an.Draws(500)))" | grep VERDICT >/dev/null
+python -c "import asphalt_nscd as an; print(an.diagnose('exports', draws=an.Draws(500)))" | grep '^Data ' >/dev/null
 asphalt-nscd --version
 asphalt-nscd diagnose exports --output out --draws 500 | grep "Written to out"
 asphalt-nscd export out/law.json --format abaqus --output mix.inp

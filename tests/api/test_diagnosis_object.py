@@ -125,9 +125,14 @@ def test_how_it_shows_itself(diagnosis):
         "Diagnosis(explained: channel_delay 0.000792 s (established); 71 tests used, 1 not used)"
     )
     html = diagnosis._repr_html_()
-    assert "<b>Data:</b>" in html and "channel_delay" in html and "|E*|" in html and "<script" not in html
+    assert "<b>Data</b>" in html and "channel_delay" in html and "|E*|" in html and "<script" not in html
     told = str(diagnosis)
-    assert told.startswith("VERDICT\n") and f"\nWHAT WAS READ\n{diagnosis.notes[0]}" in told
+    assert (
+        told.startswith("Tests ")
+        and "\nFault           Channel delay in all tests, 0.792 +- 0.018 ms." in told
+    )
+    assert diagnosis.details.startswith(told)
+    assert f"\nWHAT WAS READ\n{diagnosis.notes[0]}" in diagnosis.details
 
 
 def test_export_of_a_diagnosis_is_that_of_its_folder(diagnosis, folder, tmp_path):

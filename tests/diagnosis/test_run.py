@@ -14,10 +14,10 @@ from jsonschema import Draft202012Validator
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis import run
+from asphalt_nscd.diagnosis.brief import rows
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.ladder import Ladder
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.diagnosis.suspects import Suspect
 from asphalt_nscd.diagnosis.trust import reading
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, read_diagnosis
@@ -89,7 +89,7 @@ def test_the_verdict_names_files_without_tests(tmp_path):
     told = "1 of 12 files gave no test: Mix-C-50C_Sum.csv (holds no table)."
     Draft202012Validator(SCHEMA).validate(outcome.content)
     assert outcome.content["reading"]["files_without_tests"] == [told]
-    assert f"Files: {told}\nThe data are synthetic: " in summary(outcome.content)
+    assert dict(rows(outcome.content))["Note"][0] == told
 
 
 def test_estimates_that_spread_further_than_their_errors_widen_the_limits():
@@ -223,11 +223,9 @@ def test_the_verdict_tells_what_the_law_that_is_written_misses(tmp_path):
     for name in ("E", "phase"):
         error = 100.0 * np.abs(means[f"{name}_law"] / means[name] - 1.0).groupby("at").mean().mean()
         assert misses[f"mre_{name}_percent"] == pytest.approx(error, rel=1e-6), name
-    said = [f"{misses[f'mre_{name}_percent']:.3g} %" for name in ("E", "phase")]
-    assert (
-        "The law to use is law.json: a simpler one (2S2P1D), fitted with the channel delay taken off, which misses "
-        f"by {' and '.join(said)}."
-    ) in summary(outcome.content)
+    said = [f"{misses[f'mre_{name}_percent']:.2g} % in" for name in ("E", "phase")]
+    (law,) = dict(rows(outcome.content))["Law"]
+    assert all(part in law for part in said) and "fitted to the corrected tests" in law
 
 
 def test_metal_comes_first_where_phases_lie_on_one_side(monkeypatch):

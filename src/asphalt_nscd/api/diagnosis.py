@@ -18,11 +18,11 @@ from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
 from asphalt_nscd.api.pictures import shown_in_notebooks
 from asphalt_nscd.api.tables import Measurements, campaign_in
+from asphalt_nscd.diagnosis.brief import rows
 from asphalt_nscd.diagnosis.measured_limits import Progress, Trials, verify
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.run import Draws, Outcome, Simulated, conclude
-from asphalt_nscd.diagnosis.summary import summary
-from asphalt_nscd.diagnosis.verdict import on_data, on_simulation
+from asphalt_nscd.diagnosis.summary import answer, summary
 from asphalt_nscd.diagnosis.written import mean_averages, read_diagnosis
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file
@@ -168,8 +168,13 @@ class Diagnosis:
             figure = draw(*files)
         return shown_in_notebooks(figure)
 
-    def __str__(self) -> str:
+    @property
+    def details(self) -> str:
+        """The answer with its reasons, as `asphalt-nscd diagnose --details` prints it."""
         return summary(self.content)
+
+    def __str__(self) -> str:
+        return answer(self.content)
 
     def __repr__(self) -> str:
         named = [
@@ -187,10 +192,10 @@ class Diagnosis:
 
         ladder = self.ladder[["cause", "where", "value", "std_error", "unit", "p_value", "established"]]
         parts = [
-            f"<p><b>Data:</b> {escape(on_data(self.content))}</p>",
-            f"<p><b>Simulation:</b> {escape(on_simulation(self.content))}</p>",
-            ladder.to_html(index=False, float_format="{:.3g}".format, na_rep=""),
+            f"<p><b>{escape(label)}</b><br>{'<br>'.join(map(escape, said))}</p>"
+            for label, said in rows(self.content)
         ]
+        parts.append(ladder.to_html(index=False, float_format="{:.3g}".format, na_rep=""))
         if len(self.suspects):
             parts += [
                 "<p>Doubtful tests:</p>",

@@ -63,6 +63,7 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 )
 @click.option("--jobs", type=click.IntRange(1), help="Processes of --verify-limits; else one for each core.")
 @click.option("--page/--no-page", default=True, help="Whether to write diagnosis.html too.")
+@click.option("--details", is_flag=True, help="Print the reasons too; diagnosis.html holds them anyway.")
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
 @_options.gather(
@@ -73,7 +74,7 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 @_options.gather("simulated", campaign="simulations", facets="facets", specimen="specimen")
 @_options.gather("draws", number="draws", seed="seed")
 @_options.gather("limits", verify="verify_limits", jobs="jobs")
-@_options.gather("written", output="output", page="page")
+@_options.gather("written", output="output", page="page", details="details")
 def command(
     table: dict[str, Any],
     known: dict[str, Any],
@@ -115,6 +116,8 @@ def command(
         # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
         title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
         names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
-    click.echo(f"{diagnosis}\n\nWritten to {output}: {', '.join(names)}.")
+    click.echo(
+        f"{diagnosis.details if written['details'] else diagnosis}\n\nWritten to {output}: {', '.join(names)}."
+    )
     if written["page"]:
-        click.echo(f"Open {output / names[-1]} in a browser; it needs no network.")
+        click.echo(f"For the reasons and figures, open {output / names[-1]} in a browser.")

@@ -38,7 +38,9 @@ def gauges(done: Observations, costs: Costs) -> Orders:
             "mounting was at fault: repeat the other temperatures too. If not, it is the machine or the specimens."
         )
         act = f"check {limit.check}, mount {named(names)} anew and test"
-        orders.append(_order(act, names, [at], done, costs, why, "again"))
+        orders.append(
+            _order(act, names, [at], done, costs, (f"to see whether {limit.label} gets better", why), "again")
+        )
     return orders
 
 
@@ -50,7 +52,8 @@ def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
         f"{one_sided} Metal has no phase of its own: what it shows is the machine's. If it shows none, the mix or the "
         "mounting is at fault."
     )
-    return [_content(f"test {METAL}, {band(ends)}", why, hours, [METAL], [], ends)]
+    purpose = "to see whether the machine adds to the phase"
+    return [_content(f"test {METAL}, {band(ends)}", (purpose, why), hours, [METAL], [], ends)]
 
 
 def which_test(ladder: Sequence[Mapping[str, Any]]) -> Orders:
@@ -62,7 +65,7 @@ def which_test(ladder: Sequence[Mapping[str, Any]]) -> Orders:
         f"{joined(list(map(an, named))).capitalize()} can be found in two-point bending only, and bending was assumed, "
         "since nobody said what was tested."
     )
-    return [_content(WHICH_TEST, why, 0.0, [], [], [])]
+    return [_content(WHICH_TEST, ("", why), 0.0, [], [], [])]
 
 
 def second_specimen(done: Observations, costs: Costs) -> Orders:
@@ -70,7 +73,9 @@ def second_specimen(done: Observations, costs: Costs) -> Orders:
     if len(done.names) > 1:
         return []
     why = "Two specimens show the scatter from test to test. Without it nothing here is certain."
-    return [_order(f"test {NEW}", [NEW], done.isotherms.tolist(), done, costs, why)]
+    return [
+        _order(f"test {NEW}", [NEW], done.isotherms.tolist(), done, costs, ("to measure the scatter", why))
+    ]
 
 
 def more_temperatures(done: Observations, costs: Costs) -> Orders:
@@ -86,12 +91,20 @@ def more_temperatures(done: Observations, costs: Costs) -> Orders:
         f"{counted(tested.size, 'temperature')} {'was' if tested.size == 1 else 'were'} tested; law and causes can be "
         f"certain from {LEAST_ISOTHERMS} on."
     )
-    return [_order(f"test {named(names)}", names, sorted(new), done, costs, why)]
+    purpose = f"to have the {LEAST_ISOTHERMS} temperatures that a certain result needs"
+    return [_order(f"test {named(names)}", names, sorted(new), done, costs, (purpose, why))]
 
 
 def _order(
-    act: str, names: list[str], at: list[float], done: Observations, costs: Costs, why: str, again: str = ""
+    act: str,
+    names: list[str],
+    at: list[float],
+    done: Observations,
+    costs: Costs,
+    why: tuple[str, str],
+    again: str = "",
 ) -> dict[str, Any]:
+    """why: its purpose in a few words, and the reason in full."""
     frequencies = done.frequencies.tolist()
     hours = sum(costs.hours("", t, frequencies) for name in names for t in at)
     hours += costs.new_specimen * (NEW in names)
@@ -100,11 +113,17 @@ def _order(
 
 
 def _content(
-    act: str, why: str, hours: float, specimens: list[str], at: list[float], frequencies: list[float]
+    act: str,
+    why: tuple[str, str],
+    hours: float,
+    specimens: list[str],
+    at: list[float],
+    frequencies: list[float],
 ) -> dict[str, Any]:
     return {
         "text": f"{hours:.1f} h: {act}.",
-        "why": [why],
+        "purpose": why[0],
+        "why": [why[1]],
         "hours": round(hours, 2),
         "nats": 0.0,
         "specimens": specimens,

@@ -23,7 +23,7 @@ from asphalt_nscd.diagnosis.further_tests import Possible, possible
 from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.order_words import Context, Open, Order, in_a_sentence, reasons
+from asphalt_nscd.diagnosis.order_words import Context, Open, Order, in_a_sentence, purpose, reasons
 from asphalt_nscd.diagnosis.sentences import an
 from asphalt_nscd.diagnosis.sweeps import METAL, Costs, Sweep
 from asphalt_nscd.diagnosis.unexplained import size_left
@@ -68,6 +68,7 @@ def instructions(
     orders = [
         {
             "text": in_a_sentence(one, done),
+            "purpose": purpose(one, questions),
             "why": why,
             "hours": round(one.hours, 2),
             "nats": round(one.nats, 2),

@@ -103,6 +103,28 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
     return [reason for reason in found if reason][:REASONS]
 
 
+def purpose(order: Order, questions: Sequence[Open]) -> str:
+    """What an order is for, in a few words, without its first reason's numbers."""
+    helped = [questions[k] for k in order.helps]
+    here = f"{order.sweep.temperature:g} degC"
+    for kind, words in (
+        ("repeat", "to replace the doubtful test{s}"),
+        ("level", "to see whether what is odd there repeats itself"),
+        ("linear", f"to see whether the mix is linear at {here}"),
+        ("metal", "to confirm the {about}: metal must show {other}"),
+        ("kept", "to confirm the {about}"),
+        ("apart", "to tell the {about} from {a} {other}"),
+        ("reach", "to look for {about}"),
+    ):
+        for one in helped:
+            if one.kind != kind or (kind == "linear" and not (order.sweep.half_strain and one.about == here)):
+                continue
+            several = "s" * (len(order.specimens) * len(order.sweep.frequencies) > 1)
+            article, _, rest = an(one.other).partition(" ") if one.other else ("", "", "")
+            return words.format(s=several, about=one.about.split(" (")[0], a=article, other=rest or one.other)
+    return ""
+
+
 def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context) -> list[str]:
     """A sentence for each cause that the tests bring within reach, its isotherms or specimens together."""
     causes: dict[str, list[tuple[str, float, float]]] = {}

@@ -31,7 +31,7 @@ from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
-from asphalt_nscd.diagnosis.summary import summary
+from asphalt_nscd.diagnosis.summary import answer
 from asphalt_nscd.diagnosis.sweeps import Costs
 from asphalt_nscd.diagnosis.trust import reading, trust
 from asphalt_nscd.files.errors import InputError
@@ -96,9 +96,9 @@ class Outcome:
         ]
 
     def written(self, folder: str | Path) -> str:
-        """Write the files; the summary, and what was written."""
+        """Write the files; the answer, and what was written."""
         names = self.write(folder)
-        return f"{summary(self.content)}\n\nWritten to {folder}: {', '.join(names)}."
+        return f"{answer(self.content)}\n\nWritten to {folder}: {', '.join(names)}."
 
 
 @dataclass(frozen=True)
@@ -178,6 +178,7 @@ def conclude(
     content["origin"] = origin
     held = within_isotherm.hold(observed)
     one_sided = "" if diagnosis.ladder.rungs else suspects.one_sided(observed, held)
+    content["one_sided"] = one_sided
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["odd_levels"], content["odd_phases"] = odd
     content["odd_temperatures"] = levels.odd_temperatures(observed, *odd)

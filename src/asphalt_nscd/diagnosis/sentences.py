@@ -51,20 +51,16 @@ def doubtful(content: Content) -> list[Content]:
 
 def with_suspects(content: Content) -> str:
     """What the suspect tests would have changed, had they been used; empty where no test is left out."""
-    return _changed(content, "with_suspects", "If these tests were kept")
+    return _changed(content, "with_suspects", "If the tests left out were kept")
 
 
-def on_doubtful(content: Content) -> str:
-    """Which doubtful tests are used, and what is named without them; empty where there are none."""
-    kept = doubtful(content)
-    if not kept:
-        return ""
-    places = "; ".join(f"{place_of_test(one)} ({'; '.join(one['reasons'])})" for one in kept[:3])
-    more = f"; and {len(kept) - 3} more, see suspect_tests in diagnosis.json" if kept[3:] else ""
-    changed = _changed(
-        content, "without_doubtful", f"If {'it were' if len(kept) == 1 else 'they were'} left out"
+def without_doubtful(content: Content) -> str:
+    """What is named without the doubtful tests that are used; empty where there are none."""
+    return (
+        _changed(content, "without_doubtful", "If the doubtful tests were left out")
+        if doubtful(content)
+        else ""
     )
-    return f"Doubtful but used: {places}{more}. {changed}".rstrip()
 
 
 def _changed(content: Content, key: str, when: str) -> str:
@@ -138,7 +134,7 @@ def causes(content: Content) -> list[tuple[str, str]]:
     return [
         (
             f"{cause_words(rung)}: {size(rung, content)}".removesuffix(": ") + _if_bending(rung, content),
-            f"{_meaning(rung)}{_sure(rung, content)}{_to_confirm(rung)}",
+            f"{meaning(rung)}{_sure(rung, content)}{_to_confirm(rung)}",
         )
         for rung in content["ladder"]
         if rung["cause"] != "relaxation_spectrum"
@@ -156,7 +152,7 @@ def _if_bending(rung: Content, content: Content) -> str:
     return ", if this was two-point bending" if assumed else ""
 
 
-def _meaning(rung: Content) -> str:
+def meaning(rung: Content) -> str:
     """What the sign of the amplitude says; empty for a cause that has but one."""
     if rung["cause"] not in SIGNS:
         return ""

@@ -1,4 +1,4 @@
-"""A diagnosis on the terminal: what can be trusted, what was found, how sure it is, what to do."""
+"""A diagnosis as text: the answer on one screen, and its reasons."""
 
 from __future__ import annotations
 
@@ -7,30 +7,36 @@ from typing import Any
 
 from tabulate import tabulate
 
-from asphalt_nscd.diagnosis import sentences, table_rows, unexplained, verdict
+from asphalt_nscd.diagnosis import brief, sentences, table_rows, unexplained, verdict
 
 Content = Mapping[str, Any]
 
 
+def answer(content: Content) -> str:
+    """What to use, what to correct, what to leave out, what to test next."""
+    told = brief.text(content)
+    return f"{told}\n\n{sentences.of_intervals(content)}" if "+-" in told else told
+
+
 def summary(content: Content) -> str:
-    """The first page as text, one part after another; parts with nothing to say are left out."""
+    """The answer, and the reasons, one part after another; parts with nothing to say are left out."""
     read = content.get("reading", {"notes": []})
-    answer = [f"Data: {verdict.on_data(content)}", verdict.answer(content), verdict.first_order(content)]
-    answer += verdict.then(content)
-    test, files = verdict.test_type(content), verdict.files(content)
     law, named = sentences.law_of_the_mix(content), sentences.causes(content)
-    mixes = verdict.mixes(content)
-    head = [*([mixes] if mixes else []), *([f"Test: {test}."] if test else [])]
-    head += [f"Files: {files}"] if files else []
-    head += [] if content.get("origin", "measured") == "measured" else sentences.origin(content)
+    simulated = verdict.on_simulation(content)
     parts = [
-        ("Verdict", [*head, *filter(None, answer)]),
-        ("Tests not to be used" if sentences.not_used(content) else "Doubtful tests", _suspects(content)),
-        ("Law of the mix", [*([f"{law[0]}. {law[1]}"] if law else []), *verdict.beyond_the_tests(content)]),
+        ("", [answer(content)]),
+        ("Why tests are left out", _suspects(content)),
+        (
+            "Law of the mix",
+            [
+                f"{simulated[:1].upper()}{simulated[1:]}",
+                *([f"{law[0]}. {law[1]}"] if law else []),
+                *verdict.beyond_the_tests(content),
+            ],
+        ),
         ("Causes", [*(f"{cause}. {sure}" for cause, sure in named), *_on_others(content)]),
-        ("", list(filter(None, [sentences.of_intervals(content)]))),
         ("What stays unexplained", _left(content)),
-        ("What to do next", _orders(content)),
+        ("Why these tests next", _orders(content)),
         ("Scatter", _scatter(content)),
         ("Limits, stated and measured", _limits(content)),
         ("Remarks", content["notes"]),
@@ -45,7 +51,7 @@ def _part(title: str, lines: Sequence[str]) -> str:
 
 def _on_others(content: Content) -> list[str]:
     """Of the causes that were not named."""
-    return list(filter(None, [unexplained.no_cause(content), unexplained.unseen(content)]))
+    return list(filter(None, [unexplained.no_cause(content)]))
 
 
 def _suspects(content: Content) -> list[str]:
@@ -54,7 +60,7 @@ def _suspects(content: Content) -> list[str]:
         where = sentences.place_of_test(one)
         lines.append(f"{where[:1].upper()}{where[1:]}:")
         lines += [f"  {reason}" for reason in one["reasons"]]
-    return lines + list(filter(None, [sentences.with_suspects(content), sentences.on_doubtful(content)]))
+    return lines + list(filter(None, [sentences.with_suspects(content), sentences.without_doubtful(content)]))
 
 
 def _left(content: Content) -> list[str]:

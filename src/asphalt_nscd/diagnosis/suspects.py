@@ -36,7 +36,7 @@ BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1
 BREAKS = BENDS > np.radians(1.0)
 LEAST_FREEDOM = 4  # of the replicates of an isotherm
 SHARED = "every specimen contradicts its isotherm here in the same way: look for a common cause, not for a bad test"
-ONE_WITNESS = "its modulus and phase do not contradict the other frequencies"
+ONE_WITNESS = "its modulus and phase agree with the other frequencies"
 IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may be no more than nearly smooth
 
 
@@ -162,9 +162,8 @@ def one_sided(observed: Observations, held: Held) -> str:
     for side, there in (("above", far & (apart > 0.0)), ("below", far & (apart < 0.0))):
         if 2 * np.count_nonzero(there) >= max(apart.size, 1):
             return (
-                f"The slope of |E*| over frequency requires a phase (Kramers-Kronig): {np.count_nonzero(there)} of "
-                f"{apart.size} phases lie {side} it by more than two standard errors, and the mean of all by "
-                f"{abs(apart.mean()):.1f} deg."
+                f"{np.count_nonzero(there)} of {apart.size} phases lie {side} what the slope of |E*| over frequency "
+                f"requires, by more than two standard errors; the mean of all does by {abs(apart.mean()):.1f} deg."
             )
     return ""
 
@@ -214,7 +213,7 @@ def _singled_out(observed: Observations) -> list[list[str]]:
         if 2 * alike < np.count_nonzero(block == block[one.row]):
             limit = quality.LIMITS[one.column]
             unit = limit.unit
-            sentences[one.row].append(f"{limit.label} {one.value:.3g} {unit}, limit {one.limit:g} {unit}")
+            sentences[one.row].append(f"{limit.label} {one.value:.3g} {unit} (limit {one.limit:g})")
     return sentences
 
 
@@ -257,25 +256,21 @@ def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[N
 
 
 def _causal_reason(observed: Observations, held: Held, row: int, column: int) -> str:
-    rest = f"the other frequencies of this specimen at {observed.isotherm[row]:g} degC"
     expected, error = held.expected[row, column], held.std_error[row, column]
     if column == 0:
         modulus = abs(observed.modulus[row])
         times = modulus / np.exp(expected)
-        apart = 100.0 * (times - 1.0)
         slip = abs(np.log(times)) > SLIP and abs(np.log10(times) - np.round(np.log10(times))) < NEAR_POWER
-        size = f"{times:.3g} times" if abs(np.log(times)) > SLIP else f"{abs(apart):.1f} % {_way(apart)}"
         return (
-            f"|E*| is {modulus / 1e6:.0f} MPa, {size} the {np.exp(expected) / 1e6:.0f} MPa that its phase and {rest} "
-            f"lead to expect (standard error {100.0 * error:.1f} %)"
+            f"|E*| {modulus / 1e6:.0f} MPa, where its phase and the other frequencies require "
+            f"{np.exp(expected) / 1e6:.0f} MPa (standard error {100.0 * error:.1f} %)"
             f"{'; look for a misplaced decimal point' * bool(slip)}"
         )
-    phase, allowed = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
-    delay = "; the delay of all tests is allowed for" if held.delay else ""
-    apart = round(phase, 1) - round(allowed, 1)  # as a reader subtracts
+    phase, required = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
+    delay = ", delay of all tests taken off" if held.delay else ""
     return (
-        f"phase is {phase:.1f} deg, {abs(apart):.1f} deg {_way(phase - allowed)} the {allowed:.1f} deg that "
-        f"its |E*| and {rest} lead to expect (standard error {np.degrees(error):.1f} deg{delay})"
+        f"phase {phase:.1f} deg, where its |E*| and the other frequencies require {required:.1f} deg "
+        f"(standard error {np.degrees(error):.1f} deg{delay})"
     )
 
 
@@ -291,10 +286,6 @@ def _exchange_reason(observed: Observations, one: Exchange) -> str:
         f"{' and '.join(names)} {' and '.join(places)}: each would fit in the place of the other; look in the record "
         f"whether the two {'tests' if len(names) > 1 else 'readings'} were exchanged"
     )
-
-
-def _way(apart: float) -> str:
-    return "above" if apart > 0.0 else "below"
 
 
 def _replicate_reason(observed: Observations, apart: NDArray, row: int, column: int) -> str:

@@ -10,13 +10,13 @@ from asphalt_nscd.diagnosis.written import limits_by_place, shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
 OF_WHAT_IS_LEFT = (
-    "Standard deviations, of which the scatter of single tests is subtracted; the four largest are listed. How far "
-    "each test is off stands in residuals.csv."
+    "These are standard deviations beyond the scatter of single tests, the four largest. residuals.csv says how far each "
+    "test is off."
 )
 UNSEEN = {  # the commonest faults, whose limits everybody is told
     "phase_offset": "an offset of all phases",
     "channel_delay": "a delay of all tests",
-    "temperature_bias": "a wrong temperature of one isotherm",
+    "temperature_bias": "a wrong temperature at one isotherm",
 }
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
 LARGEST = 4  # parts of what stays unexplained that are listed
@@ -28,7 +28,7 @@ def no_cause(content: Content) -> str:
     return "" if named else "No cause is named."
 
 
-def unseen(content: Content) -> str:
+def unseen(content: Content) -> list[str]:
     """How large the commonest faults may be without these tests showing them; empty where none was judged."""
     named = {rung["cause"] for rung in content["ladder"]}
     never = [one["cause"] for one in content["not_testable"]]
@@ -41,13 +41,8 @@ def unseen(content: Content) -> str:
             values = sorted(float(f"{value:.2g}") for value, _ in sizes)
             size = " to ".join(dict.fromkeys(f"{value:g}" for value in (values[0], values[-1])))
             told.append(f"{words} below {size} {typed(sizes[0][1])}{_at(limit, content)}")
-    said = [f"Too small to be seen in these tests: {joined(told)}."] if told else []
-    said += [
-        f"{words[:1].upper()}{words[1:]} cannot be seen in these tests, whatever its size."
-        for cause, words in UNSEEN.items()
-        if cause in never
-    ]
-    return " ".join(said)
+    told += [f"{words} of any size" for cause, words in UNSEEN.items() if cause in never]
+    return [f"These tests would not show: {'; '.join(told)}."] if told else []
 
 
 def _at(limit: Content, content: Content) -> str:
@@ -56,8 +51,8 @@ def _at(limit: Content, content: Content) -> str:
     tested = content.get("reading", {}).get("isotherms_C", [])
     never = [f"{t:g}" for t in tested if places and t not in map(float, places)]
     if never:
-        return f" (at {joined(never)} degC it cannot be seen at all)"
-    return " (depending on the isotherm)" if len(set(places.values())) > 1 else ""
+        return f", and at {joined(never)} degC of any size"
+    return ", depending on the temperature" if len(set(places.values())) > 1 else ""
 
 
 def left(content: Content) -> list[str]:

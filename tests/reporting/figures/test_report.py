@@ -43,10 +43,12 @@ def test_first_page_says_what_was_done_and_found(page):
     assert "simulated |E*| is not" in said["simulated"][2]
     assert "(Table 4) of |E*| by 11.1 %, most at 20 °C, and of the phase by 5 %" in said["wrong"][0]
     assert "laws in their bonds miss 2.1 % and 4.9 % themselves" in said["wrong"][1]
-    assert "with a relaxation spectrum and a loose clamp of specimen 2" in said["found"]["answer"]
+    answer = dict(said["found"])
+    (simulation,) = answer["Simulation"]
+    assert "with a relaxation spectrum and a loose clamp of specimen 2" in simulation
     # As the table of gains: by the tests simulated again, not by the diagnosis.
-    assert "the simulation misses by 0.6 % and 5 %" in said["found"]["answer"]
-    assert said["found"]["data"].startswith("All 12 tests can be used. Specimen 2 shows a loose clamp")
+    assert "the simulation misses by 0.6 % and 5 %" in simulation
+    assert answer["Data"] == ["All 12 tests can be used."] and answer["Fault"][0].startswith("Loose clamp of")
     assert said["gained"] == [
         ("as in the paper", "11.1", "5"),
         ("facets", "2.5", "5"),
@@ -101,7 +103,7 @@ def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
 
 
 def test_no_cause_where_none_is_named(page):
-    assert page(ladder=[], verdict="nothing_to_explain")["found"]["causes"] == []
+    assert page(ladder=[], verdict="nothing_to_explain")["causes"] == []
 
 
 def test_entries_stand_in_their_parts_by_number_with_captions(page, tmp_path):

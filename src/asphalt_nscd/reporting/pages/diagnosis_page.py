@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis import sentences, table_rows, unexplained, verdict
+from asphalt_nscd.diagnosis import brief, sentences, table_rows, unexplained, verdict
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
@@ -110,21 +110,16 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
     left = left_by_the_last(read_ladder(ladder)) if ladder else None
     found = content.get("instructions", {"orders": [], "costs": ""})
     return {
-        "test": verdict.test_type(content),
-        "files": verdict.files(content),
-        "mixes": verdict.mixes(content),
-        "data": verdict.on_data(content),
-        "answer": verdict.answer(content, left),
-        "first_order": verdict.first_order(content),
-        "not_used": [(sentences.place_of_test(one), one["reasons"]) for one in sentences.not_used(content)],
+        "answer": brief.rows(content, left),
+        "simulated": verdict.on_simulation(content, left),
+        "is_simulated": left is not None or verdict.bonded(content),
         "with_suspects": sentences.with_suspects(content),
-        "doubtful": sentences.on_doubtful(content),
+        "doubtful": sentences.without_doubtful(content),
         "law": sentences.law_of_the_mix(content),
         "of_intervals": sentences.of_intervals(content),
         "beyond": verdict.beyond_the_tests(content),
         "causes": sentences.causes(content),
         "no_cause": unexplained.no_cause(content),
-        "unseen": unexplained.unseen(content),
         "of_what_is_left": unexplained.OF_WHAT_IS_LEFT,
         "left": unexplained.left(content),
         "orders": found["orders"],

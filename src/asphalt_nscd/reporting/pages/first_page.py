@@ -18,6 +18,13 @@ from asphalt_nscd.reporting.pages.diagnosis_page import first, in_type, scatter
 from asphalt_nscd.reporting.pages.way import inner_held_out, means, read_ladder
 
 ENOUGH = 5000  # spheres
+ELSEWHERE = (
+    "Tests",
+    "Note",
+    "Scatter",
+    "Not visible",
+    "Next tests",
+)  # parts of the answer with a card of their own
 TOO_FEW = "No specimen this small was measured. Laws, phase and diagnosis are final; simulated |E*| is not."
 
 
@@ -42,12 +49,9 @@ def first_page(
         "measured": [*_measured(moduli), *sentences.origin(content), scatter(content)],
         "simulated": _simulated(tests, _frame(samples, "samples")),
         "wrong": _wrong(way),
-        "found": {
-            name: _typed(told[name])
-            for name in ("mixes", "data", "answer", "causes", "left", "with_suspects")
-        },
+        "found": [(label, _typed(said)) for label, said in told["answer"] if label not in ELSEWHERE],
+        "causes": _typed(told["causes"]),
         "law": _typed(told["law"] or []),
-        "not_used": [in_type(where) for where, _ in told["not_used"]],
         "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in told["orders"]],
         "notes": _typed(content["notes"]),
         "gained": _gained(way),
@@ -57,7 +61,7 @@ def first_page(
 
 
 def _typed(value: Any) -> Any:
-    """Sentences of the terminal as they are printed."""
+    """Sentences of the terminal as they are printed on a page."""
     return in_type(value) if isinstance(value, str) else [_typed(part) for part in value]
 
 

@@ -1,0 +1,212 @@
+"""The answer of a diagnosis on one screen: what to use, what to correct, what to leave out, what to test next.
+
+Rows of a label and sentences, for the terminal and for the head of the page; the reasons stand in `summary` and on the
+page.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from textwrap import wrap
+from typing import Any
+
+from asphalt_nscd.diagnosis import levels, quality, sentences, unexplained, verdict
+from asphalt_nscd.diagnosis.sentences import cause_words, doubtful, not_used, odd, place_of_test
+from asphalt_nscd.files.words import counted, joined, specimen_named
+
+Content = Mapping[str, Any]
+Rows = list[tuple[str, list[str]]]
+
+WIDTH, LABEL = 100, 16  # columns of a terminal, and those of them for labels
+MOST = 4  # sentences of a row; a reader finds the others in the reasons
+FEW = 6  # specimens that are named one by one
+MORE = "{} more: see the reasons"
+
+
+def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
+    """Label and sentences of each row, those with nothing to say left out.
+
+    left: as in `verdict.on_simulation`.
+    """
+    simulated = left is not None or verdict.bonded(content)
+    certain, possible = (
+        [_fault(rung, content) for rung in verdict.faults(content) if sure(rung) == wanted]
+        for wanted in (True, False)
+    )
+    found: Rows = [
+        ("Tests", _tests(content)),
+        ("Note", _notes(content)),
+        ("Data", _data(content)),
+        ("Fault", certain or ["None is certain." if possible else "None found."]),
+        ("Possible fault", possible),
+        ("Leave out", _few([_out(one) for one in not_used(content)])),
+        ("Check first", _few(_check(content))),
+        ("Not visible", unexplained.unseen(content)),
+        ("Scatter", _scatter(content)),
+        ("Simulation" if simulated else "Law", _law(content, left, simulated)),
+        ("Unexplained", _unexplained(content)),
+        ("Next tests", _next(content)),
+    ]
+    return [(label, said) for label, said in found if said]
+
+
+def text(content: Content) -> str:
+    """The rows as text of WIDTH columns."""
+    lines = []
+    for label, said in rows(content):
+        if label == "Next tests":
+            lines.append("")
+        for k, sentence in enumerate(said):
+            first = f"{label if k == 0 else '':{LABEL}}"
+            lines += wrap(
+                sentence,
+                WIDTH,
+                initial_indent=first,
+                subsequent_indent=" " * (LABEL + 3 * (label == "Next tests")),
+                break_long_words=False,
+                break_on_hyphens=False,
+            )
+    return "\n".join(lines)
+
+
+def sure(rung: Content) -> bool:
+    return bool(rung.get("established", True))
+
+
+def _sentence(words: str) -> str:
+    return f"{words[:1].upper()}{words[1:]}".rstrip(".") + "."
+
+
+def _few(said: list[str]) -> list[str]:
+    """The first of many sentences, and how many more there are."""
+    return said if len(said) <= MOST else [*said[: MOST - 1], MORE.format(len(said) - MOST + 1)]
+
+
+def _tests(content: Content) -> list[str]:
+    read = content.get("reading")
+    if read is None:
+        return []
+    names = read["specimens"]
+    which = counted(len(names), "specimen")
+    if len(names) <= FEW:
+        which = f"specimen{'s' * (len(names) > 1)} {joined(names)}"
+    at = joined([f"{t:g}" for t in read["isotherms_C"]])
+    return [_sentence(f"{verdict.TEST_TYPES[read['test_type']]}: {which} at {at} degC")]
+
+
+def _notes(content: Content) -> list[str]:
+    """What a reader must know before all else."""
+    read = content.get("reading", {})
+    said = [verdict.mixes(content), verdict.files(content)]
+    said += ["Taken for two-point bending. For a cylinder, add --measured-in tension-compression."] * bool(
+        read.get("bench_assumed")
+    )
+    if content.get("origin", "measured") != "measured":
+        said += sentences.origin(content)
+    if read.get("test_type") == "tension-compression" and not read.get("quality_columns", True):
+        said.append("There are no quality columns: tests are judged by modulus and phase alone.")
+    if read.get("not_tested"):
+        said.append(_sentence(f"not tested: {joined(read['not_tested'])}"))
+    return [one for one in said if one]
+
+
+def _data(content: Content) -> list[str]:
+    """How many tests can be used, how many only after a check, how many not."""
+    tests, out = content["tests"], len(not_used(content))
+    trust = content.get("trust", {"use": tests, "check": 0, "not_used": out})
+    everywhere = any(sure(rung) and rung["where"] is None for rung in verdict.faults(content))
+    corrected = " after correction" * everywhere
+    if not trust["check"] and not trust["not_used"]:
+        return [f"All {tests} tests can be used{corrected}."]
+    parts = [f"{trust['use'] or 'None'} of {tests + out} tests can be used{corrected}"]
+    parts += [f"{trust['check']} only after a check"] * bool(trust["check"])
+    parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
+    return [f"{', '.join(parts)}."]
+
+
+def _fault(rung: Content, content: Content) -> str:
+    """A named cause: its size, where it is, what its sign means, what to do about it."""
+    size = sentences.size(rung, content)
+    everywhere = " in all tests" * (rung["where"] is None)
+    meaning = sentences.meaning(rung).strip()
+    said = _sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}")
+    said = " ".join(filter(None, [said, meaning]))
+    if not sure(rung):
+        same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
+        if same:
+            return f"{said} Not certain: {joined(list(map(sentences.in_words, same)), 'or')} fits as well."
+        return f"{said} Not certain{', so not corrected' * (not rung.get('taken_off', True))}."
+    correction = verdict.correction(rung)
+    return f"{said} Correction: {correction}." if correction else said
+
+
+def _out(one: Content) -> str:
+    return _sentence(f"{place_of_test(one)}: {'; '.join(one['reasons'])}")
+
+
+def _check(content: Content) -> list[str]:
+    """What is doubtful, where, and what to check."""
+    read, tests = content.get("reading", {}), content["tests"] + len(not_used(content))
+    broken = [f"{one['temperature_C']:g}" for one in content.get("contradictory_isotherms", [])]
+    said = [
+        f"{joined(broken)} degC, all specimens: |E*| and phase contradict each other. Check strain and machine."
+    ] * bool(broken)
+    above = read.get("limits_exceeded", [])
+    for name, limit in quality.LIMITS.items():
+        here = [one["specimen"] for one in above if one["column"] == name]
+        if 2 * len(here) >= tests:
+            each = ", ".join(f"{here.count(one)} of {specimen_named(one)}" for one in dict.fromkeys(here))
+            said.append(
+                f"{limit.label.capitalize()} is above {limit.limit:g} {limit.unit} in {len(here)} of {tests} tests "
+                f"({each}). Check {limit.check}."
+            )
+    said += [_sentence(one) for one in levels.sentences(*odd(content))]
+    said += [_sentence(one) for one in levels.of_temperatures(content.get("odd_temperatures", []))]
+    return said + [_out(one) for one in doubtful(content)]
+
+
+def _scatter(content: Content) -> list[str]:
+    found = content.get("repeatability") or {}
+    said = [
+        f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase."
+        for way, words in (("between", "Between specimens"), ("within", "Within a specimen"))
+        if found.get(way) is not None
+    ]
+    return [" ".join(said)] if said else []
+
+
+def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) -> list[str]:
+    """What the law misses, of what it was made, and where not to use it."""
+    where = verdict.predicted_badly(content)
+    warning = [f"Do not use it {where}."] if where else []
+    misses = content.get("law_misses")
+    if simulated or misses is None or not content["tested"]:
+        return [" ".join([_sentence(verdict.on_simulation(content, left)), *warning])]
+    modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
+    whom = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
+    said = [f"law.json (2S2P1D) misses {whom} by {modulus} % in |E*| and {phase} % in the phase."]
+    corrected = any(rung.get("taken_off", True) for rung in verdict.faults(content))
+    out = levels.places(*odd(content))
+    if corrected or out:
+        without = f" without {joined(out)}" if out else ""
+        said.append(f"It was fitted to the{' corrected' * corrected} tests{without}.")
+    if content.get("trust", {}).get("check", 0) and not out:
+        said.append("The doubtful tests took part in its fit.")
+    return [" ".join([*said, *warning])]
+
+
+def _unexplained(content: Content) -> list[str]:
+    parts = unexplained.left(content)[:2] if sentences.more_than_scatter(content) else []
+    return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, parts)]
+
+
+def _next(content: Content) -> list[str]:
+    """The orders, numbered, each with its hours and purpose."""
+    orders = content.get("instructions", {"orders": []})["orders"]
+    said = []
+    for number, one in enumerate(orders, 1):
+        hours, act = one["text"].removesuffix(".").split(": ", 1)
+        why = f", {one['purpose']}" if one.get("purpose") else ""
+        cost = f" ({hours})" if one["hours"] > 0.0 else ""
+        said.append(f"{number}. {_sentence(f'{act}{why}{cost}')}")
+    return said

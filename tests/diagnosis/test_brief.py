@@ -1,0 +1,222 @@
+"""The answer on one screen: each row says what the content holds, and rows with nothing to say are left out."""
+
+import pytest
+from test_sentences import content
+
+from asphalt_nscd.diagnosis.brief import MOST, WIDTH, rows, text
+
+
+def found(ladder=(), **then):
+    """Content of tests with nothing in them but what is given."""
+    sound = {
+        "ladder": list(ladder),
+        "detection_limits": {},
+        "not_testable": [],
+        "verdict": "nothing_to_explain",
+    }
+    sound |= {"tested": True, "largest_pattern_left": None, "lack_of_fit_p_value": 0.5, "tests": 72}
+    return content(then.pop("used", 0), then.pop("out", 0)) | sound | then
+
+
+def answer(ladder=(), **then):
+    """Rows by label."""
+    return dict(rows(found(ladder, **then)))
+
+
+def rung(cause, value, unit, std_error=0.1, **then):
+    size = {"value": value, "std_error": std_error, "unit": unit}
+    gain = {"in_sample": {"averages_by_temperature": {}}}
+    return {"cause": cause, "where": None, "parameters": {cause: size}, "gain": gain, "as_good": [], **then}
+
+
+def faults(*found, **then):
+    """Rows of faults and data: the law is told by `law_misses`, so that no gains are needed."""
+    misses = {"mre_E_percent": 1.0, "mre_phase_percent": 2.0}
+    told = answer(found, law_misses=misses, scatter={"from_replicates": True}, **then)
+    return told.get("Fault"), told.get("Possible fault"), told["Data"]
+
+
+def test_of_sound_tests_little_is_said():
+    assert answer() == {
+        "Data": ["All 72 tests can be used."],
+        "Fault": ["None found."],
+        "Law": ["One Burgers law for each temperature fits these data to within their scatter; nothing is to be "
+                "explained."],
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "use,check,out,said",
+    [
+        (72, 0, 0, "All 72 tests can be used."),
+        (65, 6, 1, "65 of 72 tests can be used, 6 only after a check, 1 cannot."),
+        (71, 0, 1, "71 of 72 tests can be used, 1 cannot."),
+        (0, 72, 0, "None of 72 tests can be used, 72 only after a check."),
+    ],
+)
+def test_how_far_each_test_can_be_used_is_one_answer(use, check, out, said):
+    trust = {"use": use, "check": check, "not_used": out}
+    assert answer(out=out, tests=72 - out, trust=trust)["Data"] == [said]
+
+
+@pytest.mark.parametrize("percent,noted", [(32.9, True), (3.3, False)])
+def test_specimens_that_are_hardly_of_one_mix_are_noted(percent, noted):
+    told = answer(repeatability={"between": {"E_percent": percent, "phase_deg": 2.8}, "within": None})
+    note = (
+        "Specimens scatter by 32.9 % in |E*| and 2.8 deg in phase, more than those of one mix do. If there are two "
+        "mixes, diagnose each alone."
+    )
+    assert told.get("Note") == ([note] if noted else None)
+    assert told["Scatter"] == [f"Between specimens: {percent} % in |E*|, 2.8 deg in phase."]
+
+
+def test_a_certain_fault_comes_with_its_correction():
+    sure, possible, data = faults(rung("channel_delay", 0.8e-3, "s", 1e-5, established=True))
+    assert sure == [
+        "Channel delay in all tests, 0.8 +- 0.02 ms. The displacement is recorded after the force. Correction: "
+        "subtract 0.288 deg per Hz from the phase."
+    ]
+    assert possible is None and data == ["All 72 tests can be used after correction."]
+
+
+@pytest.mark.parametrize(
+    "then,said",
+    [
+        ({}, "Not certain."),
+        ({"taken_off": False}, "Not certain, so not corrected."),
+        (
+            {"as_good": ["phase_offset @ 50.0", "damage"], "taken_off": False},
+            "Not certain: phase offset at 50 degC fits as well.",
+        ),
+    ],
+)
+def test_a_fault_that_is_not_certain_is_a_possible_one(then, said):
+    sure, possible, data = faults(rung("phase_offset", 1.5, "deg", established=False, **then))
+    assert possible == [
+        f"Phase offset in all tests, 1.5 +- 0.2 deg. The measured phases are too large. {said}"
+    ]
+    assert sure == ["None is certain."] and data == ["All 72 tests can be used."]
+
+
+@pytest.mark.parametrize(
+    "cause,where,value,unit,told",
+    [
+        ("channel_delay", None, -0.8e-3, "s", "add 0.288 deg per Hz to the phase"),
+        ("phase_offset", None, 1.5, "deg", "subtract 1.5 deg from the phase"),
+        ("temperature_bias", 20.0, 1.84, "K", "take 21.8 degC as their temperature"),
+        ("specimen_geometry", "A", 0.358, "1", "if its dimensions prove wrong, divide its |E*| by 1.36"),
+    ],
+)
+def test_how_to_be_rid_of_a_fault_is_told(cause, where, value, unit, told):
+    ((sure,), _, _) = faults(rung(cause, value, unit, None, where=where, established=True))
+    assert sure.endswith(f" Correction: {told}.")
+
+
+def test_a_fault_that_is_no_one_number_has_no_correction():
+    ((sure,), _, _) = faults(rung("moving_mass", 0.1, "kg", established=True))
+    assert "Correction" not in sure
+
+
+def test_faults_of_a_bench_that_nobody_stated_are_not_in_the_answer():
+    mass = rung("moving_mass", -0.227, "kg", established=True)
+    assert faults(mass)[0] != ["None found."]
+    read = {"specimens": ["A"], "isotherms_C": [4.0], "test_type": "bending", "bench_assumed": True}
+    assert faults(mass, reading=read)[0] == ["None found."]
+
+
+def test_tests_left_out_stand_with_their_reasons_and_many_are_counted():
+    one = "Specimen A, 4 degC, 25 Hz: x."
+    assert answer(out=2)["Leave out"] == [one, one]
+    assert answer(out=MOST + 2)["Leave out"] == [one] * (MOST - 1) + ["3 more: see the reasons"]
+
+
+@pytest.mark.parametrize("exceeded,told", [(36, True), (35, False)])
+def test_a_quality_limit_that_half_of_the_tests_exceed_is_checked_first(exceeded, told):
+    above = [{"column": "phase_uniformity_deg", "specimen": "A" if k < 30 else "B"} for k in range(exceeded)]
+    read = {"specimens": ["A", "B"], "isotherms_C": [4.0], "test_type": "bending", "limits_exceeded": above}
+    said = (
+        "Phase uniformity is above 3 deg in 36 of 72 tests (30 of specimen A, 6 of specimen B). Check the gauges and "
+        "the ends of the specimens."
+    )
+    assert answer(reading=read).get("Check first") == ([said] if told else None)
+
+
+def test_what_is_odd_or_contradicts_itself_is_checked_first():
+    told = answer(
+        used=1,
+        odd_levels=[{"specimen": "A", "temperature_C": 35.0, "factor": 0.7}],
+        contradictory_isotherms=[{"temperature_C": 54.0, "sentence": "x"}],
+    )
+    assert told["Check first"] == [
+        "54 degC, all specimens: |E*| and phase contradict each other. Check strain and machine.",
+        "Specimen A at 35 degC: |E*| 0.70 times what its other temperatures and the other specimens say: check gauges, "
+        "gain, unit and entered dimensions of these tests.",
+        "Specimen A, 4 degC, 25 Hz: x.",
+    ]
+
+
+def test_what_the_files_lack_is_noted():
+    read = {"specimens": ["A", "B"], "isotherms_C": [4.0, 21.0], "test_type": "tension-compression"}
+    read |= {"quality_columns": [], "not_tested": ["specimen B at 4 degC"]}
+    told = answer(reading=read)
+    assert told["Tests"] == ["Axial tests of cylinders (AMPT or UTM): specimens A and B at 4 and 21 degC."]
+    assert told["Note"] == [
+        "There are no quality columns: tests are judged by modulus and phase alone.",
+        "Not tested: specimen B at 4 degC.",
+    ]
+    assert "Note" not in answer(reading=read | {"quality_columns": ["x"], "not_tested": []})
+    assert "two-point bending" in answer(reading=read | {"bench_assumed": True})["Note"][0]
+
+
+@pytest.mark.parametrize(
+    "then,said",
+    [
+        ({}, ""),
+        ({"trust": {"use": 60, "check": 12, "not_used": 0}}, " The doubtful tests took part in its fit."),
+        (
+            {"odd_levels": [{"specimen": "A", "temperature_C": 35.0, "factor": 0.7}],
+             "trust": {"use": 66, "check": 6, "not_used": 0}},
+            " It was fitted to the tests without specimen A at 35 degC.",
+        ),
+        (
+            {"ladder": [rung("phase_offset", 1.5, "deg", established=True)]},
+            " It was fitted to the corrected tests.",
+        ),
+    ],
+)  # fmt: skip
+def test_the_law_is_told_with_what_it_was_fitted_to(then, said):
+    misses = {"mre_E_percent": 0.4712, "mre_phase_percent": 9.13}
+    (told,) = answer(law_misses=misses, scatter={"from_replicates": True}, **then)["Law"]
+    assert told == (
+        f"law.json (2S2P1D) misses the mean of the specimens by 0.47 % in |E*| and 9.1 % in the phase.{said}"
+    )
+
+
+def test_what_no_cause_explains_is_told_in_two_parts_at_most():
+    left = {"37 degC, phase": 3.0, "21 degC, modulus": 2.0, "4 degC, phase": 1.0}
+    scatter = {"phase_deg": 0.5, "modulus_percent": 1.0, "from_replicates": True}
+    told = answer(discrepancy=left, scatter=scatter, lack_of_fit_p_value=1e-9, one_sided="All lie above.")
+    assert told["Unexplained"] == [
+        "All lie above.",
+        "1.5 deg in the phase at 37 degC.",
+        "2.0 % in |E*| at 21 degC.",
+    ]
+    assert "Unexplained" not in answer(discrepancy=left, scatter=scatter)  # no more than scatter
+
+
+def test_orders_stand_with_purpose_and_hours():
+    order = {"text": "2.5 h: test specimen A again.", "purpose": "to replace the doubtful test", "hours": 2.5}
+    at_once = {"text": "0.0 h: run this again.", "purpose": "", "hours": 0.0}
+    assert answer(instructions={"orders": [order, at_once]})["Next tests"] == [
+        "1. Test specimen A again, to replace the doubtful test (2.5 h).",
+        "2. Run this again.",
+    ]
+
+
+def test_text_keeps_to_the_width_and_to_its_columns():
+    read = {"specimens": [f"S{k}" for k in range(6)], "isotherms_C": [1.0] * 30, "test_type": "bending"}
+    lines = text(found(reading=read)).splitlines()
+    assert max(map(len, lines)) <= WIDTH and lines[0].startswith(
+        "Tests           Two-point bending of trapezoids: "
+    )
+    assert lines[1].startswith(" " * 16) and lines[1][16] != " "
