@@ -10,8 +10,8 @@ from asphalt_nscd.diagnosis.written import limits_by_place, shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
 OF_WHAT_IS_LEFT = (
-    "These are standard deviations beyond the scatter of single tests, the four largest. residuals.csv says how far each "
-    "test is off."
+    "These are standard deviations beyond the scatter of single tests, the four largest. residuals.csv says how far "
+    "each test is off."
 )
 UNSEEN = {  # the commonest faults, whose limits everybody is told
     "phase_offset": "an offset of all phases",
