@@ -82,8 +82,8 @@ def test_a_certain_fault_comes_with_its_correction():
 @pytest.mark.parametrize(
     "then,said",
     [
-        ({}, "Not certain."),
-        ({"taken_off": False}, "Not certain, so not corrected."),
+        ({}, "Not certain; law.json is corrected for it all the same."),
+        ({"taken_off": False}, "Not certain; nothing is corrected."),
         (
             {"as_good": ["phase_offset @ 50.0", "damage"], "taken_off": False},
             "Not certain: phase offset at 50 degC fits as well.",

@@ -135,7 +135,9 @@ def _fault(rung: Content, content: Content) -> str:
         same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
         if same:
             return f"{said} Not certain: {joined(list(map(sentences.in_words, same)), 'or')} fits as well."
-        return f"{said} Not certain{', so not corrected' * (not rung.get('taken_off', True))}."
+        taken_off = "law.json is corrected for it all the same" if "law_misses" in content else ""
+        kept = "nothing is corrected" if not rung.get("taken_off", True) else taken_off
+        return f"{said} {_sentence('; '.join(filter(None, ['not certain', kept])))}"
     correction = verdict.correction(rung)
     return f"{said} Correction: {correction}." if correction else said
 
@@ -180,11 +182,13 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     where = verdict.predicted_badly(content)
     warning = [f"Do not use it {where}."] if where else []
     misses = content.get("law_misses")
-    if simulated or misses is None or not content["tested"]:
+    if simulated or misses is None:
         return [" ".join([_sentence(verdict.on_simulation(content, left)), *warning])]
     modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
     whom = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
     said = [f"law.json (2S2P1D) misses {whom} by {modulus} % in |E*| and {phase} % in the phase."]
+    if verdict.alone(content):
+        said.append("Without replicates nobody knows how much of that is scatter.")
     corrected = any(rung.get("taken_off", True) for rung in verdict.faults(content))
     out = levels.places(*odd(content))
     if corrected or out:

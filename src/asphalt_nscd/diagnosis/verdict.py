@@ -170,7 +170,7 @@ def _cannot_judge(content: Content) -> str:
 
 def _beyond_bonds(content: Content) -> str:
     """Whether more than scatter is left, once what the simulated bonds add to their law is taken off."""
-    if not content["tested"] and _alone(content):
+    if not content["tested"] and alone(content):
         return "and nobody knows how much of that is scatter"
     fits = content["verdict"] == "explained" or not more_than_scatter(content)
     named = [rung for rung in content["ladder"] if rung["cause"] not in ("relaxation_spectrum", BOND_MAPPING)]
@@ -186,7 +186,7 @@ def _beyond_bonds(content: Content) -> str:
     return f"{added}; the rest is {scatter}{by}"
 
 
-def _alone(content: Content) -> bool:
+def alone(content: Content) -> bool:
     """Whether nothing tells the scatter: one specimen, and none was stated."""
     return not content["scatter"]["from_replicates"] and not content["provenance"].get("scatter_stated")
 
