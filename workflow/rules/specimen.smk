@@ -2,7 +2,7 @@
 
 
 rule compile:
-    # Once before jobs run side by side. One stamp for each step, so that editing the tests pours nothing anew.
+    # Once before jobs run side by side. A stamp and kernels for each step, so that editing the tests pours nothing anew.
     input:
         code=lambda wildcards: code(wildcards.step),
     output:
@@ -14,7 +14,7 @@ rule compile:
     message:
         "Compile the core for {wildcards.step}"
     shell:
-        "asphalt-nscd compile > {log} 2>&1"
+        "asphalt-nscd compile {wildcards.step} > {log} 2>&1"
 
 
 rule deposit:

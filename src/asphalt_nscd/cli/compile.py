@@ -4,8 +4,9 @@ import click
 
 
 @click.command()
-def command() -> None:
-    """Compile the core once, before jobs start side by side."""
-    from asphalt_nscd.bending.warmup import warm_up
+@click.argument("step", type=click.Choice(["deposit", "simulate"]))
+def command(step: str) -> None:
+    """Compile what STEP needs of the core once, before its jobs start side by side."""
+    from asphalt_nscd.bending.warmup import STEPS
 
-    warm_up()
+    STEPS[step]()
