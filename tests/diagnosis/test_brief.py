@@ -5,6 +5,8 @@ from test_sentences import content
 
 from asphalt_nscd.diagnosis.brief import MOST, WIDTH, rows, text
 
+CHECKED = " The tests to be checked took part in its fit."
+
 
 def found(ladder=(), **then):
     """Content of tests with nothing in them but what is given."""
@@ -120,7 +122,8 @@ def test_a_fault_that_is_no_one_number_has_no_correction():
 def test_faults_of_a_bench_that_nobody_stated_are_not_in_the_answer():
     mass = rung("moving_mass", -0.227, "kg", established=True)
     assert faults(mass)[0] != ["None found."]
-    read = {"specimens": ["A"], "isotherms_C": [4.0], "test_type": "bending", "bench_assumed": True}
+    read = {"specimens": ["A"], "isotherms_C": [4.0, 10.0, 20.0, 30.0], "test_type": "bending"}
+    read["bench_assumed"] = True
     assert faults(mass, reading=read)[0] == ["None found."]
 
 
@@ -145,10 +148,20 @@ def test_what_is_odd_or_contradicts_itself_is_checked_first():
     told = answer(
         used=1,
         odd_levels=[{"specimen": "A", "temperature_C": 35.0, "factor": 0.7}],
-        contradictory_isotherms=[{"temperature_C": 54.0, "sentence": "x"}],
+        contradictory_isotherms=[
+            {"temperature_C": 54.0, "sentence": "x", "worst_Hz": 25.0, "worst_deg": -19.1}
+        ],
+        reading={
+            "specimens": ["A"],
+            "isotherms_C": [54.0],
+            "test_type": "bending",
+            "off_target": [{"specimen": "A", "temperature_C": 54.0, "measured_C": 57.0}],
+        },
     )
     assert told["Check first"] == [
-        "54 degC, all specimens: |E*| and phase contradict each other. Check strain and machine.",
+        "54 degC: the phase is up to 19.1 deg lower than the slope of |E*| requires (at 25 Hz). Check strain level, "
+        "load control and gauges.",
+        "Specimen A at 54 degC: measured at 57 degC, 3 K off its target. Look for a slip in the record.",
         "Specimen A at 35 degC: |E*| 0.70 times what its other temperatures and the other specimens say: check gauges, "
         "gain, unit and entered dimensions of these tests.",
         "Specimen A, 4 degC, 25 Hz: x.",
@@ -172,7 +185,7 @@ def test_what_the_files_lack_is_noted():
     "then,said",
     [
         ({}, ""),
-        ({"trust": {"use": 60, "check": 12, "not_used": 0}}, " The doubtful tests took part in its fit."),
+        ({"trust": {"use": 60, "check": 12, "not_used": 0}}, CHECKED),
         (
             {"odd_levels": [{"specimen": "A", "temperature_C": 35.0, "factor": 0.7}],
              "trust": {"use": 66, "check": 6, "not_used": 0}},
@@ -198,8 +211,8 @@ def test_what_no_cause_explains_is_told_in_two_parts_at_most():
     told = answer(discrepancy=left, scatter=scatter, lack_of_fit_p_value=1e-9, one_sided="All lie above.")
     assert told["Unexplained"] == [
         "All lie above.",
-        "1.5 deg in the phase at 37 degC.",
-        "2.0 % in |E*| at 21 degC.",
+        "The law is off by 1.5 deg in the phase at 37 degC.",
+        "The law is off by 2.0 % in |E*| at 21 degC.",
     ]
     assert "Unexplained" not in answer(discrepancy=left, scatter=scatter)  # no more than scatter
 
@@ -220,3 +233,28 @@ def test_text_keeps_to_the_width_and_to_its_columns():
         "Tests           Two-point bending of trapezoids: "
     )
     assert lines[1].startswith(" " * 16) and lines[1][16] != " "
+
+
+@pytest.mark.parametrize(
+    "tested,lacks", [([4.0], "1 was"), ([4.0, 21.0, 37.0], "3 were"), ([4.0, 21.0, 37.0, 54.0], "")]
+)
+def test_too_few_temperatures_prove_no_fault(tested, lacks):
+    told = answer(reading={"specimens": ["A"], "isotherms_C": tested, "test_type": "bending"})["Fault"]
+    assert told == ["None found." + (f" To prove one takes 4 temperatures; {lacks} tested." if lacks else "")]
+
+
+def test_usable_tests_that_are_all_of_one_specimen_are_told_so():
+    trust = {"use": 14, "check": 58, "not_used": 0, "use_by_specimen": {"A": 14, "B": 0}}
+    assert answer(trust=trust)["Data"] == [
+        "14 of 72 tests can be used (all of specimen A), 58 only after a check."
+    ]
+    both = trust | {"use_by_specimen": {"A": 7, "B": 7}}
+    assert answer(trust=both)["Data"] == ["14 of 72 tests can be used, 58 only after a check."]
+
+
+def test_what_the_tests_left_out_would_name_is_told_where_it_is_something_else():
+    other = {"verdict": "explained", "causes": [{"cause": "channel_delay", "where": None}]}
+    *_, said = answer(out=1, with_suspects=other)["Leave out"]
+    assert said == "If the tests left out were kept, the diagnosis would name a channel delay."
+    same = {"verdict": "explained", "causes": []}
+    assert answer(out=1, with_suspects=same)["Leave out"] == ["Specimen A, 4 degC, 25 Hz: x."]

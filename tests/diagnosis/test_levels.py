@@ -136,7 +136,7 @@ def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
     assert on_simulation(found).endswith(
         "fits these data to within their scatter, but that scatter includes specimen B at 20 degC, which is odd."
     )
-    assert left(found)[-1] == "What is odd (specimen B at 20 degC) is part of these sizes"
+    assert left(found)[-1] == "These sizes include what is odd: specimen B at 20 degC"
 
 
 def test_the_law_is_nearer_to_the_mix_without_an_odd_isotherm(exports):

@@ -123,14 +123,14 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
     found = {"specimen Specimen 1, spectrum": 2.0, "specimen S2, modulus": 1.5, "37 degC, phase": 1.0}
     scatter = {"modulus_percent": 1.0, "phase_deg": 0.5}
     assert left({"discrepancy": found, "scatter": scatter}) == [
-        "2.0 % in |E*| of Specimen 1: the form of its master curve differs from the common one",
+        "2.0 % in |E*| of Specimen 1: its master curve has another shape than the common one",
         "1.5 % in |E*| of specimen S2, changing with frequency and temperature",
         "0.5 deg in the phase at 37 degC",
     ]
     few, many = (
         {"reading": {"specimens": [*"ABCDE"][:n]}, "discrepancy": found, "scatter": scatter} for n in (3, 5)
     )
-    assert left(few)[3:] == ["Of only 3 specimens nobody can say which one is wrong"]
+    assert left(few)[3:] == ["With only 3 specimens nobody can say whether it is that one or the others"]
     assert left(many)[3:] == left(few | {"discrepancy": {"37 degC, phase": 1.0}})[1:] == []
     assert [named(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
         "Specimen 1 and Specimen 2",
@@ -163,7 +163,7 @@ def test_a_doubt_and_the_law_of_the_mix_are_told_for_what_they_are():
         "it: metal."
     )
     assert law_of_the_mix({"ladder": [law, rung]}) == (
-        "relaxation spectrum: WLF C1 1.5 +- 0.2, WLF C2 173 +- 0.2 K, at 20 degC",
+        "shift with temperature: WLF C1 1.5 +- 0.2, WLF C2 173 +- 0.2 K, at 20 degC",
         "Not certain: certainty takes four temperatures, three frequencies and two specimens.",
     )
     assert law_of_the_mix({"ladder": [rung]}) is None
@@ -222,7 +222,7 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
         and "Its 95 % interval, as widened below, includes zero. To" in causes(far)[0][1]
     )
     worse = rung | {"gain": {"in_sample": {"rms_over_scatter": {"before": 2.2, "after": 3.1}}}}
-    assert "counted alike, these tests fit worse with it" in causes({"ladder": [worse]})[0][1]
+    assert "count less in the fit" in causes({"ladder": [worse]})[0][1]
     assert "fit worse with it" not in causes(near)[0][1]
     assert sentences.of_intervals(near) == "+- is the 95 % interval."
     assert sentences.of_intervals(far).startswith("+- is the 95 % interval, multiplied by 2.0, because")
@@ -247,22 +247,22 @@ LIMITS = {
             [20.0, 35.0],
             1.0,
             [],
-            "These tests would not show: an offset of all phases below 0.5 deg; a wrong temperature at one "
-            "isotherm below 0.88 to 1.2 K, depending on the temperature.",
+            "These tests would not show an offset of all phases below 0.5 deg; a wrong temperature at one isotherm "
+            "below 1.2 K at 20 degC and 0.88 K at 35 degC.",
         ),
         (
             [4.0, 20.0, 35.0],
             3.0,
             [],
-            "These tests would not show: an offset of all phases below 1.5 deg; a wrong temperature at one "
-            "isotherm below 2.6 to 3.7 K, and at 4 degC of any size.",
+            "These tests would not show an offset of all phases below 1.5 deg; a wrong temperature at one isotherm "
+            "below 3.7 K at 20 degC and 2.6 K at 35 degC, and at 4 degC however large.",
         ),
         (
             [20.0, 35.0],
             1.0,
             ["channel_delay"],
-            "These tests would not show: an offset of all phases below 0.5 deg; a wrong temperature at one "
-            "isotherm below 0.88 to 1.2 K, depending on the temperature; a delay of all tests of any size.",
+            "These tests would not show an offset of all phases below 0.5 deg; a delay of all tests, however large; a "
+            "wrong temperature at one isotherm below 1.2 K at 20 degC and 0.88 K at 35 degC.",
         ),
     ],
 )

@@ -96,8 +96,8 @@ def test_delay_neither_hides_a_fault_of_the_majority_nor_moves_it(delay):
     found = suspects.find(delayed(altered(observed, wrong, phase_deg=4.0), delay))
     assert [one.row for one in found if not one.used] == wrong
     reason = next(reason for reason in found[0].reasons if reason.startswith("phase "))
-    assert ", delay of all tests taken off)" in reason
-    required = float(reason.split(" require ")[1].split(" deg")[0])
+    assert ", both with the delay of all tests in them)" in reason
+    required = float(reason.split(" expected ")[1].split(" deg")[0])
     right = np.degrees(observed.logarithm.imag[wrong[0]]) + 360.0 * delay * 25.0
     assert required == pytest.approx(right, abs=1.5)
 
@@ -121,10 +121,8 @@ def test_reason_gives_what_was_measured_and_what_the_isotherm_requires():
     expected = np.degrees(observed.logarithm.imag[row])
     (found,) = suspects.find(altered(observed, row, phase_deg=5.0))
     (reason,) = found.reasons
-    assert reason.startswith(
-        f"phase {expected + 5.0:.1f} deg, where its |E*| and the other frequencies require "
-    )
-    allowed = float(reason.split(" require ")[1].split(" deg")[0])
+    assert reason.startswith(f"phase {expected + 5.0:.1f} deg, expected ")
+    allowed = float(reason.split(" expected ")[1].split(" deg")[0])
     assert allowed == pytest.approx(expected, abs=1.5)
 
 
@@ -132,9 +130,9 @@ def test_one_reading_is_called_wrong_and_not_each_beside_the_other():
     observed = campaign()
     row = row_of(observed, 1, 4.0, 5.0)
     (found,) = suspects.find(altered(observed, row, modulus=np.log(1.12)))
-    causal = [reason for reason in found.reasons if " require " in reason]
+    causal = [reason for reason in found.reasons if ", expected " in reason]
     assert len(causal) == 1 and causal[0].startswith("|E*| ")
-    assert " MPa, where its phase and the other frequencies require " in causal[0]
+    assert " MPa from its phase and the other frequencies (" in causal[0]
 
 
 def test_isotherm_that_breaks_as_a_whole_is_reported_and_its_tests_are_used():
@@ -197,7 +195,7 @@ def test_of_one_specimen_a_flag_and_causality_take_a_test_out():
     assert not out(doubtful)
     (found,) = suspects.find(flagged(doubtful, row))
     assert not found.used
-    assert " require " in found.reasons[0] and "phase uniformity" in found.reasons[1]
+    assert ", expected " in found.reasons[0] and "phase uniformity" in found.reasons[1]
     (found,) = suspects.find(flagged(observed, row))
     assert found.used and found.reasons[-1] == suspects.ONE_WITNESS
 
@@ -252,7 +250,7 @@ def test_phases_that_lie_on_one_side_are_told():
     assert suspects.one_sided(observed, held) == ""
     turned = replace(observed, modulus=observed.modulus * np.exp(1j * np.radians(-4.0)))
     said = suspects.one_sided(turned, within_isotherm.hold(turned))
-    assert " phases lie below what the slope of |E*| over frequency requires, by more than two" in said
+    assert " phases are lower than the slope of log |E*| against log f requires, by more than two" in said
 
 
 def test_a_decimal_point_that_slipped_is_told():

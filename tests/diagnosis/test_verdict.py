@@ -80,7 +80,7 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
     }
     assert on_simulation(found) == (
         f"{law}, with a phase offset, misses the mean of the specimens by 1 % of |E*| and 1 % of the phase, more than "
-        "scatter within specimens can explain. Without this cause by 10.5 % and 10.5 %."
+        "scatter within specimens can explain. Without this cause it misses by 10.5 % and 10.5 %."
     )
     found["scatter"]["from_replicates"] = False
     assert on_simulation(found).startswith(f"{law}, with a phase offset, misses the tests by 1 % of |E*|")

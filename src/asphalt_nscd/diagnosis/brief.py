@@ -11,6 +11,7 @@ from textwrap import wrap
 from typing import Any
 
 from asphalt_nscd.diagnosis import levels, quality, sentences, unexplained, verdict
+from asphalt_nscd.diagnosis.chance import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.sentences import cause_words, doubtful, not_used, odd, place_of_test
 from asphalt_nscd.files.words import counted, joined, specimen_named
 
@@ -37,9 +38,9 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
         ("Tests", _tests(content)),
         ("Note", _notes(content)),
         ("Data", _data(content)),
-        ("Fault", certain or ["None is certain." if possible else "None found."]),
+        ("Fault", certain or _no_fault(content, bool(possible))),
         ("Possible fault", possible),
-        ("Leave out", _few([_out(one) for one in not_used(content)])),
+        ("Leave out", [*_few([_out(one) for one in not_used(content)]), *_if_kept(content)]),
         ("Check first", _few(_check(content))),
         ("Not visible", unexplained.unseen(content)),
         ("Scatter", _scatter(content)),
@@ -118,10 +119,23 @@ def _data(content: Content) -> list[str]:
     corrected = " after correction" * everywhere
     if not trust["check"] and not trust["not_used"]:
         return [f"All {tests} tests can be used{corrected}."]
-    parts = [f"{trust['use'] or 'None'} of {tests + out} tests can be used{corrected}"]
+    of = [name for name, count in trust.get("use_by_specimen", {}).items() if count]
+    alone = f" (all of {specimen_named(of[0])})" if len(of) == 1 < len(trust["use_by_specimen"]) else ""
+    parts = [f"{trust['use'] or 'None'} of {tests + out} tests can be used{corrected}{alone}"]
     parts += [f"{trust['check']} only after a check"] * bool(trust["check"])
     parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
     return [f"{', '.join(parts)}."]
+
+
+def _no_fault(content: Content, possible: bool) -> list[str]:
+    """That none is certain, and how many temperatures certainty lacks."""
+    said = ["None is certain." if possible else "None found."]
+    at = len(content.get("reading", {}).get("isotherms_C", []))
+    if 0 < at < LEAST_ISOTHERMS:
+        said.append(
+            f"To prove one takes {LEAST_ISOTHERMS} temperatures; {at} {'was' if at == 1 else 'were'} tested."
+        )
+    return [" ".join(said)]
 
 
 def _fault(rung: Content, content: Content) -> str:
@@ -142,6 +156,12 @@ def _fault(rung: Content, content: Content) -> str:
     return f"{said} Correction: {correction}." if correction else said
 
 
+def _if_kept(content: Content) -> list[str]:
+    """What would be named with the tests left out, where that is something else."""
+    changed = sentences.with_suspects(content)
+    return [changed] if changed and "the same causes" not in changed else []
+
+
 def _out(one: Content) -> str:
     return _sentence(f"{place_of_test(one)}: {'; '.join(one['reasons'])}")
 
@@ -149,10 +169,14 @@ def _out(one: Content) -> str:
 def _check(content: Content) -> list[str]:
     """What is doubtful, where, and what to check."""
     read, tests = content.get("reading", {}), content["tests"] + len(not_used(content))
-    broken = [f"{one['temperature_C']:g}" for one in content.get("contradictory_isotherms", [])]
-    said = [
-        f"{joined(broken)} degC, all specimens: |E*| and phase contradict each other. Check strain and machine."
-    ] * bool(broken)
+    said = [_contradiction(one) for one in content.get("contradictory_isotherms", [])]
+    said += [
+        _sentence(
+            f"{specimen_named(one['specimen'])} at {one['temperature_C']:g} degC: measured at {one['measured_C']:g} "
+            f"degC, {abs(one['measured_C'] - one['temperature_C']):.2g} K off its target. Look for a slip in the record"
+        )
+        for one in read.get("off_target", [])
+    ]
     above = read.get("limits_exceeded", [])
     for name, limit in quality.LIMITS.items():
         here = [one["specimen"] for one in above if one["column"] == name]
@@ -167,11 +191,24 @@ def _check(content: Content) -> list[str]:
     return said + [_out(one) for one in doubtful(content)]
 
 
+def _contradiction(one: Content) -> str:
+    """Where an isotherm contradicts itself most, and what to check."""
+    if "worst_deg" not in one:  # of a file written before
+        return (
+            f"{one['temperature_C']:g} degC: |E*| and phase contradict each other. Check strain and machine."
+        )
+    side = "higher" if one["worst_deg"] > 0.0 else "lower"
+    return (
+        f"{one['temperature_C']:g} degC: the phase is up to {abs(one['worst_deg']):.1f} deg {side} than the slope of "
+        f"|E*| requires (at {one['worst_Hz']:g} Hz). Check strain level, load control and gauges."
+    )
+
+
 def _scatter(content: Content) -> list[str]:
     found = content.get("repeatability") or {}
     said = [
         f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase."
-        for way, words in (("between", "Between specimens"), ("within", "Within a specimen"))
+        for way, words in (("between", "Between specimens"), ("within", "Repeat scatter within a specimen"))
         if found.get(way) is not None
     ]
     return [" ".join(said)] if said else []
@@ -195,12 +232,15 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
         without = f" without {joined(out)}" if out else ""
         said.append(f"It was fitted to the{' corrected' * corrected} tests{without}.")
     if content.get("trust", {}).get("check", 0) and not out:
-        said.append("The doubtful tests took part in its fit.")
+        left_out = "; those left out did not" * bool(not_used(content))
+        said.append(f"The tests to be checked took part in its fit{left_out}.")
     return [" ".join([*said, *warning])]
 
 
 def _unexplained(content: Content) -> list[str]:
     parts = unexplained.left(content)[:2] if sentences.more_than_scatter(content) else []
+    if content.get("discrepancy"):
+        parts = [f"The law is off by {part}" for part in parts]
     return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, parts)]
 
 

@@ -91,7 +91,7 @@ def more_temperatures(done: Observations, costs: Costs) -> Orders:
         f"{counted(tested.size, 'temperature')} {'was' if tested.size == 1 else 'were'} tested; law and causes can be "
         f"certain from {LEAST_ISOTHERMS} on."
     )
-    purpose = f"to have the {LEAST_ISOTHERMS} temperatures that a certain result needs"
+    purpose = f"because fewer than {LEAST_ISOTHERMS} temperatures cannot prove a fault"
     return [_order(f"test {named(names)}", names, sorted(new), done, costs, (purpose, why))]
 
 

@@ -38,7 +38,7 @@ KEPT = (SURVIVES + POWER) ** 2
 TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached in 19 of 20 cases
 PRESENT = 0.1  # chance that a cause nobody has seen is there
 PLAIN = {  # whose size alone says little
-    "secondary_process": "a second loss peak (secondary process) of {}",
+    "secondary_process": "a second peak of the loss modulus (secondary process) of {}",
     "guide_friction": "friction in the guide (a loss modulus larger by {})",
     "strain_softening": "a softening with strain (|E*| lower by {} at the usual strain)",
 }

@@ -108,20 +108,22 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
     helped = [questions[k] for k in order.helps]
     here = f"{order.sweep.temperature:g} degC"
     for kind, words in (
-        ("repeat", "to replace the doubtful test{s}"),
+        ("repeat", "because the old result contradicts the other frequencies"),
         ("level", "to see whether what is odd there repeats itself"),
         ("linear", f"to see whether the mix is linear at {here}"),
         ("metal", "to confirm the {about}: metal must show {other}"),
         ("kept", "to confirm the {about}"),
-        ("apart", "to tell the {about} from {a} {other}"),
-        ("reach", "to look for {about}"),
+        ("apart", "to decide between the {about} and {a} {other}"),
+        ("reach", "to see whether there is {about}"),
     ):
         for one in helped:
             if one.kind != kind or (kind == "linear" and not (order.sweep.half_strain and one.about == here)):
                 continue
-            several = "s" * (len(order.specimens) * len(order.sweep.frequencies) > 1)
             article, _, rest = an(one.other).partition(" ") if one.other else ("", "", "")
-            return words.format(s=several, about=one.about.split(" (")[0], a=article, other=rest or one.other)
+            places = [other.other for other in helped if (other.kind, other.about) == (kind, one.about)]
+            return words.format(about=one.about.split(" (")[0], a=article, other=rest or one.other) + (
+                _places(places) if kind == "reach" else ""
+            )
     return ""
 
 
@@ -184,6 +186,8 @@ def _reason(one: Open, before: float, after: float) -> str:
         if one.alike
         else f"The {one.about} is so far {_odds(before)} times as likely as {an(one.other)}"
     )
+    if after >= MOST_TOLD:
+        return f"{now}; this test should decide."
     return f"{now}; after this test the right one should be {_odds(after)} times as likely."
 
 

@@ -192,7 +192,14 @@ def conclude(
     done.step()
     broken = suspects.broken_isotherms(observed, held)
     content["contradictory_isotherms"] = [
-        {"temperature_C": one.temperature, "sentence": one.sentence} for one in broken
+        {
+            "temperature_C": one.temperature,
+            "sentence": one.sentence,
+            "worst_Hz": float(one.frequency[worst]),
+            "worst_deg": float(one.difference[worst]),
+        }
+        for one in broken
+        for worst in [int(np.argmax(np.abs(one.difference)))]
     ]
     content["trust"] = trust(observed, diagnosis, levels.rows(observed, chain(*odd)), broken)
     content["provenance"] = {

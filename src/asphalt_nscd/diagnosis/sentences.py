@@ -90,8 +90,8 @@ def of_intervals(content: Content) -> str:
     if factor == 1.0:
         return "+- is the 95 % interval."
     return (
-        f"+- is the 95 % interval, multiplied by {factor:.1f}, because these tests miss the law by {factor:.1f} times "
-        "the assumed scatter."
+        f"+- is the 95 % interval, multiplied by {factor:.1f}, because these tests lie {factor:.1f} times as far from "
+        "the law as their scatter lets expect."
     )
 
 
@@ -112,7 +112,7 @@ def law_of_the_mix(content: Content) -> tuple[str, str] | None:
     for rung in content["ladder"]:
         if rung["cause"] == "relaxation_spectrum":
             shift = _shift(rung, widened(content))
-            return f"{cause_words(rung)}: {shift}".removesuffix(": "), _sure(rung, content)
+            return f"shift with temperature: {shift}".removesuffix(": "), _sure(rung, content)
     return None
 
 
@@ -174,10 +174,10 @@ def _sure(rung: Content, content: Content) -> str:
         return "Established. It stays whichever isotherm, frequency or specimen is left out."
     if rung["cause"] != "relaxation_spectrum":
         return f"Established: the chance that scatter alone produces it is {chance}."
-    missed = " The law found here misses by more than scatter too." if more_than_scatter(content) else ""
+    missed = " The one law misses by more than scatter too." if more_than_scatter(content) else ""
     return (
-        "Established: Burgers laws, one for each temperature, do not fit these tests; the chance that scatter alone "
-        f"makes them miss by so much is {chance}.{missed}"
+        "Established: one law for all temperatures is needed, for a Burgers law at each temperature misses these tests "
+        f"by more than scatter (chance {chance}).{missed}"
     )
 
 
@@ -204,8 +204,7 @@ def _doubts(rung: Content, content: Content) -> list[str]:
     fits = rung.get("gain", {}).get("in_sample", {}).get("rms_over_scatter")
     if doubts and fits and fits["after"] > WORSE * fits["before"]:
         doubts.append(
-            "It fits better only if isotherms with much left unexplained count less; counted alike, these tests fit "
-            "worse with it"
+            "It fits better only if the temperatures with most left unexplained count less in the fit"
         )
     isotherms = content.get("reading", {}).get("isotherms_C", [])
     if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):

@@ -159,11 +159,11 @@ def one_sided(observed: Observations, held: Held) -> str:
     rows = held.judged & held.in_place
     apart = np.degrees(observed.logarithm.imag - held.required)[rows]
     far = np.abs(apart) > 2.0 * np.degrees(held.required_error[rows])
-    for side, there in (("above", far & (apart > 0.0)), ("below", far & (apart < 0.0))):
+    for side, there in (("higher", far & (apart > 0.0)), ("lower", far & (apart < 0.0))):
         if 2 * np.count_nonzero(there) >= max(apart.size, 1):
             return (
-                f"{np.count_nonzero(there)} of {apart.size} phases lie {side} what the slope of |E*| over frequency "
-                f"requires, by more than two standard errors; the mean of all does by {abs(apart.mean()):.1f} deg."
+                f"{np.count_nonzero(there)} of {apart.size} phases are {side} than the slope of log |E*| against log f "
+                f"requires, by more than two standard errors. The mean of all is {abs(apart.mean()):.1f} deg {side}."
             )
     return ""
 
@@ -262,14 +262,14 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
         times = modulus / np.exp(expected)
         slip = abs(np.log(times)) > SLIP and abs(np.log10(times) - np.round(np.log10(times))) < NEAR_POWER
         return (
-            f"|E*| {modulus / 1e6:.0f} MPa, where its phase and the other frequencies require "
-            f"{np.exp(expected) / 1e6:.0f} MPa (standard error {100.0 * error:.1f} %)"
+            f"|E*| {modulus / 1e6:.0f} MPa, expected {np.exp(expected) / 1e6:.0f} MPa from its phase and the other "
+            f"frequencies (standard error {100.0 * error:.1f} %)"
             f"{'; look for a misplaced decimal point' * bool(slip)}"
         )
     phase, required = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
-    delay = ", delay of all tests taken off" if held.delay else ""
+    delay = ", both with the delay of all tests in them" if held.delay else ""
     return (
-        f"phase {phase:.1f} deg, where its |E*| and the other frequencies require {required:.1f} deg "
+        f"phase {phase:.1f} deg, expected {required:.1f} deg from its |E*| and the other frequencies "
         f"(standard error {np.degrees(error):.1f} deg{delay})"
     )
 

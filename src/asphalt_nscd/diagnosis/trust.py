@@ -14,7 +14,7 @@ from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.suspects import BrokenIsotherm
 from asphalt_nscd.files.words import specimen_named
-from asphalt_nscd.measurements.campaign import isotherm_notes
+from asphalt_nscd.measurements.campaign import OFF_TARGET, isotherm_notes
 
 LISTED = 4  # gaps of a table that are named
 
@@ -49,6 +49,7 @@ def reading(
             *together,
             *_quality_notes(above, observed, _shared(observed)),
         ],
+        **({"off_target": off} if (off := _off_target(observed)) else {}),
         **({"not_tested": gaps} if (gaps := _gaps(observed)) else {}),
         **({"files_without_tests": list(without_tests)} if without_tests else {}),
     }
@@ -77,6 +78,19 @@ def trust(
             name: int(use[observed.specimen == k].sum()) for k, name in enumerate(observed.names)
         },
     }
+
+
+def _off_target(observed: Observations) -> list[dict[str, Any]]:
+    """Isotherms of a specimen measured further from their target than T 378 allows, and their mean temperature."""
+    found = []
+    block = within_isotherm.blocks(observed)
+    for number in np.unique(block):
+        rows = np.flatnonzero(block == number)
+        measured, target = float(observed.temperature[rows].mean()), float(observed.isotherm[rows[0]])
+        if abs(measured - target) > OFF_TARGET + 1e-9:
+            name = observed.names[observed.specimen[rows[0]]]
+            found.append({"specimen": name, "temperature_C": target, "measured_C": round(measured, 2)})
+    return found
 
 
 def _gaps(observed: Observations) -> list[str]:

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 
 from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.sentences import Content, more_than_scatter, odd, typed, widened
-from asphalt_nscd.diagnosis.written import limits_by_place, shown, three_digits
+from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
 OF_WHAT_IS_LEFT = (
-    "These are standard deviations beyond the scatter of single tests, the four largest. residuals.csv says how far "
-    "each test is off."
+    "How far the law is off, as standard deviations beyond the scatter of repeated tests; the four largest. "
+    "residuals.csv has each test."
 )
 UNSEEN = {  # the commonest faults, whose limits everybody is told
     "phase_offset": "an offset of all phases",
@@ -36,23 +36,29 @@ def unseen(content: Content) -> list[str]:
     for cause, words in UNSEEN.items():
         limit = content["detection_limits"].get(cause)
         if limit and cause not in named:
-            each = limits_by_place(cause, limit).values()
-            sizes = [shown(widened(content) * size, limit["unit"]) for size in each]
-            values = sorted(float(f"{value:.2g}") for value, _ in sizes)
-            size = " to ".join(dict.fromkeys(f"{value:g}" for value in (values[0], values[-1])))
-            told.append(f"{words} below {size} {typed(sizes[0][1])}{_at(limit, content)}")
-    told += [f"{words} of any size" for cause, words in UNSEEN.items() if cause in never]
-    return [f"These tests would not show: {'; '.join(told)}."] if told else []
+            told.append(f"{words} below {_sizes(limit, content)}")
+        elif cause in never:
+            told.append(f"{words}, however large")
+    return [f"These tests would not show {'; '.join(told)}."] if told else []
 
 
-def _at(limit: Content, content: Content) -> str:
-    """That a limit depends on the isotherm, or at which there is none."""
+def _sizes(limit: Content, content: Content) -> str:
+    """A limit, or that at each temperature where it depends on it."""
     places = limit.get("places", {})
+    if not places:
+        return _size(limit["value"], limit["unit"], content)
+    sizes = [
+        f"{_size(places[at], limit['unit'], content)} at {float(at):g} degC"
+        for at in sorted(places, key=float)
+    ]
     tested = content.get("reading", {}).get("isotherms_C", [])
-    never = [f"{t:g}" for t in tested if places and t not in map(float, places)]
-    if never:
-        return f", and at {joined(never)} degC of any size"
-    return ", depending on the temperature" if len(set(places.values())) > 1 else ""
+    never = [f"{t:g}" for t in tested if t not in map(float, places)]
+    return joined(sizes) + (f", and at {joined(never)} degC however large" if never else "")
+
+
+def _size(value: float, unit: str, content: Content) -> str:
+    size, name = shown(widened(content) * value, unit)
+    return f"{size:.2g} {typed(name)}"
 
 
 def left(content: Content) -> list[str]:
@@ -62,7 +68,7 @@ def left(content: Content) -> list[str]:
         places = levels.places(*odd(content))
         return [
             *(_part_left(name, value, content) for name, value in parts),
-            *([f"What is odd ({joined(places)}) is part of these sizes"] if places else []),
+            *([f"These sizes include what is odd: {joined(places)}"] if places else []),
             *_which_departs(content, parts),
         ]
     pattern = content["largest_pattern_left"]
@@ -77,7 +83,7 @@ def _which_departs(content: Content, parts: Sequence[tuple[str, float]]) -> list
     """Of few specimens each has a large part in the common curve that it is compared with."""
     specimens = len(content.get("reading", {}).get("specimens", []))
     if 1 < specimens < MANY_SPECIMENS and any(name.startswith("specimen ") for name, _ in parts):
-        return [f"Of only {specimens} specimens nobody can say which one is wrong"]
+        return [f"With only {specimens} specimens nobody can say whether it is that one or the others"]
     return []
 
 
@@ -103,7 +109,7 @@ def _part_left(name: str, value: float, content: Content) -> str:
         return f"{size_left(name, value, content['scatter'])} {at}"
     size = f"{size_left(name, value, content['scatter'])} of {specimen_named(place)}"
     if part == "spectrum":
-        return f"{size}: the form of its master curve differs from the common one"
+        return f"{size}: its master curve has another shape than the common one"
     whole = [one["specimen"] for one in content.get("odd_phases", []) if one["temperature_C"] is None]
     if part == "phase" and place in whole:
         return f"{size}, most of it alike in all its tests"

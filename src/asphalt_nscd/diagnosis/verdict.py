@@ -29,7 +29,7 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and n
     BOND_MAPPING,
 }
 SIMPLER = "one Burgers law for each temperature"
-COMMON = "one law for all temperatures"
+COMMON = "the flexible law that the diagnosis fits at all temperatures"
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of
 
@@ -103,9 +103,8 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in ladder)
     law = COMMON if spectrum else simpler
     found = joined([_noun(rung) for rung in ladder if rung["cause"] != "relaxation_spectrum"])
-    without = (
-        f" Without {'this cause' if len(ladder) == 1 else 'these causes'} by {before[0]} and {before[1]}."
-    )
+    these = "this cause" if len(ladder) == 1 else "these causes"
+    without = f" Without {these} it misses by {before[0]} and {before[1]}."
     return (
         f"{law}{f', with {found},' * bool(found)} misses {missed_by} by {after[0]} of |E*| and {after[1]} of the "
         f"phase, {_beyond_bonds(content)}.{without * (law == simpler)}{worse}"
@@ -222,7 +221,7 @@ def beyond_the_tests(content: Content) -> list[str]:
     inner = sorted({*errors} - {coldest, warmest})
     between_them = f"at {inner[0]:g} degC" if len(inner) == 1 else "between them"
     return [
-        "Each temperature predicted from the others: |E*| is off by "
+        "One temperature left out and predicted from the others: |E*| is off by "
         + ", ".join(
             f"{_two(errors[t])} % at {t:g} degC{' (where these tests are doubtful)' * _wrong(t, content)}"
             for t in (coldest, warmest)
