@@ -21,7 +21,10 @@ def page(results):
 
 def test_causes_stand_with_size_unit_chance_and_gains(page):
     html = page()
-    assert "<p>One law for all temperatures, with a loose clamp of specimen 2, misses " in html
+    assert (
+        "<p>The flexible law that the diagnosis fits at all temperatures, with a loose clamp of specimen 2, misses "
+        in html
+    )
     assert '<th scope="row">Data</th><td class="words"><p>All 12 tests can be used.</p></td>' in html
     assert "<p>Loose clamp of specimen 2, 3 ± 0.39 1/TPa.</p>" in html
     assert (
