@@ -32,17 +32,30 @@ def naive_forces(first, second, frame, point, position, reaction):
 
 
 def naive_bond_sweeps(
-    operator, weight, mass, driven, compliance, explicit, reaction, velocity, dt, tolerance, most_sweeps
+    operator,
+    weight,
+    mass,
+    driven,
+    compliance,
+    explicit,
+    reaction,
+    velocity,
+    dt,
+    tolerance,
+    most_sweeps,
+    visits,
 ):
-    """Gauss-Seidel bond by bond on dense rows: (reaction, velocity, sweeps). Bond law U = b - (S/w) R."""
+    """Gauss-Seidel bond by bond on dense rows: (reaction, velocity, sweeps). Bond law U = b - (S/w) R.
+
+    visits (b,): the bonds in the order of a sweep forth.
+    """
     rows = operator.toarray()
     inverse = 1.0 / mass
     inverse[driven] = 0.0
     reaction, velocity = reaction.copy(), velocity.copy()
-    bonds = len(weight) // 3
     for sweep in range(most_sweeps):
         changed = size = 0.0
-        for bond in range(bonds) if sweep % 2 == 0 else reversed(range(bonds)):
+        for bond in visits if sweep % 2 == 0 else reversed(visits):
             own = slice(3 * bond, 3 * bond + 3)
             g = rows[own]
             law = np.diag(compliance / weight[own])

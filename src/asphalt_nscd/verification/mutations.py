@@ -34,7 +34,7 @@ MUTANTS = [
     ("image of a sphere", "facets", "specimen/power_diagram.py", "+ 2.0 * least", "- 2.0 * least"),
     ("shear in two-point bending", "facets", "measurements/twopoint.py", "bending / (bending + shear)", "bending / (bending - shear)"),
     ("stress of the reduced model", "methods", "nscd/stepping/reduced_kernel.py", "(explicit[a] - new_v[a])", "(explicit[a] + new_v[a])"),
-    ("opening in a sweep over bonds", "methods", "nscd/bonds/gauss_seidel.py", "mx -= motion[j, 0]", "mx += motion[j, 0]"),
+    ("opening in a sweep over bonds", "methods", "nscd/bonds/gauss_seidel.py", "mx = load(packed, block, 0) - ux", "mx = load(packed, block, 0) + ux"),
     ("extrapolation of the two-step scheme", "methods", "nscd/stepping/scheme.py", "v + share * (v - earlier", "v - share * (v - earlier"),
     ("dissipation of the dashpots", "accounts", "nscd/stepping/energy.py", "sums.dashpots += dt * of.strain", "sums.dashpots -= dt * of.strain"),
     ("slip in the natural map", "coupled", "nscd/contacts/gauss_seidel.py", "shifted = u0 + friction", "shifted = u0 - friction"),

@@ -46,7 +46,7 @@ def test_naive_twin(small, most_sweeps):
         old_velocity, old_kelvin = before.velocity.copy(), before.kelvin.copy()
         reaction, velocity, done = naive_bond_sweeps(
             small.operator, small.weight, small.mass, small.driven, law.compliance, explicit, reaction, velocity,
-            DT, 1e-3, most_sweeps,
+            DT, 1e-3, most_sweeps, stepper.visits,
         )  # fmt: skip
         force, sweeps = stepper.advance(driven), sweeps + done
         size = np.abs(reaction).max()

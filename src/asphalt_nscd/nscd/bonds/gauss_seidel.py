@@ -1,9 +1,9 @@
 """Gauss-Seidel sweeps over the bonds of rigid bodies, laid out for the speed of the processor.
 
 The three rows of a bond in the opening operator are its frame T (3, 3) and, for each body, the moments
-of T about the arm a from the body to the bond: U = T u with u = v_j + s_j x a_j - v_i - s_i x a_i. In
-global axes a bond needs 24 numbers, which is three cache lines, instead of three rows of twelve, and
-the velocity of one body enters the next in a short chain of operations.
+of T about the arm a from the body to the bond: U = T u with u = v_j + s_j x a_j - v_i - s_i x a_i.
+Bonds are taken in blocks that share no body: bond by bond within a block or all at once is the same. What
+its law still allows a bond to open, b - D R, stands for b: once the bond was visited, it is its opening.
 """
 
 from __future__ import annotations
@@ -12,34 +12,39 @@ import numpy as np
 from scipy import sparse
 
 from asphalt_nscd.nscd.compiled import compiled
+from asphalt_nscd.nscd.lanes import WIDTH, aligned, gather, load, nothing, scatter, store, total
 
 SYMMETRIC = np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2])  # the order of six entries
+WINDOW = 256
+"""Bonds among which those of a block are looked for: many enough to fill blocks, few enough to keep their order."""
 
 
 class PackedBonds:
     """Bonds of an opening operator (3 b, d) in global axes; body k has degrees of freedom 6 k, ...
 
     mobility (d,) [s/kg, s/(kg m2)]: dt / mass, zero where a velocity is prescribed; law (3 b,) [m/(N s)]:
-    diagonal D of the affine law U = b - D R.
+    diagonal D of the affine law U = b - D R. visits (b,): the bonds in the order of a sweep forth.
     """
 
     def __init__(self, operator: sparse.csr_matrix, mobility: np.ndarray, law: np.ndarray) -> None:
-        self.size = mobility.size
-        self._bodies, self._frame, arm = _rigid_bonds(operator)
+        self.size, self._law = mobility.size, law
+        bodies, self._frame, arm = _rigid_bonds(operator)
         nobody = -(-self.size // 6)
-        self._mobility = np.zeros((nobody + 1, 6))
-        self._mobility.ravel()[: self.size] = mobility
-        self._bodies[self._bodies < 0] = nobody
-        compliance = np.einsum("bck,bc,bcl->bkl", self._frame, law.reshape(-1, 3), self._frame)
-        response = compliance.copy()
+        bodies[bodies < 0] = nobody
+        self._mobility = self._by_body(mobility, nobody)
+        response = np.einsum("bck,bc,bcl->bkl", self._frame, law.reshape(-1, 3), self._frame)
         for side in range(2):
-            own = self._mobility[self._bodies[:, side]]
+            own = self._mobility[bodies[:, side]]
             turn = np.cross(np.eye(3), arm[:, side, None])  # (b, k, 3): axis k x arm
-            response += own[:, :3, None] * np.eye(3) + np.einsum("bmk,bm,bml->bkl", turn, own[:, 3:], turn)
-        self._packed = np.zeros((len(arm), 24))
-        self._packed[:, 6:12] = np.linalg.inv(response)[:, *SYMMETRIC]
-        self._packed[:, 12:18] = compliance[:, *SYMMETRIC]
-        self._packed[:, 18:] = arm.reshape(-1, 6)
+            response += own[:, :3, None] * np.eye(3) + np.einsum("bmk,bm,bml->bkl", turn, own[:, 3:6], turn)
+        self._blocks = _blocks(bodies, nobody, WIDTH, WINDOW)
+        block, lane = np.nonzero(self._blocks >= 0)
+        self.visits = self._blocks[block, lane]
+        self._bodies = np.full((len(self._blocks), 2, WIDTH), nobody, np.int32)
+        self._bodies[block, :, lane] = bodies[self.visits]
+        self._packed = aligned((len(self._blocks), 18, WIDTH))
+        self._packed[block, 6:12, lane] = np.linalg.inv(response)[self.visits][:, *SYMMETRIC]
+        self._packed[block, 12:, lane] = arm.reshape(-1, 6)[self.visits]
 
     def sweep_until_still(
         self,
@@ -51,18 +56,24 @@ class PackedBonds:
     ) -> tuple[np.ndarray, np.ndarray, int, float]:
         """(reaction [N], velocity, sweeps, relative change of the last sweep) from those at the start.
 
-        explicit b (3 b,) [m/s], reaction R (3 b,) [N], velocity (d,) [m/s, rad/s] that goes with it.
+        explicit b (3 b,) [m/s], reaction R (3 b,) [N], velocity (d,) [m/s, rad/s] before R acts.
         """
-        motion = np.zeros((len(self._mobility), 12))
-        motion[:, 6:] = self._mobility
-        moving = np.zeros(self._mobility.size)
-        moving[: self.size] = velocity
-        motion[:, :6] = moving.reshape(-1, 6)
-        for columns, rows in ((slice(0, 3), explicit), (slice(3, 6), reaction)):
-            self._packed[:, columns] = np.einsum("bck,bc->bk", self._frame, rows.reshape(-1, 3))
-        sweeps, change = _sweep_until_still(self._bodies, self._packed, motion, tolerance, most_sweeps)
-        reaction = np.einsum("bck,bk->bc", self._frame, self._packed[:, 3:6])
-        return reaction.ravel(), motion[:, :6].ravel()[: self.size], sweeps, change
+        motion = self._by_body(velocity, len(self._mobility) - 1)
+        _lay_out(self._blocks, self._frame, self._law, explicit, reaction, self._packed)
+        _apply(self._bodies, self._packed, motion, self._mobility)
+        sweeps, change = _sweep_until_still(
+            self._bodies, self._packed, motion, self._mobility, tolerance, most_sweeps
+        )
+        reaction = _reactions(self._blocks, self._frame, self._packed)
+        return reaction, motion[:, :6].ravel()[: self.size], sweeps, change
+
+    def _by_body(self, values: np.ndarray, nobody: int) -> np.ndarray:
+        """Values (d,) in a row of eight for each body, and a row of zeros for what stands still."""
+        rows = aligned((nobody + 1, WIDTH))
+        six = np.zeros(6 * (nobody + 1))
+        six[: self.size] = values
+        rows[:, :6] = six.reshape(-1, 6)
+        return rows
 
 
 def _rigid_bonds(operator: sparse.csr_matrix) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -81,53 +92,160 @@ def _rigid_bonds(operator: sparse.csr_matrix) -> tuple[np.ndarray, np.ndarray, n
 
 
 @compiled
-def _sweep_until_still(bodies, packed, motion, tolerance, most_sweeps):
-    """Sweeps to and fro over the bonds until the relative change of the reactions is below tolerance.
+def _blocks(bodies, nobody, width, window):
+    """(blocks, width) bonds that share no body but `nobody`, nearly in their order; -1 where a lane is empty."""
+    bonds = bodies.shape[0]
+    blocks = np.full((bonds, width), -1)
+    taken = np.full(nobody + 1, -1)  # the last block of each body
+    waiting = np.empty(window, np.int64)
+    count = following = 0
+    block = -1
+    while count > 0 or following < bonds:
+        block += 1
+        while count < window and following < bonds:
+            waiting[count] = following
+            count, following = count + 1, following + 1
+        lane = left = 0
+        for n in range(count):
+            bond = waiting[n]
+            i, j = bodies[bond, 0], bodies[bond, 1]
+            if lane < width and (i == nobody or taken[i] != block) and taken[j] != block:
+                blocks[block, lane] = bond
+                taken[i] = taken[j] = block
+                lane += 1
+            else:
+                waiting[left] = bond
+                left += 1
+        count = left
+    return blocks[: block + 1]
 
-    packed (b, 24): b and R, six entries each of (D + dt G M^-1 G^T)^-1 and of D, arms of both bodies.
-    motion (n, 12): velocity and mobility. Returns (sweeps, relative change of the last sweep).
+
+@compiled
+def _lay_out(blocks, frame, law, explicit, reaction, packed):
+    """Put b - D R and R (3 b,), given in the frames of the bonds, into their lanes in global axes."""
+    for block in range(blocks.shape[0]):
+        for lane in range(blocks.shape[1]):
+            bond = blocks[block, lane]
+            if bond < 0:
+                continue
+            for k in range(3):
+                free = held = 0.0
+                for c in range(3):
+                    row = 3 * bond + c
+                    free += frame[bond, c, k] * (explicit[row] - law[row] * reaction[row])
+                    held += frame[bond, c, k] * reaction[row]
+                packed[block, k, lane], packed[block, 3 + k, lane] = free, held
+
+
+@compiled
+def _reactions(blocks, frame, packed):
+    """R (3 b,) in the frames of the bonds."""
+    reaction = np.empty(3 * frame.shape[0])
+    for block in range(blocks.shape[0]):
+        for lane in range(blocks.shape[1]):
+            bond = blocks[block, lane]
+            if bond < 0:
+                continue
+            for c in range(3):
+                reaction[3 * bond + c] = (
+                    frame[bond, c, 0] * packed[block, 3, lane]
+                    + frame[bond, c, 1] * packed[block, 4, lane]
+                    + frame[bond, c, 2] * packed[block, 5, lane]
+                )
+    return reaction
+
+
+@compiled
+def _apply(bodies, packed, motion, mobility):
+    """Let the reactions change the velocities."""
+    for block in range(packed.shape[0]):
+        i, j = gather(motion, bodies, block, 0), gather(motion, bodies, block, 1)
+        arm_i, arm_j = _arms(packed, block)
+        reaction = load(packed, block, 3), load(packed, block, 4), load(packed, block, 5)
+        _pushed(motion, mobility, bodies, block, (i, arm_i, j, arm_j), reaction)
+
+
+@compiled
+def _sweep_until_still(bodies, packed, motion, mobility, tolerance, most_sweeps):
+    """Sweeps to and fro over blocks of bonds until the relative change of the reactions is below tolerance.
+
+    bodies (blocks, 2, lanes). packed (blocks, 18, lanes): b - D R and R, six entries of (D + dt G M^-1 G^T)^-1,
+    arms of both bodies. motion and mobility (n, 8): of six degrees of freedom. Returns (sweeps, relative
+    change of the last sweep).
     """
     change = 0.0
-    bonds = packed.shape[0]
+    blocks = packed.shape[0]
     for sweep in range(most_sweeps):
-        changed = size = 0.0
-        for n in range(bonds):
-            bond = n if sweep % 2 == 0 else bonds - 1 - n
-            i, j = bodies[bond, 0], bodies[bond, 1]
-            own = packed[bond]
-            px, py, pz = own[3], own[4], own[5]
-            ix, iy, iz, jx, jy, jz = own[18], own[19], own[20], own[21], own[22], own[23]
-            mx = own[0] - (own[12] * px + own[13] * py + own[14] * pz)
-            my = own[1] - (own[13] * px + own[15] * py + own[16] * pz)
-            mz = own[2] - (own[14] * px + own[16] * py + own[17] * pz)
-            sx, sy, sz = motion[j, 3], motion[j, 4], motion[j, 5]
-            mx -= motion[j, 0] + (sy * jz - sz * jy)
-            my -= motion[j, 1] + (sz * jx - sx * jz)
-            mz -= motion[j, 2] + (sx * jy - sy * jx)
-            sx, sy, sz = motion[i, 3], motion[i, 4], motion[i, 5]
-            mx += motion[i, 0] + (sy * iz - sz * iy)
-            my += motion[i, 1] + (sz * ix - sx * iz)
-            mz += motion[i, 2] + (sx * iy - sy * ix)
-            dx = own[6] * mx + own[7] * my + own[8] * mz
-            dy = own[7] * mx + own[9] * my + own[10] * mz
-            dz = own[8] * mx + own[10] * my + own[11] * mz
-            motion[i, 0] -= motion[i, 6] * dx
-            motion[i, 1] -= motion[i, 7] * dy
-            motion[i, 2] -= motion[i, 8] * dz
-            motion[i, 3] -= motion[i, 9] * (iy * dz - iz * dy)
-            motion[i, 4] -= motion[i, 10] * (iz * dx - ix * dz)
-            motion[i, 5] -= motion[i, 11] * (ix * dy - iy * dx)
-            motion[j, 0] += motion[j, 6] * dx
-            motion[j, 1] += motion[j, 7] * dy
-            motion[j, 2] += motion[j, 8] * dz
-            motion[j, 3] += motion[j, 9] * (jy * dz - jz * dy)
-            motion[j, 4] += motion[j, 10] * (jz * dx - jx * dz)
-            motion[j, 5] += motion[j, 11] * (jx * dy - jy * dx)
-            px, py, pz = px + dx, py + dy, pz + dz
-            own[3], own[4], own[5] = px, py, pz
-            changed += dx * dx + dy * dy + dz * dz
-            size += px * px + py * py + pz * pz
-        change = np.sqrt(changed / size) if size > 0.0 else 0.0
+        changed, size = nothing(), nothing()
+        for n in range(blocks):
+            block = n if sweep % 2 == 0 else blocks - 1 - n
+            i, j = gather(motion, bodies, block, 0), gather(motion, bodies, block, 1)
+            arm_i, arm_j = _arms(packed, block)
+            ux, uy, uz = _opening(i, arm_i, j, arm_j)
+            mx = load(packed, block, 0) - ux
+            my = load(packed, block, 1) - uy
+            mz = load(packed, block, 2) - uz
+            xy, xz, yz = load(packed, block, 7), load(packed, block, 8), load(packed, block, 10)
+            dx = load(packed, block, 6) * mx + xy * my + xz * mz
+            dy = xy * mx + load(packed, block, 9) * my + yz * mz
+            dz = xz * mx + yz * my + load(packed, block, 11) * mz
+            i, j = _pushed(motion, mobility, bodies, block, (i, arm_i, j, arm_j), (dx, dy, dz))
+            ux, uy, uz = _opening(i, arm_i, j, arm_j)
+            store(packed, block, 0, ux)
+            store(packed, block, 1, uy)
+            store(packed, block, 2, uz)
+            px = load(packed, block, 3) + dx
+            py = load(packed, block, 4) + dy
+            pz = load(packed, block, 5) + dz
+            store(packed, block, 3, px)
+            store(packed, block, 4, py)
+            store(packed, block, 5, pz)
+            changed = changed + (dx * dx + dy * dy + dz * dz)
+            size = size + (px * px + py * py + pz * pz)
+        change = np.sqrt(total(changed) / total(size)) if total(size) > 0.0 else 0.0
         if change < tolerance:
             return sweep + 1, change
     return most_sweeps, change
+
+
+@compiled
+def _arms(packed, block):
+    return (
+        (load(packed, block, 12), load(packed, block, 13), load(packed, block, 14)),
+        (load(packed, block, 15), load(packed, block, 16), load(packed, block, 17)),
+    )
+
+
+@compiled
+def _pushed(motion, mobility, bodies, block, pair, reaction):
+    """Motions of both bodies of each bond, (motion, arm) each in `pair`, once `reaction` pushed them apart."""
+    i, arm_i, j, arm_j = pair
+    dx, dy, dz = reaction
+    lx, ly, lz, kx, ky, kz, _, _ = gather(mobility, bodies, block, 0)
+    tx, ty, tz = _cross(arm_i, reaction)
+    i = (
+        i[0] - lx * dx, i[1] - ly * dy, i[2] - lz * dz,
+        i[3] - kx * tx, i[4] - ky * ty, i[5] - kz * tz, i[6], i[7],
+    )  # fmt: skip
+    lx, ly, lz, kx, ky, kz, _, _ = gather(mobility, bodies, block, 1)
+    tx, ty, tz = _cross(arm_j, reaction)
+    j = (
+        j[0] + lx * dx, j[1] + ly * dy, j[2] + lz * dz,
+        j[3] + kx * tx, j[4] + ky * ty, j[5] + kz * tz, j[6], j[7],
+    )  # fmt: skip
+    scatter(motion, bodies, block, 0, i)
+    scatter(motion, bodies, block, 1, j)
+    return i, j
+
+
+@compiled
+def _opening(i, arm_i, j, arm_j):
+    """u of bodies that move as i and j, velocity first and spin after."""
+    ix, iy, iz = _cross((i[3], i[4], i[5]), arm_i)
+    jx, jy, jz = _cross((j[3], j[4], j[5]), arm_j)
+    return (j[0] - i[0]) + (jx - ix), (j[1] - i[1]) + (jy - iy), (j[2] - i[2]) + (jz - iz)
+
+
+@compiled
+def _cross(a, b):
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]

@@ -8,6 +8,8 @@ solution is reached, so a criterion on that change stops far from it.
 
 from __future__ import annotations
 
+import numpy as np
+
 from asphalt_nscd.nscd.bonds.gauss_seidel import PackedBonds
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
@@ -37,12 +39,17 @@ class SweepingStepper:
         self.sweeps = 0
         self.largest_change = 0.0
 
+    @property
+    def visits(self) -> np.ndarray:
+        """The bonds (b,) in the order of a sweep forth; the next one goes back."""
+        return self._bonds.visits
+
     def advance(self, driven_velocity: float) -> float:
         """One step with the driven degree of freedom at driven_velocity [m/s]; the driving force [N]."""
         system, state, dt = self.system, self.state, self.dt
         explicit = self.law.explicit_part(state.sigma, state.kelvin)
         reaction = system.weight * state.sigma
-        velocity = state.velocity + dt * self._inverse_mass * (system.load + system.operator.T @ reaction)
+        velocity = state.velocity + dt * self._inverse_mass * system.load
         velocity[system.driven] = driven_velocity
         reaction, velocity, sweeps, change = self._bonds.sweep_until_still(
             explicit, reaction, velocity, self.tolerance, self.most_sweeps

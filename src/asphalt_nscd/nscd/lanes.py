@@ -1,0 +1,176 @@
+"""Eight numbers side by side in compiled kernels: one instruction of the processor takes them all.
+
+LLVM makes such instructions of a loop only where it can prove that its rounds do not meet in memory. Lanes
+say so. A processor with narrower registers takes eight lanes in two or four parts, with equal bits.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic, models, overload, register_model
+
+WIDTH = 8  # lanes: 64 bytes, which is a cache line
+_VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
+_PLACE = ir.IntType(32)
+
+
+class _Lanes(types.Type):
+    def __init__(self) -> None:
+        super().__init__(name="Lanes")
+
+
+_lanes = _Lanes()
+
+
+@register_model(_Lanes)
+class _LanesModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, of: Any) -> None:
+        super().__init__(manager, of, _VECTOR)
+
+
+def aligned(shape: tuple[int, ...]) -> np.ndarray:
+    """Zeros of which each row of lanes is one cache line; rows across two take longer to read."""
+    size = int(np.prod(shape))
+    room = np.zeros(size + WIDTH)
+    start = -room.ctypes.data // room.itemsize % WIDTH
+    return room[start : start + size].reshape(shape)
+
+
+def _lane_by_lane(action: Callable[..., Any], instruction: str) -> None:
+    """Let `action` take two lanes."""
+
+    @intrinsic
+    def act(typing_context: Any, a: Any, b: Any) -> Any:
+        def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+            return getattr(builder, instruction)(*arguments)
+
+        return _lanes(_lanes, _lanes), code
+
+    @overload(action)
+    def acts_on_lanes(a, b):  # its names and annotations must be those of what it returns
+        if isinstance(a, _Lanes) and isinstance(b, _Lanes):
+            return lambda a, b: act(a, b)
+        return None
+
+
+for _action, _instruction in ((operator.add, "fadd"), (operator.sub, "fsub"), (operator.mul, "fmul")):
+    _lane_by_lane(_action, _instruction)
+
+
+def _row(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, *place: ir.Value) -> ir.Value:
+    """Pointer to the lanes at the first indices `place` of an array whose last index numbers lanes."""
+    array = context.make_array(kind)(context, builder, array)
+    lengths = cgutils.unpack_tuple(builder, array.shape)
+    at = place[0]
+    for index, length in zip(place[1:], lengths[1:], strict=False):
+        at = builder.add(builder.mul(at, length), index)
+    at = builder.mul(at, at.type(WIDTH))
+    return builder.gep(array.data, [at])
+
+
+def _as_lanes(builder: ir.IRBuilder, pointer: ir.Value) -> ir.Value:
+    return builder.bitcast(pointer, _VECTOR.as_pointer())
+
+
+def _rows(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> list[ir.Value]:
+    """Pointers to the rows of an array that numbers[block, side] name."""
+    kind, numbers = signature.args[:2]
+    first = _row(context, builder, numbers, arguments[1], *arguments[2:4])
+    found = []
+    for lane in range(WIDTH):
+        row = builder.load(builder.gep(first, [_PLACE(lane)]))
+        row = builder.sext(row, arguments[2].type)
+        found.append(_as_lanes(builder, _row(context, builder, kind, arguments[0], row)))
+    return found
+
+
+def _transposed(builder: ir.IRBuilder, rows: list[ir.Value]) -> list[ir.Value]:
+    """Columns of eight rows: blocks of 1, 2 and 4 beside the diagonal change places."""
+    for size in (1, 2, 4):
+        first = [lane if not lane & size else lane - size + WIDTH for lane in range(WIDTH)]
+        second = [lane + size if not lane & size else lane + WIDTH for lane in range(WIDTH)]
+        for row in (row for row in range(WIDTH) if not row & size):
+            pair = rows[row], rows[row + size]
+            rows[row], rows[row + size] = (
+                builder.shuffle_vector(*pair, ir.Constant(ir.VectorType(_PLACE, WIDTH), order))
+                for order in (first, second)
+            )
+    return rows
+
+
+@intrinsic
+def nothing(typing_context: Any) -> Any:
+    """Lanes of zero."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        return ir.Constant(_VECTOR, [0.0] * WIDTH)
+
+    return _lanes(), code
+
+
+@intrinsic
+def load(typing_context: Any, array: Any, block: Any, row: Any) -> Any:
+    """array[block, row, :]."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        at = _row(context, builder, signature.args[0], *arguments)
+        return builder.load(_as_lanes(builder, at), align=8)
+
+    return _lanes(array, types.intp, types.intp), code
+
+
+@intrinsic
+def store(typing_context: Any, array: Any, block: Any, row: Any, value: Any) -> Any:
+    """array[block, row, :] = value."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        at = _row(context, builder, signature.args[0], *arguments[:3])
+        builder.store(arguments[3], _as_lanes(builder, at), align=8)
+        return context.get_dummy_value()
+
+    return types.void(array, types.intp, types.intp, _lanes), code
+
+
+@intrinsic
+def gather(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any) -> Any:
+    """Of an array (n, WIDTH) the rows numbers[block, side, :]: one a lane, a tuple of WIDTH columns."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        rows = [builder.load(at, align=8) for at in _rows(context, builder, signature, arguments)]
+        return context.make_tuple(builder, signature.return_type, _transposed(builder, rows))
+
+    return types.UniTuple(_lanes, WIDTH)(array, numbers, types.intp, types.intp), code
+
+
+@intrinsic
+def scatter(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any, columns: Any) -> Any:
+    """The reverse of `gather`. Where two lanes name one row, the last one stays."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        rows = _transposed(builder, cgutils.unpack_tuple(builder, arguments[4]))
+        for row, at in zip(rows, _rows(context, builder, signature, arguments), strict=True):
+            builder.store(row, at, align=8)
+        return context.get_dummy_value()
+
+    return types.void(array, numbers, types.intp, types.intp, columns), code
+
+
+@intrinsic
+def total(typing_context: Any, value: Any) -> Any:
+    """Sum of the lanes, from the first to the last."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        lanes = [builder.extract_element(arguments[0], _PLACE(lane)) for lane in range(WIDTH)]
+        result = lanes[0]
+        for lane in lanes[1:]:
+            result = builder.fadd(result, lane)
+        return result
+
+    return types.float64(_lanes), code
