@@ -16,7 +16,13 @@ def found(ladder=(), **then):
         "not_testable": [],
         "verdict": "nothing_to_explain",
     }
-    sound |= {"tested": True, "largest_pattern_left": None, "lack_of_fit_p_value": 0.5, "tests": 72}
+    sound |= {
+        "notes": [],
+        "tested": True,
+        "largest_pattern_left": None,
+        "lack_of_fit_p_value": 0.5,
+        "tests": 72,
+    }
     return content(then.pop("used", 0), then.pop("out", 0)) | sound | then
 
 
@@ -135,10 +141,17 @@ def test_tests_left_out_stand_with_their_reasons_and_many_are_counted():
 
 @pytest.mark.parametrize("exceeded,told", [(36, True), (35, False)])
 def test_a_quality_limit_that_half_of_the_tests_exceed_is_checked_first(exceeded, told):
-    above = [{"column": "phase_uniformity_deg", "specimen": "A" if k < 30 else "B"} for k in range(exceeded)]
+    above = [
+        {
+            "column": "phase_uniformity_deg",
+            "specimen": "A" if k < 30 else "B",
+            "temperature_C": 4.0 + 17.0 * (k % 2) * (k < 30),
+        }
+        for k in range(exceeded)
+    ]
     read = {"specimens": ["A", "B"], "isotherms_C": [4.0], "test_type": "bending", "limits_exceeded": above}
     said = (
-        "Phase uniformity is above 3 deg in 36 of 72 tests (30 of specimen A, 6 of specimen B). Check the gauges and "
+        "Phase uniformity is above 3 deg in 36 of 72 tests (30 of specimen A; 6 of specimen B at 4 degC). Check the gauges and "
         "the ends of the specimens."
     )
     assert answer(reading=read).get("Check first") == ([said] if told else None)
@@ -211,8 +224,8 @@ def test_what_no_cause_explains_is_told_in_two_parts_at_most():
     told = answer(discrepancy=left, scatter=scatter, lack_of_fit_p_value=1e-9, one_sided="All lie above.")
     assert told["Unexplained"] == [
         "All lie above.",
-        "The law is off by 1.5 deg in the phase at 37 degC.",
-        "The law is off by 2.0 % in |E*| at 21 degC.",
+        "Beyond law and scatter: 1.5 deg in the phase at 37 degC.",
+        "Beyond law and scatter: 2.0 % in |E*| at 21 degC.",
     ]
     assert "Unexplained" not in answer(discrepancy=left, scatter=scatter)  # no more than scatter
 
@@ -236,17 +249,19 @@ def test_text_keeps_to_the_width_and_to_its_columns():
 
 
 @pytest.mark.parametrize(
-    "tested,lacks", [([4.0], "1 was"), ([4.0, 21.0, 37.0], "3 were"), ([4.0, 21.0, 37.0, 54.0], "")]
+    "tested,lacks", [([4.0], "is 1"), ([4.0, 21.0, 37.0], "are 3"), ([4.0, 21.0, 37.0, 54.0], "")]
 )
 def test_too_few_temperatures_prove_no_fault(tested, lacks):
     told = answer(reading={"specimens": ["A"], "isotherms_C": tested, "test_type": "bending"})["Fault"]
-    assert told == ["None found." + (f" To prove one takes 4 temperatures; {lacks} tested." if lacks else "")]
+    assert told == [
+        "None found." + (f" Proof takes tests at 4 temperatures; there {lacks}." if lacks else "")
+    ]
 
 
 def test_usable_tests_that_are_all_of_one_specimen_are_told_so():
     trust = {"use": 14, "check": 58, "not_used": 0, "use_by_specimen": {"A": 14, "B": 0}}
     assert answer(trust=trust)["Data"] == [
-        "14 of 72 tests can be used (all of specimen A), 58 only after a check."
+        "14 of 72 tests, all of specimen A, can be used, 58 only after a check."
     ]
     both = trust | {"use_by_specimen": {"A": 7, "B": 7}}
     assert answer(trust=both)["Data"] == ["14 of 72 tests can be used, 58 only after a check."]
@@ -255,6 +270,31 @@ def test_usable_tests_that_are_all_of_one_specimen_are_told_so():
 def test_what_the_tests_left_out_would_name_is_told_where_it_is_something_else():
     other = {"verdict": "explained", "causes": [{"cause": "channel_delay", "where": None}]}
     *_, said = answer(out=1, with_suspects=other)["Leave out"]
-    assert said == "If the tests left out were kept, the diagnosis would name a channel delay."
+    assert said == "Only the tests left out suggest a channel delay."
     same = {"verdict": "explained", "causes": []}
     assert answer(out=1, with_suspects=same)["Leave out"] == ["Specimen A, 4 degC, 25 Hz: x."]
+
+
+def test_a_cause_that_makes_the_fit_worse_is_not_in_the_answer():
+    fits = {"in_sample": {"averages_by_temperature": {}, "rms_over_scatter": {"before": 2.0, "after": 3.0}}}
+    worse = rung("phase_offset", 1.5, "deg", established=False) | {"gain": fits}
+    assert faults(worse)[:2] == (["None found."], None)
+    better = {"in_sample": {"averages_by_temperature": {}, "rms_over_scatter": {"before": 3.0, "after": 2.0}}}
+    assert faults(worse | {"gain": better})[0] == ["None is certain."]
+
+
+def test_whole_temperatures_that_are_to_be_checked_are_named():
+    trust = {"use": 54, "check": 18, "not_used": 0, "check_at_C": [37.0, 54.0]}
+    assert answer(trust=trust)["Data"] == [
+        "54 of 72 tests can be used, 18 only after a check (all at 37 and 54 degC)."
+    ]
+
+
+def test_what_the_tests_do_not_determine_of_the_law_is_told():
+    misses = {"mre_E_percent": 1.0, "mre_phase_percent": 2.0}
+    notes = [
+        "These tests do not determine C1 of law.json; there it follows published asphalt concretes: C1 49.",
+        "x",
+    ]
+    (told,) = answer(law_misses=misses, scatter={"from_replicates": True}, notes=notes)["Law"]
+    assert told.endswith(" These tests do not determine C1 of law.json.")

@@ -90,7 +90,7 @@ def test_a_small_effect_is_only_likely():
     observed = table(lambda omega, temperature: 0.06 * turned(omega, temperature))
     (reason,) = doubts_of(observed, "phase_offset")["phase_offset", None]
     assert reason == (
-        "Another error that varies smoothly with frequency could look the same, and too little speaks for this one"
+        "Another error that varies smoothly with frequency could look the same, and the evidence for this one is weak"
     )
 
 

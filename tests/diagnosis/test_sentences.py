@@ -130,7 +130,7 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
     few, many = (
         {"reading": {"specimens": [*"ABCDE"][:n]}, "discrepancy": found, "scatter": scatter} for n in (3, 5)
     )
-    assert left(few)[3:] == ["With only 3 specimens nobody can say whether it is that one or the others"]
+    assert left(few)[3:] == ["Of 3 specimens one cannot tell which is the odd one"]
     assert left(many)[3:] == left(few | {"discrepancy": {"37 degC, phase": 1.0}})[1:] == []
     assert [named(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
         "Specimen 1 and Specimen 2",
@@ -222,7 +222,7 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
         and "Its 95 % interval, as widened below, includes zero. To" in causes(far)[0][1]
     )
     worse = rung | {"gain": {"in_sample": {"rms_over_scatter": {"before": 2.2, "after": 3.1}}}}
-    assert "count less in the fit" in causes({"ladder": [worse]})[0][1]
+    assert "does not improve the fit" in causes({"ladder": [worse]})[0][1]
     assert "fit worse with it" not in causes(near)[0][1]
     assert sentences.of_intervals(near) == "+- is the 95 % interval."
     assert sentences.of_intervals(far).startswith("+- is the 95 % interval, multiplied by 2.0, because")
@@ -247,21 +247,21 @@ LIMITS = {
             [20.0, 35.0],
             1.0,
             [],
-            "These tests would not show an offset of all phases below 0.5 deg; a wrong temperature at one isotherm "
+            "These tests would not show a common phase offset below 0.5 deg; a wrong temperature at one isotherm "
             "below 1.2 K at 20 degC and 0.88 K at 35 degC.",
         ),
         (
             [4.0, 20.0, 35.0],
             3.0,
             [],
-            "These tests would not show an offset of all phases below 1.5 deg; a wrong temperature at one isotherm "
+            "These tests would not show a common phase offset below 1.5 deg; a wrong temperature at one isotherm "
             "below 3.7 K at 20 degC and 2.6 K at 35 degC, and at 4 degC however large.",
         ),
         (
             [20.0, 35.0],
             1.0,
             ["channel_delay"],
-            "These tests would not show an offset of all phases below 0.5 deg; a delay of all tests, however large; a "
+            "These tests would not show a common phase offset below 0.5 deg; a delay of all tests, however large; a "
             "wrong temperature at one isotherm below 1.2 K at 20 degC and 0.88 K at 35 degC.",
         ),
     ],

@@ -13,6 +13,7 @@ from typing import Any
 from asphalt_nscd.diagnosis import levels, quality, sentences, unexplained, verdict
 from asphalt_nscd.diagnosis.chance import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.sentences import cause_words, doubtful, not_used, odd, place_of_test
+from asphalt_nscd.diagnosis.written import UNDETERMINED
 from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Content = Mapping[str, Any]
@@ -31,7 +32,11 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
     """
     simulated = left is not None or verdict.bonded(content)
     certain, possible = (
-        [_fault(rung, content) for rung in verdict.faults(content) if sure(rung) == wanted]
+        [
+            _fault(rung, content)
+            for rung in verdict.faults(content)
+            if sure(rung) == wanted and (wanted or not sentences.worsens(rung))
+        ]
         for wanted in (True, False)
     )
     found: Rows = [
@@ -120,9 +125,10 @@ def _data(content: Content) -> list[str]:
     if not trust["check"] and not trust["not_used"]:
         return [f"All {tests} tests can be used{corrected}."]
     of = [name for name, count in trust.get("use_by_specimen", {}).items() if count]
-    alone = f" (all of {specimen_named(of[0])})" if len(of) == 1 < len(trust["use_by_specimen"]) else ""
-    parts = [f"{trust['use'] or 'None'} of {tests + out} tests can be used{corrected}{alone}"]
-    parts += [f"{trust['check']} only after a check"] * bool(trust["check"])
+    alone = f", all of {specimen_named(of[0])}," if len(of) == 1 < len(trust["use_by_specimen"]) else ""
+    parts = [f"{trust['use'] or 'None'} of {tests + out} tests{alone} can be used{corrected}"]
+    at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)" if "check_at_C" in trust else ""
+    parts += [f"{trust['check']} only after a check{at}"] * bool(trust["check"])
     parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
     return [f"{', '.join(parts)}."]
 
@@ -133,7 +139,7 @@ def _no_fault(content: Content, possible: bool) -> list[str]:
     at = len(content.get("reading", {}).get("isotherms_C", []))
     if 0 < at < LEAST_ISOTHERMS:
         said.append(
-            f"To prove one takes {LEAST_ISOTHERMS} temperatures; {at} {'was' if at == 1 else 'were'} tested."
+            f"Proof takes tests at {LEAST_ISOTHERMS} temperatures; there {'is' if at == 1 else 'are'} {at}."
         )
     return [" ".join(said)]
 
@@ -158,8 +164,8 @@ def _fault(rung: Content, content: Content) -> str:
 
 def _if_kept(content: Content) -> list[str]:
     """What would be named with the tests left out, where that is something else."""
-    changed = sentences.with_suspects(content)
-    return [changed] if changed and "the same causes" not in changed else []
+    changed = sentences.only_with_suspects(content)
+    return [changed] if changed else []
 
 
 def _out(one: Content) -> str:
@@ -179,9 +185,11 @@ def _check(content: Content) -> list[str]:
     ]
     above = read.get("limits_exceeded", [])
     for name, limit in quality.LIMITS.items():
-        here = [one["specimen"] for one in above if one["column"] == name]
+        here = [one for one in above if one["column"] == name]
         if 2 * len(here) >= tests:
-            each = ", ".join(f"{here.count(one)} of {specimen_named(one)}" for one in dict.fromkeys(here))
+            each = "; ".join(
+                _where_exceeded(here, of) for of in dict.fromkeys(one["specimen"] for one in here)
+            )
             said.append(
                 f"{limit.label.capitalize()} is above {limit.limit:g} {limit.unit} in {len(here)} of {tests} tests "
                 f"({each}). Check {limit.check}."
@@ -189,6 +197,13 @@ def _check(content: Content) -> list[str]:
     said += [_sentence(one) for one in levels.sentences(*odd(content))]
     said += [_sentence(one) for one in levels.of_temperatures(content.get("odd_temperatures", []))]
     return said + [_out(one) for one in doubtful(content)]
+
+
+def _where_exceeded(above: list[Content], specimen: str) -> str:
+    """How many tests of a specimen, and at which temperature if it is one."""
+    here = [one["temperature_C"] for one in above if one["specimen"] == specimen]
+    at = f" at {here[0]:g} degC" if len(set(here)) == 1 else ""
+    return f"{len(here)} of {specimen_named(specimen)}{at}"
 
 
 def _contradiction(one: Content) -> str:
@@ -208,7 +223,10 @@ def _scatter(content: Content) -> list[str]:
     found = content.get("repeatability") or {}
     said = [
         f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase."
-        for way, words in (("between", "Between specimens"), ("within", "Repeat scatter within a specimen"))
+        for way, words in (
+            ("between", "Between specimens"),
+            ("within", "Within a specimen, about its own level"),
+        )
         if found.get(way) is not None
     ]
     return [" ".join(said)] if said else []
@@ -217,7 +235,7 @@ def _scatter(content: Content) -> list[str]:
 def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) -> list[str]:
     """What the law misses, of what it was made, and where not to use it."""
     where = verdict.predicted_badly(content)
-    warning = [f"Do not use it {where}."] if where else []
+    warning = [f"Do not use the law {where}."] if where else []
     misses = content.get("law_misses")
     if simulated or misses is None:
         return [" ".join([_sentence(verdict.on_simulation(content, left)), *warning])]
@@ -234,13 +252,14 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     if content.get("trust", {}).get("check", 0) and not out:
         left_out = "; those left out did not" * bool(not_used(content))
         said.append(f"The tests to be checked took part in its fit{left_out}.")
+    said += [f"{note.split(';')[0]}." for note in content["notes"] if note.startswith(UNDETERMINED)]
     return [" ".join([*said, *warning])]
 
 
 def _unexplained(content: Content) -> list[str]:
     parts = unexplained.left(content)[:2] if sentences.more_than_scatter(content) else []
     if content.get("discrepancy"):
-        parts = [f"The law is off by {part}" for part in parts]
+        parts = [f"Beyond law and scatter: {part}" for part in parts]
     return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, parts)]
 
 

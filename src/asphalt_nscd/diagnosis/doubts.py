@@ -152,7 +152,8 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         yield f"{alike[:1].upper()}{alike[1:]} would look the same"
     elif least < ENOUGH:
         yield (
-            "Another error that varies smoothly with frequency could look the same, and too little speaks for this one"
+            "Another error that varies smoothly with frequency could look the same, and the evidence for this one is "
+            "weak"
         )
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))

@@ -24,6 +24,7 @@ from asphalt_nscd.diagnosis.gain import errors
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import read_observations
+from asphalt_nscd.diagnosis.written import UNDETERMINED
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.files.words import joined
@@ -118,7 +119,7 @@ def prior_notes(fit: Fit) -> list[str]:
     if not names:
         return []
     return [
-        f"These tests do not determine {joined(names)} of law.json; there it follows published asphalt concretes: "
+        f"{UNDETERMINED} {joined(names)} of law.json; there it follows published asphalt concretes: "
         f"{', '.join(sizes)}."
     ]
 

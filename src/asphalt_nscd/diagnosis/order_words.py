@@ -19,6 +19,7 @@ from asphalt_nscd.files.words import joined, specimen_named
 
 REASONS = 3
 NOTICEABLE = 15.0  # percent of cases
+BIAS = "temperature bias"
 CLEARER = 0.3  # standard errors
 MOST_TOLD = 2.0 * float(np.log(1000.0))  # strength above which odds are not told as a number
 
@@ -120,7 +121,16 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
             if one.kind != kind or (kind == "linear" and not (order.sweep.half_strain and one.about == here)):
                 continue
             article, _, rest = an(one.other).partition(" ") if one.other else ("", "", "")
+            if kind == "apart" and one.about.startswith(BIAS) and one.other.startswith(BIAS):
+                at = [
+                    words.removeprefix(f"{BIAS} at ").removesuffix(" degC")
+                    for words in (one.about, one.other)
+                ]
+                return f"to decide whether {at[0]} or {at[1]} degC was wrong"
             places = [other.other for other in helped if (other.kind, other.about) == (kind, one.about)]
+            if kind == "reach" and one.about.startswith(an(BIAS)):
+                size = one.about.removeprefix(f"{an(BIAS)} of ")
+                return f"to see whether{_places(places).removeprefix(' at')} was wrong by {size}"
             return words.format(about=one.about.split(" (")[0], a=article, other=rest or one.other) + (
                 _places(places) if kind == "reach" else ""
             )

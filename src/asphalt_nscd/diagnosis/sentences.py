@@ -63,6 +63,25 @@ def without_doubtful(content: Content) -> str:
     )
 
 
+def only_with_suspects(content: Content) -> str:
+    """What only the tests left out speak for, or against; empty where they change no name."""
+    more, less = _names_changed(content, "with_suspects")
+    said = [f"Only the tests left out suggest {joined(list(map(an, more)))}."] if more else []
+    return " ".join(
+        [*said, *([f"With them {joined(list(map(an, less)))} would not be found."] if less else [])]
+    )
+
+
+def _names_changed(content: Content, key: str) -> tuple[list[str], list[str]]:
+    """Causes that another choice of tests would name, and those that it would not."""
+    then = content.get(key)
+    if then is None:
+        return [], []
+    now = [cause_words(rung) for rung in content["ladder"] if rung["cause"] != BOND_MAPPING]
+    other = [cause_words(rung) for rung in then["causes"]]
+    return [words for words in other if words not in now], [words for words in now if words not in other]
+
+
 def _changed(content: Content, key: str, when: str) -> str:
     """What another choice of tests would name; empty where there was none."""
     then = content.get(key)
@@ -70,8 +89,7 @@ def _changed(content: Content, key: str, when: str) -> str:
         return ""
     now = [cause_words(rung) for rung in content["ladder"] if rung["cause"] != BOND_MAPPING]
     other = [cause_words(rung) for rung in then["causes"]]
-    more = joined([an(words) for words in other if words not in now])
-    less = joined([an(words) for words in now if words not in other])
+    more, less = (joined(list(map(an, names))) for names in _names_changed(content, key))
     kept = [one for one in now if one in other and one != LAW]
     changes = [f"{'also ' * bool(kept)}name {more}"] if more else []
     changes += [f"no longer name {less}"] if less else []
@@ -91,7 +109,7 @@ def of_intervals(content: Content) -> str:
         return "+- is the 95 % interval."
     return (
         f"+- is the 95 % interval, multiplied by {factor:.1f}, because these tests lie {factor:.1f} times as far from "
-        "the law as their scatter lets expect."
+        "the law as their scatter would suggest."
     )
 
 
@@ -176,8 +194,8 @@ def _sure(rung: Content, content: Content) -> str:
         return f"Established: the chance that scatter alone produces it is {chance}."
     missed = " The one law misses by more than scatter too." if more_than_scatter(content) else ""
     return (
-        "Established: one law for all temperatures is needed, for a Burgers law at each temperature misses these tests "
-        f"by more than scatter (chance {chance}).{missed}"
+        "Established: a Burgers law at each temperature is not enough; the chance that scatter alone makes it miss by "
+        f"so much is {chance}.{missed}"
     )
 
 
@@ -201,15 +219,18 @@ def _doubts(rung: Content, content: Content) -> list[str]:
     half = widened(content) * CONFIDENCE * (first["std_error"] or 0.0)
     if doubts and abs(first["value"]) < half and not any("includes zero" in doubt for doubt in doubts):
         doubts.append(f"Its 95 % interval{', as widened below,' * (widened(content) > 1.0)} includes zero")
-    fits = rung.get("gain", {}).get("in_sample", {}).get("rms_over_scatter")
-    if doubts and fits and fits["after"] > WORSE * fits["before"]:
-        doubts.append(
-            "It fits better only if the temperatures with most left unexplained count less in the fit"
-        )
+    if doubts and worsens(rung):
+        doubts.append("With all temperatures weighted equally it does not improve the fit")
     isotherms = content.get("reading", {}).get("isotherms_C", [])
     if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):
         doubts.append(f"Besides, {lacking(content)}")
     return doubts
+
+
+def worsens(rung: Content) -> bool:
+    """Whether the tests, counted alike, fit worse with a cause than without it."""
+    fits = rung.get("gain", {}).get("in_sample", {}).get("rms_over_scatter")
+    return bool(fits) and fits["after"] > WORSE * fits["before"]
 
 
 def lacking(content: Content) -> str:

@@ -163,7 +163,8 @@ def one_sided(observed: Observations, held: Held) -> str:
         if 2 * np.count_nonzero(there) >= max(apart.size, 1):
             return (
                 f"{np.count_nonzero(there)} of {apart.size} phases are {side} than the slope of log |E*| against log f "
-                f"requires, by more than two standard errors. The mean of all is {abs(apart.mean()):.1f} deg {side}."
+                f"requires, by more than two standard errors. Averaged over all tests the phase is "
+                f"{abs(apart.mean()):.1f} deg {side}."
             )
     return ""
 
@@ -267,7 +268,7 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
             f"{'; look for a misplaced decimal point' * bool(slip)}"
         )
     phase, required = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
-    delay = ", both with the delay of all tests in them" if held.delay else ""
+    delay = "; both before correction for the delay" if held.delay else ""
     return (
         f"phase {phase:.1f} deg, expected {required:.1f} deg from its |E*| and the other frequencies "
         f"(standard error {np.degrees(error):.1f} deg{delay})"

@@ -70,10 +70,17 @@ def trust(
     check[[one.row for one in diagnosis.suspects if one.used]] = True
     check &= ~out
     use = ~check & ~out
+    whole = [float(t) for t in observed.isotherms if (check | out)[observed.isotherm == t].all()]
+    rest = use | out | np.isin(observed.isotherm, whole)
     return {
         "use": int(use.sum()),
         "check": int(check.sum()),
         "not_used": int(out.sum()),
+        **(
+            {"check_at_C": whole}
+            if check.any() and rest.all() and len(whole) < observed.isotherms.size
+            else {}
+        ),
         "use_by_specimen": {
             name: int(use[observed.specimen == k].sum()) for k, name in enumerate(observed.names)
         },

@@ -10,11 +10,10 @@ from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
 OF_WHAT_IS_LEFT = (
-    "How far the law is off, as standard deviations beyond the scatter of repeated tests; the four largest. "
-    "residuals.csv has each test."
+    "Standard deviations of the misfit, scatter taken off; the four largest. residuals.csv has each test."
 )
 UNSEEN = {  # the commonest faults, whose limits everybody is told
-    "phase_offset": "an offset of all phases",
+    "phase_offset": "a common phase offset",
     "channel_delay": "a delay of all tests",
     "temperature_bias": "a wrong temperature at one isotherm",
 }
@@ -83,7 +82,7 @@ def _which_departs(content: Content, parts: Sequence[tuple[str, float]]) -> list
     """Of few specimens each has a large part in the common curve that it is compared with."""
     specimens = len(content.get("reading", {}).get("specimens", []))
     if 1 < specimens < MANY_SPECIMENS and any(name.startswith("specimen ") for name, _ in parts):
-        return [f"With only {specimens} specimens nobody can say whether it is that one or the others"]
+        return [f"Of {specimens} specimens one cannot tell which is the odd one"]
     return []
 
 

@@ -24,6 +24,7 @@ SCHEMA_VERSION = 2
 DIAGNOSIS_SCHEMA = Path(__file__).with_name("diagnosis.schema.yaml")
 NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
 WIDE_SPREAD = 1.2  # of the estimates of causes without a name, from which limits are multiplied by it
+UNDETERMINED = "These tests do not determine"  # begins the note on parameters of law.json that follow priors
 CONFIDENCE = 1.96  # standard errors to either side of an estimate: 95 %
 CONFINED_TO = {cause.name: cause.confined_to for cause in CATALOGUE}
 BEFORE_AFTER = ("before", "after")
