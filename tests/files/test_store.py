@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
 
 import h5py
 import numpy as np
 import pytest
 
+from asphalt_nscd.files import store
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path, load, read_json, save
 
@@ -110,3 +112,12 @@ def test_json_that_cannot_be_read_is_named(tmp_path):
         read_json(path)
     with pytest.raises(InputError, match="no such file"):
         read_json(tmp_path / "none.json")
+
+
+def test_versions_are_found_or_told_by_a_workflow(monkeypatch):
+    monkeypatch.delenv(store.VERSIONS, raising=False)
+    found = store.provenance()["packages"]
+    assert found["numpy"] == np.__version__
+    monkeypatch.setenv(store.VERSIONS, json.dumps(found | {"numpy": "0.1"}))
+    assert store.provenance()["packages"] == found | {"numpy": "0.1"}
+    assert store.package_versions() == found

@@ -13,6 +13,8 @@ from asphalt_nscd.workflow_support.failures import failures
 from asphalt_nscd.study.preflight import require_feasible
 from asphalt_nscd.workflow_support.lock import release_stale_locks, hold_own_locks
 from asphalt_nscd.files.paths import require_writable
+from asphalt_nscd.files.store import VERSIONS, package_versions
+from asphalt_nscd.nscd.core_cache import cache_base
 from asphalt_nscd.nscd.cores import cores
 from asphalt_nscd.workflow_support.sources import PACKAGE, modules_of, source_files, stamp, stamp_of_row
 from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
@@ -24,6 +26,8 @@ if workflow.is_main_process:
 # `asphalt-nscd` is the one beside this Python, whether or not the environment is activated.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 os.environ["ASPHALT_NSCD_WITHIN_WORKFLOW"] = "1"
+os.environ["ASPHALT_NSCD_CACHE"] = cache_base()  # this and the next: what each of many jobs would find out for itself
+os.environ[VERSIONS] = json.dumps(package_versions())
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 shell.prefix("exec ")
 

@@ -2,27 +2,37 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
+
+SHORT = 1.0  # s; a stage that takes less shows nothing, and most tests are one: they need not load what draws bars
 
 
 @contextmanager
 def bars(unit: str, on_terminal: bool = False) -> Iterator[Callable[[str, float, float], None]]:
-    """Yield report(stage, done, total); a change of stage or a smaller `done` opens a new bar.
+    """Yield report(stage, done, total); a change of stage opens a new bar.
 
     on_terminal: nothing is shown elsewhere, and more often there.
     """
-    from tqdm import tqdm
-
     bar: tqdm | None = None
-    shown = ""
+    shown, began = "", time.time()
 
     def report(stage: str, done: float, total: float) -> None:
-        nonlocal bar, shown
-        if bar is None or shown != stage:
+        nonlocal bar, shown, began
+        if shown != stage:
             if bar is not None:
                 bar.close()
-            shown = stage
+            bar, shown, began = None, stage, time.time()
+        if bar is None:
+            if time.time() - began < SHORT:
+                return
+            from tqdm import tqdm
+
             bar = tqdm(
                 total=total,
                 desc=stage,
@@ -31,6 +41,7 @@ def bars(unit: str, on_terminal: bool = False) -> Iterator[Callable[[str, float,
                 disable=None if on_terminal else False,
                 bar_format="{desc}: {percentage:3.0f}% |{bar:20}| {elapsed} gone, {remaining} left",
             )
+            bar.start_t = began
         bar.update(done - bar.n)
 
     try:

@@ -6,13 +6,20 @@ import hashlib
 import os
 from pathlib import Path
 
-from platformdirs import user_cache_dir
-
 
 def core_folder() -> str:
     """The folder of what has been compiled from these sources."""
     digest = hashlib.sha256()
     for source in sorted(Path(__file__).parent.rglob("*.py")):
         digest.update(source.read_bytes())
-    base = os.environ.get("ASPHALT_NSCD_CACHE") or user_cache_dir("asphalt-nscd")
-    return str(Path(base) / f"core-{digest.hexdigest()[:16]}")
+    return str(Path(cache_base()) / f"core-{digest.hexdigest()[:16]}")
+
+
+def cache_base() -> str:
+    """The folder of all that is compiled, of these sources and others."""
+    told = os.environ.get("ASPHALT_NSCD_CACHE")
+    if told:
+        return told
+    from platformdirs import user_cache_dir  # a workflow tells its jobs, which need not load this
+
+    return user_cache_dir("asphalt-nscd")
