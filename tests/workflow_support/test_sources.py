@@ -21,7 +21,7 @@ def package(tmp_path, monkeypatch):
     for name, content in files.items():
         (root / name).write_text(content)
     monkeypatch.setattr(sources, "PACKAGE", root)
-    sources._imported.cache_clear()
+    sources._read.cache_clear()
     return root
 
 
@@ -103,7 +103,7 @@ def test_a_string_that_is_no_docstring_counts(tmp_path, package):
         "def f():\n    'Errors'\n",
     ):
         file.write_text(content)
-        sources._meaning.cache_clear()
+        sources._read.cache_clear()
         seen.add(sources.stamp(tmp_path, "errors", [file]).read_text())
     assert len(seen) == 4
 

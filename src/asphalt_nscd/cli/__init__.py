@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import errno
+import gc
 import os
 import pickle
 import pkgutil
@@ -77,6 +78,9 @@ def main(arguments: list[str] | None = None) -> None:
     if os.environ.get(WITHIN_WORKFLOW) and sys.platform == "linux":
         prctl_set_death_signal = 1
         ctypes.CDLL(None).prctl(prctl_set_death_signal, signal.SIGTERM)
+    gc.set_threshold(
+        100_000, 50, 100
+    )  # modules that are being loaded hold no garbage, and most steps load little else
     sys.exit(_status(lambda: _run(sys.argv[1:] if arguments is None else arguments)))
 
 

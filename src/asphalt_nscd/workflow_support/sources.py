@@ -7,6 +7,7 @@ import csv
 import hashlib
 import os
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -31,7 +32,7 @@ def source_files(*modules: str) -> list[Path]:
         path = waiting.pop()
         if path not in found:
             found.add(path)
-            waiting.extend(_imported(path))
+            waiting.extend(_read(path, path.stat().st_mtime_ns).imported)
     return sorted(found)
 
 
@@ -43,7 +44,9 @@ def stamp(folder: str | Path, name: str, files: Sequence[Path]) -> Path:
     """
     digest = hashlib.sha256()
     for file in files:
-        digest.update(f"{file.relative_to(PACKAGE)}\n{_meaning(file, file.stat().st_mtime_ns)}\n".encode())
+        digest.update(
+            f"{file.relative_to(PACKAGE)}\n{_read(file, file.stat().st_mtime_ns).meaning}\n".encode()
+        )
     return _keep(Path(folder, name), digest.hexdigest(), files)
 
 
@@ -81,36 +84,39 @@ def _is_number(text: str, value: float) -> bool:
         return False
 
 
-@cache
-def _meaning(file: Path, mtime_ns: int) -> str:
-    """The syntax tree of a module without its docstrings; mtime_ns: of which moment."""
-    tree = ast.parse(file.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            if ast.get_docstring(node, clean=False) is not None:
-                node.body = node.body[1:]
-    return ast.dump(tree, annotate_fields=False)
-
-
 def modules_of(package: str) -> list[str]:
     """Modules of a package (dotted, relative to this one) that finds them by itself, without an import statement."""
     folder = PACKAGE.joinpath(*package.split("."))
     return [f"{package}.{path.stem}" for path in sorted(folder.glob("*.py")) if path.name != "__init__.py"]
 
 
+@dataclass(frozen=True)
+class _Source:
+    """What a source file means and needs."""
+
+    meaning: str  # digest of its syntax tree without docstrings
+    imported: frozenset[Path]  # of this package
+
+
 @cache
-def _imported(path: Path) -> frozenset[Path]:
+def _read(path: Path, mtime_ns: int) -> _Source:
+    """mtime_ns: as it stood at which moment. Parsed once for both, which takes most of the time."""
     package = ("asphalt_nscd", *path.relative_to(PACKAGE).parent.parts)
     files: set[Path | None] = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            if ast.get_docstring(node, clean=False) is not None:
+                node.body = node.body[1:]
+        elif isinstance(node, ast.Import):
             files.update(_file(tuple(name.name.split("."))) for name in node.names)
         elif isinstance(node, ast.ImportFrom):
             base = package[: len(package) - node.level + 1] if node.level else ()
             base += tuple((node.module or "").split(".")) if node.module else ()
             for name in node.names:
                 files.add(_file((*base, name.name)) or _file(base))
-    return frozenset(file for file in files if file is not None)
+    meaning = hashlib.sha256(ast.dump(tree, annotate_fields=False).encode()).hexdigest()
+    return _Source(meaning, frozenset(file for file in files if file is not None))
 
 
 def _file(module: tuple[str, ...]) -> Path | None:
