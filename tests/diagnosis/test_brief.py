@@ -151,8 +151,8 @@ def test_a_quality_limit_that_half_of_the_tests_exceed_is_checked_first(exceeded
     ]
     read = {"specimens": ["A", "B"], "isotherms_C": [4.0], "test_type": "bending", "limits_exceeded": above}
     said = (
-        "Phase uniformity is above 3 deg in 36 of 72 tests (30 of specimen A; 6 of specimen B at 4 degC). Check the gauges and "
-        "the ends of the specimens."
+        "Phase uniformity is above 3 deg in 36 of 72 tests (30 of specimen A; 6 of specimen B at 4 degC). Check the "
+        "gauges and the ends of the specimens."
     )
     assert answer(reading=read).get("Check first") == ([said] if told else None)
 
