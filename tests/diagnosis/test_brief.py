@@ -57,9 +57,9 @@ def test_of_sound_tests_little_is_said():
     "use,check,out,said",
     [
         (72, 0, 0, "All 72 tests can be used."),
-        (65, 6, 1, "65 of 72 tests can be used, 6 only after a check, 1 cannot."),
+        (65, 6, 1, "65 of 72 tests can be used, 6 only if a check clears them, 1 cannot."),
         (71, 0, 1, "71 of 72 tests can be used, 1 cannot."),
-        (0, 72, 0, "None of 72 tests can be used, 72 only after a check."),
+        (0, 72, 0, "None of 72 tests can be used, 72 only if a check clears them."),
     ],
 )
 def test_how_far_each_test_can_be_used_is_one_answer(use, check, out, said):
@@ -75,7 +75,9 @@ def test_specimens_that_are_hardly_of_one_mix_are_noted(percent, noted):
         "mixes, diagnose each alone."
     )
     assert told.get("Note") == ([note] if noted else None)
-    assert told["Scatter"] == [f"Between specimens: {percent} % in |E*|, 2.8 deg in phase."]
+    assert told["Scatter"] == [
+        f"Standard deviation between specimens: {percent} % in |E*|, 2.8 deg in phase."
+    ]
 
 
 def test_a_certain_fault_comes_with_its_correction():
@@ -224,8 +226,8 @@ def test_what_no_cause_explains_is_told_in_two_parts_at_most():
     told = answer(discrepancy=left, scatter=scatter, lack_of_fit_p_value=1e-9, one_sided="All lie above.")
     assert told["Unexplained"] == [
         "All lie above.",
-        "Beyond law and scatter: 1.5 deg in the phase at 37 degC.",
-        "Beyond law and scatter: 2.0 % in |E*| at 21 degC.",
+        "Beyond scatter, the fit of the diagnosis leaves 1.5 deg in the phase at 37 degC.",
+        "Beyond scatter, the fit of the diagnosis leaves 2.0 % in |E*| at 21 degC.",
     ]
     assert "Unexplained" not in answer(discrepancy=left, scatter=scatter)  # no more than scatter
 
@@ -254,23 +256,24 @@ def test_text_keeps_to_the_width_and_to_its_columns():
 def test_too_few_temperatures_prove_no_fault(tested, lacks):
     told = answer(reading={"specimens": ["A"], "isotherms_C": tested, "test_type": "bending"})["Fault"]
     assert told == [
-        "None found." + (f" Proof takes tests at 4 temperatures; there {lacks}." if lacks else "")
+        "None found"
+        + (f", and none could be proved: that takes 4 temperatures, and there {lacks}." if lacks else ".")
     ]
 
 
 def test_usable_tests_that_are_all_of_one_specimen_are_told_so():
     trust = {"use": 14, "check": 58, "not_used": 0, "use_by_specimen": {"A": 14, "B": 0}}
     assert answer(trust=trust)["Data"] == [
-        "14 of 72 tests, all of specimen A, can be used, 58 only after a check."
+        "14 of 72 tests, all of specimen A, can be used, 58 only if a check clears them."
     ]
     both = trust | {"use_by_specimen": {"A": 7, "B": 7}}
-    assert answer(trust=both)["Data"] == ["14 of 72 tests can be used, 58 only after a check."]
+    assert answer(trust=both)["Data"] == ["14 of 72 tests can be used, 58 only if a check clears them."]
 
 
 def test_what_the_tests_left_out_would_name_is_told_where_it_is_something_else():
     other = {"verdict": "explained", "causes": [{"cause": "channel_delay", "where": None}]}
     *_, said = answer(out=1, with_suspects=other)["Leave out"]
-    assert said == "Only the tests left out suggest a channel delay."
+    assert said == "Put back, they would add a channel delay to the faults."
     same = {"verdict": "explained", "causes": []}
     assert answer(out=1, with_suspects=same)["Leave out"] == ["Specimen A, 4 degC, 25 Hz: x."]
 
@@ -286,7 +289,7 @@ def test_a_cause_that_makes_the_fit_worse_is_not_in_the_answer():
 def test_whole_temperatures_that_are_to_be_checked_are_named():
     trust = {"use": 54, "check": 18, "not_used": 0, "check_at_C": [37.0, 54.0]}
     assert answer(trust=trust)["Data"] == [
-        "54 of 72 tests can be used, 18 only after a check (all at 37 and 54 degC)."
+        "54 of 72 tests can be used, 18 only if a check clears them (all at 37 and 54 degC)."
     ]
 
 

@@ -123,7 +123,7 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
     found = {"specimen Specimen 1, spectrum": 2.0, "specimen S2, modulus": 1.5, "37 degC, phase": 1.0}
     scatter = {"modulus_percent": 1.0, "phase_deg": 0.5}
     assert left({"discrepancy": found, "scatter": scatter}) == [
-        "2.0 % in |E*| of Specimen 1: its master curve has another shape than the common one",
+        "2.0 % in |E*| of Specimen 1, whose master curve differs in shape from that of all together",
         "1.5 % in |E*| of specimen S2, changing with frequency and temperature",
         "0.5 deg in the phase at 37 degC",
     ]
@@ -247,22 +247,22 @@ LIMITS = {
             [20.0, 35.0],
             1.0,
             [],
-            "These tests would not show a common phase offset below 0.5 deg; a wrong temperature at one isotherm "
-            "below 1.2 K at 20 degC and 0.88 K at 35 degC.",
+            "These tests would not show a common phase offset smaller than 0.5 deg; a temperature error at one "
+            "isotherm smaller than 1.2 K at 20 degC and 0.88 K at 35 degC.",
         ),
         (
             [4.0, 20.0, 35.0],
             3.0,
             [],
-            "These tests would not show a common phase offset below 1.5 deg; a wrong temperature at one isotherm "
-            "below 3.7 K at 20 degC and 2.6 K at 35 degC, and at 4 degC however large.",
+            "These tests would not show a common phase offset smaller than 1.5 deg; a temperature error at one "
+            "isotherm smaller than 3.7 K at 20 degC and 2.6 K at 35 degC, and at 4 degC however large.",
         ),
         (
             [20.0, 35.0],
             1.0,
             ["channel_delay"],
-            "These tests would not show a common phase offset below 0.5 deg; a delay of all tests, however large; a "
-            "wrong temperature at one isotherm below 1.2 K at 20 degC and 0.88 K at 35 degC.",
+            "These tests would not show a common phase offset smaller than 0.5 deg; a delay of all tests, however "
+            "large; a temperature error at one isotherm smaller than 1.2 K at 20 degC and 0.88 K at 35 degC.",
         ),
     ],
 )

@@ -78,9 +78,8 @@ def main(arguments: list[str] | None = None) -> None:
     if os.environ.get(WITHIN_WORKFLOW) and sys.platform == "linux":
         prctl_set_death_signal = 1
         ctypes.CDLL(None).prctl(prctl_set_death_signal, signal.SIGTERM)
-    gc.set_threshold(
-        100_000, 50, 100
-    )  # modules that are being loaded hold no garbage, and most steps load little else
+    # Modules that are being loaded hold no garbage, and most steps load little else.
+    gc.set_threshold(100_000, 50, 100)
     sys.exit(_status(lambda: _run(sys.argv[1:] if arguments is None else arguments)))
 
 

@@ -128,20 +128,22 @@ def _data(content: Content) -> list[str]:
     alone = f", all of {specimen_named(of[0])}," if len(of) == 1 < len(trust["use_by_specimen"]) else ""
     parts = [f"{trust['use'] or 'None'} of {tests + out} tests{alone} can be used{corrected}"]
     at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)" if "check_at_C" in trust else ""
-    parts += [f"{trust['check']} only after a check{at}"] * bool(trust["check"])
+    parts += [f"{trust['check']} only if a check clears them{at}"] * bool(trust["check"])
     parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
-    return [f"{', '.join(parts)}."]
+    phases = ["Use their phases only after the test on metal below."] if content.get("one_sided") else []
+    return [" ".join([f"{', '.join(parts)}.", *phases])]
 
 
 def _no_fault(content: Content, possible: bool) -> list[str]:
     """That none is certain, and how many temperatures certainty lacks."""
-    said = ["None is certain." if possible else "None found."]
+    said = "None is certain" if possible else "None found"
     at = len(content.get("reading", {}).get("isotherms_C", []))
     if 0 < at < LEAST_ISOTHERMS:
-        said.append(
-            f"Proof takes tests at {LEAST_ISOTHERMS} temperatures; there {'is' if at == 1 else 'are'} {at}."
+        there = "is" if at == 1 else "are"
+        said += (
+            f", and none could be proved: that takes {LEAST_ISOTHERMS} temperatures, and there {there} {at}"
         )
-    return [" ".join(said)]
+    return [f"{said}."]
 
 
 def _fault(rung: Content, content: Content) -> str:
@@ -222,14 +224,14 @@ def _contradiction(one: Content) -> str:
 def _scatter(content: Content) -> list[str]:
     found = content.get("repeatability") or {}
     said = [
-        f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase."
+        f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase"
         for way, words in (
-            ("between", "Between specimens"),
-            ("within", "Within a specimen, about its own level"),
+            ("between", "between specimens"),
+            ("within", "of one specimen about its own level"),
         )
         if found.get(way) is not None
     ]
-    return [" ".join(said)] if said else []
+    return [f"Standard deviation {'; '.join(said)}."] if said else []
 
 
 def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) -> list[str]:
@@ -259,7 +261,7 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
 def _unexplained(content: Content) -> list[str]:
     parts = unexplained.left(content)[:2] if sentences.more_than_scatter(content) else []
     if content.get("discrepancy"):
-        parts = [f"Beyond law and scatter: {part}" for part in parts]
+        parts = [f"Beyond scatter, the fit of the diagnosis leaves {part}" for part in parts]
     return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, parts)]
 
 

@@ -112,7 +112,7 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
         ("repeat", "because the old result contradicts the other frequencies"),
         ("level", "to see whether what is odd there repeats itself"),
         ("linear", f"to see whether the mix is linear at {here}"),
-        ("metal", "to confirm the {about}: metal must show {other}"),
+        ("metal", "to confirm the {about}: metal has no phase of its own, so the machine must add {other}"),
         ("kept", "to confirm the {about}"),
         ("apart", "to decide between the {about} and {a} {other}"),
         ("reach", "to see whether there is {about}"),
@@ -126,11 +126,11 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
                     words.removeprefix(f"{BIAS} at ").removesuffix(" degC")
                     for words in (one.about, one.other)
                 ]
-                return f"to decide whether {at[0]} or {at[1]} degC was wrong"
+                return f"to decide whether the temperature was wrong at {at[0]} or at {at[1]} degC"
             places = [other.other for other in helped if (other.kind, other.about) == (kind, one.about)]
             if kind == "reach" and one.about.startswith(an(BIAS)):
                 size = one.about.removeprefix(f"{an(BIAS)} of ")
-                return f"to see whether{_places(places).removeprefix(' at')} was wrong by {size}"
+                return f"to see whether the temperature was wrong by {size}{_places(places)}"
             return words.format(about=one.about.split(" (")[0], a=article, other=rest or one.other) + (
                 _places(places) if kind == "reach" else ""
             )

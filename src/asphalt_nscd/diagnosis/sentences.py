@@ -66,10 +66,8 @@ def without_doubtful(content: Content) -> str:
 def only_with_suspects(content: Content) -> str:
     """What only the tests left out speak for, or against; empty where they change no name."""
     more, less = _names_changed(content, "with_suspects")
-    said = [f"Only the tests left out suggest {joined(list(map(an, more)))}."] if more else []
-    return " ".join(
-        [*said, *([f"With them {joined(list(map(an, less)))} would not be found."] if less else [])]
-    )
+    said = [f"Put back, they would add {joined(list(map(an, more)))} to the faults."] if more else []
+    return " ".join([*said, *([f"Put back, they would hide {joined(list(map(an, less)))}."] if less else [])])
 
 
 def _names_changed(content: Content, key: str) -> tuple[list[str], list[str]]:

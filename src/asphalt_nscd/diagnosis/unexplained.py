@@ -15,7 +15,7 @@ OF_WHAT_IS_LEFT = (
 UNSEEN = {  # the commonest faults, whose limits everybody is told
     "phase_offset": "a common phase offset",
     "channel_delay": "a delay of all tests",
-    "temperature_bias": "a wrong temperature at one isotherm",
+    "temperature_bias": "a temperature error at one isotherm",
 }
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
 LARGEST = 4  # parts of what stays unexplained that are listed
@@ -35,7 +35,7 @@ def unseen(content: Content) -> list[str]:
     for cause, words in UNSEEN.items():
         limit = content["detection_limits"].get(cause)
         if limit and cause not in named:
-            told.append(f"{words} below {_sizes(limit, content)}")
+            told.append(f"{words} smaller than {_sizes(limit, content)}")
         elif cause in never:
             told.append(f"{words}, however large")
     return [f"These tests would not show {'; '.join(told)}."] if told else []
@@ -108,7 +108,7 @@ def _part_left(name: str, value: float, content: Content) -> str:
         return f"{size_left(name, value, content['scatter'])} {at}"
     size = f"{size_left(name, value, content['scatter'])} of {specimen_named(place)}"
     if part == "spectrum":
-        return f"{size}: its master curve has another shape than the common one"
+        return f"{size}, whose master curve differs in shape from that of all together"
     whole = [one["specimen"] for one in content.get("odd_phases", []) if one["temperature_C"] is None]
     if part == "phase" and place in whole:
         return f"{size}, most of it alike in all its tests"

@@ -225,7 +225,7 @@ def test_the_scatter_stands_as_coefficients_of_variation(page):
     found = {**own, "by_isotherm": [{"temperature_C": -10.0, **own}]}
     html = page(repeatability=found)
     assert "<td>−10 °C</td><td>12.1</td><td>1.91</td><td></td><td></td>" in html
-    assert "<p>Between specimens: 12.1 % in |E*|, 1.9° in phase.</p>" in html
+    assert "<p>Standard deviation between specimens: 12.1 % in |E*|, 1.9° in phase.</p>" in html
 
 
 def test_bond_mapping_stands_first_with_its_evidence_and_without_a_chance(page, results):

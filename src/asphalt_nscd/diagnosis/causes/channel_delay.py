@@ -18,9 +18,7 @@ class ChannelDelay(Cause):
         "The displacement is recorded before the force.",
     )
     shows_in = "a test on a metal reference specimen: in these, the master curve can bend to hide it"
-    confirmed_by = (
-        "a test on an elastic reference specimen of metal, whose phase must be zero at every frequency"
-    )
+    confirmed_by = "a test on an elastic reference specimen of metal, which has no phase of its own"
 
     def places(self, observed: Observations) -> Sequence[Place]:
         return (None,) if observed.frequencies.size > 1 else ()

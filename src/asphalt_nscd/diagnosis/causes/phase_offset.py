@@ -13,9 +13,7 @@ class PhaseOffset(Cause):
     sentence = "the measured phase is off by the same angle in every test"
     signs = ("The measured phases are too large.", "The measured phases are too small.")
     shows_in = "a test on a metal reference specimen: in these, the master curve can bend to hide it"
-    confirmed_by = (
-        "a test on an elastic reference specimen of metal, whose phase must be zero at every frequency"
-    )
+    confirmed_by = "a test on an elastic reference specimen of metal, which has no phase of its own"
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         inertia = observed.inertia * observed.omega**2
