@@ -51,8 +51,8 @@ def test_report_has_nothing_to_complain_of(tmp_path, width):
     page = {
         "measured": sentence, "simulated": sentence, "wrong": sentence, "not_used": sentence, "orders": sentence,
         "law": ["a law", "Established."],
-        "found": {"mixes": "", "data": "Good.", "answer": "Right.", "causes": [("a cause", "Established.")],
-                  "left": sentence, "with_suspects": "The same causes."},
+        "found": [("Data", ["Good."]), ("Simulation", ["Right."]), ("Unexplained", sentence)],
+        "causes": [("a cause", "Established.")],
         "notes": sentence, "gained": [("error of |E*|, %", "2", "1")], "held_out": None,
         "map": b64encode(png()).decode(),
     }  # fmt: skip
