@@ -49,7 +49,7 @@ def test_report_has_nothing_to_complain_of(tmp_path, width):
     (tmp_path / "workflow.html").touch()
     sentence = ["A sentence about 120 moduli."]
     page = {
-        "measured": sentence, "simulated": sentence, "wrong": sentence, "not_used": sentence, "orders": sentence,
+        "measured": sentence, "simulated": sentence, "wrong": sentence, "orders": sentence,
         "law": ["a law", "Established."],
         "found": [("Data", ["Good."]), ("Simulation", ["Right."]), ("Unexplained", sentence)],
         "causes": [("a cause", "Established.")],
