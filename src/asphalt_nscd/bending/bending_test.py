@@ -86,7 +86,9 @@ def _steady_force(model: Model, law: BondLaw, case: LoadCase, times: np.ndarray)
     from asphalt_nscd.nscd.stepping import harmonic
 
     omega = case.omega
-    stiffness = harmonic.driving_force(model.system, law.discrete_modulus(omega, 0.0), omega)
+    stiffness = harmonic.driving_force(
+        model.system, law.discrete_modulus(omega, 0.0), omega, static=model.static_factor
+    )
     amplitude = case.amplitude * harmonic.actuator_stiffness(stiffness, case.rig, omega)
     return (amplitude * np.exp(1j * omega * times)).imag
 

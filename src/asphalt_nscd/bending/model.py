@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse.linalg import SuperLU
 
 from asphalt_nscd.bending.excerpt import write_excerpt
 from asphalt_nscd.bending.layers import Layers
@@ -16,6 +17,7 @@ from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.break_modes import BONDS, StandBy
+from asphalt_nscd.nscd.stepping.harmonic import static_factor
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis, shifted_factor
 from asphalt_nscd.specimen.preparation import Content, read_specimen
 from asphalt_nscd.specimen.system import bending_system
@@ -87,6 +89,11 @@ class Model:
     def along(self) -> np.ndarray:
         """Coordinates of velocity to means over the layers (k, l)."""
         return (self.layers.mean @ self.basis).T
+
+    @cached_property
+    def static_factor(self) -> SuperLU | Multigrid:
+        """For steady oscillation, whatever its frequency."""
+        return static_factor(self.system)
 
     @cached_property
     def layers(self) -> Layers:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import spsolve
 from scipy.spatial import cKDTree
 
 from asphalt_nscd.measurements.twopoint import form_factor
+from asphalt_nscd.nscd.bonds.implicit_operator import factors
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen
 
@@ -24,7 +24,7 @@ def ratio_without_moments(specimen: Specimen, poisson: float) -> float:
     stiffness = (operator.T @ sparse.diags_array(system.weight) @ operator).tocsc()
     of_head = stiffness[:, driven].toarray()[:, 0]
     displacement = np.ones(driven.size)
-    displacement[~driven] = spsolve(stiffness[~driven][:, ~driven], -of_head[~driven])
+    displacement[~driven] = factors(stiffness[~driven][:, ~driven]).solve(-of_head[~driven])
     return float(form_factor(specimen.geometry) * of_head @ displacement)
 
 

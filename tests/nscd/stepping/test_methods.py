@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.measurements.signals import harmonic_response
+from asphalt_nscd.nscd.bonds.implicit_operator import factors
 from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.stepping import harmonic
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
@@ -85,6 +87,22 @@ def test_frequency_domain_against_dense_equations(beam_system):
     assert driving_force(beam_system, modulus, omega) == pytest.approx(1 / flexibility, rel=1e-9)
     # passive: the force leads a displacement of positive loss
     assert driving_force(beam_system, modulus, 1.0).imag > 0
+
+
+@pytest.mark.parametrize("most", [1, harmonic.MOST_ITERATIONS])
+def test_frequency_domain_by_static_factors_or_by_those_of_the_frequency(beam_system, monkeypatch, most):
+    """Few iterations do below resonance; where they do not, the whole matrix is factorised: one answer, to 1e-11."""
+    factorised = []
+    monkeypatch.setattr(harmonic, "factors", lambda matrix: factorised.append(matrix) or factors(matrix))
+    monkeypatch.setattr(harmonic, "MOST_ITERATIONS", most)
+    modulus, omega = (2.0 + 0.7j) * 1e9, 600.0
+    free, driven = beam_system.free, beam_system.driven
+    dense = modulus * beam_system.stiffness().toarray() - omega**2 * np.diag(beam_system.mass)
+    motion = np.linalg.solve(dense[np.ix_(free, free)], -dense[free, driven])
+    expected = dense[driven, driven] + dense[driven, free] @ motion
+    static = harmonic.static_factor(beam_system)
+    assert driving_force(beam_system, modulus, omega, static=static) == pytest.approx(expected, rel=1e-11)
+    assert len(factorised) == (most == 1)
 
 
 def test_below_resonance_the_phase_is_that_of_the_law(beam_system):

@@ -19,6 +19,11 @@ def factorise(matrix: sparse.csc_matrix, system: BondedSystem) -> SuperLU | Mult
     """
     if matrix.shape[0] > LARGEST_FACTORED and system.position is not None:
         return Multigrid(matrix, system.rigid_motions()[system.free])
+    return factors(matrix)
+
+
+def factors(matrix: sparse.csc_matrix) -> SuperLU:
+    """Those of a symmetric matrix that needs no pivots, with little fill."""
     return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 

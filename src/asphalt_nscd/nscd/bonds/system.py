@@ -70,6 +70,7 @@ def opening_operator(
     second (b,); position (n, 3) [m] of the moving bodies. Bodies numbered n or above are fixed.
     """
     n, bonds = position.shape[0], first.size
+    first, second = first.astype(np.int64), second.astype(np.int64)  # else a second kernel would be compiled
     columns, values = _opening_rows(first, second, frame, point, position)
     keep = columns >= 0
     rows = np.repeat(np.arange(3 * bonds), 12)[keep.ravel()]
