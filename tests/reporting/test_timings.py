@@ -40,6 +40,7 @@ def test_jobs_are_summed_by_rule_most_time_first(tmp_path):
 
 def test_job_too_short_to_be_measured_counts_as_none(tmp_path):
     benchmark(tmp_path / "fit/T15.tsv", 0.1, "-", "-")
+    benchmark(tmp_path / "fit/T10.tsv", 0.1, "NA", "NA")
     benchmark(tmp_path / "fit/T20.tsv", 0.3, 50.0, 0.2)
     assert by_rule(files(tmp_path), tmp_path).loc[0, ["cpu_s", "memory_MB"]].tolist() == [0.2, 50.0]
 

@@ -1,5 +1,6 @@
 # The study, the environment of jobs, and the few helpers that rules use.
 import csv
+import gc
 import json
 import os
 import re
@@ -18,6 +19,8 @@ from asphalt_nscd.nscd.core_cache import cache_base
 from asphalt_nscd.nscd.cores import cores
 from asphalt_nscd.workflow_support.sources import PACKAGE, modules_of, source_files, stamp, stamp_of_row
 from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
+
+gc.set_threshold(100_000, 50, 100)  # a plan of a thousand jobs is searched for garbage, of which there is none, less often
 
 ALONE = workflow.is_main_process and release_stale_locks(".snakemake")
 if workflow.is_main_process:

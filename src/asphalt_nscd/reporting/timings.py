@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -21,9 +22,9 @@ def by_rule(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataFram
     for path in map(Path, benchmarks):
         if not path.exists():
             continue
-        job = pd.read_csv(path, sep="\t", na_values="-").iloc[0]
+        job = _job(path)
         rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
-        rows.append((rule, job["s"], job["cpu_time"], job["max_rss"]))
+        rows.append((rule, *(_number(job[key]) for key in ("s", "cpu_time", "max_rss"))))
     if not rows:
         raise InputError(f"{folder}: no benchmark files; run the workflow first.")
     jobs = pd.DataFrame(rows, columns=["rule", "s", "cpu", "memory"]).groupby("rule", as_index=False)
@@ -41,7 +42,7 @@ def by_rule(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataFram
 def elapsed(benchmarks: Iterable[str | Path]) -> float:
     """Seconds in which at least one of the jobs ran: a job ends when its file is written. Pauses do not count."""
     spans = sorted(
-        (path.stat().st_mtime - float(pd.read_csv(path, sep="\t").loc[0, "s"]), path.stat().st_mtime)
+        (path.stat().st_mtime - float(_job(path)["s"]), path.stat().st_mtime)
         for path in map(Path, benchmarks)
         if path.exists()
     )
@@ -50,6 +51,17 @@ def elapsed(benchmarks: Iterable[str | Path]) -> float:
         total += max(last - max(first, end), 0.0)
         end = max(end, last)
     return total
+
+
+def _job(path: Path) -> dict[str, str]:
+    """What Snakemake measured; pandas would take a second for as many files as a study has."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return next(csv.DictReader(file, delimiter="\t"))
+
+
+def _number(text: str) -> float:
+    """None where a job was too short to be measured, for which Snakemake writes - or NA."""
+    return float("nan") if text in ("-", "NA") else float(text)
 
 
 def as_markdown(table: pd.DataFrame, elapsed_s: float) -> str:
