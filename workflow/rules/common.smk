@@ -20,7 +20,7 @@ from asphalt_nscd.nscd.cores import cores
 from asphalt_nscd.workflow_support.sources import PACKAGE, modules_of, source_files, stamp, stamp_of_row
 from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
 
-gc.set_threshold(100_000, 50, 100)  # a plan of a thousand jobs is searched for garbage, of which there is none, less often
+gc.set_threshold(100_000, 50, 100)  # a plan of a thousand jobs holds little garbage to search for
 
 ALONE = workflow.is_main_process and release_stale_locks(".snakemake")
 if workflow.is_main_process:

@@ -7,6 +7,7 @@ rule compile:
         code=lambda wildcards: code(wildcards.step),
     output:
         touch("<results>/compiled/{step}"),
+    priority: 30  # pouring waits for it, and a core would idle; small jobs run beside it
     log:
         "<results>/logs/compile/{step}.log",
     benchmark:
