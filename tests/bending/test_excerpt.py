@@ -16,6 +16,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.nscd.stepping import bond_bounds
 from asphalt_nscd.nscd.stepping.bond_bounds import BeyondExcerpt, BondBounds
+from asphalt_nscd.nscd.stepping.break_modes import BONDS
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import write_law
 
@@ -124,3 +125,9 @@ def test_a_quick_test_imports_neither_sparse_matrices_nor_numba(folder):
     done = subprocess.run([sys.executable, "-c", said, *command], cwd=folder, capture_output=True, text=True)
     told, imported = done.stdout.splitlines()
     assert told.startswith("15 degC, 40 Hz: |E*| = ") and imported == "[]", done.stdout + done.stderr
+
+
+def test_so_many_bonds_are_made_ready_to_break(folder):
+    for wanted, ready in ((0, 0), (2, 2), (None, BONDS)):
+        condense(folder / "beam.h5", Bonds(yield_Pa=2.7e6), folder / "ready.h5", stand_by=wanted)
+        assert load(folder / "ready.h5", "model").arrays["stand_by/bonds"].size == ready

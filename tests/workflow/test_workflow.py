@@ -137,6 +137,18 @@ def test_the_paper_is_120_tests_on_four_samples(workspace):
     assert {f"fig{number:02d}" for number in (1, *range(5, 15))} | {"table2", "table3", "table4"} <= set(jobs)
 
 
+def test_bonds_are_made_ready_to_break_only_where_the_campaign_tests(workspace):
+    (workspace.folder / "study.yaml").write_text((workspace.folder / "config/paper.yaml").read_text())
+    said = workspace.run("--dry-run", "--printshellcmds").stdout
+    lines = [line for line in said.splitlines() if "asphalt-nscd condense" in line]
+    without = {
+        re.search(r"--output results/paper/(\S+).h5", line)[1] for line in lines if "--stand-by 0" in line
+    }
+    loose = [f"models/free/s1-friction{value}" for value in ("0.3", "0.5")]
+    assert without == {"models/blocked/s1", *loose, *(f"facets/{model}" for model in loose)}
+    assert len(lines) == 13
+
+
 def test_rungs_above_the_paper_s_are_simulated_with_facets_and_nothing_is_divided_out(workspace):
     workspace.configure()
     said = workspace.run("results/smoke/ladder.csv", "--dry-run", "--printshellcmds").stdout

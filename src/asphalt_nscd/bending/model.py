@@ -102,21 +102,30 @@ class Model:
 
 
 def condense(
-    specimen_file: str | Path, bonds: Bonds, output: str | Path, excerpt_output: str | Path | None = None
+    specimen_file: str | Path,
+    bonds: Bonds,
+    output: str | Path,
+    excerpt_output: str | Path | None = None,
+    stand_by: int | None = None,
 ) -> int:
     """Assemble the system of a specimen, find its basis and directions for breaks, and save all; its unknowns.
 
-    excerpt_output: for what most tests need of it.
+    excerpt_output: for what most tests need of it. stand_by: see `condensed`.
     """
-    arrays, attributes = condensed(read_specimen(specimen_file), Path(specimen_file).stem, bonds)
+    arrays, attributes = condensed(read_specimen(specimen_file), Path(specimen_file).stem, bonds, stand_by)
     digest = save(output, "model", arrays, attributes)
     if excerpt_output is not None:
         write_excerpt(excerpt_output, model_of(Record(arrays, attributes, digest)), digest)
     return int(arrays["mass"].size)
 
 
-def condensed(specimen: Specimen, name: str, bonds: Bonds) -> Content:
-    """Arrays and attributes of a model file; see `condense`."""
+def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None = None) -> Content:
+    """Arrays and attributes of a model file; see `condense`.
+
+    stand_by: so many bonds have directions ready for their break, those the driven motion breaks first. A test that
+    breaks others finds theirs itself, for seconds. None: BONDS, but none of facets, which bear stress so evenly that
+    they seldom break.
+    """
     system = bending_system(
         specimen, bonds.poisson, bonds.yield_Pa, bonds.friction, bonds.head, kt_over_kn=bonds.kt_over_kn
     )
@@ -137,9 +146,9 @@ def condensed(specimen: Specimen, name: str, bonds: Bonds) -> Content:
         **{f"{SHAPE}{name}": values for name, values in _shape(specimen).items()},
     }
     if not isinstance(shifted, Multigrid):  # by which they cost more than the few breaks they may save
-        # Facets bear stress so evenly that they seldom break; a test in which one does finds its directions.
-        stand_by = StandBy.of(system, basis, shifted, 0 if specimen.area == "facets" else BONDS).arrays()
-        arrays |= {f"stand_by/{name}": value for name, value in stand_by.items()}
+        most = (0 if specimen.area == "facets" else BONDS) if stand_by is None else stand_by
+        ready = StandBy.of(system, basis, shifted, most).arrays()
+        arrays |= {f"stand_by/{name}": value for name, value in ready.items()}
     attributes = {
         "name": name,
         "head": bonds.head,

@@ -30,6 +30,12 @@ from asphalt_nscd.cli import _options
     "--friction", default=0.7, type=_options.NOT_NEGATIVE, help="Coefficient of friction where a gap closes."
 )
 @click.option(
+    "--stand-by",
+    default=None,
+    type=click.IntRange(min=0),
+    help="Bonds made ready to break; a test that breaks others takes seconds longer.  [default: 8; facets: 0]",
+)
+@click.option(
     "--excerpt-output",
     default=None,
     type=_options.File,
@@ -39,9 +45,11 @@ from asphalt_nscd.cli import _options
 @_options.gather(
     "bonds", head="head", poisson="poisson", kt_over_kn="kt_over_kn", yield_Pa="yield_pa", friction="friction"
 )
-def command(specimen: Path, bonds: dict[str, Any], output: Path, excerpt_output: Path | None) -> None:
+def command(
+    specimen: Path, bonds: dict[str, Any], stand_by: int | None, output: Path, excerpt_output: Path | None
+) -> None:
     """Assemble the bonded system of a specimen and its reduced form. Every test on the specimen uses them."""
     from asphalt_nscd.bending.model import Bonds, condense
 
-    unknowns = condense(specimen, Bonds(**bonds), output, excerpt_output)
+    unknowns = condense(specimen, Bonds(**bonds), output, excerpt_output, stand_by)
     click.echo(f"{output}: {unknowns} unknowns")
