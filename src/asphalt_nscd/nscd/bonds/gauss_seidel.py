@@ -2,7 +2,8 @@
 
 The three rows of a bond in the opening operator are its frame T (3, 3) and, for each body, the moments
 of T about the arm a from the body to the bond: U = T u with u = v_j + s_j x a_j - v_i - s_i x a_i.
-Bonds are taken in blocks that share no body: bond by bond within a block or all at once is the same. What
+Bonds are taken in blocks that share no body: bond by bond within a block or all at once is the same. The last blocks
+hold the bonds of bodies of uneven mobility, as of the head, of which one motion is prescribed. What
 its law still allows a bond to open, b - D R, stands for b: once the bond was visited, it is its opening.
 """
 
@@ -32,12 +33,20 @@ class PackedBonds:
         nobody = -(-self.size // 6)
         bodies[bodies < 0] = nobody
         self._mobility = self._by_body(mobility, nobody)
+        self._mobility[:, 6:] = self._mobility[:, [0, 3]]
+        even = (
+            (self._mobility[:, :6] == self._mobility[:, [6, 6, 6, 7, 7, 7]]).all(axis=1)[bodies].all(axis=1)
+        )
         response = np.einsum("bck,bc,bcl->bkl", self._frame, law.reshape(-1, 3), self._frame)
         for side in range(2):
             own = self._mobility[bodies[:, side]]
             turn = np.cross(np.eye(3), arm[:, side, None])  # (b, k, 3): axis k x arm
             response += own[:, :3, None] * np.eye(3) + np.einsum("bmk,bm,bml->bkl", turn, own[:, 3:6], turn)
-        self._blocks = _blocks(bodies, nobody, WIDTH, WINDOW)
+        parts = []
+        for bonds in (np.flatnonzero(even), np.flatnonzero(~even)):
+            blocks = _blocks(bodies[bonds], nobody, WIDTH, WINDOW)
+            parts.append(np.where(blocks >= 0, bonds[blocks], -1))
+        self._even, self._blocks = len(parts[0]), np.concatenate(parts)
         block, lane = np.nonzero(self._blocks >= 0)
         self.visits = self._blocks[block, lane]
         self._bodies = np.full((len(self._blocks), 2, WIDTH), nobody, np.int32)
@@ -59,10 +68,11 @@ class PackedBonds:
         explicit b (3 b,) [m/s], reaction R (3 b,) [N], velocity (d,) [m/s, rad/s] before R acts.
         """
         motion = self._by_body(velocity, len(self._mobility) - 1)
+        motion[:, 6:] = self._mobility[:, 6:]
         _lay_out(self._blocks, self._frame, self._law, explicit, reaction, self._packed)
-        _apply(self._bodies, self._packed, motion, self._mobility)
+        _apply(self._bodies, self._packed, motion, self._mobility, self._even)
         sweeps, change = _sweep_until_still(
-            self._bodies, self._packed, motion, self._mobility, tolerance, most_sweeps
+            self._bodies, self._packed, motion, self._mobility, self._even, tolerance, most_sweeps
         )
         reaction = _reactions(self._blocks, self._frame, self._packed)
         return reaction, motion[:, :6].ravel()[: self.size], sweeps, change
@@ -156,22 +166,22 @@ def _reactions(blocks, frame, packed):
 
 
 @compiled
-def _apply(bodies, packed, motion, mobility):
+def _apply(bodies, packed, motion, mobility, even):
     """Let the reactions change the velocities."""
     for block in range(packed.shape[0]):
         i, j = gather(motion, bodies, block, 0), gather(motion, bodies, block, 1)
         arm_i, arm_j = _arms(packed, block)
         reaction = load(packed, block, 3), load(packed, block, 4), load(packed, block, 5)
-        _pushed(motion, mobility, bodies, block, (i, arm_i, j, arm_j), reaction)
+        _pushed(motion, mobility, bodies, block, block < even, (i, arm_i, j, arm_j), reaction)
 
 
 @compiled
-def _sweep_until_still(bodies, packed, motion, mobility, tolerance, most_sweeps):
+def _sweep_until_still(bodies, packed, motion, mobility, even, tolerance, most_sweeps):
     """Sweeps to and fro over blocks of bonds until the relative change of the reactions is below tolerance.
 
     bodies (blocks, 2, lanes). packed (blocks, 18, lanes): b - D R and R, six entries of (D + dt G M^-1 G^T)^-1,
-    arms of both bodies. motion and mobility (n, 8): of six degrees of freedom. Returns (sweeps, relative
-    change of the last sweep).
+    arms of both bodies. motion and mobility (n, 8): of six degrees of freedom, then the mobility of motion and of
+    spin; all that bodies of the first `even` blocks have. Returns (sweeps, relative change of the last sweep).
     """
     change = 0.0
     blocks = packed.shape[0]
@@ -189,7 +199,7 @@ def _sweep_until_still(bodies, packed, motion, mobility, tolerance, most_sweeps)
             dx = load(packed, block, 6) * mx + xy * my + xz * mz
             dy = xy * mx + load(packed, block, 9) * my + yz * mz
             dz = xz * mx + yz * my + load(packed, block, 11) * mz
-            i, j = _pushed(motion, mobility, bodies, block, (i, arm_i, j, arm_j), (dx, dy, dz))
+            i, j = _pushed(motion, mobility, bodies, block, block < even, (i, arm_i, j, arm_j), (dx, dy, dz))
             ux, uy, uz = _opening(i, arm_i, j, arm_j)
             store(packed, block, 0, ux)
             store(packed, block, 1, uy)
@@ -217,17 +227,17 @@ def _arms(packed, block):
 
 
 @compiled
-def _pushed(motion, mobility, bodies, block, pair, reaction):
+def _pushed(motion, mobility, bodies, block, even, pair, reaction):
     """Motions of both bodies of each bond, (motion, arm) each in `pair`, once `reaction` pushed them apart."""
     i, arm_i, j, arm_j = pair
     dx, dy, dz = reaction
-    lx, ly, lz, kx, ky, kz, _, _ = gather(mobility, bodies, block, 0)
+    lx, ly, lz, kx, ky, kz = _mobility_of(i, mobility, bodies, block, even, 0)
     tx, ty, tz = _cross(arm_i, reaction)
     i = (
         i[0] - lx * dx, i[1] - ly * dy, i[2] - lz * dz,
         i[3] - kx * tx, i[4] - ky * ty, i[5] - kz * tz, i[6], i[7],
     )  # fmt: skip
-    lx, ly, lz, kx, ky, kz, _, _ = gather(mobility, bodies, block, 1)
+    lx, ly, lz, kx, ky, kz = _mobility_of(j, mobility, bodies, block, even, 1)
     tx, ty, tz = _cross(arm_j, reaction)
     j = (
         j[0] + lx * dx, j[1] + ly * dy, j[2] + lz * dz,
@@ -236,6 +246,15 @@ def _pushed(motion, mobility, bodies, block, pair, reaction):
     scatter(motion, bodies, block, 0, i)
     scatter(motion, bodies, block, 1, j)
     return i, j
+
+
+@compiled
+def _mobility_of(body, mobility, bodies, block, even, side):
+    """Of six degrees of freedom of the bodies of a block; `body` brings one of motion and one of spin."""
+    if even:
+        return body[6], body[6], body[6], body[7], body[7], body[7]
+    lx, ly, lz, kx, ky, kz, _, _ = gather(mobility, bodies, block, side)
+    return lx, ly, lz, kx, ky, kz
 
 
 @compiled
