@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.nscd.spheres.gauss_seidel import RELAXATION, ROUND
+from asphalt_nscd.nscd.spheres.gauss_seidel import AGAIN, RELAXATION, ROUND
 
 
 def all_pairs(position, radius, plane_point, plane_normal, reach):
@@ -96,9 +96,10 @@ def naive_step(
         quiet = tolerance**2 * size / max(len(contacts), 1)
         if turn == 0:  # all
             order = range(len(contacts))
-            lively, changed, size, fastest = [], 0.0, 0.0, 0.0
-        else:  # those whose impulse changed then
+            changed, size, fastest = 0.0, 0.0, 0.0
+        else:  # those whose impulse changed then, or when it was last looked at
             order = lively
+        noted = []
         for c in order:
             i, j, _, on_first, on_second, delassus, target = contacts[c]
             opening = on_first @ new[i] + on_second @ new[j] - [target, 0, 0]
@@ -111,8 +112,10 @@ def naive_step(
             if turn == 0:
                 changed, size = changed + delta @ delta, size + r @ r
                 fastest = max(fastest, excess)
-                if delta @ delta > quiet or (r.any() or delta.any()) and excess > penetration / dt:
-                    lively.append(c)
+            if delta @ delta > quiet or (r.any() or delta.any()) and excess > penetration / dt:
+                noted.append(c)
+        if turn in (0, AGAIN):
+            lively = noted
         lead()
         converged = size == 0 or np.sqrt(changed / size) < tolerance or sweep >= enough_sweeps
         if turn == 0 and converged and fastest < penetration / dt:
@@ -144,3 +147,67 @@ def coulomb(delassus, free, friction):
     if strength > friction * normal:
         sticking *= friction * normal / strength
     return np.array([normal, *sticking])
+
+
+def blocks_in_order(bodies, fixed, width=8):
+    """[[contact]]: each in the first block with room after the last one that shares a body below `fixed` with it."""
+    blocks = []
+    for contact, pair in enumerate(bodies.tolist()):
+        mine = {body for body in pair if body < fixed}
+        at = max(
+            (n + 1 for n, block in enumerate(blocks) if mine & set(bodies[block].ravel().tolist())), default=0
+        )
+        at = next((n for n in range(at, len(blocks)) if len(blocks[n]) < width), len(blocks))
+        if at == len(blocks):
+            blocks.append([])
+        blocks[at].append(contact)
+    return blocks
+
+
+def sweep_one_by_one(bodies, packed, motion, friction, visits, relaxation, quiet, calm):
+    """A sweep over contacts, one after another; rows as in `Room`, changed in place.
+
+    Returns the sums of squares of the change of impulse and of the impulse, the largest excess, the noted contacts,
+    and how many opened or stayed open, stuck and slipped.
+    """
+    changed, size, fastest, noted, kinds = 0.0, 0.0, 0.0, [], {"open": 0, "sticks": 0, "slips": 0}
+    for c in visits:
+        (i, j), (nx, ny, nz, px, py, pz, target, mass) = bodies[c], packed[c]
+        mass = relaxation * mass
+        vx, vy, vz = motion[j, :3] - motion[i, :3]
+        sx, sy, sz = motion[j, 4:7] + motion[i, 4:7]
+        opening = vx * nx + vy * ny + vz * nz
+        excess = target - opening
+        old_normal = px * nx + py * ny + pz * nz
+        new_normal = old_normal + excess * mass
+        if new_normal <= 0.0:
+            kinds["open"] += 1
+            if not packed[c, 3:6].any():
+                continue
+            qx = qy = qz = 0.0
+        else:
+            softness = mass / 3.5
+            along = old_normal - softness * opening
+            qx = px - softness * (vx - (sy * nz - sz * ny)) - along * nx
+            qy = py - softness * (vy - (sz * nx - sx * nz)) - along * ny
+            qz = pz - softness * (vz - (sx * ny - sy * nx)) - along * nz
+            slips = qx * qx + qy * qy + qz * qz > (friction * new_normal) ** 2
+            kinds["slips" if slips else "sticks"] += 1
+            share = friction * new_normal / np.sqrt(qx * qx + qy * qy + qz * qz) if slips else 1.0
+            qx, qy, qz = (
+                share * qx + new_normal * nx,
+                share * qy + new_normal * ny,
+                share * qz + new_normal * nz,
+            )
+        dx, dy, dz = qx - px, qy - py, qz - pz
+        turn = np.array([ny * dz - nz * dy, nz * dx - nx * dz, nx * dy - ny * dx])
+        motion[i, :3] -= motion[i, 3] * np.array([dx, dy, dz])
+        motion[i, 4:7] -= motion[i, 7] * turn
+        motion[j, :3] += motion[j, 3] * np.array([dx, dy, dz])
+        motion[j, 4:7] -= motion[j, 7] * turn
+        packed[c, 3:6] = qx, qy, qz
+        moved = dx * dx + dy * dy + dz * dz
+        if moved > quiet or excess > calm:
+            noted.append(c)
+        changed, size, fastest = changed + moved, size + qx * qx + qy * qy + qz * qz, max(fastest, excess)
+    return changed, size, fastest, noted, kinds

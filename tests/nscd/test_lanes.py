@@ -6,7 +6,21 @@ import numpy as np
 import pytest
 from numba import njit
 
-from asphalt_nscd.nscd.lanes import WIDTH, aligned, gather, load, nothing, scatter, store, total
+from asphalt_nscd.nscd.lanes import (
+    WIDTH,
+    above,
+    aligned,
+    gather,
+    largest,
+    load,
+    nothing,
+    root,
+    scatter,
+    spread,
+    store,
+    total,
+    where_above,
+)
 
 
 @pytest.fixture
@@ -26,14 +40,31 @@ def test_arithmetic_is_that_of_each_lane(numbers):
     @njit
     def combine(array, block):
         a, b, c = load(array, block, 0), load(array, block, 1), load(array, block, 2)
-        store(array, block, 3, a * b - (c + a))
+        store(array, block, 3, a * b - (c + a) / root(b * b))
 
     a, b, c = numbers[1, :3].copy()
     others = numbers[[0, 2]].copy()
     combine(numbers, 1)
-    np.testing.assert_array_equal(numbers[1, 3], a * b - (c + a))
+    np.testing.assert_array_equal(numbers[1, 3], a * b - (c + a) / np.sqrt(b * b))
     np.testing.assert_array_equal(numbers[1, :3], [a, b, c])
     np.testing.assert_array_equal(numbers[[0, 2]], others)
+
+
+def test_each_lane_is_compared_by_itself(numbers):
+    @njit
+    def compare(array, limit):
+        a, b = load(array, 0, 0), load(array, 0, 1)
+        store(array, 0, 2, where_above(a, b, a, spread(limit)))
+        return above(a, b), largest(a)
+
+    a, b = numbers[0, :2].copy()
+    a[3] = b[3]  # equal is not above
+    numbers[0, 0] = a
+    bits, most = compare(numbers, 0.25)
+    assert bits == sum(1 << lane for lane in range(WIDTH) if a[lane] > b[lane])
+    assert 0 < bits < 255
+    assert most == a.max()
+    np.testing.assert_array_equal(numbers[0, 2], np.where(a > b, a, 0.25))
 
 
 def test_sum_runs_from_the_first_lane_to_the_last():

@@ -265,7 +265,8 @@ def one_slab(position, start, other, last_body):
         np.argsort(other == last_body, kind="stable"),
     )
     begin = np.array([0, (other != last_body).sum(), other.size])
-    return begin, *(array.astype(np.int32) for array in (pair, first[pair], other[pair]))
+    bodies = np.stack([first[pair], other[pair]], axis=1)
+    return begin, pair.astype(np.int32), bodies.astype(np.int32)
 
 
 def test_numerics_act(layer, monkeypatch):

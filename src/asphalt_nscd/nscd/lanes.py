@@ -60,7 +60,12 @@ def _lane_by_lane(action: Callable[..., Any], instruction: str) -> None:
         return None
 
 
-for _action, _instruction in ((operator.add, "fadd"), (operator.sub, "fsub"), (operator.mul, "fmul")):
+for _action, _instruction in (
+    (operator.add, "fadd"),
+    (operator.sub, "fsub"),
+    (operator.mul, "fmul"),
+    (operator.truediv, "fdiv"),
+):
     _lane_by_lane(_action, _instruction)
 
 
@@ -113,6 +118,52 @@ def nothing(typing_context: Any) -> Any:
         return ir.Constant(_VECTOR, [0.0] * WIDTH)
 
     return _lanes(), code
+
+
+@intrinsic
+def spread(typing_context: Any, value: Any) -> Any:
+    """One number in all lanes."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        lanes = ir.Constant(_VECTOR, ir.Undefined)
+        for lane in range(WIDTH):
+            lanes = builder.insert_element(lanes, arguments[0], _PLACE(lane))
+        return lanes
+
+    return _lanes(types.float64), code
+
+
+@intrinsic
+def root(typing_context: Any, value: Any) -> Any:
+    """Square roots."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        kind = ir.FunctionType(_VECTOR, [_VECTOR])
+        name = f"llvm.sqrt.v{WIDTH}f64"
+        return builder.call(cgutils.get_or_insert_function(builder.module, kind, name), arguments)
+
+    return _lanes(_lanes), code
+
+
+@intrinsic
+def where_above(typing_context: Any, a: Any, b: Any, then: Any, otherwise: Any) -> Any:
+    """In each lane `then` if a > b, else `otherwise`."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        return builder.select(builder.fcmp_ordered(">", *arguments[:2]), *arguments[2:])
+
+    return _lanes(_lanes, _lanes, _lanes, _lanes), code
+
+
+@intrinsic
+def above(typing_context: Any, a: Any, b: Any) -> Any:
+    """An int64 of which bit k is set if a > b in lane k."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        bits = builder.bitcast(builder.fcmp_ordered(">", *arguments), ir.IntType(WIDTH))
+        return builder.zext(bits, ir.IntType(64))
+
+    return types.int64(_lanes, _lanes), code
 
 
 @intrinsic
@@ -171,6 +222,20 @@ def total(typing_context: Any, value: Any) -> Any:
         result = lanes[0]
         for lane in lanes[1:]:
             result = builder.fadd(result, lane)
+        return result
+
+    return types.float64(_lanes), code
+
+
+@intrinsic
+def largest(typing_context: Any, value: Any) -> Any:
+    """Of the lanes."""
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        lanes = [builder.extract_element(arguments[0], _PLACE(lane)) for lane in range(WIDTH)]
+        result = lanes[0]
+        for lane in lanes[1:]:
+            result = builder.select(builder.fcmp_ordered(">", lane, result), lane, result)
         return result
 
     return types.float64(_lanes), code

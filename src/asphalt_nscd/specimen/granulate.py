@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from asphalt_nscd.nscd.spheres import granular, neighbours
+from asphalt_nscd.nscd.spheres.blocks import in_blocks
 from asphalt_nscd.nscd.spheres.slabs import Room, Slabs, room_for, slabs_of
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.trimming import layer_height
@@ -141,7 +142,7 @@ class Granulate:
         if plane_velocity is not None:
             self.velocity[n:, :3] = plane_velocity
         self._involve(dt)
-        speed = np.sqrt((self.velocity[:n, :3] ** 2).sum(axis=1))
+        speed = neighbours.speeds(self.velocity[:n])
         enough, penetration = numerics.most_sweeps, numerics.penetration
         if speed.mean() > FALLING:
             enough, penetration = numerics.falling_sweeps, numerics.falling_penetration
@@ -206,8 +207,7 @@ class Granulate:
         nearing = margin + dt * (speed + plane_speed)  # (p,), a sphere and a plane
         meeting = max(furthest, float(nearing.max()))
         if self._start is not None and self._start.size == m + 1:
-            square = ((self.position[:m] - self._searched_at) ** 2).sum(axis=1)
-            moved = (np.sqrt(square) - self._extra).max(initial=0.0)  # beyond what was allowed for
+            moved = neighbours.moved_beyond(self.position, self._searched_at, self._extra)
             planes_moved = np.abs(self.plane_point - self._planes_at).max(axis=1)
             planes_valid = moved + planes_moved + nearing < self._plane_reach
             if 2.0 * moved + furthest < self._reach and planes_valid.all():
@@ -215,7 +215,7 @@ class Granulate:
         position, radius = self.position[:m], self.radius[:m]
         if furthest > 2.0 * numerics.skin:  # a rain of grains: a list for this step alone, but a short one
             self._reach = 0.0
-            closing = neighbours.closing_speeds(position, radius, self.velocity[:m, :3], furthest)
+            closing = neighbours.closing_speeds(self.team, position, radius, self.velocity[:m, :3], furthest)
             # deeper down, impacts come through others and are weaker
             reach, self._plane_reach = np.maximum(margin + dt * closing, 0.5 * numerics.skin), nearing
             self._extra = np.zeros(m)
@@ -242,10 +242,11 @@ class Granulate:
     def _list(self, start: np.ndarray, other: np.ndarray) -> None:
         """Take these pairs, and room to work on them."""
         self._start, self._other = start, other
-        bodies = self.inverse_mass.size
-        self._slabs = Slabs(*slabs_of(self.position[: start.size - 1], start, other, bodies - 1))
-        if self._room is None or self._room.active.size < other.size:
-            self._room = room_for(other.size + other.size // 4, bodies)
+        if self._room is None:
+            self._room = room_for(0, self.inverse_mass.size, len(self.plane_point))
+        last_body = self.inverse_mass.size - 1
+        begin, pair, bodies = slabs_of(self.position[: start.size - 1], start, other, last_body)
+        self._slabs, self._room = in_blocks(self.team, begin, pair, bodies, self._room)
 
     def kinetic_energy(self) -> float:
         """Of the spheres [J]; spin counts with 2/5 of its surface velocity squared."""

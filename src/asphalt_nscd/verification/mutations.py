@@ -47,7 +47,7 @@ MUTANTS = [
     ("velocity of a proximal point", "coupled", "nscd/contacts/proximal.py", "problem.free_velocity - each * r", "problem.free_velocity + each * r"),
     ("impulse in the condensed contact", "accounts", "nscd/stepping/condensed.py", "+= response @ impulse", "-= response @ impulse"),
     ("gravity of a sphere", "spheres", "nscd/spheres/granular.py", "+= dt * gravity[k]", "-= dt * gravity[k]"),
-    ("moment of a contact on a sphere", "spheres", "nscd/spheres/gauss_seidel.py", "motion[j, 4] -= uj * tx", "motion[j, 4] += uj * tx"),
+    ("moment of a contact on a sphere", "spheres", "nscd/spheres/gauss_seidel.py", "j[2] + w * z, w, j[4] - u * tx", "j[2] + w * z, w, j[4] + u * tx"),
     ("spin in the slip of two spheres", "spheres", "nscd/spheres/gauss_seidel.py", "(vx - (sy * nz - sz * ny))", "(vx + (sy * nz - sz * ny))"),
     ("width of the slabs that threads share out", "spheres", "nscd/spheres/slabs.py", "width = apart *", "width = 0.3 * apart *"),
     ("restitution of an impact", "spheres", "nscd/spheres/granular.py", "= -restitution * opening", "= restitution * opening"),

@@ -12,6 +12,8 @@ from asphalt_nscd.nscd.spheres.neighbours import (
     closing_speeds,
     find_pairs,
     find_pairs_within,
+    moved_beyond,
+    speeds,
 )
 from asphalt_nscd.nscd.team import Team
 
@@ -162,7 +164,9 @@ def test_no_sphere_closes_in_faster_than_the_bound():
     position, radius = cloud(rng, 200, (1e-2, 1e-2, 0.1), 3.0)
     velocity = rng.normal(0.0, 0.01, (200, 3))
     velocity[position[:, 2] > 0.05, 2] -= 5.0
-    bound = closing_speeds(position, radius, velocity, 4e-3)
+    bound = closing_speeds(Team(), position, radius, velocity, 4e-3)
+    with Team(3) as team:
+        np.testing.assert_array_equal(closing_speeds(team, position, radius, velocity, 4e-3), bound)
     near: dict[int, list[int]] = {}
     for i, j in all_pairs(position, radius, NO_PLANES, NO_PLANES, 4e-3):
         near.setdefault(i, []).append(j)
@@ -171,3 +175,17 @@ def test_no_sphere_closes_in_faster_than_the_bound():
         assert np.linalg.norm(fast[:, None] - fast, axis=-1).max() <= bound[i] * (1 + 1e-14)
     assert (bound > 4.9).sum() > 20
     assert (bound < 0.1).sum() > 100
+
+
+def test_speeds_and_how_far_spheres_moved():
+    rng = np.random.default_rng(8)
+    velocity, before = rng.normal(size=(50, 6)), rng.normal(size=(40, 3))
+    np.testing.assert_array_equal(speeds(velocity), np.sqrt((velocity[:, :3] ** 2).sum(axis=1)))
+    position = np.concatenate(
+        [before + rng.normal(size=(40, 3)), np.full((10, 3), 99.0)]
+    )  # of ten that join later
+    allowed = rng.uniform(0.0, 2.0, 40)
+    moved = np.sqrt(((position[:40] - before) ** 2).sum(axis=1)) - allowed
+    assert moved_beyond(position, before, allowed) == moved.max() > 0.0
+    assert moved_beyond(position, before, np.full(40, 9.0)) == 0.0
+    assert moved_beyond(position, before[:0], allowed[:0]) == 0.0

@@ -105,7 +105,7 @@ def test_column_carries_its_weight():
 
 def test_at_rest_contact_forces_balance_every_weight():
     """Forces and torques, signs and points of action taken afresh: to 1e-10 of a ball's weight."""
-    pile = cloud(8, 0.0, 0.5)  # in which no grain turns any more
+    pile = cloud(9, 0.0, 0.5)  # in which no grain turns any more
     settle(pile, numerics(time_step=2e-4, tolerance=1e-6, most_sweeps=200), 1e-5, 3.0, lambda *_: None, "")
     settings = numerics(time_step=2e-4, most_sweeps=50000)
     for _ in range(20):

@@ -9,15 +9,19 @@ from nscd.spheres.grains import (
     numerics,
 )
 
+from asphalt_nscd.nscd.lanes import WIDTH
+from asphalt_nscd.nscd.spheres.blocks import in_blocks
 from asphalt_nscd.nscd.spheres.gauss_seidel import (
     COUNT,
     NOTED,
     RELAXATION,
     ROUND,
-    sweep_contacts,
+    sweep_blocks,
     sweep_until,
 )
-from asphalt_nscd.nscd.spheres.granular import pack_motion, pack_slab
+from asphalt_nscd.nscd.spheres.granular import pack_motion, pack_place, pack_planes, pack_slab
+from asphalt_nscd.nscd.spheres.slabs import room_for
+from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.deposit import settle
 
 
@@ -31,19 +35,18 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
     slabs, room = pile._slabs, pile._room
     numbers = range(slabs.begin.size - 1)
     for most_sweeps in (2 * ROUND - 1, 100 * ROUND):
-        pile.impulse[:] = 0.0
         pack_motion(pile.velocity, pile.inverse_mass, 0, len(pile.velocity), room.motion)
+        pack_place(pile.position, pile.radius, 0, len(pile.position), room.place)
+        room.packed[:, 3:6] = 0.0  # impulses
         for slab in numbers:
-            pack_slab(
-                slab, pile.position, pile.radius, pile.velocity, pile.plane_point, pile.plane_normal, pile.impulse,
-                slabs, room, 1e-4, 0.0, 0.0, np.inf, 3e-4,
-            )  # fmt: skip
+            pack_planes(slab, pile.plane_point, pile.plane_normal, room)
+            pack_slab(slab, slabs, room, 1e-4, 0.0, np.inf, 3e-4)
         room.packed[:, 6] = 0.0  # targets
         sweeps, change = sweep_until(
             0,
             1,
             np.zeros(24, int),
-            slabs.begin,
+            slabs,
             room,
             0.5,
             np.zeros(2),
@@ -58,9 +61,9 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
     assert sweeps % ROUND == 1
     assert change < tolerance
     once_more = [
-        sweep_contacts(
-            room.bodies, room.packed, room.motion, 0.5, room.everyone, slabs.begin[slab],
-            slabs.begin[slab] + int(room.account[slab, COUNT]), 1.0, 0.0, np.inf, room.lively,
+        sweep_blocks(
+            slabs.blocks, slabs.begin[slab], slabs.begin[slab + 1] - slabs.begin[slab], WIDTH * slabs.begin[slab],
+            0.5, 1.0, 0.0, np.inf, room,
         )
         for slab in sorted(numbers, key=lambda slab: slab % 2)
     ]  # fmt: skip
@@ -71,19 +74,19 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
 def sweeps_of_a_squeezed_grain(relaxation):
     """Until a light ball on the floor has stopped one 125 times as heavy, to 1e-6 of its speed."""
     bodies = np.array([[1, 0], [0, 2]], np.int32)  # heavy and light, light and floor
-    packed = np.zeros((2, 8))
-    packed[:, 2] = -1.0  # both normals point down
-    packed[:, 7] = 1.0 / (1.0 + 1.0 / 125.0), 1.0
-    motion = np.zeros((3, 8))
-    motion[:, 3] = 1.0, 1.0 / 125.0, 0.0
+    begin, pairs = np.array([0, 2, 2]), np.arange(2, dtype=np.int32)
+    slabs, room = in_blocks(Team(), begin, pairs, bodies, room_for(0, 3, 1))
+    contacts, motion = np.argsort(slabs.pair)[-2:], room.motion
+    room.packed[contacts, 2] = -1.0  # both normals point down
+    room.packed[contacts, 7] = 1.0 / (1.0 + 1.0 / 125.0), 1.0
+    motion[:2, 3] = 1.0, 1.0 / 125.0
     motion[:, 7] = 2.5 * motion[:, 3]
     motion[1, 2] = -1.0
-    both, noted = np.arange(2, dtype=np.int32), np.empty(2, np.int32)
     for sweep in range(5000):
         if abs(motion[1, 2]) < 1e-6:
-            np.testing.assert_allclose(packed[:, 5], -125.0, rtol=1e-5)  # both stop it
+            np.testing.assert_allclose(room.packed[contacts, 5], -125.0, rtol=1e-5)  # both stop it
             return sweep
-        sweep_contacts(bodies, packed, motion, 0.0, both, 0, 2, relaxation, np.inf, np.inf, noted)
+        sweep_blocks(slabs.blocks, 0, slabs.begin[1], 0, 0.0, relaxation, np.inf, np.inf, room)
     raise AssertionError("not at rest")
 
 

@@ -8,15 +8,14 @@ from __future__ import annotations
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
+from asphalt_nscd.nscd.lanes import root, spread, where_above
 
 
 @compiled_for_teams
 def cut(x, y, z, limit):
-    """A tangential reaction (x, y, z), shortened to `limit` if it is longer: then the contact slips."""
+    """Tangential reactions (x, y, z) of eight contacts (lanes.py); those above `limit` are shortened to it: they slip."""
     square = x * x + y * y + z * z
-    if square <= limit * limit:
-        return x, y, z
-    share = limit / np.sqrt(square)
+    share = where_above(square, limit * limit, limit / root(square), spread(1.0))
     return share * x, share * y, share * z
 
 

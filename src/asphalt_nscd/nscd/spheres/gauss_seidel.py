@@ -1,6 +1,7 @@
 """Gauss-Seidel sweeps over the contacts of rigid spheres, laid out for the speed of the processor.
 
-What a contact needs fills one cache line, and so does what a body needs. Contacts stand slab by slab (slabs.py).
+What a contact needs fills one cache line, and so does what a body needs. Contacts stand slab by slab (slabs.py), in
+blocks of eight that share no body (blocks.py), which are computed at once.
 A sweep visits the last body, which all may touch, then the slabs of even number, then those of odd number. Slabs of
 one kind share no body, so that members of a team can sweep them side by side: numbers are the same for any number
 of threads.
@@ -17,210 +18,213 @@ import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled_for_teams
 from asphalt_nscd.nscd.contacts.coulomb import cut
+from asphalt_nscd.nscd.lanes import (
+    WIDTH,
+    above,
+    gather,
+    largest,
+    nothing,
+    scatter,
+    spread,
+    total,
+    where_above,
+)
+from asphalt_nscd.nscd.spheres.blocks import deal_lively
 from asphalt_nscd.nscd.spheres.slabs import first_and_end
 from asphalt_nscd.nscd.team import meet
 
 ROUND = 9  # sweeps, the first of which visits all contacts and the others those that were not quiet
+AGAIN = 4  # the sweep of a round that leaves out contacts which have become quiet, counted from 0
 RELAXATION = 1.5  # of all sweeps of a round but the first and the last; below 2
 ORDER = (2, 0, 1)  # in which the kinds of slabs are swept, see sweep_slabs
 
-CHANGED, SIZE, FASTEST, NOTED, COUNT, DEEPEST, PUSHED = range(7)  # columns of the account of a slab
+# columns of the account of a slab
+CHANGED, SIZE, FASTEST, NOTED, COUNT, DEEPEST, PUSHED, LIVELY_BLOCKS = range(8)
 
 
 @compiled_for_teams
-def apply_impulse(i, j, nx, ny, nz, px, py, pz, motion):
-    """Give impulse p [N s] to body j and its opposite to body i at their point of contact."""
-    wi, wj = motion[i, 3], motion[j, 3]
-    ui, uj = motion[i, 7], motion[j, 7]
-    tx = ny * pz - nz * py
-    ty = nz * px - nx * pz
-    tz = nx * py - ny * px
-    motion[i, 0] -= wi * px
-    motion[i, 1] -= wi * py
-    motion[i, 2] -= wi * pz
-    motion[i, 4] -= ui * tx
-    motion[i, 5] -= ui * ty
-    motion[i, 6] -= ui * tz
-    if wj == 0.0:
-        return  # a plane, which many threads read
-    motion[j, 0] += wj * px
-    motion[j, 1] += wj * py
-    motion[j, 2] += wj * pz
-    motion[j, 4] -= uj * tx
-    motion[j, 5] -= uj * ty
-    motion[j, 6] -= uj * tz
-
-
-@compiled_for_teams
-def sweep_contacts(bodies, packed, motion, friction, visits, begin, end, relaxation, quiet, calm, lively):
-    """One Gauss-Seidel sweep over contacts visits[begin:end]; updates impulses and motion.
+def new_impulse(contact, i, j, friction, relaxation):
+    """(impulse x, y, z, excess of speed) of contacts between bodies that move as i and j, eight at once.
 
     Signorini on velocities: opening >= target, impulse >= 0, complementary; Coulomb with `friction`.
     The local Delassus operator is diagonal: normal 1/m_i + 1/m_j, tangential 7/2 of it. The change of an impulse is
     multiplied by `relaxation` before the laws cut it.
-    Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than
-    they may by more than `calm` [m/s], are noted in `lively` from `begin` on. Returns the sums of
-    squares of the change of impulse and of the impulse, the largest excess of speed [m/s], how many were noted.
     """
-    changed = 0.0
-    size = 0.0
-    noted = 0
-    fastest = 0.0
-    for k in range(begin, end):
-        c = visits[k]
-        i, j = bodies[c, 0], bodies[c, 1]
-        nx, ny, nz = packed[c, 0], packed[c, 1], packed[c, 2]
-        px, py, pz = packed[c, 3], packed[c, 4], packed[c, 5]
-        mass = relaxation * packed[c, 7]
-        vx = motion[j, 0] - motion[i, 0]
-        vy = motion[j, 1] - motion[i, 1]
-        vz = motion[j, 2] - motion[i, 2]
-        opening = vx * nx + vy * ny + vz * nz
-        excess = packed[c, 6] - opening
-        old_normal = px * nx + py * ny + pz * nz
-        new_normal = old_normal + excess * mass
-        if new_normal <= 0.0:
-            if px == 0.0 and py == 0.0 and pz == 0.0:
-                continue  # open and stays open
-            qx = qy = qz = 0.0
-        else:
-            sx = motion[j, 4] + motion[i, 4]
-            sy = motion[j, 5] + motion[i, 5]
-            sz = motion[j, 6] + motion[i, 6]
-            softness = mass / 3.5
-            along = old_normal - softness * opening
-            qx = px - softness * (vx - (sy * nz - sz * ny)) - along * nx
-            qy = py - softness * (vy - (sz * nx - sx * nz)) - along * ny
-            qz = pz - softness * (vz - (sx * ny - sy * nx)) - along * nz
-            qx, qy, qz = cut(qx, qy, qz, friction * new_normal)
-            qx += new_normal * nx
-            qy += new_normal * ny
-            qz += new_normal * nz
-        dx, dy, dz = qx - px, qy - py, qz - pz
-        apply_impulse(i, j, nx, ny, nz, dx, dy, dz, motion)
-        packed[c, 3], packed[c, 4], packed[c, 5] = qx, qy, qz
-        moved = dx * dx + dy * dy + dz * dz
-        if moved > quiet or excess > calm:
-            lively[begin + noted] = c
-            noted += 1
-        fastest = max(fastest, excess)
-        changed += moved
-        size += qx * qx + qy * qy + qz * qz
-    return changed, size, fastest, noted
+    nx, ny, nz, px, py, pz, target, mass = contact
+    vx, vy, vz = j[0] - i[0], j[1] - i[1], j[2] - i[2]
+    sx, sy, sz = j[4] + i[4], j[5] + i[5], j[6] + i[6]
+    mass = relaxation * mass
+    opening = vx * nx + vy * ny + vz * nz
+    excess = target - opening
+    old_normal = px * nx + py * ny + pz * nz
+    new_normal = old_normal + excess * mass
+    new_normal = where_above(new_normal, nothing(), new_normal, nothing())
+    softness = mass / spread(3.5)
+    along = old_normal - softness * opening
+    qx = px - softness * (vx - (sy * nz - sz * ny)) - along * nx
+    qy = py - softness * (vy - (sz * nx - sx * nz)) - along * ny
+    qz = pz - softness * (vz - (sx * ny - sy * nx)) - along * nz
+    qx, qy, qz = cut(qx, qy, qz, friction * new_normal)
+    return qx + new_normal * nx, qy + new_normal * ny, qz + new_normal * nz, excess
 
 
 @compiled_for_teams
-def guide_wall(motion, drive, push):
-    """The last body, a wall between rails: it moves along z, no faster down than drive[0] [m/s].
+def push(motion, blocks, block, contact, i, j, x, y, z):
+    """Give impulses (x, y, z) [N s] at its contacts to the second bodies of a block, their opposites to the first."""
+    nx, ny, nz = contact[:3]
+    tx, ty, tz = ny * z - nz * y, nz * x - nx * z, nx * y - ny * x
+    w, u = i[3], i[7]
+    i = i[0] - w * x, i[1] - w * y, i[2] - w * z, w, i[4] - u * tx, i[5] - u * ty, i[6] - u * tz, u
+    w, u = j[3], j[7]
+    j = j[0] + w * x, j[1] + w * y, j[2] + w * z, w, j[4] - u * tx, j[5] - u * ty, j[6] - u * tz, u
+    scatter(motion, blocks, block, 1, i)
+    scatter(motion, blocks, block, 2, j)
+
+
+@compiled_for_teams
+def sweep_blocks(blocks, begin, count, noted_from, friction, relaxation, quiet, calm, room):
+    """One Gauss-Seidel sweep over so many `blocks` from `begin` on; updates impulses and motion.
+
+    Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than
+    they may by more than `calm` [m/s], are noted in room.lively from `noted_from` on. Returns the sums of
+    squares of the change of impulse and of the impulse, the largest excess of speed [m/s], how many were noted.
+    """
+    packed, motion = room.packed, room.motion
+    changed, size, fastest = nothing(), nothing(), nothing()
+    noted = noted_from
+    for block in range(begin, begin + count):
+        contact = gather(packed, blocks, block, 0)
+        i, j = gather(motion, blocks, block, 1), gather(motion, blocks, block, 2)
+        x, y, z, excess = new_impulse(contact, i, j, spread(friction), spread(relaxation))
+        dx, dy, dz = x - contact[3], y - contact[4], z - contact[5]
+        push(motion, blocks, block, contact, i, j, dx, dy, dz)
+        nx, ny, nz = contact[:3]
+        scatter(packed, blocks, block, 0, (nx, ny, nz, x, y, z, contact[6], contact[7]))
+        moved = dx * dx + dy * dy + dz * dz
+        lively = above(moved, spread(quiet)) | above(excess, spread(calm))
+        if lively:
+            for lane in range(WIDTH):
+                if lively >> lane & 1:
+                    room.lively[noted] = blocks[block, 0, lane]
+                    for side in range(2):
+                        room.bodies[noted, side] = blocks[block, 1 + side, lane]
+                    noted += 1
+        fastest = where_above(excess, fastest, excess, fastest)
+        changed = changed + moved
+        size = size + (x * x + y * y + z * z)
+    return total(changed), total(size), largest(fastest), noted - noted_from
+
+
+@compiled_for_teams
+def guide_wall(motion, wall, drive, push):
+    """Body `wall`, between rails: it moves along z, no faster down than drive[0] [m/s].
 
     Its drive pushes it down with the impulse that this takes, but at most with drive[1] [N s], and pulls
     without limit. push [N s] is the impulse so far. Returns the new one. A wall of infinite mass needs none.
     """
-    inverse_mass = motion[-1, 3]
+    inverse_mass = motion[wall, 3]
     if inverse_mass == 0.0:
         return push
-    motion[-1, :2] = 0.0
-    motion[-1, 4:7] = 0.0
-    new = min(push + (motion[-1, 2] - drive[0]) / inverse_mass, drive[1])
-    motion[-1, 2] -= inverse_mass * (new - push)
+    motion[wall, :2] = 0.0
+    motion[wall, 4:7] = 0.0
+    new = min(push + (motion[wall, 2] - drive[0]) / inverse_mass, drive[1])
+    motion[wall, 2] -= inverse_mass * (new - push)
     return new
 
 
 @compiled_for_teams
-def push_slab(bodies, packed, motion, begin, end):
-    """Give the impulses that contacts begin:end start with to their bodies. Returns the sum of their squares."""
-    size = 0.0
-    for c in range(begin, end):
-        size += packed[c, 3] ** 2 + packed[c, 4] ** 2 + packed[c, 5] ** 2
-        apply_impulse(
-            bodies[c, 0],
-            bodies[c, 1],
-            packed[c, 0],
-            packed[c, 1],
-            packed[c, 2],
-            packed[c, 3],
-            packed[c, 4],
-            packed[c, 5],
-            motion,
-        )
-    return size
+def push_blocks(packed, motion, blocks, begin, count):
+    """Give the impulses that contacts start with to their bodies. Returns the sum of their squares."""
+    size = nothing()
+    for block in range(begin, begin + count):
+        contact = gather(packed, blocks, block, 0)
+        i, j = gather(motion, blocks, block, 1), gather(motion, blocks, block, 2)
+        x, y, z = contact[3:6]
+        push(motion, blocks, block, contact, i, j, x, y, z)
+        size = size + (x * x + y * y + z * z)
+    return total(size)
 
 
 @compiled_for_teams
-def sweep_slabs(rank, members, barrier, begin, room, friction, kind, relaxation, everyone, quiet, calm):
+def sweep_slabs(rank, members, barrier, slabs, room, friction, kind, relaxation, everyone, quiet, calm):
     """A member's part of a sweep over the slabs of one kind (0 even, 1 odd, 2 the last body), then a meeting.
 
-    Over all contacts, or over those that were noted.
+    Over all contacts, or over those that were noted. Notes contacts anew if `quiet` or `calm` is finite (sweep_blocks).
     """
-    slabs = begin.shape[0] - 2
-    first, end = first_and_end(rank, members, slabs, kind)
-    column = COUNT if everyone else NOTED
-    visits = room.everyone if everyone else room.lively
+    account = room.account
+    first, end = first_and_end(rank, members, slabs.begin.shape[0] - 2, kind)
     for s in range(first, end, 2):
-        changed, size, fastest, noted = sweep_contacts(
-            room.bodies,
-            room.packed,
-            room.motion,
-            friction,
-            visits,
-            begin[s],
-            begin[s] + int(room.account[s, column]),
-            relaxation,
-            quiet,
-            calm,
-            room.lively,
+        start, count, of_lively = slabs.begin[s], slabs.begin[s + 1] - slabs.begin[s], WIDTH * slabs.begin[s]
+        blocks = slabs.blocks
+        if not everyone:
+            blocks, start, count = room.lively_blocks, of_lively, int(account[s, LIVELY_BLOCKS])
+        changed, size, fastest, noted = sweep_blocks(
+            blocks, start, count, of_lively, friction, relaxation, quiet, calm, room
         )
         if everyone:
-            room.account[s, CHANGED], room.account[s, SIZE] = changed, size
-            room.account[s, FASTEST], room.account[s, NOTED] = fastest, noted
+            account[s, CHANGED], account[s, SIZE] = changed, size
+            account[s, FASTEST] = fastest
+        if quiet < np.inf or calm < np.inf:
+            account[s, NOTED] = noted
+            account[s, LIVELY_BLOCKS] = deal_lively(s, of_lively, noted, room)
     meet(barrier, members)
 
 
 @compiled_for_teams
 def sweep_until(
-    rank, members, barrier, begin, room, friction, drive, tolerance, calm, enough_sweeps, most_sweeps
+    rank, members, barrier, slabs, room, friction, drive, tolerance, calm, enough_sweeps, most_sweeps
 ):
     """Gauss-Seidel from the given impulses until their relative change is below tolerance.
 
     Sweeps run in rounds. The first of each visits all contacts and decides whether to end; the others visit those
     whose impulse then changed by more than `tolerance` of the root mean square impulse, or that closed faster
-    than they may by more than `calm` [m/s]. After enough_sweeps the tolerance is waived, `calm` never.
-    Contacts begin[s]:begin[s] + account[s, COUNT] of `room` are those of slab s. Run by all members of a team.
+    than they may by more than `calm` [m/s]. Sweep AGAIN of a round leaves out those that no longer do.
+    After enough_sweeps the tolerance is waived, `calm` never. Run by all members of a team.
     Returns (sweeps of either kind, relative change of the last sweep over all contacts).
     """
-    slabs = begin.shape[0] - 2
+    begin, last = slabs.begin, slabs.begin.shape[0] - 2
     account, motion = room.account, room.motion
     contacts = 0
-    for s in range(slabs + 1):
+    for s in range(last + 1):
         contacts += int(account[s, COUNT])
-    idle = 0 if account[slabs, COUNT] > 0.0 else 1  # the last body touches nothing
+    idle = 0 if account[last, COUNT] > 0.0 else 1  # the last body touches nothing
     for k in range(idle, 3):
-        first, end = first_and_end(rank, members, slabs, ORDER[k])
+        first, end = first_and_end(rank, members, last, ORDER[k])
         for s in range(first, end, 2):
-            stop = begin[s] + int(account[s, COUNT])
-            account[s, PUSHED] = push_slab(room.bodies, room.packed, motion, begin[s], stop)
+            count = begin[s + 1] - begin[s]
+            account[s, PUSHED] = push_blocks(room.packed, motion, slabs.blocks, begin[s], count)
         meet(barrier, members)
     size = 0.0
-    for s in range(slabs + 1 - idle):  # in one order, whoever pushed or swept them
+    for s in range(last + 1 - idle):  # in one order, whoever pushed or swept them
         size += account[s, PUSHED]
-    push = guide_wall(motion, drive, 0.0) if rank == 0 else 0.0
+    push = guide_wall(motion, room.wall, drive, 0.0) if rank == 0 else 0.0
     change = 0.0
     for sweep in range(most_sweeps):
         turn = sweep % ROUND
         everyone = turn == 0
         relaxation = 1.0 if everyone or turn == ROUND - 1 else RELAXATION
         quiet, limit = np.inf, np.inf
-        if everyone:
+        if turn in (0, AGAIN):
             quiet, limit = tolerance * tolerance * size / max(contacts, 1), calm
         for k in range(idle, 3):
             sweep_slabs(
-                rank, members, barrier, begin, room, friction, ORDER[k], relaxation, everyone, quiet, limit
+                rank,
+                members,
+                barrier,
+                slabs,
+                room,
+                friction,
+                ORDER[k],
+                relaxation,
+                everyone,
+                quiet,
+                limit,
             )
         if rank == 0:
-            push = guide_wall(motion, drive, push)
+            push = guide_wall(motion, room.wall, drive, push)
         if everyone:
             changed, size, fastest = 0.0, 0.0, 0.0
-            for s in range(slabs + 1 - idle):
+            for s in range(last + 1 - idle):
                 changed += account[s, CHANGED]
                 size += account[s, SIZE]
                 fastest = max(fastest, account[s, FASTEST])

@@ -13,9 +13,12 @@ from __future__ import annotations
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
+from asphalt_nscd.nscd.lanes import WIDTH, gather, largest, nothing, root, scatter, spread, total, where_above
 from asphalt_nscd.nscd.spheres.gauss_seidel import COUNT, DEEPEST, sweep_until
-from asphalt_nscd.nscd.spheres.slabs import first_and_end
+from asphalt_nscd.nscd.spheres.slabs import first_and_end, own_rows
 from asphalt_nscd.nscd.team import meet, share
+
+OUT_OF_REACH = 1e30  # m or m/s
 
 
 @compiled_for_teams
@@ -55,13 +58,37 @@ def near_pairs(position, radius, plane_point, plane_normal, start, other, below)
 
 @compiled_for_teams
 def pack_motion(velocity, inverse_mass, begin, end, motion):
-    """Bodies begin:end of motion (bodies, 8); see Room."""
+    """Bodies begin:end of room.motion."""
     for i in range(begin, end):
         for k in range(3):
             motion[i, k] = velocity[i, k]
             motion[i, 4 + k] = velocity[i, 3 + k]
         motion[i, 3] = inverse_mass[i]
         motion[i, 7] = 2.5 * inverse_mass[i]
+
+
+@compiled_for_teams
+def pack_place(position, radius, begin, end, place):
+    """Spheres begin:end of room.place."""
+    for i in range(begin, end):
+        for k in range(3):
+            place[i, k] = position[i, k]
+        place[i, 3] = radius[i]
+        place[i, 4] = place[i, 5] = place[i, 6] = place[i, 7] = 0.0
+
+
+@compiled_for_teams
+def pack_planes(s, plane_point, plane_normal, room):
+    """The rows of slab s alone (own_rows), and the place of the wall."""
+    spheres = room.wall + 1 - room.planes
+    no_contact, nobody, row = own_rows(s, room)
+    room.packed[no_contact] = room.motion[nobody] = room.place[nobody] = 0.0
+    for p in range(room.planes):
+        room.motion[row + p] = room.motion[spheres + p]
+        for at in (row + p, spheres + p):
+            for k in range(3):
+                room.place[at, k], room.place[at, 4 + k] = plane_point[p, k], plane_normal[p, k]
+            room.place[at, 3], room.place[at, 7] = 0.0, 1.0
 
 
 @compiled_for_teams
@@ -74,67 +101,83 @@ def unpack_motion(motion, begin, end, velocity):
 
 
 @compiled_for_teams
-def pack_slab(
-    s,
-    position,
-    radius,
-    velocity,
-    plane_point,
-    plane_normal,
-    impulse,
-    slabs,
-    room,
-    dt,
-    restitution,
-    recovery_speed,
-    allowed_overlap,
-    margin,
-):
-    """The contacts of slab s, written into `room`: pairs that may touch within the step.
-
-    A pair takes part when its gap, less the approach at the free velocity, is below `margin` [m]. The impulse of
-    any other is set to zero.
-    """
-    start = slabs.begin[s]
-    motion, packed = room.motion, room.packed
-    at = start
-    deepest = 0.0
-    for p in range(start, slabs.begin[s + 1]):
-        i, j, pair = slabs.first[p], slabs.second[p], slabs.pair[p]
-        x, y, z, gap = normal_and_gap(i, j, position, radius, plane_point, plane_normal)
-        vx, vy, vz = motion[j, 0] - motion[i, 0], motion[j, 1] - motion[i, 1], motion[j, 2] - motion[i, 2]
-        if gap + dt * min(vx * x + vy * y + vz * z, 0.0) >= margin:
-            impulse[pair, 0] = impulse[pair, 1] = impulse[pair, 2] = 0.0
-            continue
-        deepest = max(deepest, -gap)
-        # an open gap may close within the step; an overlap left by an unconverged step is undone slowly
-        overlap = max(-gap - allowed_overlap, 0.0)
-        target = -gap / dt if gap > 0.0 else min(overlap / dt, recovery_speed)
-        if restitution > 0.0:
-            opening = (velocity[j, 0] - velocity[i, 0]) * x
-            opening += (velocity[j, 1] - velocity[i, 1]) * y
-            opening += (velocity[j, 2] - velocity[i, 2]) * z
-            if opening < 0.0 and gap + dt * opening <= 0.0:
-                target = -restitution * opening
-        room.active[at] = p
-        room.bodies[at, 0], room.bodies[at, 1] = i, j
-        packed[at, 0], packed[at, 1], packed[at, 2] = x, y, z
-        packed[at, 3], packed[at, 4], packed[at, 5] = impulse[pair, 0], impulse[pair, 1], impulse[pair, 2]
-        packed[at, 6] = target
-        packed[at, 7] = 1.0 / (motion[i, 3] + motion[j, 3])
-        at += 1
-    room.account[s, COUNT] = at - start
-    room.account[s, DEEPEST] = deepest
+def lay_in(impulse, slabs, room, begin, end):
+    """The impulses of the list of pairs (pairs, 3) into contacts begin:end."""
+    for c in range(begin, end):
+        pair = slabs.pair[c]
+        for k in range(3):
+            room.packed[c, 3 + k] = impulse[pair, k] if pair >= 0 else 0.0
 
 
 @compiled_for_teams
-def unpack_slab(s, impulse, slabs, room):
-    """The impulses of the contacts of slab s back to the list of pairs."""
-    start = slabs.begin[s]
-    for at in range(start, start + int(room.account[s, COUNT])):
-        pair = slabs.pair[room.active[at]]
-        for k in range(3):
-            impulse[pair, k] = room.packed[at, 3 + k]
+def take_out(impulse, slabs, room, begin, end):
+    """The other way round."""
+    for c in range(begin, end):
+        pair = slabs.pair[c]
+        if pair >= 0:
+            for k in range(3):
+                impulse[pair, k] = room.packed[c, 3 + k]
+
+
+@compiled_for_teams
+def pack_slab(s, slabs, room, dt, recovery_speed, allowed_overlap, margin):
+    """The contacts of slab s, whose impulses stand in `room`: pairs that may touch within the step.
+
+    A pair takes part when its gap, less the approach at the free velocity, is below `margin` [m]. Any other is
+    given no impulse, no mass, and a target that it cannot miss.
+    """
+    zero, one, half = nothing(), spread(1.0), spread(0.5)
+    count, deepest = zero, zero
+    for block in range(slabs.begin[s], slabs.begin[s + 1]):
+        contact = gather(room.packed, slabs.blocks, block, 0)
+        i, j = gather(room.place, slabs.blocks, block, 1), gather(room.place, slabs.blocks, block, 2)
+        x, y, z = j[0] - i[0], j[1] - i[1], j[2] - i[2]
+        square = x * x + y * y + z * z
+        distance = where_above(square, zero, root(square), spread(OUT_OF_REACH))  # in lanes left over
+        to_plane = zero - (x * j[4] + y * j[5] + z * j[6])
+        x = where_above(j[7], half, zero - j[4], x / distance)
+        y = where_above(j[7], half, zero - j[5], y / distance)
+        z = where_above(j[7], half, zero - j[6], z / distance)
+        gap = where_above(j[7], half, to_plane, distance) - i[3] - j[3]
+        i, j = gather(room.motion, slabs.blocks, block, 1), gather(room.motion, slabs.blocks, block, 2)
+        opening = (j[0] - i[0]) * x + (j[1] - i[1]) * y + (j[2] - i[2]) * z
+        least = gap + spread(dt) * where_above(opening, zero, zero, opening)
+        # an open gap may close within the step; an overlap left by an unconverged step is undone slowly
+        overlap = zero - gap - spread(allowed_overlap)
+        recovery = where_above(overlap, zero, overlap, zero) / spread(dt)
+        recovery = where_above(recovery, spread(recovery_speed), spread(recovery_speed), recovery)
+        target = where_above(gap, zero, (zero - gap) / spread(dt), recovery)
+        near, mass = spread(margin), one / (i[3] + j[3])
+        packed = (
+            x, y, z,
+            where_above(near, least, contact[3], zero),
+            where_above(near, least, contact[4], zero),
+            where_above(near, least, contact[5], zero),
+            where_above(near, least, target, spread(-OUT_OF_REACH)),
+            where_above(near, least, mass, zero),
+        )  # fmt: skip
+        scatter(room.packed, slabs.blocks, block, 0, packed)
+        count = count + where_above(near, least, one, zero)
+        deepest = where_above(zero - gap, deepest, zero - gap, deepest)
+    room.account[s, COUNT] = total(count)
+    room.account[s, DEEPEST] = largest(deepest)
+
+
+@compiled_for_teams
+def rebound(s, slabs, room, velocity, restitution):
+    """Targets of those contacts of slab s that would close within the step at the velocities of its start."""
+    spheres, row = room.wall + 1 - room.planes, own_rows(s, room)[2]
+    for block in range(slabs.begin[s], slabs.begin[s + 1]):
+        for lane in range(WIDTH):
+            c, i, j = slabs.blocks[block, 0, lane], slabs.blocks[block, 1, lane], slabs.blocks[block, 2, lane]
+            if room.packed[c, 7] == 0.0:
+                continue
+            j = j if j <= room.wall else j - row + spheres
+            opening = 0.0
+            for k in range(3):
+                opening += (velocity[j, k] - velocity[i, k]) * room.packed[c, k]
+            if opening < 0.0 and opening <= room.packed[c, 6]:
+                room.packed[c, 6] = -restitution * opening
 
 
 @compiled_for_teams
@@ -178,6 +221,7 @@ def step(
     n, bodies, last = position.shape[0], velocity.shape[0], slabs.begin.shape[0] - 2
     begin, end = share(rank, members, n)
     pack_motion(velocity, inverse_mass, begin, end, room.motion)
+    pack_place(position, radius, begin, end, room.place)
     if rank == 0:
         pack_motion(velocity, inverse_mass, n, bodies, room.motion)
     for i in range(begin, end):
@@ -187,28 +231,17 @@ def step(
     for kind in range(3):
         mine, others = first_and_end(rank, members, last, kind)
         for s in range(mine, others, 2):
-            pack_slab(
-                s,
-                position,
-                radius,
-                velocity,
-                plane_point,
-                plane_normal,
-                impulse,
-                slabs,
-                room,
-                dt,
-                restitution,
-                recovery_speed,
-                allowed_overlap,
-                margin,
-            )
+            pack_planes(s, plane_point, plane_normal, room)
+            lay_in(impulse, slabs, room, WIDTH * slabs.begin[s], WIDTH * slabs.begin[s + 1])
+            pack_slab(s, slabs, room, dt, recovery_speed, allowed_overlap, margin)
+            if restitution > 0.0:
+                rebound(s, slabs, room, velocity, restitution)
     meet(barrier, members)
     sweeps, change = sweep_until(
         rank,
         members,
         barrier,
-        slabs.begin,
+        slabs,
         room,
         friction,
         drive,
@@ -220,7 +253,7 @@ def step(
     for kind in range(3):
         mine, others = first_and_end(rank, members, last, kind)
         for s in range(mine, others, 2):
-            unpack_slab(s, impulse, slabs, room)
+            take_out(impulse, slabs, room, WIDTH * slabs.begin[s], WIDTH * slabs.begin[s + 1])
     unpack_motion(room.motion, begin, end, velocity)
     if rank == 0:  # who guides the wall
         unpack_motion(room.motion, n, bodies, velocity)

@@ -14,6 +14,8 @@ import numpy as np
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
 from asphalt_nscd.nscd.team import Team, share
 
+PARTS = 8  # of the spheres for each member of a team, dealt in turns
+
 
 class Reach(NamedTuple):
     """Gaps [m] below which a pair is listed."""
@@ -42,13 +44,20 @@ def find_pairs_within(team, position, radius, plane_point, plane_normal, reach, 
         return np.zeros(1, np.int64), np.empty(0, np.int64)
     cells = _fill_cells(position, radius, reach.sphere, reach.extra)
     work = ((2.0 * radius + reach.sphere + reach.extra.max()) ** 3).cumsum()  # volume that is looked through
-    parts = np.searchsorted(work, work[-1] / team.members * np.arange(1, team.members))
-    bounds = np.array([0, *parts, radius.size])
+    parts = PARTS * team.members
+    inner = np.searchsorted(work, work[-1] / parts * np.arange(1, parts))
+    bounds = np.array([0, *inner, radius.size])
+    count = np.empty(radius.size, np.int64)
     found = team.run(
-        _partners, bounds, position, radius, plane_point, plane_normal, *reach, first_plane, *cells
+        _partners, bounds, count, position, radius, plane_point, plane_normal, *reach, first_plane, *cells
     )
-    start = np.concatenate([[0], *(counts for counts, _ in found)]).cumsum()
-    return start, np.concatenate([other for _, other in found])
+    start = np.concatenate([[0], count]).cumsum()
+    pieces, taken = [], [0] * team.members
+    for part, size in enumerate(np.diff(start[bounds]).tolist()):
+        rank = part % team.members
+        pieces.append(found[rank][taken[rank] : taken[rank] + size])
+        taken[rank] += size
+    return start, np.concatenate(pieces)
 
 
 @compiled_for_teams
@@ -57,6 +66,7 @@ def _partners(
     members,
     barrier,
     bounds,
+    count,
     position,
     radius,
     plane_point,
@@ -72,74 +82,99 @@ def _partners(
     inside,
     sphere,
 ):
-    """How many bodies each sphere in the share of a member, from its bound to the next, is paired with, and which."""
-    begin, stop = bounds[rank], bounds[rank + 1]
+    """Count the bodies that each sphere is paired with; returns which, for the parts of a member one after another.
+
+    Part k lies from its bound to the next, and is that of member k % members: the first spheres in a rain have landed
+    and lie dense, the last ones still fall.
+    """
     furthest = extra.max()
-    count = np.zeros(stop - begin, np.int64)
-    other = np.empty(16 * (stop - begin) + 64, np.int64)
+    other = np.empty(16 * (position.shape[0] // members) + 64, np.int64)
     end = 0
-    for i in range(begin, stop):
-        while True:
-            found = _candidates(
+    for part in range(rank, bounds.shape[0] - 1, members):
+        for i in range(bounds[part], bounds[part + 1]):
+            while True:
+                found = _candidates(
+                    i,
+                    position,
+                    radius,
+                    reach[i] + extra[i],
+                    furthest,
+                    cell,
+                    low,
+                    shape,
+                    first,
+                    inside,
+                    sphere,
+                    other,
+                    end,
+                )
+                needed = end + found + plane_point.shape[0]
+                if needed <= other.shape[0]:
+                    break
+                other = np.concatenate((other, np.empty(max(needed, other.shape[0]), np.int64)))
+            _sort(other, end, end + found)
+            found += _planes_near(
                 i,
                 position,
                 radius,
-                reach[i] + extra[i],
-                furthest,
-                cell,
-                low,
-                shape,
-                first,
-                inside,
-                sphere,
+                plane_point,
+                plane_normal,
+                plane_reach,
+                extra[i],
+                first_plane,
                 other,
-                end,
+                end + found,
             )
-            needed = end + found + plane_point.shape[0]
-            if needed <= other.shape[0]:
-                break
-            other = np.concatenate((other, np.empty(max(needed, other.shape[0]), np.int64)))
-        _sort(other, end, end + found)
-        found += _planes_near(
-            i,
-            position,
-            radius,
-            plane_point,
-            plane_normal,
-            plane_reach + extra[i],
-            first_plane,
-            other,
-            end + found,
-        )
-        count[i - begin] = found
-        end += found
-    return count, other[:end]
+            count[i] = found
+            end += found
+    return other[:end]
 
 
-@compiled
-def closing_speeds(position, radius, velocity, reach):
+def closing_speeds(team, position, radius, velocity, reach):
     """Bounds (n,) [m/s] of the speeds relative to each other of all spheres with a gap below `reach` [m] to one.
 
     Only spheres that are not larger count, as in find_pairs. velocity (n, 3) [m/s] is bounded within
     thin horizontal slabs: grains that rain at the same speed, or rest together, do not close in. The sphere's
     own speed is no better than theirs: an impact may stop it, or hand on all of its own, within the step.
     """
-    n = position.shape[0]
+    bound = np.empty(position.shape[0])
+    team.run(
+        _bound_speeds,
+        position,
+        radius,
+        velocity,
+        reach,
+        *_speeds_by_height(position, radius, velocity),
+        bound,
+    )
+    return bound
+
+
+@compiled
+def _speeds_by_height(position, radius, velocity):
+    """(bottom [m], thickness [m], least (slabs, 3), most (slabs, 3)): velocities of the spheres in horizontal slabs."""
     thickness = 2.0 * radius.min()
     bottom = position[:, 2].min()
     slabs = int((position[:, 2].max() - bottom) / thickness) + 1
     least = np.full((slabs, 3), np.inf)
     most = np.full((slabs, 3), -np.inf)
-    for i in range(n):
+    for i in range(position.shape[0]):
         s = int((position[i, 2] - bottom) / thickness)
         for k in range(3):
             least[s, k] = min(least[s, k], velocity[i, k])
             most[s, k] = max(most[s, k], velocity[i, k])
-    bound = np.empty(n)
-    for i in range(n):
+    return bottom, thickness, least, most
+
+
+@compiled_for_teams
+def _bound_speeds(
+    rank, members, barrier, position, radius, velocity, reach, bottom, thickness, least, most, bound
+):
+    begin, end = share(rank, members, position.shape[0])
+    for i in range(begin, end):
         away = 2.0 * radius[i] + reach
         first = max(0, int(np.floor((position[i, 2] - away - bottom) / thickness)))
-        last = min(slabs - 1, int(np.floor((position[i, 2] + away - bottom) / thickness)))
+        last = min(least.shape[0] - 1, int(np.floor((position[i, 2] + away - bottom) / thickness)))
         square = 0.0
         for k in range(3):
             slowest, fastest = velocity[i, k], velocity[i, k]
@@ -148,7 +183,25 @@ def closing_speeds(position, radius, velocity, reach):
                 fastest = max(fastest, most[s, k])
             square += (fastest - slowest) ** 2
         bound[i] = np.sqrt(square)
-    return bound
+
+
+@compiled
+def speeds(velocity):
+    """Of spheres (n,) [m/s], of velocity (n, 3 or more)."""
+    found = np.empty(velocity.shape[0])
+    for i in range(found.shape[0]):
+        found[i] = np.sqrt(velocity[i, 0] ** 2 + velocity[i, 1] ** 2 + velocity[i, 2] ** 2)
+    return found
+
+
+@compiled
+def moved_beyond(position, before, allowed):
+    """How far [m] any sphere has moved beyond what is allowed to it (m,) [m]; not below zero."""
+    furthest = 0.0
+    for i in range(before.shape[0]):
+        x, y, z = position[i, 0] - before[i, 0], position[i, 1] - before[i, 1], position[i, 2] - before[i, 2]
+        furthest = max(furthest, np.sqrt(x**2 + y**2 + z**2) - allowed[i])
+    return furthest
 
 
 def carry_reactions(team, old_start, old_other, old_reaction, start, other):
@@ -160,7 +213,10 @@ def carry_reactions(team, old_start, old_other, old_reaction, start, other):
 
 @compiled_for_teams
 def _carry(rank, members, barrier, old_start, old_other, old_reaction, start, other, reaction):
-    begin, end = share(rank, members, start.shape[0] - 1)
+    first, last_pair = share(rank, members, other.shape[0])
+    spheres = start.shape[0] - 1
+    begin = np.searchsorted(start[:spheres], first)
+    end = np.searchsorted(start[:spheres], last_pair) if rank < members - 1 else spheres
     for i in range(begin, end):
         k, last = 0, 0
         if i < old_start.shape[0] - 1:
@@ -228,12 +284,11 @@ def _candidates(i, position, radius, reach, furthest, cell, low, shape, first, m
             for m in range(first[row + x_first], first[row + x_last + 1]):
                 dx, dy, dz = sphere[m, 0] - x, sphere[m, 1] - y, sphere[m, 2] - z
                 limit = size + sphere[m, 3] + reach + sphere[m, 4]
-                if dx * dx + dy * dy + dz * dz < limit * limit:
-                    if sphere[m, 3] > size or (sphere[m, 3] == size and members[m] <= i):
-                        continue
-                    if offset + found < out.shape[0]:
-                        out[offset + found] = members[m]
-                    found += 1
+                near = dx * dx + dy * dy + dz * dz < limit * limit
+                smaller = (sphere[m, 3] < size) | ((sphere[m, 3] == size) & (members[m] > i))
+                if offset + found < out.shape[0]:
+                    out[offset + found] = members[m]  # stays if it counts: no branch that is hard to foresee
+                found += near & smaller
     return found
 
 
@@ -250,14 +305,14 @@ def _sort(numbers, begin, end):
 
 
 @compiled_for_teams
-def _planes_near(i, position, radius, plane_point, plane_normal, reach, first_plane, out, offset):
+def _planes_near(i, position, radius, plane_point, plane_normal, reach, extra, first_plane, out, offset):
     """Count the planes near sphere i and write them from `offset` on."""
     found = 0
     for k in range(plane_point.shape[0]):
         height = 0.0
         for d in range(3):
             height += (position[i, d] - plane_point[k, d]) * plane_normal[k, d]
-        if height - radius[i] < reach[k]:
+        if height - radius[i] < reach[k] + extra:
             out[offset + found] = first_plane + k
             found += 1
     return found

@@ -3,8 +3,8 @@
 A slab is at least as wide as the two spheres of any pair are apart along the axis of slabs. So a pair lies in one slab
 or in two adjacent ones; it is counted to the first of them. Pairs of two slabs of even number then share no
 sphere, nor do pairs of two of odd number. The slabs come from the positions alone and not from the number of threads.
-Within a slab, pairs stand from the top down. Neighbours in this order are mostly apart from each other in the layer,
-so that a visit need not wait for the result of the one before.
+Within a slab, pairs are taken from the top down. Neighbours in this order are mostly apart from each other in the
+layer, so that few blocks hold them (blocks.py).
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
+from asphalt_nscd.nscd.lanes import WIDTH, aligned
 from asphalt_nscd.nscd.team import share
 
 MOST_SLABS = 256
@@ -23,59 +24,73 @@ FAIR = 4  # a multiple of it: as many slabs of even number as of odd, and equal 
 
 
 class Slabs(NamedTuple):
-    """Pairs of spheres in the order of slabs, from the top down in each; slab s holds begin[s]:begin[s + 1].
+    """Pairs of spheres in the order of slabs, and of blocks in each (blocks.py).
 
-    The slab after the last one holds the pairs with the last body.
+    Slab s holds blocks begin[s]:begin[s + 1]; the slab after the last one holds the pairs with the last body.
+    Contact k stands in block k // 8, lane k % 8.
     """
 
     begin: np.ndarray  # (slabs + 2,)
-    pair: np.ndarray  # (c,) place in the list of pairs
-    first: np.ndarray  # (c,)
-    second: np.ndarray  # (c,)
+    blocks: np.ndarray  # (b, 3, 8) contacts, first bodies, second bodies: rows of Room.motion
+    pair: np.ndarray  # (8 b,) place of each contact in the list of pairs; -1 where a lane is left over
 
 
 class Room(NamedTuple):
-    """Where the work of a step is done; contacts of a slab stand from its begin on."""
+    """Where the work of a step is done: on contacts (c,), blocks (b,), bodies and their rows (r,), see `own_rows`."""
 
-    motion: (
-        np.ndarray
-    )  # (bodies, 8) velocity [m/s], 1/mass [1/kg], spin as surface velocity [m/s], 5/2 of 1/mass
-    bodies: np.ndarray  # (c, 2)
-    packed: (
-        np.ndarray
-    )  # (c, 8) normal, impulse [N s], target [m/s], mass that an impulse along the normal moves [kg]
-    active: np.ndarray  # (c,) places in the order of slabs of pairs that take part
-    everyone: np.ndarray  # (c,) 0, 1, 2, ...
+    motion: np.ndarray  # (r, 8) velocity [m/s], 1/mass [1/kg], spin as surface velocity [m/s], 5/2 of 1/mass
+    place: np.ndarray  # (r, 8) [m] of a sphere: position, radius, zeros; of a plane: a point, 0, normal, 1
+    packed: np.ndarray  # (c, 8) normal, impulse [N s], target [m/s], mass that an impulse along it moves [kg]
     lively: np.ndarray  # (c,) contacts that were noted
+    bodies: np.ndarray  # (c, 2) theirs
+    lively_blocks: np.ndarray  # (c, 3, 8) in which they stand, those of a slab from its first contact on
+    block: np.ndarray  # (c,) while contacts are dealt: where each stands,
+    lane: np.ndarray  # (c,)
+    filled: np.ndarray  # (c,) lanes of each block that are taken,
+    following: np.ndarray  # (c,) the next block that may have room,
+    last_block: np.ndarray  # (r,) in which each body stood
     account: np.ndarray  # (slabs + 1, 8) see gauss_seidel.py
+    wall: int  # row of the last body
+    planes: int  # it and those before it
 
 
-def room_for(pairs: int, bodies: int) -> Room:
-    """For so many pairs."""
+def room_for(contacts: int, bodies: int, planes: int) -> Room:
+    """For so many contacts of so many bodies, planes among them."""
+    rows = bodies + (MOST_SLABS + 1) * (planes + 1)
+    lively, block, lane, filled, following = np.empty((5, contacts), np.int32)
     return Room(
-        _lines(bodies),
-        np.empty((pairs, 2), np.int32),
-        _lines(pairs),
-        np.empty(pairs, np.int32),
-        np.arange(pairs, dtype=np.int32),
-        np.empty(pairs, np.int32),
-        _lines(MOST_SLABS + 1),
+        motion=aligned((rows, WIDTH)),
+        place=aligned((rows, WIDTH)),
+        packed=aligned((contacts + MOST_SLABS + 1, WIDTH)),
+        lively=lively,
+        bodies=np.empty((contacts, 2), np.int32),
+        lively_blocks=np.empty((contacts, 3, WIDTH), np.int32),
+        block=block,
+        lane=lane,
+        filled=filled,
+        following=following,
+        last_block=np.empty(rows, np.int32),
+        account=aligned((MOST_SLABS + 1, WIDTH)),
+        wall=bodies - 1,
+        planes=planes,
     )
 
 
-def _lines(rows: int) -> np.ndarray:
-    """(rows, 8) zeros, each row a cache line."""
-    line = 64
-    memory = np.zeros(8 * rows + 8)
-    skipped = -memory.ctypes.data % line // memory.itemsize
-    return memory[skipped : skipped + 8 * rows].reshape(rows, 8)
+@compiled_for_teams
+def own_rows(s, room):
+    """(contact, body, plane): rows of slab s alone, so that no two threads write to one.
+
+    A contact and a body that stay zero, for lanes left over; its copy of the first plane, then of the others.
+    """
+    body = room.wall + 1 + s * (room.planes + 1)
+    return room.packed.shape[0] - MOST_SLABS - 1 + s, body, body + 1
 
 
 @compiled
 def slabs_of(position, start, other, last_body):
     """The pairs of a list (start, other), see neighbours.py, in slabs along the longer horizontal axis of `position`.
 
-    Returns begin, pair, first, second of `Slabs`.
+    From the top down in each. Returns begin (slabs + 2,), pair (c,): place in the list, bodies (c, 2).
     """
     n = position.shape[0]
     axis, low, extent = 0, 0.0, -1.0
@@ -115,14 +130,14 @@ def slabs_of(position, start, other, last_body):
     next_place = np.cumsum(counted)
     begin = next_place[::layers].copy()
     pair = np.empty(other.shape[0], np.int32)
-    first = np.empty(other.shape[0], np.int32)
-    second = np.empty(other.shape[0], np.int32)
+    bodies = np.empty((other.shape[0], 2), np.int32)
     for i in range(n):
         for c in range(start[i], start[i + 1]):
             at = next_place[layer[c]]
-            pair[at], first[at], second[at] = c, i, other[c]
+            pair[at] = c
+            bodies[at, 0], bodies[at, 1] = i, other[c]
             next_place[layer[c]] += 1
-    return begin, pair, first, second
+    return begin, pair, bodies
 
 
 @compiled_for_teams
