@@ -13,7 +13,7 @@ from asphalt_nscd.nscd.lanes import root, spread, where_above
 
 @compiled_for_teams
 def cut(x, y, z, limit):
-    """Tangential reactions (x, y, z) of eight contacts (lanes.py); those above `limit` are shortened to it: they slip."""
+    """Tangential reactions (x, y, z) of eight contacts (lanes.py); those above `limit` are cut to it: they slip."""
     square = x * x + y * y + z * z
     share = where_above(square, limit * limit, limit / root(square), spread(1.0))
     return share * x, share * y, share * z
