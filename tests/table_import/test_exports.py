@@ -148,6 +148,21 @@ def test_decimal_commas(tmp_path, separator):
     assert moduli(campaign) == (["9100", "8000", "5000"], ["12.5", "13.25", "19"])
 
 
+def test_frequencies_with_a_point_above_decimal_commas(tmp_path):
+    """A heading is read by itself; where the commas below may group digits, both are named with their lines."""
+    text = EXPORT.replace(",", ";").replace("Std Dev;", "Std Dev.")
+    commas = text.replace("12.5", "12,5").replace("13.25", "13,25")
+    for point in ("4.1;4.0;3.9", "1.2;1.2;1.2", "0.0;-1.2;0.5", "3.2;0.9", "7.9;0.4;0.5"):
+        commas = commas.replace(point, point.replace(".", ","))
+    campaign = read(tmp_path, commas)
+    assert campaign.table.columns["frequency_Hz"] == ["25", "10", "0.5"]
+    assert moduli(campaign) == (["9100", "8000", "5000"], ["12.5", "13.25", "19"])
+    head, frequencies, modulus, *_ = RESULTS.split("\n")
+    whole = [head, frequencies, modulus.replace("9100", '"9,100"'), " Phase angle (Degrees),12,13,19"]
+    said = refusal(tmp_path, HEADER + "\n".join(whole))
+    assert "'9,100' (line 15) and '0.5' (line 14) have different decimal marks" in said
+
+
 TURNED = (
     HEADER
     + """\

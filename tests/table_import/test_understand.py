@@ -118,6 +118,14 @@ def test_replicates_of_specimens_are_told_apart():
     assert (read["specimen"], read["replicate"]) == (["A", "A"], ["1", "2"])
 
 
+def test_frequencies_of_headings_have_a_mark_of_their_own():
+    """`0.5 Hz` above cells with decimal commas; digits that may be grouped are refused all the same."""
+    header = "T_C;E (MPa) 10 Hz;phi (deg) 10 Hz;E (MPa) 0.5 Hz;phi (deg) 0.5 Hz"
+    read = columns(header, "4,5;9100,5;12,5;5000;19")
+    assert read["frequency_Hz"] == ["10", "0.5"] and read["E_MPa"] == ["9100.5", "5000"]
+    assert "different decimal marks" in refusal(header, "4;9,100;12;5,000;19")
+
+
 def test_wide_table_becomes_long():
     read = columns(
         "f (Hz);E (GPa) at -10 °C;phi (deg) at -10 °C;E (GPa) at 12,5 °C;phi (deg) at 12,5 °C",

@@ -40,6 +40,12 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
     return "," if "," in first else "."
 
 
+def like_below(heading: str, cells: Iterable[str]) -> str:
+    """A number of a heading with the decimal mark of the cells below it, where one of them can mean nothing else."""
+    comma = any(_COMMA.fullmatch(cell) and not _GROUPED.fullmatch(cell) for cell in cells)
+    return heading.replace(".", ",") if comma else heading
+
+
 def _or_groups(*texts: str) -> str:
     grouped = next((text for text in texts if _GROUPED.fullmatch(text)), None)
     return f", or {grouped!r} groups its digits in thousands" if grouped else ""

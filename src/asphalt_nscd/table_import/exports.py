@@ -9,6 +9,7 @@ from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells, Row
+from asphalt_nscd.table_import.decimals import decimal_mark, like_below
 from asphalt_nscd.table_import.names import celsius, of_file, specimen_of
 from asphalt_nscd.table_import.quantities import ABSENT, Column, recognise, unit_in
 from asphalt_nscd.table_import.targets import Header, decided, median_reading
@@ -207,7 +208,12 @@ def _turned(path: Path, line: int, frequencies: list[str], rows: list[Row], note
     unit = "rad/s" if "rad/s" in header[0] else "Hz"
     modulus = next((n for n, cells in rows if _holds(cells[0], "E_MPa")), line)
     turned: dict[float, Row] = {}
-    for place, frequency in enumerate(_frequencies(frequencies), start=1):
+    below = [(n, cell) for n, cells in rows if _recognised(cells[0]) for cell in cells[1:]]
+    headings = [like_below(text, [cell for _, cell in below]) for text in _frequencies(frequencies)]
+    decimal_mark(
+        str(path), [*((line, text) for text in headings), *below]
+    )  # the lines of both are known here
+    for place, frequency in enumerate(headings, start=1):
         values = [cells[place] if place < len(cells) else "" for _, cells in rows]
         value = float(frequency.replace(",", "."))
         same = turned.setdefault(value, (modulus, [frequency, *values]))

@@ -6,6 +6,7 @@ import re
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells
+from asphalt_nscd.table_import.decimals import like_below
 from asphalt_nscd.table_import.quantities import recognise
 
 _LINK = r"(?P<name>.*?\S)(?:\s*(?:at|@|à|bei|,|;|[Tf]\s*=)\s*|[\s_]+)"
@@ -65,8 +66,9 @@ def _melted(
             f"not the same for all quantities; give one row for each test, with a column {column}."
         )
     header = [*(cells.header[place] for place in shared), column, *names]
+    below = [row[place] for _, row in cells.rows for place in found]
     rows = [
-        (line, [*(row[place] for place in shared), written[at], *measured])
+        (line, [*(row[place] for place in shared), like_below(written[at], below), *measured])
         for at, columns in spread.items()
         for line, row in cells.rows
         # What was not tested there is left empty.
