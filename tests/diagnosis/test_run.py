@@ -86,7 +86,7 @@ def test_the_verdict_names_files_without_tests(tmp_path):
         (tmp_path / path.name).write_bytes(path.read_bytes())
     (tmp_path / "Mix-C-50C_Sum.csv").write_text("")
     outcome = run.conclude(read_campaign([tmp_path])[0], PAPER_GEOMETRY, draws=FEW)
-    told = "1 of 12 files gave no test: Mix-C-50C_Sum.csv (holds no table)."
+    told = "1 of 12 files gave no test: Mix-C-50C_Sum.csv (the file is empty)."
     Draft202012Validator(SCHEMA).validate(outcome.content)
     assert outcome.content["reading"]["files_without_tests"] == [told]
     assert dict(rows(outcome.content))["Note"][0] == told

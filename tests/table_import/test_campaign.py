@@ -68,11 +68,13 @@ def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
     assert [path.name for path in campaign.files] == ["a.csv"]
     assert said(campaign, "skipped sieves.csv (no columns for temperature, frequency, |E*| and phase)")
     assert said(campaign, "skipped scan.pdf (neither CSV, TSV, TXT nor XLSX)")
-    assert said(campaign, "skipped old (a folder;") and said(campaign, "skipped empty.csv (holds no table)")
+    assert said(campaign, "skipped old (a folder;") and said(
+        campaign, "skipped empty.csv (the file is empty)"
+    )
     assert not said(campaign, "hidden")
     (sentence,) = campaign.without_tests
     assert sentence.startswith(
-        "2 of 3 files gave no test: empty.csv (holds no table); sieves.csv (no columns"
+        "2 of 3 files gave no test: empty.csv (the file is empty); sieves.csv (no columns"
     )
 
 

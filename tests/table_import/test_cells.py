@@ -92,7 +92,7 @@ def test_archive_that_unpacks_to_much_more_is_refused_before_it_is_unpacked(tmp_
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
-        (b"", "holds no table"),
+        (b"", "the file is empty; export it anew"),
         (b"# only\n", "holds no table"),
         (b"a,b\n", "holds no table"),
         (b"a,b\n\0,1\n", "not text"),

@@ -82,6 +82,8 @@ def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
         sheets = [Sheet(None, *_text(path))]
     sheets = [Sheet(one.name, _held(one.rows), one.notes) for one in sheets]
     sheets = [one for one in sheets if len(one.rows) > 1]
+    if not sheets and not path.read_bytes().strip():
+        raise NotTests(f"{path}: the file is empty; export it anew.")
     if not sheets:
         raise NotTests(f"{path}: holds no table; give one line of column names and a line for each test.")
     if any(

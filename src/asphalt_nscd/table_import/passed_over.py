@@ -28,7 +28,7 @@ def refused(name: str, error: InputError, path: Path) -> PassedOver:
 
 
 def listed(files: Sequence[PassedOver]) -> str:
-    """`a.csv, b.csv, c.csv and 9 more (holds no table); d.pdf (neither CSV, ...)`."""
+    """`a.csv, b.csv, c.csv and 9 more (the file is empty); d.pdf (neither CSV, ...)`."""
     by_reason: dict[str, list[str]] = {}
     for one in files:
         by_reason.setdefault(one.reason, []).append(one.name)
