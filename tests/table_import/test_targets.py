@@ -93,6 +93,16 @@ def test_a_target_far_from_what_was_measured_is_refused(tmp_path):
     )
 
 
+@pytest.mark.parametrize("header,refused", [("4.8", False), ("4.9", True), ("3.3", True), ("3.4", False)])
+def test_a_target_may_be_three_quarters_of_a_kelvin_off(tmp_path, header, refused):
+    """Measured are 4.1 degC; a slip of 0.9 K already gives false names."""
+    if not refused:
+        assert read(tmp_path, "Mix-7_Sum.csv", header=header, measured=4)[0] == [header] * 3
+        return
+    said = refusal(tmp_path, "Mix-7_Sum.csv", header=header, measured=4)
+    assert said.endswith("leave the file out and repeat its tests: AASHTO T 378 allows 0.5 K.")
+
+
 def test_temperature_of_the_name_where_no_other_is_given(tmp_path):
     for file, specimen in (("Mix-7_Sum.csv", "Mix-7-4C"), ("Mix-7-4C_Sum.csv", "Mix-7")):
         target, notes = read(tmp_path, file, header=None, specimen=specimen)

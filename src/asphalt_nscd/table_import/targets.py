@@ -8,10 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.campaign import OFF_TARGET
 from asphalt_nscd.table_import.cells import Row
 from asphalt_nscd.table_import.names import celsius, specimen_of
 
-FAR = 3.0  # K between a target and the readings, or between two targets; T 378 lets a test stray by 0.5 K
+FAR = 3.0  # K between two targets, or a name and the readings
+# K between a target and the readings. T 378 allows OFF_TARGET. In the tutorial's exports one isotherm of one specimen
+# recorded 0.8 K too warm changes no name; at 0.9 to 2.9 K 12 of 15 diagnoses named a false bias or lost the true delay.
+OFF = 0.75
 COLDEST = 30.0  # K below zero, further than mixes are tested; a hyphen before more is no minus
 _NUMBER = re.compile(r"[-−]?\d+(?:[.,]\d+)?")
 
@@ -62,12 +66,13 @@ def decided(
         return _without_header(path, names, measured, notes)
     other = _contradicting(path, header, names)
     if other is None:
-        if measured is not None and abs(measured - header.value) > FAR:
+        if measured is not None and abs(measured - header.value) > OFF:
             named = any(specimen_of(text, header.value).temperature for text in names)
             raise InputError(
                 f"{path}: the target temperature is {header.text} {_unit(header)}{', as the name says,' * named} and "
                 f"{measured:.3g} degC was measured: which is right? If the measured one, write it as the target"
-                f"{' and into the name' * named}; if the target, leave the cells of the readings empty."
+                f"{' and into the name' * named}; if the target, leave the cells of the readings empty. If nobody "
+                f"knows, leave the file out and repeat its tests: AASHTO T 378 allows {OFF_TARGET:g} K."
             )
         return Target(header.text, header.column)
     text, said = other
@@ -81,7 +86,7 @@ def decided(
         notes.append(f"{both}; the header is taken")
         return Target(header.text, header.column)
     of_name, of_header = abs(measured - float(said)), abs(measured - header.value)
-    if min(of_name, of_header) > FAR:
+    if min(of_name, of_header) > OFF:
         raise InputError(
             f"{path}: {both}, but {measured:.3g} degC was measured; correct the name and the header, or leave the "
             "file out."
