@@ -83,7 +83,7 @@ def test_specimens_that_are_hardly_of_one_mix_are_noted(percent, noted):
 def test_a_certain_fault_comes_with_its_correction():
     sure, possible, data = faults(rung("channel_delay", 0.8e-3, "s", 1e-5, established=True))
     assert sure == [
-        "Channel delay in all tests, 0.8 +- 0.02 ms. The displacement is recorded after the force. Correction: "
+        "Channel delay in all tests, 0.800 +- 0.020 ms. The displacement is recorded after the force. Correction: "
         "subtract 0.288 deg per Hz from the phase."
     ]
     assert possible is None and data == ["All 72 tests can be used after correction."]
@@ -103,7 +103,7 @@ def test_a_certain_fault_comes_with_its_correction():
 def test_a_fault_that_is_not_certain_is_a_possible_one(then, said):
     sure, possible, data = faults(rung("phase_offset", 1.5, "deg", established=False, **then))
     assert possible == [
-        f"Phase offset in all tests, 1.5 +- 0.2 deg. The measured phases are too large. {said}"
+        f"Phase offset in all tests, 1.50 +- 0.20 deg. The measured phases are too large. {said}"
     ]
     assert sure == ["None is certain."] and data == ["All 72 tests can be used."]
 

@@ -12,7 +12,7 @@ from jsonschema import Draft202012Validator
 
 from asphalt_nscd.diagnosis import gain, report, run
 from asphalt_nscd.diagnosis.summary import summary
-from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA
+from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, shown, with_interval
 from asphalt_nscd.rheology.shift import Arrhenius
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
@@ -143,9 +143,8 @@ def test_amplitudes_stand_with_their_interval_in_the_summary(diagnosed):
     said = summary(content)
     for rung in content["ladder"]:
         first = next(iter(rung["parameters"].values()))
-        factor = {"s": 1e3, "Pa": 1e-6, "1/Pa": 1e12, "kg": 1e3}.get(first["unit"], 1.0)
-        interval = "" if first["std_error"] is None else float(f"{1.96 * factor * first['std_error']:.2g}")
-        assert not interval or f"{factor * first['value']:.3g} +- {interval:g}" in said
+        value, half = (shown(first[name] or 0.0, first["unit"])[0] for name in ("value", "std_error"))
+        assert not half or with_interval(value, 1.96 * half) in said
 
 
 def test_gains_are_errors_of_single_tests_and_of_averages_over_specimens(diagnosed):

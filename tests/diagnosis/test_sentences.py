@@ -163,7 +163,7 @@ def test_a_doubt_and_the_law_of_the_mix_are_told_for_what_they_are():
         "it: metal."
     )
     assert law_of_the_mix({"ladder": [law, rung]}) == (
-        "shift with temperature: WLF C1 1.5 +- 0.2, WLF C2 173 +- 0.2 K, at 20 degC",
+        "shift with temperature: WLF C1 1.50 +- 0.20, WLF C2 173.00 +- 0.20 K, at 20 degC",
         "Not certain: certainty takes four temperatures, three frequencies and two specimens.",
     )
     assert law_of_the_mix({"ladder": [rung]}) is None
@@ -187,7 +187,7 @@ def test_a_rival_that_was_named_too_is_no_alternative():
 def test_a_relative_size_is_told_in_percent():
     size = {"value": -0.316, "std_error": 0.07, "unit": "1"}
     rung = {"cause": "specimen_geometry", "where": "A", "parameters": {"relative_modulus": size}}
-    assert sentences.size(rung, {}) == "-31.6 +- 14 %"
+    assert sentences.size(rung, {}) == "-32 +- 14 %"
 
 
 def test_one_temperature_has_no_slope_over_it():
@@ -216,7 +216,7 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
         "confirmed_by": "metal",
     }
     near, far = ({"ladder": [rung], "estimates_spread": spread} for spread in (1.0, 2.0))
-    assert sentences.size(rung, near) == "1.5 +- 0.98 deg" and sentences.size(rung, far) == "1.5 +- 2 deg"
+    assert sentences.size(rung, near) == "1.50 +- 0.98 deg" and sentences.size(rung, far) == "1.5 +- 2.0 deg"
     assert (
         "includes zero" not in causes(near)[0][1]
         and "Its 95 % interval, as widened below, includes zero. To" in causes(far)[0][1]

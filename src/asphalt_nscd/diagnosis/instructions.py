@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import fixed_orders
+from asphalt_nscd.diagnosis import fixed_orders, rungs
 from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.further_tests import Possible, possible
@@ -27,7 +27,7 @@ from asphalt_nscd.diagnosis.order_words import Context, Open, Order, in_a_senten
 from asphalt_nscd.diagnosis.sentences import an
 from asphalt_nscd.diagnosis.sweeps import METAL, Costs, Sweep
 from asphalt_nscd.diagnosis.unexplained import size_left
-from asphalt_nscd.diagnosis.written import shown, three_digits
+from asphalt_nscd.diagnosis.written import CONFIDENCE, shown, three_digits, widening, with_interval
 from asphalt_nscd.files.words import joined, specimen_named
 
 MOST = 5
@@ -223,7 +223,9 @@ def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, 
     metal = np.arange(rows) >= model.table.size
     if np.abs(model.linear.effects[metal, k]).max(initial=0.0) > 0.0:
         question = Question(k, amplitude, active, FOUND)
-        found.append(Open("metal", Asked(question, metal), words, _on_metal(model, k, amplitude)))
+        value, error = rungs.amplitude(diagnosis, candidate)
+        share = widening(diagnosis.ladder.estimates_spread) * CONFIDENCE * error / abs(value)
+        found.append(Open("metal", Asked(question, metal), words, _on_metal(model, k, amplitude, share)))
     return found
 
 
@@ -238,16 +240,18 @@ def _parts(table: Observations, rows: int) -> Iterator[tuple[str, NDArray[np.boo
             yield words(value), np.concatenate([values != value, np.ones(rows - table.size, bool)])
 
 
-def _on_metal(model: Possible, k: int, amplitude: float) -> str:
-    """What a cause does on metal where it does most."""
+def _on_metal(model: Possible, k: int, amplitude: float, share: float) -> str:
+    """What a cause does on metal where it does most, to two digits, or those of its interval; share: this of that."""
     metal = np.arange(model.table.size, model.linear.nuisance.shape[0])
     effect = amplitude * model.linear.effects[metal, k]
     most = np.flatnonzero(np.abs(effect) > 0.99 * np.abs(effect).max())
     at = most[np.argmax(model.metal_frequencies[most])]
     if abs(effect[at].imag) > abs(effect[at].real):
-        size = f"{three_digits(float(f'{np.degrees(effect[at].imag):.2g}'))} deg of phase"
+        value, unit = float(np.degrees(effect[at].imag)), "deg of phase"
     else:
-        size = f"{three_digits(float(f'{100.0 * effect[at].real:.2g}'))} % of the modulus"
+        value, unit = 100.0 * float(effect[at].real), "% of the modulus"
+    half = max(share * abs(value), 10.0 ** np.floor(np.log10(abs(value))))
+    size = f"{with_interval(value, half).partition(' ')[0]} {unit}"
     every = most.size == effect.size > 1
     return f"{size} at {'every frequency' if every else f'{model.metal_frequencies[at]:g} Hz'}"
 

@@ -11,7 +11,7 @@ from typing import Any
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import CHANCE, LEAST_ISOTHERMS
-from asphalt_nscd.diagnosis.written import CONFIDENCE, WIDE_SPREAD, name_at, shown, three_digits
+from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at, shown, three_digits, widening, with_interval
 from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Content = Mapping[str, Any]
@@ -112,9 +112,8 @@ def of_intervals(content: Content) -> str:
 
 
 def widened(content: Content) -> float:
-    """Factor on the intervals of a table whose tests lie far from the fit; see `Ladder.estimates_spread`."""
-    spread = content.get("estimates_spread", 1.0)
-    return spread if spread >= WIDE_SPREAD else 1.0
+    """Factor on the intervals of a diagnosis."""
+    return widening(content.get("estimates_spread", 1.0))
 
 
 def origin(content: Content) -> list[str]:
@@ -278,11 +277,10 @@ def size(rung: Content, content: Content) -> str:
 def estimate(one: Content, factor: float = 1.0) -> str:
     """A value with its 95 % interval, times a factor, and unit."""
     value, unit = shown(one["value"], one["unit"])
-    interval = ""
-    if one["std_error"] is not None:
-        half = factor * CONFIDENCE * shown(one["std_error"], one["unit"])[0]
-        interval = f" +- {three_digits(float(f'{half:.2g}'))}"
-    return f"{three_digits(value)}{interval} {typed(unit)}".rstrip()
+    if one["std_error"] is None:
+        return f"{three_digits(value)} {typed(unit)}".rstrip()
+    half = factor * CONFIDENCE * shown(one["std_error"], one["unit"])[0]
+    return f"{with_interval(value, half)} {typed(unit)}".rstrip()
 
 
 def typed(unit: str) -> str:

@@ -135,6 +135,23 @@ def three_digits(value: float) -> str:
     return f"{float(f'{value:.3g}'):.10g}"
 
 
+def with_interval(value: float, half: float) -> str:
+    """A value and its interval to the second digit of the interval.
+
+    >>> with_interval(0.739, 1.08), with_interval(3.0, 0.392), with_interval(-227.4, 268.0)
+    ('0.7 +- 1.1', '3.00 +- 0.39', '-230 +- 270')
+    """
+    if not half > 0.0:
+        return f"{three_digits(value)} +- 0"
+    digits = 1 - int(f"{half:.1e}".partition("e")[2])
+    return " +- ".join(f"{round(one, digits) + 0.0:.{max(digits, 0)}f}" for one in (value, half))
+
+
+def widening(spread: float) -> float:
+    """Factor on intervals and limits of a table whose tests lie far from the fit; see `Ladder.estimates_spread`."""
+    return spread if spread >= WIDE_SPREAD else 1.0
+
+
 def place_name(where: str | float | None) -> str:
     """Where a cause sits, in words; empty for all tests."""
     if where is None:

@@ -12,7 +12,6 @@ import pandas as pd
 from asphalt_nscd.diagnosis import brief, sentences, table_rows, unexplained, verdict
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import (
-    CONFIDENCE,
     WIDE_SPREAD,
     limits_by_place,
     mean_averages,
@@ -21,6 +20,7 @@ from asphalt_nscd.diagnosis.written import (
     read_diagnosis,
     shown,
     three_digits,
+    widening,
 )
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import specimen_named
@@ -214,11 +214,7 @@ def _cause(rung: dict[str, Any]) -> str:
 
 
 def _estimate(name: str, estimate: dict[str, Any], factor: float) -> str:
-    size, unit = shown(estimate["value"], estimate["unit"])
-    text = f"{name.replace('_', ' ')} {_number(size)}"
-    if estimate["std_error"] is not None:
-        text += f" ± {_number(factor * CONFIDENCE * shown(estimate['std_error'], estimate['unit'])[0])}"
-    return f"{text} {unit}".rstrip()
+    return in_type(f"{name.replace('_', ' ')} {sentences.estimate(estimate, factor)}")
 
 
 def _warning(last: bool, gain: dict[str, Any], inner: bool) -> str:
@@ -256,7 +252,7 @@ def _limits_caption(spread: float) -> str:
 
 def _limits(limits: dict[str, Any], spread: float) -> list[tuple[str, str]]:
     """Cause, and its limit in words; places that share one stand together. spread: see `estimates_spread`."""
-    factor = spread if spread >= WIDE_SPREAD else 1.0
+    factor = widening(spread)
     rows = []
     for cause, limit in limits.items():
         places: dict[str, list[str]] = {}
