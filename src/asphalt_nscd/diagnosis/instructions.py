@@ -10,7 +10,6 @@ next, given the first.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -55,7 +54,7 @@ def instructions(
     costs = costs or Costs()
     model = possible(diagnosis, costs)
     questions = open_questions(diagnosis, model)
-    chosen = _merged(choose(model, questions), costs)
+    chosen = choose(model, questions)
     done = diagnosis.whole or diagnosis.observed
     checks = fixed_orders.gauges(done, costs)
     first = [*(ahead or []), *checks]
@@ -81,28 +80,6 @@ def instructions(
         if why
     ]
     return {"costs": costs.sentence, "orders": [*[*first, *orders][: MOST - len(last)], *last]}
-
-
-def _merged(orders: Sequence[Order], costs: Costs) -> list[Order]:
-    """Sweeps of the same specimens over two parts of the band are one order."""
-    out: list[Order] = []
-    for one in orders:
-        other = next((other for other in out if _alike(one, other)), None)
-        if other is None:
-            out.append(one)
-            continue
-        band = tuple(sorted({*other.sweep.frequencies, *one.sweep.frequencies}))
-        other.sweep = replace(other.sweep, frequencies=band)
-        other.hours = sum(costs.hours(name, one.sweep.temperature, band) for name in other.specimens)
-        other.nats += one.nats
-        for k, (before, after) in one.helps.items():
-            other.helps[k] = other.helps.get(k, (before, 0.0))[0], after
-    return out
-
-
-def _alike(one: Order, other: Order) -> bool:
-    sweeps = one.sweep, other.sweep
-    return one.specimens == other.specimens and len({(s.temperature, s.half_strain) for s in sweeps}) == 1
 
 
 def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:

@@ -178,7 +178,7 @@ def scatter_of(within: NDArray, shared: NDArray, block: NDArray) -> NDArray[np.f
 
 
 def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: Costs) -> Iterator[Sweep]:
-    """Sweeps of all specimens, over parts of the band; the rows of table behind those of observed hold them."""
+    """Sweeps of all specimens; the rows of table behind those of observed hold them."""
     first = observed.size
     halved = at_half_strain(table)
     groups: dict[tuple, dict[float, int]] = {}
@@ -186,7 +186,10 @@ def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: 
         key = (int(table.specimen[row]), float(table.isotherm[row]), bool(halved[row]))
         groups.setdefault(key, {}).setdefault(float(table.frequency[row]), row)
     for (specimen, temperature, half), rows in groups.items():
-        for chosen in _frequency_sets(sorted(rows), observed.frequencies, half):
+        every = tuple(sorted(rows))
+        usual = tuple(f for f in every if f >= observed.frequencies[0])
+        # A part of the band saves minutes of hours, and cannot be held against its own isotherm.
+        for chosen in dict.fromkeys([usual] if half else [usual, every]):
             at = np.array([rows[f] for f in chosen])
             yield _sweep(table.names[specimen], temperature, chosen, half, at, noise, costs)
 
@@ -204,16 +207,6 @@ def _sweep(
     source = np.minimum(at, noise.within.shape[1] - 1)
     tested = Tested(at, scatter_of(noise.within[:, source], noise.shared[:, source], one))
     return Sweep(specimen, temperature, chosen, half, tested, costs.hours(specimen, temperature, chosen))
-
-
-def _frequency_sets(every: list[float], tested: NDArray, half: bool) -> list[tuple[float, ...]]:
-    """The whole band, with a lower frequency, its halves and its ends."""
-    usual = [f for f in every if f >= tested[0]]
-    sets = [tuple(usual)]
-    if not half:
-        n = len(usual) // 2
-        sets += [tuple(every), tuple(usual[:n]), tuple(usual[-n:]), (usual[0],), (usual[-1],)]
-    return [chosen for chosen in dict.fromkeys(sets) if chosen]
 
 
 def on_metal(observed: Observations) -> Observations:
