@@ -49,7 +49,7 @@ def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
     assert first == "a note of the import" and isotherms.startswith(
         "Isotherms in degC: 4 (measured 3.9 to 4.1), 20 ("
     )
-    assert law == "The law is fitted to the measured temperatures."
+    assert law == "Both laws are fitted to the measured temperatures."
     assert quality == (
         "Phase uniformity above 3 deg (AASHTO T 378, TP 132) in 1 of 72 tests: Mix-B at 4 degC, 25 Hz: 6.4 deg."
     )
@@ -79,6 +79,22 @@ def test_a_specimen_that_lacks_a_temperature_of_the_others_is_named():
     alone = observed.isotherm != 20
     alone |= observed.specimen == 1
     assert "not_tested" not in reading(observed.subset(np.flatnonzero(alone)), [])
+
+
+def test_an_isotherm_off_its_target_is_to_be_checked_and_tested_again_first(tmp_path):
+    for path in EXPORTS.glob("*.csv"):
+        text = path.read_bytes()
+        if path.name == "Mix-A-20C_Sum.csv":
+            text = text.replace(b"20.0,20.1,20.0,20.0,20.0,19.9", b"20.7,20.7,20.7,20.7,20.7,20.7")
+        (tmp_path / path.name).write_bytes(text)
+    content = run.conclude(read_campaign([tmp_path])[0], PAPER_GEOMETRY, draws=FEW).content
+    assert (content["trust"]["check"], content["trust"]["use_by_specimen"]["Mix-A"]) == (6, 18)
+    first = content["instructions"]["orders"][0]
+    assert first["purpose"] == "because it was measured 0.7 K off its target"
+    told = dict(rows(content))["Check first"]
+    assert told[0].startswith(
+        "Specimen Mix-A at 20 degC: measured at 20.7 degC, 0.7 K off its target (AASHTO"
+    )
 
 
 def test_the_verdict_names_files_without_tests(tmp_path):

@@ -187,6 +187,7 @@ def conclude(
     done.step()
     assumed = content["reading"].get("bench_assumed")
     ahead = fixed_orders.which_test(content["ladder"]) if assumed else []
+    ahead += fixed_orders.off_target(observed, Costs(), content["reading"].get("off_target", []))
     ahead += fixed_orders.metal(observed, Costs(), one_sided) if one_sided else []
     content["instructions"] = instructions(diagnosis, ahead=ahead)
     done.step()

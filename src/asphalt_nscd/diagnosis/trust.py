@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import quality, within_isotherm
+from asphalt_nscd.diagnosis import levels, quality, within_isotherm
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.suspects import BrokenIsotherm
@@ -37,7 +37,7 @@ def reading(
     ]
     together = isotherm_notes(observed.temperature, observed.isotherm)
     if together:
-        together.append("The law is fitted to the measured temperatures.")
+        together.append("Both laws are fitted to the measured temperatures.")
     return {
         "test_type": observed.test_type,
         "specimens": list(observed.names),
@@ -62,6 +62,7 @@ def trust(
     out = np.zeros(observed.size, bool)
     out[[one.row for one in diagnosis.suspects if not one.used]] = True
     check = odd | np.isin(observed.isotherm, [one.temperature for one in broken])
+    check |= levels.rows(observed, _off_target(observed))
     above = quality.exceeded(observed)
     for name in quality.LIMITS:
         rows = [one.row for one in above if one.column == name]
