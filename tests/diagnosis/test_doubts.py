@@ -99,7 +99,7 @@ def test_what_follows_a_name_in_doubt_is_in_doubt():
     assert doubts_of(observed, "phase_offset", "channel_delay") == {}
     observed = table(lambda omega, temperature: turned(omega, temperature) + 0.05 * late(omega, temperature))
     found = doubts_of(observed, "channel_delay", "phase_offset")
-    assert found["phase_offset", None] == ["It was found after a name that is in doubt"]
+    assert found["phase_offset", None] == ["It was found after another cause that is itself not certain"]
     assert list(doubts_of(observed, "phase_offset", "channel_delay")) == [("channel_delay", None)]
 
 

@@ -108,8 +108,8 @@ def test_what_the_tests_do_not_determine_is_said():
     fit = Fit(LAW, None, 0.0, 10)
     assert prior_notes(fit) == []
     assert prior_notes(replace(fit, from_prior=("glassy_modulus",))) == [
-        "These tests do not determine the glassy modulus of law.json; there it follows published asphalt concretes: "
-        "glassy modulus 42 GPa."
+        "These tests do not determine the glassy modulus of law.json; there it has usual values of published asphalt "
+        "concretes: glassy modulus 42 GPa."
     ]
     (said,) = prior_notes(replace(fit, from_prior=("static_modulus", "c1", "c2")))
     assert "do not determine the static modulus, C1 and C2 of law.json" in said

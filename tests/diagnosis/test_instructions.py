@@ -42,7 +42,7 @@ def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(dela
     first = instructions.instructions(delayed)["orders"][0]
     assert first["specimens"] == [METAL] and first["temperature_C"] is None
     assert 40.0 in first["frequencies_Hz"]
-    (why,) = [sentence for sentence in first["why"] if "metal" in sentence]
+    (why,) = [sentence for sentence in first["why"] if "Metal" in sentence]
     assert f"{np.degrees(1.5e-4 * 80 * np.pi):.1f} deg of phase at 40 Hz" in why
     assert len(instructions.instructions(delayed)["orders"]) <= 5
 
@@ -104,25 +104,26 @@ def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
         (
             4.0,
             False,
-            "is so far 7.4 times as likely as a phase offset; this test should decide.",
+            "These tests speak for the channel delay, but not beyond doubt. This test should decide.",
         ),
         (
             13.0,
             False,
-            "is so far 670 times as likely as a phase offset; this test should decide.",
+            "These tests speak for the channel delay, but not beyond doubt. This test should decide.",
         ),
         (
             14.0,
             True,
-            "and a phase offset fit alike so far; this test should decide.",
+            "A phase offset fits these tests as well as the channel delay. This test should decide.",
         ),
         (14.0, False, ""),
     ],
 )
-def test_odds_are_told_where_a_test_would_change_them(before, alike, said):
+def test_a_cause_that_looks_the_same_is_told_where_a_test_would_decide(before, alike, said):
     asked = order_words.Open("apart", None, "channel delay", "phase offset", alike)
     assert order_words._reason(asked, before, 30.0).endswith(said)
     assert bool(order_words._reason(asked, before, 30.0)) == bool(said)
+    assert not said or order_words._reason(asked, before, 13.0).endswith("This test should make it clearer.")
 
 
 def test_a_test_at_another_temperature_repeats_nothing():
@@ -264,18 +265,11 @@ def test_places_of_one_cause_are_told_together():
     ]
 
 
-def test_two_parts_of_a_band_are_one_order():
-    low, high = (Sweep("a", 35.0, band, False, None, 2.6) for band in ((0.1, 1.0), (10.0, 25.0)))
-    other = Sweep("a", 35.0, (10.0, 25.0), True, None, 2.6)
-    orders = [
-        order_words.Order(high, ["a"], 2.6, 3.0, {0: (1.0, 2.0)}),
-        order_words.Order(other, ["a"], 2.6, 1.0, {}),
-        order_words.Order(low, ["a"], 2.6, 1.5, {0: (2.0, 4.0), 1: (0.0, 9.0)}),
-    ]
-    whole, half = instructions._merged(orders, Costs())
-    assert whole.sweep.frequencies == (0.1, 1.0, 10.0, 25.0) and half.sweep.half_strain
-    assert whole.hours == pytest.approx(Costs().hours("a", 35.0, (0.1, 1.0, 10.0, 25.0)))
-    assert whole.nats == 4.5 and whole.helps == {0: (1.0, 4.0), 1: (0.0, 9.0)}
+def test_whole_sweeps_are_ordered(delayed):
+    """A part of the band saves minutes beside hours of conditioning."""
+    tested = tuple(delayed.observed.frequencies)
+    bands = {s.frequencies for s in possible(delayed, Costs()).sweeps if s.specimen != METAL}
+    assert tested in bands and all(band[-len(tested) :] == tested for band in bands)
 
 
 def test_metal_is_tested_at_two_frequencies_or_more(delayed):
@@ -299,7 +293,7 @@ def test_of_three_temperatures_the_last_order_is_a_fourth():
     orders = instructions.instructions(diagnose(three, draws=1000))["orders"]
     assert len(orders) <= 5
     assert (orders[-1]["specimens"], orders[-1]["temperature_C"]) == (["a", "b"], 40.0)
-    assert orders[-1]["why"] == ["3 temperatures were tested; law and causes can be certain from 4 on."]
+    assert orders[-1]["why"] == ["3 temperatures were tested. A fault can be proved from 4 on."]
 
 
 @pytest.mark.parametrize("tested,new", [([4, 21, 37], "47"), ([20, 35], "10 and 45"), ([60, 58, 50], "40")])
@@ -404,8 +398,29 @@ def test_which_test_it_was_is_asked_where_a_cause_hangs_on_it():
     assert (
         order["why"]
         == [
-            "A moving mass can be found in two-point bending only, and bending was assumed, since nobody said what was "
+            "A moving mass is possible in two-point bending only. Bending was assumed, because nobody said what was "
             "tested."
         ]
         and order["hours"] == 0.0
+    )
+    assert order["purpose"] == "because a moving mass is possible in two-point bending only"
+
+
+def test_an_isotherm_off_its_target_is_tested_again_first():
+    off = [{"specimen": name, "temperature_C": 20.0, "measured_C": 20.7} for name in "ac"]
+    (order,) = fixed_orders.off_target(table(3), Costs(), off)
+    assert (order["specimens"], order["temperature_C"]) == (["a", "c"], 20.0)
+    assert ": test specimens a and c again at 20 degC, " in order["text"]
+    assert order["purpose"] == "because they were measured up to 0.7 K off their target"
+    (one,) = fixed_orders.off_target(table(3), Costs(), off[:1])
+    assert one["purpose"] == "because it was measured 0.7 K off its target"
+    assert fixed_orders.off_target(table(3), Costs(), []) == []
+
+
+def test_the_order_names_the_frequency_that_is_doubtful():
+    asked = [order_words.Open("repeat", None, f"specimen a at 4 degC, {f} Hz") for f in (25, 0.1)]
+    sweep = Sweep("a", 4.0, (0.1, 10.0, 25.0), False, None, 1.0)
+    order = order_words.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0), 1: (0.0, 1.0)})
+    assert order_words.purpose(order, asked) == (
+        "because the old result at 0.1 and 25 Hz contradicts the other frequencies"
     )

@@ -134,7 +134,7 @@ def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
         "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5},
     }
     assert on_simulation(found).endswith(
-        "fits these data to within their scatter, but that scatter includes specimen B at 20 degC, which is odd."
+        "fits these tests to within their scatter, but that scatter includes specimen B at 20 degC, which is odd."
     )
     assert left(found)[-1] == "These sizes include what is odd: specimen B at 20 degC"
 
@@ -155,7 +155,7 @@ def test_the_law_is_nearer_to_the_mix_without_an_odd_isotherm(exports):
     )
     assert np.abs(np.log(without / law)).max() < 0.02 < 0.05 < np.abs(np.log(spoiled / law)).min()
     assert law_notes(wrong, material_law(wrong, used).law, levels.places(odd, []))[0] == (
-        "law.json is fitted without specimen Mix-B at 35 degC, the law found here with it."
+        "law.json is fitted without specimen Mix-B at 35 degC, the free master curve with it."
     )
 
 

@@ -134,7 +134,7 @@ def test_each_table_reaches_its_part_of_the_schema(diagnosed):
 def test_a_law_for_all_temperatures_is_written_and_told_of_where_it_is_far_off(diagnosed):
     change, folder = diagnosed
     assert (folder / "law.json").exists() == (change is not few)
-    told = [note for note in content_of(folder)["notes"] if "law.json holds a law of few parameters" in note]
+    told = [note for note in content_of(folder)["notes"] if "law.json has constants of its own" in note]
     assert bool(told) == (change is shift_bent_the_other_way)
 
 

@@ -79,13 +79,39 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
         **structure_left(),
     }
     assert on_simulation(found) == (
-        f"{law}, with a phase offset, misses the mean of the specimens by 1 % of |E*| and 1 % of the phase, more than "
-        "scatter within specimens can explain. Without this cause it misses by 10.5 % and 10.5 %."
+        f"{law}, fitted together with a phase offset, misses the mean of the specimens by 1 % in |E*| and 1 % in the "
+        "phase, more than scatter within specimens can explain. Without this cause it misses by 10 % and 10 %."
     )
     found["scatter"]["from_replicates"] = False
-    assert on_simulation(found).startswith(f"{law}, with a phase offset, misses the tests by 1 % of |E*|")
+    assert on_simulation(found).startswith(
+        f"{law}, fitted together with a phase offset, misses the tests by 1 %"
+    )
     alone = found | {"tested": False, "provenance": {"scatter_stated": None}}
-    assert "% of the phase, and nobody knows how much of that is scatter. Without" in on_simulation(alone)
+    assert "% in the phase, and nobody knows how much of that is scatter. Without" in on_simulation(alone)
+
+
+def test_two_laws_are_told_by_two_names_with_their_weights():
+    law = {"cause": "relaxation_spectrum", "where": None}
+    offset = {"cause": "phase_offset", "where": None, "taken_off": False}
+    found = {"ladder": [law, offset], "scatter": {"from_replicates": True}}
+    assert verdict.two_laws(found) == []
+    found["law_misses"] = {"mre_E_percent": 1.97, "mre_phase_percent": 8.388}
+    misses, weights = verdict.two_laws(found)
+    assert misses == (
+        "law.json misses the mean of the specimens by 2 % in |E*| and 8.4 % in the phase. A phase offset is not "
+        "certain, so law.json is not corrected for it."
+    )
+    assert weights.endswith("All these misfits are means over the temperatures.")
+    found["ladder"] = [law, offset, offset | {"cause": "channel_delay"}]
+    assert "A phase offset and a channel delay are not certain, so law.json" in verdict.two_laws(found)[0]
+    odd = [{"specimen": "A", "temperature_C": 35.0, "factor": 0.7}]
+    assert verdict.two_laws(found | {"odd_levels": odd})[1].endswith(
+        "those of law.json without specimen A at 35 degC."
+    )
+    bonds = {"cause": "bond_mapping", "where": None}
+    assert (
+        verdict.two_laws(found | {"ladder": [bonds, law]}) == verdict.two_laws(found | {"ladder": []}) == []
+    )
 
 
 def test_what_all_tests_share_is_not_at_a_place():

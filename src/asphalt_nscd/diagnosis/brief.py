@@ -15,6 +15,7 @@ from asphalt_nscd.diagnosis.chance import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.sentences import cause_words, doubtful, not_used, odd, place_of_test
 from asphalt_nscd.diagnosis.written import UNDETERMINED
 from asphalt_nscd.files.words import counted, joined, specimen_named
+from asphalt_nscd.measurements.campaign import OFF_TARGET
 
 Content = Mapping[str, Any]
 Rows = list[tuple[str, list[str]]]
@@ -35,7 +36,7 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
         [
             _fault(rung, content)
             for rung in verdict.faults(content)
-            if sure(rung) == wanted and (wanted or not sentences.worsens(rung))
+            if _certain(rung, content) == wanted and (wanted or not sentences.worsens(rung))
         ]
         for wanted in (True, False)
     )
@@ -46,7 +47,7 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
         ("Fault", certain or _no_fault(content, bool(possible))),
         ("Possible fault", possible),
         ("Leave out", [*_few([_out(one) for one in not_used(content)]), *_if_kept(content)]),
-        ("Check first", _few(_check(content))),
+        ("Check first", [*_few(_check(content)), *_what_clears(content)]),
         ("Not visible", unexplained.unseen(content)),
         ("Scatter", _scatter(content)),
         ("Simulation" if simulated else "Law", _law(content, left, simulated)),
@@ -77,6 +78,11 @@ def text(content: Content) -> str:
 
 def sure(rung: Content) -> bool:
     return bool(rung.get("established", True))
+
+
+def _certain(rung: Content, content: Content) -> bool:
+    """Whether a cause is named for certain, and not only if a bench that nobody stated was used."""
+    return sure(rung) and not sentences.if_bending(rung, content)
 
 
 def _sentence(words: str) -> str:
@@ -120,7 +126,7 @@ def _data(content: Content) -> list[str]:
     """How many tests can be used, how many only after a check, how many not."""
     tests, out = content["tests"], len(not_used(content))
     trust = content.get("trust", {"use": tests, "check": 0, "not_used": out})
-    everywhere = any(sure(rung) and rung["where"] is None for rung in verdict.faults(content))
+    everywhere = any(_certain(rung, content) and rung["where"] is None for rung in verdict.faults(content))
     corrected = " after correction" * everywhere
     if not trust["check"] and not trust["not_used"]:
         return [f"All {tests} tests can be used{corrected}."]
@@ -151,15 +157,19 @@ def _fault(rung: Content, content: Content) -> str:
     size = sentences.size(rung, content)
     everywhere = " in all tests" * (rung["where"] is None)
     meaning = sentences.meaning(rung).strip()
-    said = _sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}")
+    bench = sentences.if_bending(rung, content)
+    said = _sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}{bench}")
     said = " ".join(filter(None, [said, meaning]))
     if not sure(rung):
         same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
         if same:
             return f"{said} Not certain: {joined(list(map(sentences.in_words, same)), 'or')} fits as well."
         taken_off = "law.json is corrected for it all the same" if "law_misses" in content else ""
-        kept = "nothing is corrected" if not rung.get("taken_off", True) else taken_off
+        kept = "law.json is not corrected for it" if "law_misses" in content else ""
+        kept = taken_off if rung.get("taken_off", True) else kept
         return f"{said} {_sentence('; '.join(filter(None, ['not certain', kept])))}"
+    if bench:
+        return f"{said} Say first what was tested."
     correction = verdict.correction(rung)
     return f"{said} Correction: {correction}." if correction else said
 
@@ -181,7 +191,8 @@ def _check(content: Content) -> list[str]:
     said += [
         _sentence(
             f"{specimen_named(one['specimen'])} at {one['temperature_C']:g} degC: measured at {one['measured_C']:g} "
-            f"degC, {abs(one['measured_C'] - one['temperature_C']):.2g} K off its target. Look for a slip in the record"
+            f"degC, {abs(one['measured_C'] - one['temperature_C']):.2g} K off its target "
+            f"(AASHTO T 378 allows {OFF_TARGET:g} K). Look for a slip in the record, else test again"
         )
         for one in read.get("off_target", [])
     ]
@@ -192,13 +203,36 @@ def _check(content: Content) -> list[str]:
             each = "; ".join(
                 _where_exceeded(here, of) for of in dict.fromkeys(one["specimen"] for one in here)
             )
+            out = {place_of_test(one) for one in not_used(content)} & {place_of_test(one) for one in here}
+            left_out = f", {len(out)} of them left out above" * bool(out)
             said.append(
                 f"{limit.label.capitalize()} is above {limit.limit:g} {limit.unit} in {len(here)} of {tests} tests "
-                f"({each}). Check {limit.check}."
+                f"({each}){left_out}. Check {limit.check}."
             )
     said += [_sentence(one) for one in levels.sentences(*odd(content))]
     said += [_sentence(one) for one in levels.of_temperatures(content.get("odd_temperatures", []))]
     return said + [_out(one) for one in doubtful(content)]
+
+
+def _what_clears(content: Content) -> list[str]:
+    """The result of a check that makes doubtful tests usable."""
+    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
+    trust = content.get("trust", {"check": 0})
+    if not trust["check"]:
+        return []
+    found = []
+    if broken:
+        at = joined([f"{t:g}" for t in broken])
+        found.append(
+            f"{at} degC {'is' if len(broken) == 1 else 'are'} cleared if the phase of tests repeated after the check "
+            "agrees with the slope. Then use the new tests."
+        )
+    if trust.get("check_at_C") != broken or not broken:
+        found.append(
+            f"{'Any other' if broken else 'A'} test is cleared if a repeat after the check gives the same |E*| and "
+            "phase within scatter."
+        )
+    return found
 
 
 def _where_exceeded(above: list[Content], specimen: str) -> str:
@@ -217,7 +251,7 @@ def _contradiction(one: Content) -> str:
     side = "higher" if one["worst_deg"] > 0.0 else "lower"
     return (
         f"{one['temperature_C']:g} degC: the phase is up to {abs(one['worst_deg']):.1f} deg {side} than the slope of "
-        f"|E*| requires (at {one['worst_Hz']:g} Hz). Check strain level, load control and gauges."
+        f"log |E*| against log f requires (at {one['worst_Hz']:g} Hz). Check strain level, load control and gauges."
     )
 
 
@@ -237,8 +271,9 @@ def _scatter(content: Content) -> list[str]:
 def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) -> list[str]:
     """What the law misses, of what it was made, and where not to use it."""
     where = verdict.predicted_badly(content)
-    warning = [f"Do not use the law {where}."] if where else []
     misses = content.get("law_misses")
+    law = "the law" if simulated or misses is None else "law.json"
+    warning = [f"Do not use {law} {where}."] if where else []
     if simulated or misses is None:
         return [" ".join([_sentence(verdict.on_simulation(content, left)), *warning])]
     modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
@@ -252,8 +287,8 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
         without = f" without {joined(out)}" if out else ""
         said.append(f"It was fitted to the{' corrected' * corrected} tests{without}.")
     if content.get("trust", {}).get("check", 0) and not out:
-        left_out = "; those left out did not" * bool(not_used(content))
-        said.append(f"The tests to be checked took part in its fit{left_out}.")
+        left_out = ", but not those left out" * bool(not_used(content))
+        said.append(f"It was fitted to the tests to be checked too{left_out}.")
     said += [f"{note.split(';')[0]}." for note in content["notes"] if note.startswith(UNDETERMINED)]
     return [" ".join([*said, *warning])]
 
@@ -261,7 +296,8 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
 def _unexplained(content: Content) -> list[str]:
     parts = unexplained.left(content)[:2] if sentences.more_than_scatter(content) else []
     if content.get("discrepancy"):
-        parts = [f"Beyond scatter, the fit of the diagnosis leaves {part}" for part in parts]
+        names = ("the free master curve (of any smooth shape)", verdict.COMMON)
+        parts = [f"Beyond scatter, {name} is off by {part}" for name, part in zip(names, parts, strict=False)]
     return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, parts)]
 
 

@@ -80,8 +80,8 @@ def told(found: list[Contradiction], causes: bool) -> list[str]:
     also = f"; likewise {also}" if also else ""
     included = ", the causes above included" if causes else ""
     return [
-        f"At {worst.temperature:g} degC, from {worst.low:g} to {worst.high:g} Hz, |E*| rises so steeply "
-        f"that the phase should be {np.degrees(worst.asked):.1f} deg{included}; "
-        f"{np.degrees(worst.measured):.1f} deg were measured ({worst.z:.1f} standard deviations{also}). No linear law "
-        "of the mix does that: look for a gain or a resonance of the machine there, or for a response not linear."
+        f"At {worst.temperature:g} degC, from {worst.low:g} to {worst.high:g} Hz, the slope of log |E*| against log f "
+        f"requires a phase of {np.degrees(worst.asked):.1f} deg{included}. {np.degrees(worst.measured):.1f} deg were "
+        f"measured ({worst.z:.1f} standard deviations apart{also}). No linear material does that. Either the response "
+        "is not linear there, or the machine changes its gain or resonates."
     ]

@@ -55,7 +55,7 @@ def find_doubts(
         own = [*_of_size(taken, plain.observed), *_of_many(candidate, named, len(plain.observed.names))]
         own += _beside_rivals(table, taken)
         if not own and found:
-            own = ["It was found after a name that is in doubt"]
+            own = ["It was found after another cause that is itself not certain"]
         if own:
             found[candidate.key] = own
     return found
@@ -74,7 +74,7 @@ def _of_many(candidate: Candidate, named: Sequence[Candidate], specimens: int) -
     """A fault of one specimen that most of them would have to share; one isotherm after another that is off."""
     same = sum(one.cause.name == candidate.cause.name for one in named)
     if isinstance(candidate.place, str) and same > 1 and same >= MOST_SPECIMENS * specimens:
-        yield f"It is named at {same} of {specimens} specimens, so that it is no fault of one of them"
+        yield f"It is named at {same} of {specimens} specimens, so it is no fault of a single one"
     if isinstance(candidate.place, float) and same >= MANY_ISOTHERMS:
         yield f"It is named at {same} isotherms: a shift with temperature that is not of WLF's form looks the same"
 

@@ -80,8 +80,8 @@ def material_law(diagnosis: Diagnosis, used: NDArray[np.bool_] | None = None) ->
 
 def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) -> list[str]:
     """What the law is fitted without, in words, and that it cannot take the form of the mix, where it cannot."""
-    both = f", the law found here with {'it' if len(without) == 1 else 'them'}"
-    notes = [f"law.json is fitted without {joined(without)}{both}."] if without else []
+    both = f"the free master curve with {'it' if len(without) == 1 else 'them'}"
+    notes = [f"law.json is fitted without {joined(without)}, {both}."] if without else []
     observed = diagnosis.observed
     off = np.log(law.complex_modulus(observed.omega, observed.temperature) / _without_causes(diagnosis))
     sigma = diagnosis.noise.sigma
@@ -90,10 +90,9 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
         return notes
     return [
         *notes,
-        "law.json holds a law of few parameters, 2S2P1D with WLF, and constants of its own: do not mix them with "
-        "those of the law found here. It differs from that law by "
-        f"{100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*| and {np.degrees(np.sqrt(np.mean(off.imag**2))):.1f} "
-        f"deg in phase.{'' if without else ' No 2S2P1D with WLF fits these tests better.'}",
+        "law.json has constants of its own: do not mix them with those of the free master curve. The two laws differ "
+        f"by {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*| and {np.degrees(np.sqrt(np.mean(off.imag**2))):.1f} "
+        f"deg in phase.{'' if without else ' No 2S2P1D law fits these tests better.'}",
     ]
 
 
@@ -119,8 +118,8 @@ def prior_notes(fit: Fit) -> list[str]:
     if not names:
         return []
     return [
-        f"{UNDETERMINED} {joined(names)} of law.json; there it follows published asphalt concretes: "
-        f"{', '.join(sizes)}."
+        f"{UNDETERMINED} {joined(names)} of law.json; there it has usual values of published asphalt "
+        f"concretes: {', '.join(sizes)}."
     ]
 
 

@@ -14,14 +14,13 @@ from asphalt_nscd.diagnosis.information import Asked
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.sentences import an
 from asphalt_nscd.diagnosis.sweeps import METAL, Sweep
-from asphalt_nscd.diagnosis.written import three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
 REASONS = 3
 NOTICEABLE = 15.0  # percent of cases
 BIAS = "temperature bias"
 CLEARER = 0.3  # standard errors
-MOST_TOLD = 2.0 * float(np.log(1000.0))  # strength above which odds are not told as a number
+CLEAR = 2.0 * float(np.log(1000.0))  # strength from which two causes are told apart: 1000 to 1
 
 
 @dataclass(frozen=True)
@@ -108,13 +107,14 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
     """What an order is for, in a few words, without its first reason's numbers."""
     helped = [questions[k] for k in order.helps]
     here = f"{order.sweep.temperature:g} degC"
+    again = [one.about for one in helped if one.kind == "repeat"]
     for kind, words in (
-        ("repeat", "because the old result contradicts the other frequencies"),
-        ("level", "to see whether what is odd there repeats itself"),
+        ("repeat", f"because the old result at {_frequencies(again)} contradicts the other frequencies"),
+        ("level", "to see whether the odd result repeats itself"),
         ("linear", f"to see whether the mix is linear at {here}"),
-        ("metal", "to confirm the {about}: metal has no phase of its own, so the machine must add {other}"),
+        ("metal", "to confirm the {about}: it must show on metal too, as {other}"),
         ("kept", "to confirm the {about}"),
-        ("apart", "to decide between the {about} and {a} {other}"),
+        ("apart", "to confirm the {about}: {a} {other} would look much the same"),
         ("reach", "to see whether there is {about}"),
     ):
         for one in helped:
@@ -135,6 +135,12 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
                 _places(places) if kind == "reach" else ""
             )
     return ""
+
+
+def _frequencies(tests: Sequence[str]) -> str:
+    """`10 and 25 Hz`, of tests in words."""
+    found = {one.rpartition(", ")[2].removesuffix(" Hz") for one in tests}
+    return f"{joined(sorted(found, key=float))} Hz"
 
 
 def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context) -> list[str]:
@@ -184,26 +190,20 @@ def _reason(one: Open, before: float, after: float) -> str:
         if then - now < CLEARER:
             return ""
         return (
-            f"The {one.about} should then show without {one.other} too, by {then:.1f} standard errors "
-            f"(now {now:.1f})."
+            f"The {one.about} should then be found without {one.other} too, by {then:.1f} standard errors (now "
+            f"{now:.1f})."
         )
     if one.kind == "metal":
-        return f"The {one.about} must show on metal too, as {one.other}. The mix has no part in that."
-    if before >= MOST_TOLD and not one.alike:
+        return f"Metal shows only what the machine adds. The {one.about} must show there as {one.other}."
+    if before >= CLEAR and not one.alike:
         return ""
     now = (
-        f"The {one.about} and {an(one.other)} fit alike so far"
+        f"{an(one.other).capitalize()} fits these tests as well as the {one.about}."
         if one.alike
-        else f"The {one.about} is so far {_odds(before)} times as likely as {an(one.other)}"
+        else f"{an(one.other).capitalize()} would look much the same. These tests speak for the {one.about}, but not "
+        "beyond doubt."
     )
-    if after >= MOST_TOLD:
-        return f"{now}; this test should decide."
-    return f"{now}; after this test the right one should be {_odds(after)} times as likely."
-
-
-def _odds(strength: float) -> str:
-    odds = float(np.exp(0.5 * min(strength, MOST_TOLD)))
-    return "more than 1000" if strength >= MOST_TOLD else three_digits(float(f"{odds:.2g}"))
+    return f"{now} This test should {'decide' if after >= CLEAR else 'make it clearer'}."
 
 
 def in_a_sentence(one: Order, done: Observations) -> str:

@@ -182,9 +182,8 @@ def _spread_note(spread: float) -> list[str]:
     if spread < WIDE_SPREAD:
         return []
     return [
-        f"These tests lie {spread:.1f} times as far from the law as the assumed scatter. The limits and standard "
-        f"errors in diagnosis.json are not yet widened: multiply them by {spread:.1f}. The numbers here and in "
-        "diagnosis.html are widened already."
+        f"These tests lie {spread:.1f} times as far from the free master curve as their scatter suggests. Intervals "
+        f"and limits are therefore multiplied by {spread:.1f} here and in diagnosis.html, but not in diagnosis.json."
     ]
 
 

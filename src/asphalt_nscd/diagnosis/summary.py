@@ -22,15 +22,17 @@ def summary(content: Content) -> str:
     """The answer, and the reasons, one part after another; parts with nothing to say are left out."""
     read = content.get("reading", {"notes": []})
     law, named = sentences.law_of_the_mix(content), sentences.causes(content)
-    simulated = verdict.on_simulation(content)
+    simulated, two_laws = verdict.on_simulation(content), verdict.two_laws(content)
     parts = [
         ("", [answer(content)]),
         ("Why tests are left out", _suspects(content)),
         (
             "Law of the mix",
             [
+                *([verdict.TWO_LAWS] if two_laws else []),
                 f"{simulated[:1].upper()}{simulated[1:]}",
-                *([f"{law[0]}. {law[1]}"] if law else []),
+                *two_laws,
+                *([f"{law[0]}. {law[1]}".rstrip()] if law else []),
                 *verdict.beyond_the_tests(content),
             ],
         ),
@@ -66,9 +68,9 @@ def _suspects(content: Content) -> list[str]:
 def _left(content: Content) -> list[str]:
     dropped = [sentences.in_words(name) for name in content["withdrawn"]]
     left = unexplained.left(content)
-    left += [unexplained.OF_WHAT_IS_LEFT] if content.get("discrepancy") else []
+    left = [unexplained.OF_WHAT_IS_LEFT, *left] if content.get("discrepancy") else left
     return left + (
-        [f"Considered and dropped, since structure without a name fits as well: {', '.join(dropped)}."]
+        [f"Considered and dropped, because an effect without a name fits as well: {', '.join(dropped)}."]
         if dropped
         else []
     )

@@ -10,12 +10,14 @@ from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
 OF_WHAT_IS_LEFT = (
-    "Standard deviations of the misfit, scatter taken off; the four largest. residuals.csv has each test."
+    "The four largest misfits of the free master curve, as standard deviations without the scatter. residuals.csv has "
+    "each test."
 )
 UNSEEN = {  # the commonest faults, whose limits everybody is told
     "phase_offset": "a common phase offset",
     "channel_delay": "a delay of all tests",
     "temperature_bias": "a temperature error at one isotherm",
+    "strain_softening": "a softening with strain",
 }
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
 LARGEST = 4  # parts of what stays unexplained that are listed
@@ -38,7 +40,7 @@ def unseen(content: Content) -> list[str]:
             told.append(f"{words} smaller than {_sizes(limit, content)}")
         elif cause in never:
             told.append(f"{words}, however large")
-    return [f"These tests would not show {'; '.join(told)}."] if told else []
+    return [f"Of the commonest faults, these tests would not show {'; '.join(told)}."] if told else []
 
 
 def _sizes(limit: Content, content: Content) -> str:
@@ -82,7 +84,7 @@ def _which_departs(content: Content, parts: Sequence[tuple[str, float]]) -> list
     """Of few specimens each has a large part in the common curve that it is compared with."""
     specimens = len(content.get("reading", {}).get("specimens", []))
     if 1 < specimens < MANY_SPECIMENS and any(name.startswith("specimen ") for name, _ in parts):
-        return [f"Of {specimens} specimens one cannot tell which is the odd one"]
+        return [f"With {specimens} specimens nobody can tell which one is odd"]
     return []
 
 
@@ -108,7 +110,7 @@ def _part_left(name: str, value: float, content: Content) -> str:
         return f"{size_left(name, value, content['scatter'])} {at}"
     size = f"{size_left(name, value, content['scatter'])} of {specimen_named(place)}"
     if part == "spectrum":
-        return f"{size}, whose master curve differs in shape from that of all together"
+        return f"{size}: its master curve has another shape than that of all together"
     whole = [one["specimen"] for one in content.get("odd_phases", []) if one["temperature_C"] is None]
     if part == "phase" and place in whole:
         return f"{size}, most of it alike in all its tests"

@@ -10,7 +10,6 @@ from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.sentences import (
-    OF_THE_BENCH,
     Content,
     an,
     cause_words,
@@ -29,7 +28,13 @@ OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and n
     BOND_MAPPING,
 }
 SIMPLER = "one Burgers law for each temperature"
-COMMON = "the flexible law that the diagnosis fits at all temperatures"
+COMMON = (
+    "the free master curve"  # everywhere the name of the law of the diagnosis; the other is called law.json
+)
+TWO_LAWS = (
+    f"Two laws are fitted. The diagnosis uses {COMMON}, a master curve of any smooth shape. law.json holds a law of "
+    "few parameters (2S2P1D) for use in other programs."
+)
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of
 
@@ -46,9 +51,8 @@ def mixes(content: Content) -> str:
 
 
 def faults(content: Content) -> list[Content]:
-    """Named faults of the tests; of a bench that nobody stated, its causes are told with that condition elsewhere."""
-    beyond = OF_THE_MIX | (OF_THE_BENCH if content.get("reading", {}).get("bench_assumed") else set())
-    return [rung for rung in content["ladder"] if rung["cause"] not in beyond]
+    """Named faults of the tests."""
+    return [rung for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
 
 
 def correction(rung: Content) -> str:
@@ -82,19 +86,20 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
         if not content["tested"]:
             return _cannot_judge(content)
         holds = _holding(content)
-        return f"{SIMPLER} fits these data to within their scatter{holds or '; nothing is to be explained'}."
+        return f"{SIMPLER} fits these tests to within their scatter{holds or '; nothing is left to explain'}."
     first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
     names = ("mre_E_percent", "mre_phase_percent")
     missed = [last[name]["after"] for name in names] if left is None else [left["E"], left["phase"]]
+    written = three_digits if left is not None or bonded(content) else _two
     before, after = (
-        [f"{three_digits(error)} %" for error in errors]
+        [f"{written(error)} %" for error in errors]
         for errors in ([first[name]["before"] for name in names], missed)
     )
     facets = ["facets for bonds"] if bonded(content) else []
     found = joined([*facets, *(_noun(rung) for rung in ladder if rung["cause"] != BOND_MAPPING)])
     simpler = "the simulation of the paper" if facets else _first_law(content)
     worse = _worse([first[name]["before"] for name in names], missed)
-    missed_by = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
+    missed_by = _whom(content)
     if facets or left is not None:
         return (
             f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} the "
@@ -106,9 +111,35 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     these = "this cause" if len(ladder) == 1 else "these causes"
     without = f" Without {these} it misses by {before[0]} and {before[1]}."
     return (
-        f"{law}{f', with {found},' * bool(found)} misses {missed_by} by {after[0]} of |E*| and {after[1]} of the "
-        f"phase, {_beyond_bonds(content)}.{without * (law == simpler)}{worse}"
+        f"{law}{f', fitted together with {found},' * bool(found)} misses {missed_by} by {after[0]} in |E*| and "
+        f"{after[1]} in the phase, {_beyond_bonds(content)}.{without * (law == simpler)}{worse}"
     )
+
+
+def two_laws(content: Content) -> list[str]:
+    """Where both are fitted, what the free master curve and law.json are, and why they miss by different amounts."""
+    misses = content.get("law_misses")
+    spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in content["ladder"])
+    if misses is None or not spectrum or bonded(content):
+        return []
+    kept = [_noun(rung) for rung in faults(content) if not rung.get("taken_off", True)]
+    them = "is not certain, so law.json is not corrected for it" if len(kept) == 1 else ""
+    them = them or "are not certain, so law.json is not corrected for them"
+    doubtful = f" {joined(kept).capitalize()} {them}." if kept else ""
+    out = levels.places(*odd(content))
+    fewer = f", those of law.json without {joined(out)}" if out else ""
+    return [
+        f"law.json misses {_whom(content)} by {misses['mre_E_percent']:.2g} % in |E*| and "
+        f"{misses['mre_phase_percent']:.2g} % in the phase.{doubtful}",
+        "The two weigh the tests differently. For law.json all tests count alike, |E*| as much as the phase. For "
+        f"{COMMON} a test counts less the more it scatters, and a temperature or a specimen that no master curve fits "
+        f"counts little. All these misfits are means over the temperatures{fewer}.",
+    ]
+
+
+def _whom(content: Content) -> str:
+    """What a law is held against."""
+    return "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
 
 
 def _noun(rung: Content) -> str:
@@ -219,9 +250,9 @@ def beyond_the_tests(content: Content) -> list[str]:
     errors, between = found
     coldest, warmest = min(errors), max(errors)
     inner = sorted({*errors} - {coldest, warmest})
-    between_them = f"at {inner[0]:g} degC" if len(inner) == 1 else "between them"
+    between_them = f"at {inner[0]:g} degC" if len(inner) == 1 else "between them on average"
     return [
-        "One temperature left out and predicted from the others: |E*| is off by "
+        f"Each temperature was also predicted from the others by {COMMON}. |E*| is then off by "
         + ", ".join(
             f"{_two(errors[t])} % at {t:g} degC{' (where these tests are doubtful)' * _wrong(t, content)}"
             for t in (coldest, warmest)

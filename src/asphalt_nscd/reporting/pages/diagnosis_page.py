@@ -113,6 +113,8 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "answer": brief.rows(content, left),
         "simulated": verdict.on_simulation(content, left),
         "is_simulated": left is not None or verdict.bonded(content),
+        "head": verdict.TWO_LAWS,
+        "two_laws": [] if left is not None else verdict.two_laws(content),
         "with_suspects": sentences.with_suspects(content),
         "doubtful": sentences.without_doubtful(content),
         "law": sentences.law_of_the_mix(content),
