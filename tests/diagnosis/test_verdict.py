@@ -102,6 +102,8 @@ def test_two_laws_are_told_by_two_names_with_their_weights():
         "certain, so law.json is not corrected for it."
     )
     assert weights.endswith("All these misfits are means over the temperatures.")
+    aside = content(0, 1)["suspect_tests"]
+    assert verdict.two_laws(found | {"suspect_tests": aside})[1].endswith("Tests left out are in neither.")
     found["ladder"] = [law, offset, offset | {"cause": "channel_delay"}]
     assert "A phase offset and a channel delay are not certain, so law.json" in verdict.two_laws(found)[0]
     odd = [{"specimen": "A", "temperature_C": 35.0, "factor": 0.7}]

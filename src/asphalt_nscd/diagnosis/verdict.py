@@ -14,6 +14,7 @@ from asphalt_nscd.diagnosis.sentences import (
     an,
     cause_words,
     more_than_scatter,
+    not_used,
     odd,
 )
 from asphalt_nscd.diagnosis.written import mean_averages, three_digits
@@ -128,12 +129,13 @@ def two_laws(content: Content) -> list[str]:
     doubtful = f" {joined(kept).capitalize()} {them}." if kept else ""
     out = levels.places(*odd(content))
     fewer = f", those of law.json without {joined(out)}" if out else ""
+    neither = " Tests left out are in neither." * bool(not_used(content))
     return [
         f"law.json misses {_whom(content)} by {misses['mre_E_percent']:.2g} % in |E*| and "
         f"{misses['mre_phase_percent']:.2g} % in the phase.{doubtful}",
         "The two weigh the tests differently. For law.json all tests count alike, |E*| as much as the phase. For "
         f"{COMMON} a test counts less the more it scatters, and a temperature or a specimen that no master curve fits "
-        f"counts little. All these misfits are means over the temperatures{fewer}.",
+        f"counts little. All these misfits are means over the temperatures{fewer}.{neither}",
     ]
 
 
