@@ -255,6 +255,11 @@ def test_what_the_files_lack_is_noted():
             {"ladder": [rung("phase_offset", 1.5, "deg", established=True)]},
             " It was fitted to the corrected tests.",
         ),
+        (
+            {"ladder": [rung("phase_offset", 1.5, "deg", established=True)],
+             "trust": {"use": 66, "check": 6, "not_used": 0}},
+            " It was fitted to the corrected tests, those to be checked among them.",
+        ),
     ],
 )  # fmt: skip
 def test_the_law_is_told_with_what_it_was_fitted_to(then, said):

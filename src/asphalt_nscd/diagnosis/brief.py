@@ -283,11 +283,13 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
         said.append("Without replicates nobody knows how much of that is scatter.")
     corrected = any(rung.get("taken_off", True) for rung in verdict.faults(content))
     out = levels.places(*odd(content))
+    doubtful = content.get("trust", {}).get("check", 0) and not out
+    left_out = ", but not those left out" * bool(not_used(content))
     if corrected or out:
         without = f" without {joined(out)}" if out else ""
-        said.append(f"It was fitted to the{' corrected' * corrected} tests{without}.")
-    if content.get("trust", {}).get("check", 0) and not out:
-        left_out = ", but not those left out" * bool(not_used(content))
+        among = f", those to be checked among them{left_out}" if doubtful else ""
+        said.append(f"It was fitted to the{' corrected' * corrected} tests{without}{among}.")
+    elif doubtful:
         said.append(f"It was fitted to the tests to be checked too{left_out}.")
     said += [f"{note.split(';')[0]}." for note in content["notes"] if note.startswith(UNDETERMINED)]
     return [" ".join([*said, *warning])]
