@@ -258,7 +258,7 @@ def test_the_same_motion_twice():
     assert results[0] == results[1] != results[2]
 
 
-def one_slab(position, start, other, last_body):
+def one_slab(team, position, start, other, last_body):
     """In place of slabs_of: the order of visits does not hang on how long the list is."""
     first, pair = (
         np.repeat(np.arange(start.size - 1), np.diff(start)),

@@ -245,7 +245,7 @@ class Granulate:
         if self._room is None:
             self._room = room_for(0, self.inverse_mass.size, len(self.plane_point))
         last_body = self.inverse_mass.size - 1
-        begin, pair, bodies = slabs_of(self.position[: start.size - 1], start, other, last_body)
+        begin, pair, bodies = slabs_of(self.team, self.position[: start.size - 1], start, other, last_body)
         self._slabs, self._room = in_blocks(self.team, begin, pair, bodies, self._room)
 
     def kinetic_energy(self) -> float:

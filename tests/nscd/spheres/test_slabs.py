@@ -21,7 +21,10 @@ def dealt(position, radius, reach):
     """Slabs of all pairs, the second plane the last body, before they are dealt into blocks; the pairs themselves."""
     start, other = find_pairs(position, radius, *WALLS, reach)
     first = np.repeat(np.arange(radius.size), np.diff(start))
-    begin, pair, bodies = slabs_of(position, start, other, radius.size + 1)
+    begin, pair, bodies = slabs_of(Team(), position, start, other, radius.size + 1)
+    with Team(3) as team:
+        for one, three in zip((begin, pair, bodies), slabs_of(team, position, start, other, radius.size + 1)):
+            np.testing.assert_array_equal(one, three)
     slabs = SimpleNamespace(begin=begin, pair=pair, first=bodies[:, 0], second=bodies[:, 1])
     return slabs, first, other
 

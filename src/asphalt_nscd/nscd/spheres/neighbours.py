@@ -242,25 +242,25 @@ def _fill_cells(position, radius, reach, extra):
         low[k] = position[:, k].min()
         shape[k] = int((position[:, k].max() - low[k]) / cell) + 1
     n = position.shape[0]
-    index = np.empty(n, np.int64)
-    first = np.zeros(shape[0] * shape[1] * shape[2] + 1, np.int64)
+    index = np.empty(n, np.int32)
+    first = np.zeros(shape[0] * shape[1] * shape[2] + 1, np.int32)
     for i in range(n):
         cx = int((position[i, 0] - low[0]) / cell)
         cy = int((position[i, 1] - low[1]) / cell)
         cz = int((position[i, 2] - low[2]) / cell)
         index[i] = (cz * shape[1] + cy) * shape[0] + cx
-        first[index[i] + 1] += 1
-    first = np.cumsum(first)
+        first[index[i]] += 1
+    for k in range(1, first.shape[0]):
+        first[k] += first[k - 1]
     members = np.empty(n, np.int64)
     sphere = np.empty((n, 5))  # in the order of the cells: read in one stream
-    cursor = first.copy()
-    for i in range(n):
-        at = cursor[index[i]]
+    for i in range(n - 1, -1, -1):
+        first[index[i]] -= 1
+        at = first[index[i]]
         members[at] = i
         sphere[at, :3] = position[i]
         sphere[at, 3] = radius[i]
         sphere[at, 4] = extra[i]
-        cursor[index[i]] += 1
     return cell, low, shape, first, members, sphere
 
 

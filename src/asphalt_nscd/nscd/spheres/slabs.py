@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
+from asphalt_nscd.nscd.compiled import compiled_for_teams
 from asphalt_nscd.nscd.lanes import WIDTH, aligned
-from asphalt_nscd.nscd.team import share
+from asphalt_nscd.nscd.team import Team, meet, share
 
 MOST_SLABS = 256
 LAYER = 5e-4  # m, within which pairs stand in the order of the list
@@ -86,58 +86,101 @@ def own_rows(s, room):
     return room.packed.shape[0] - MOST_SLABS - 1 + s, body, body + 1
 
 
-@compiled
-def slabs_of(position, start, other, last_body):
+def slabs_of(
+    team: Team, position: np.ndarray, start: np.ndarray, other: np.ndarray, last_body: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The pairs of a list (start, other), see neighbours.py, in slabs along the longer horizontal axis of `position`.
 
     From the top down in each. Returns begin (slabs + 2,), pair (c,): place in the list, bodies (c, 2).
     """
+    n, pairs = position.shape[0], other.shape[0]
+    pair, bodies = np.empty(pairs, np.int32), np.empty((pairs, 2), np.int32)
+    if n == 0:
+        return np.zeros(3, np.int64), pair, bodies
+    shares = np.append(np.searchsorted(start[:n], np.arange(team.members) * pairs // team.members), n)
+    shares[0] = 0
+    found = np.array(team.run(_measure, shares, position, start, other))
+    low, extent = found[:, 0].min(axis=0), found[:, 1].max(axis=0) - found[:, 0].min(axis=0)
+    axis = int(extent[1] > extent[0])
+    apart = found[:, 2, axis].max() * (1.0 + 1e-9)  # rounding must not narrow them
+    slabs = int(np.clip(extent[axis] / apart, 1.0, MOST_SLABS)) if apart > 0.0 else 1
+    if slabs > FAIR:
+        slabs = slabs // FAIR * FAIR
+    layers = int(min(extent[2] / LAYER + 1.0, MOST_LAYERS))
+    slab, layer = np.empty(n, np.int32), np.empty(pairs, np.int32)
+    place = np.zeros((team.members, (slabs + 1) * layers), np.int64)
+    begin = np.empty(slabs + 2, np.int64)
+    box = axis, low[axis], extent[axis], low[2] + extent[2]
+    team.run(_deal, shares, position, start, other, last_body, box, slab, layer, place, begin, pair, bodies)
+    return begin, pair, bodies
+
+
+@compiled_for_teams
+def _measure(rank, members, barrier, shares, position, start, other):
+    """Least and most of each coordinate in a share of spheres; how far pairs are apart along each."""
+    found = np.empty((3, 3))
+    found[0], found[1], found[2] = np.inf, -np.inf, 0.0
     n = position.shape[0]
-    axis, low, extent = 0, 0.0, -1.0
-    for k in range(2):
-        least, most = np.inf, -np.inf
-        for i in range(n):
-            least, most = min(least, position[i, k]), max(most, position[i, k])
-        if most - least > extent:
-            axis, low, extent = k, least, most - least
-    apart = 0.0
-    for i in range(n):
+    for i in range(shares[rank], shares[rank + 1]):
+        for k in range(3):
+            found[0, k], found[1, k] = min(found[0, k], position[i, k]), max(found[1, k], position[i, k])
         for c in range(start[i], start[i + 1]):
             if other[c] < n:
-                apart = max(apart, abs(position[other[c], axis] - position[i, axis]))
-    slabs = 1
-    if apart > 0.0:
-        width = apart * (1.0 + 1e-9)  # rounding must not narrow them
-        slabs = int(min(max(extent / width, 1.0), 1.0 * MOST_SLABS))
-        if slabs > FAIR:
-            slabs = slabs // FAIR * FAIR
-    slab = np.zeros(n, np.int32)
-    if slabs > 1:
-        for i in range(n):
-            slab[i] = min(int((position[i, axis] - low) / extent * slabs), slabs - 1)
-    top = position[:, 2].max() if n else 0.0
-    bottom = position[:, 2].min() if n else 0.0
-    layers = int(min((top - bottom) / LAYER + 1.0, 1.0 * MOST_LAYERS))
-    counted = np.zeros((slabs + 1) * layers + 1, np.int64)
-    layer = np.empty(other.shape[0], np.int32)
-    for i in range(n):
+                for k in range(2):
+                    found[2, k] = max(found[2, k], abs(position[other[c], k] - position[i, k]))
+    return found
+
+
+@compiled_for_teams
+def _deal(
+    rank,
+    members,
+    barrier,
+    shares,
+    position,
+    start,
+    other,
+    last_body,
+    box,
+    slab,
+    layer,
+    place,
+    begin,
+    pair,
+    bodies,
+):
+    """Pairs into layers of slabs, in the order of the list in each. place (members, layers): zeros."""
+    axis, low, extent, top = box
+    n, slabs = position.shape[0], begin.shape[0] - 2
+    layers = place.shape[1] // (slabs + 1)
+    for i in range(shares[rank], shares[rank + 1]):
+        slab[i] = min(int((position[i, axis] - low) / extent * slabs), slabs - 1) if slabs > 1 else 0
+    meet(barrier, members)
+    for i in range(shares[rank], shares[rank + 1]):
         for c in range(start[i], start[i + 1]):
             j = other[c]
             s = slabs if j == last_body else min(slab[i], slab[j]) if j < n else slab[i]
             height = 0.5 * (position[i, 2] + position[j, 2]) if j < n else position[i, 2]
             layer[c] = s * layers + min(int((top - height) / LAYER), layers - 1)
-            counted[layer[c] + 1] += 1
-    next_place = np.cumsum(counted)
-    begin = next_place[::layers].copy()
-    pair = np.empty(other.shape[0], np.int32)
-    bodies = np.empty((other.shape[0], 2), np.int32)
-    for i in range(n):
+            place[rank, layer[c]] += 1
+    meet(barrier, members)
+    if rank == 0:
+        following = 0
+        for at in range(place.shape[1]):
+            if at % layers == 0:
+                begin[at // layers] = following
+            for member in range(members):
+                count = place[member, at]
+                place[member, at] = following
+                following += count
+        begin[slabs + 1] = following
+    meet(barrier, members)
+    for i in range(shares[rank], shares[rank + 1]):
         for c in range(start[i], start[i + 1]):
-            at = next_place[layer[c]]
+            at = place[rank, layer[c]]
             pair[at] = c
             bodies[at, 0], bodies[at, 1] = i, other[c]
-            next_place[layer[c]] += 1
-    return begin, pair, bodies
+            place[rank, layer[c]] += 1
 
 
 @compiled_for_teams
