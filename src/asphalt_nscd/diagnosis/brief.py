@@ -1,4 +1,5 @@
-"""The answer of a diagnosis on one screen: what to use, what to correct, what to leave out, what to test next.
+"""The answer of a diagnosis on one screen: what to use, what to correct, what to leave out, what to test next;
+then how far it goes.
 
 Rows of a label and sentences, for the terminal and for the head of the page; the reasons stand in `summary` and on the
 page.
@@ -48,20 +49,22 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
         ("Possible fault", possible),
         ("Leave out", [*_few([_out(one) for one in not_used(content)]), *_if_kept(content)]),
         ("Check first", [*_few(_check(content)), *_what_clears(content)]),
+        ("Next tests", _next(content)),
         ("Not visible", unexplained.unseen(content)),
         ("Scatter", _scatter(content)),
         ("Simulation" if simulated else "Law", _law(content, left, simulated)),
         ("Unexplained", _unexplained(content)),
-        ("Next tests", _next(content)),
     ]
     return [(label, said) for label, said in found if said]
 
 
 def text(content: Content) -> str:
     """The rows as text of WIDTH columns."""
-    lines = []
-    for label, said in rows(content):
-        if label == "Next tests":
+    told, lines = rows(content), []
+    labels = [label for label, _ in told]
+    after_orders = labels[labels.index("Next tests") + 1 :][:1] if "Next tests" in labels else []
+    for label, said in told:
+        if label == "Next tests" or label in after_orders:
             lines.append("")
         for k, sentence in enumerate(said):
             first = f"{label if k == 0 else '':{LABEL}}"
@@ -103,14 +106,15 @@ def _tests(content: Content) -> list[str]:
     if len(names) <= FEW:
         which = f"specimen{'s' * (len(names) > 1)} {joined(names)}"
     at = joined([f"{t:g}" for t in read["isotherms_C"]])
-    return [_sentence(f"{verdict.TEST_TYPES[read['test_type']]}: {which} at {at} degC")]
+    assumed = " (assumed)" * bool(read.get("bench_assumed"))
+    return [_sentence(f"{verdict.TEST_TYPES[read['test_type']]}{assumed}: {which} at {at} degC")]
 
 
 def _notes(content: Content) -> list[str]:
     """What a reader must know before all else."""
     read = content.get("reading", {})
     said = [verdict.mixes(content), verdict.files(content)]
-    said += ["Taken for two-point bending. For a cylinder, add --measured-in tension-compression."] * bool(
+    said += ["Nobody said what was tested. For a cylinder, add --measured-in tension-compression."] * bool(
         read.get("bench_assumed")
     )
     if content.get("origin", "measured") != "measured":
@@ -136,7 +140,11 @@ def _data(content: Content) -> list[str]:
     at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)" if "check_at_C" in trust else ""
     parts += [f"{trust['check']} only if a check clears them{at}"] * bool(trust["check"])
     parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
-    phases = ["Use their phases only after the test on metal below."] if content.get("one_sided") else []
+    phases = (
+        ["Of the usable ones, |E*| can be used now, the phases after the test on metal below."]
+        if content.get("one_sided")
+        else []
+    )
     return [" ".join([f"{', '.join(parts)}.", *phases])]
 
 
@@ -159,6 +167,8 @@ def _fault(rung: Content, content: Content) -> str:
     meaning = sentences.meaning(rung).strip()
     bench = sentences.if_bending(rung, content)
     said = _sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}{bench}")
+    if not sure(rung):
+        meaning = f"If so, {meaning[:1].lower()}{meaning[1:]}" if meaning else ""
     said = " ".join(filter(None, [said, meaning]))
     if not sure(rung):
         same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
@@ -177,7 +187,7 @@ def _fault(rung: Content, content: Content) -> str:
 def _if_kept(content: Content) -> list[str]:
     """What would be named with the tests left out, where that is something else."""
     changed = sentences.only_with_suspects(content)
-    return [changed] if changed else []
+    return [f"{changed} Their own errors can look like that."] if changed else []
 
 
 def _out(one: Content) -> str:
@@ -200,14 +210,9 @@ def _check(content: Content) -> list[str]:
     for name, limit in quality.LIMITS.items():
         here = [one for one in above if one["column"] == name]
         if 2 * len(here) >= tests:
-            each = "; ".join(
-                _where_exceeded(here, of) for of in dict.fromkeys(one["specimen"] for one in here)
-            )
-            out = {place_of_test(one) for one in not_used(content)} & {place_of_test(one) for one in here}
-            left_out = f", {len(out)} of them left out above" * bool(out)
             said.append(
-                f"{limit.label.capitalize()} is above {limit.limit:g} {limit.unit} in {len(here)} of {tests} tests "
-                f"({each}){left_out}. Check {limit.check}."
+                f"{limit.label.capitalize()} is above {limit.limit:g} {limit.unit} in "
+                f"{_where_exceeded(here, content)}. Check {limit.check}."
             )
     said += [_sentence(one) for one in levels.sentences(*odd(content))]
     said += [_sentence(one) for one in levels.of_temperatures(content.get("odd_temperatures", []))]
@@ -224,22 +229,42 @@ def _what_clears(content: Content) -> list[str]:
     if broken:
         at = joined([f"{t:g}" for t in broken])
         found.append(
-            f"{at} degC {'is' if len(broken) == 1 else 'are'} cleared if the phase of tests repeated after the check "
-            "agrees with the slope. Then use the new tests."
+            f"After the check, test at {at} degC again. If phase and slope then agree, use the new tests in place of "
+            "the old."
         )
     if trust.get("check_at_C") != broken or not broken:
         found.append(
-            f"{'Any other' if broken else 'A'} test is cleared if a repeat after the check gives the same |E*| and "
-            "phase within scatter."
+            f"Use {'any other' if broken else 'a'} doubtful test if its repeat after the check agrees with it"
+            f"{_within_scatter(content)}."
         )
     return found
 
 
-def _where_exceeded(above: list[Content], specimen: str) -> str:
-    """How many tests of a specimen, and at which temperature if it is one."""
-    here = [one["temperature_C"] for one in above if one["specimen"] == specimen]
-    at = f" at {here[0]:g} degC" if len(set(here)) == 1 else ""
-    return f"{len(here)} of {specimen_named(specimen)}{at}"
+def _within_scatter(content: Content) -> str:
+    """Between two tests of one specimen, 95 % of the differences: 2.8 standard deviations (ISO 5725-6)."""
+    within = (content.get("repeatability") or {}).get("within")
+    if within is None:
+        return ""
+    return f" to {2.8 * within['E_percent']:.2g} % in |E*| and {2.8 * within['phase_deg']:.2g} deg in phase"
+
+
+def _where_exceeded(above: list[Content], content: Content) -> str:
+    """`all tests of specimens A and B and 3 of specimen C at 4 degC`; specimens were tested alike."""
+    specimens = content.get("reading", {}).get("specimens", [])
+    tests = content["tests"] + len(not_used(content))
+    places: dict[str, list[float]] = {}
+    for one in above:
+        places.setdefault(one["specimen"], []).append(one["temperature_C"])
+    whole = [name for name, at in places.items() if len(at) * len(specimens) == tests]
+    parts = []
+    if whole:
+        named = specimen_named(whole[0]) if len(whole) == 1 else f"specimens {joined(whole)}"
+        parts.append(f"all tests of {named}")
+    for name, at in places.items():
+        if name not in whole:
+            place = f" at {at[0]:g} degC" if len(set(at)) == 1 else ""
+            parts.append(f"{len(at)} {'' if parts else 'tests '}of {specimen_named(name)}{place}")
+    return joined(parts)
 
 
 def _contradiction(one: Content) -> str:
@@ -261,7 +286,7 @@ def _scatter(content: Content) -> list[str]:
         f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase"
         for way, words in (
             ("between", "between specimens"),
-            ("within", "of one specimen about its own level"),
+            ("within", "within one specimen, its mean offset taken off"),
         )
         if found.get(way) is not None
     ]
@@ -278,19 +303,21 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
         return [" ".join([_sentence(verdict.on_simulation(content, left)), *warning])]
     modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
     whom = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
-    said = [f"law.json (2S2P1D) misses {whom} by {modulus} % in |E*| and {phase} % in the phase."]
+    said = [
+        f"law.json, a 2S2P1D master curve, is off {whom} by {modulus} % in |E*| and {phase} % of the phase angle."
+    ]
     if verdict.alone(content):
         said.append("Without replicates nobody knows how much of that is scatter.")
     corrected = any(rung.get("taken_off", True) for rung in verdict.faults(content))
     out = levels.places(*odd(content))
     doubtful = content.get("trust", {}).get("check", 0) and not out
-    left_out = ", but not those left out" * bool(not_used(content))
+    but = " but those left out" * bool(not_used(content))
     if corrected or out:
         without = f" without {joined(out)}" if out else ""
-        among = f", those to be checked among them{left_out}" if doubtful else ""
+        among = ", doubtful ones too" * bool(doubtful)
         said.append(f"It was fitted to the{' corrected' * corrected} tests{without}{among}.")
     elif doubtful:
-        said.append(f"It was fitted to the tests to be checked too{left_out}.")
+        said.append(f"It was fitted to all tests{but}, doubtful ones too.")
     said += [f"{note.split(';')[0]}." for note in content["notes"] if note.startswith(UNDETERMINED)]
     return [" ".join([*said, *warning])]
 
@@ -298,9 +325,9 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
 def _unexplained(content: Content) -> list[str]:
     parts = unexplained.left(content)[:2] if sentences.more_than_scatter(content) else []
     if content.get("discrepancy"):
-        names = ("the free master curve (of any smooth shape)", verdict.COMMON)
-        parts = [f"Beyond scatter, {name} is off by {part}" for name, part in zip(names, parts, strict=False)]
-    return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, parts)]
+        parts = [f"Beyond scatter, the tests depart from the common master curve by {part}" for part in parts]
+    said = map(_sentence, [*parts, *unexplained.which_departs(content, parts)])
+    return [*filter(None, [content.get("one_sided", "")]), *said]
 
 
 def _next(content: Content) -> list[str]:

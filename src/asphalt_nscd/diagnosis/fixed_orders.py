@@ -17,8 +17,8 @@ from asphalt_nscd.measurements.campaign import OFF_TARGET
 
 Orders = list[dict[str, Any]]
 WHICH_TEST = (
-    "run this again and say what was tested: for a cylinder add --measured-in tension-compression, for two-point "
-    "bending add --geometry b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235 with your own numbers"
+    "say what was tested and run this again: for a cylinder with --measured-in tension-compression, for two-point "
+    "bending with --geometry b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235 and your own numbers"
 )
 
 
@@ -50,8 +50,8 @@ def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
     ends = [float(done.frequencies[0]), float(done.frequencies[-1])]
     hours = costs.hours(METAL, float(np.mean(costs.room)), ends)
     why = (
-        f"{one_sided} Metal has no phase of its own: what it shows is the machine's. If it shows none, the mix or the "
-        "mounting is at fault."
+        f"{one_sided} Metal has no phase of its own: what it shows is the machine's. If it shows none, the "
+        "cause is in the mix or in the mounting."
     )
     purpose = "to see whether the machine adds to the phase"
     return [_content(f"test {METAL}, {band(ends)}", (purpose, why), hours, [METAL], [], ends)]

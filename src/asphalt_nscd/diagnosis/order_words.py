@@ -112,7 +112,7 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
         ("repeat", f"because the old result at {_frequencies(again)} contradicts the other frequencies"),
         ("level", "to see whether the odd result repeats itself"),
         ("linear", f"to see whether the mix is linear at {here}"),
-        ("metal", "to confirm the {about}: it must show on metal too, as {other}"),
+        ("metal", "to confirm the {about}: metal must then show {other}, and 0 deg if there is none"),
         ("kept", "to confirm the {about}"),
         ("apart", "to confirm the {about}: {a} {other} would look much the same"),
         ("reach", "to see whether there is {about}"),
@@ -130,7 +130,7 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
             places = [other.other for other in helped if (other.kind, other.about) == (kind, one.about)]
             if kind == "reach" and one.about.startswith(an(BIAS)):
                 size = one.about.removeprefix(f"{an(BIAS)} of ")
-                return f"to see whether the temperature was wrong by {size}{_places(places)}"
+                return f"because with one more temperature an error of {size}{_places(places)} shows"
             return words.format(about=one.about.split(" (")[0], a=article, other=rest or one.other) + (
                 _places(places) if kind == "reach" else ""
             )

@@ -66,7 +66,7 @@ def without_doubtful(content: Content) -> str:
 def only_with_suspects(content: Content) -> str:
     """What only the tests left out speak for, or against; empty where they change no name."""
     return (
-        _changed(content, "with_suspects", "With them")
+        _changed(content, "with_suspects", "If they were kept")
         if any(_names_changed(content, "with_suspects"))
         else ""
     )
@@ -113,8 +113,8 @@ def of_intervals(content: Content) -> str:
     if factor == 1.0:
         return "+- is the 95 % interval."
     return (
-        f"+- is the 95 % interval, multiplied by {factor:.1f}, because these tests lie {factor:.1f} times as far from "
-        "the free master curve as their scatter suggests."
+        f"+- is the 95 % interval. The tests lie {factor:.1f} times as far from the common master curve as their "
+        f"scatter explains, so it is {factor:.1f} times as wide."
     )
 
 

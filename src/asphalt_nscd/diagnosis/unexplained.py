@@ -10,14 +10,13 @@ from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
 OF_WHAT_IS_LEFT = (
-    "The four largest misfits of the free master curve, as standard deviations without the scatter. residuals.csv has "
-    "each test."
+    "The four largest misfits of the free master curve, scatter subtracted. residuals.csv has each test."
 )
 UNSEEN = {  # the commonest faults, whose limits everybody is told
-    "phase_offset": "a common phase offset",
-    "channel_delay": "a delay of all tests",
-    "temperature_bias": "a temperature error at one isotherm",
-    "strain_softening": "a softening with strain",
+    "phase_offset": "A common phase offset",
+    "channel_delay": "A delay of all tests",
+    "temperature_bias": "A temperature error at one isotherm",
+    "strain_softening": "A softening with strain",
 }
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
 LARGEST = 4  # parts of what stays unexplained that are listed
@@ -37,10 +36,10 @@ def unseen(content: Content) -> list[str]:
     for cause, words in UNSEEN.items():
         limit = content["detection_limits"].get(cause)
         if limit and cause not in named:
-            told.append(f"{words} smaller than {_sizes(limit, content)}")
+            told.append(f"{words} smaller than {_sizes(limit, content)}.")
         elif cause in never:
-            told.append(f"{words}, however large")
-    return [f"Of the commonest faults, these tests would not show {'; '.join(told)}."] if told else []
+            told.append(f"{words}, however large.")
+    return told
 
 
 def _sizes(limit: Content, content: Content) -> str:
@@ -70,7 +69,7 @@ def left(content: Content) -> list[str]:
         return [
             *(_part_left(name, value, content) for name, value in parts),
             *([f"These sizes include what is odd: {joined(places)}"] if places else []),
-            *_which_departs(content, parts),
+            *which_departs(content, [name for name, _ in parts]),
         ]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None and more_than_scatter(content):
@@ -80,10 +79,10 @@ def left(content: Content) -> list[str]:
     return []
 
 
-def _which_departs(content: Content, parts: Sequence[tuple[str, float]]) -> list[str]:
-    """Of few specimens each has a large part in the common curve that it is compared with."""
+def which_departs(content: Content, parts: Sequence[str]) -> list[str]:
+    """Of few specimens each has a large part in the common curve that it is compared with. parts: what departs."""
     specimens = len(content.get("reading", {}).get("specimens", []))
-    if 1 < specimens < MANY_SPECIMENS and any(name.startswith("specimen ") for name, _ in parts):
+    if 1 < specimens < MANY_SPECIMENS and any("specimen " in part for part in parts):
         return [f"With {specimens} specimens nobody can tell which one is odd"]
     return []
 
@@ -110,7 +109,7 @@ def _part_left(name: str, value: float, content: Content) -> str:
         return f"{size_left(name, value, content['scatter'])} {at}"
     size = f"{size_left(name, value, content['scatter'])} of {specimen_named(place)}"
     if part == "spectrum":
-        return f"{size}: its master curve has another shape than that of all together"
+        return f"{size}: its master curve has another shape than the common one"
     whole = [one["specimen"] for one in content.get("odd_phases", []) if one["temperature_C"] is None]
     if part == "phase" and place in whole:
         return f"{size}, most of it alike in all its tests"
