@@ -250,10 +250,7 @@ def test_phases_that_lie_on_one_side_are_told():
     assert suspects.one_sided(observed, held) == ""
     turned = replace(observed, modulus=observed.modulus * np.exp(1j * np.radians(-4.0)))
     said = suspects.one_sided(turned, within_isotherm.hold(turned))
-    assert (
-        " phases are lower than the slope of log |E*| against log f requires (about 90 deg times the slope), by more than two"
-        in said
-    )
+    assert " phases are lower than the slope of log |E*| against log f requires (about 90 deg times" in said
 
 
 def test_a_decimal_point_that_slipped_is_told():
