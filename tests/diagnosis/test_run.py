@@ -239,7 +239,10 @@ def test_the_verdict_tells_what_the_law_that_is_written_misses(tmp_path):
     for name in ("E", "phase"):
         error = 100.0 * np.abs(means[f"{name}_law"] / means[name] - 1.0).groupby("at").mean().mean()
         assert misses[f"mre_{name}_percent"] == pytest.approx(error, rel=1e-6), name
-    said = [f"{misses[f'mre_{name}_percent']:.2g} % in" for name in ("E", "phase")]
+    said = [
+        f"{misses[f'mre_{name}_percent']:.2g} % {of}"
+        for name, of in (("E", "in |E*|"), ("phase", "of the phase"))
+    ]
     (law,) = dict(rows(outcome.content))["Law"]
     assert all(part in law for part in said) and "fitted to the corrected tests" in law
 

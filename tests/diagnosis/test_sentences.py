@@ -236,7 +236,7 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
     assert hidden in causes({"ladder": [worse | {"established": False}]})[0][1]
     assert "not in the answer" not in causes({"ladder": [worse]})[0][1] + causes(near)[0][1]
     assert sentences.of_intervals(near) == "+- is the 95 % interval."
-    assert sentences.of_intervals(far).endswith("so it is 2.0 times as wide.")
+    assert sentences.of_intervals(far).endswith("so it was widened 2.0 times.")
     assert sentences.of_intervals({"ladder": []}) == ""
 
 

@@ -96,7 +96,7 @@ def test_delay_neither_hides_a_fault_of_the_majority_nor_moves_it(delay):
     found = suspects.find(delayed(altered(observed, wrong, phase_deg=4.0), delay))
     assert [one.row for one in found if not one.used] == wrong
     reason = next(reason for reason in found[0].reasons if reason.startswith("phase "))
-    assert "; neither is corrected for the delay)" in reason
+    assert "; both still contain the delay)" in reason
     required = float(reason.split(" expected ")[1].split(" deg")[0])
     right = np.degrees(observed.logarithm.imag[wrong[0]]) + 360.0 * delay * 25.0
     assert required == pytest.approx(right, abs=1.5)

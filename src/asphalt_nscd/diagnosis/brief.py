@@ -7,6 +7,7 @@ page.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from textwrap import wrap
 from typing import Any
@@ -46,7 +47,7 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
         ("Note", _notes(content)),
         ("Data", _data(content)),
         ("Fault", certain or _no_fault(content, bool(possible))),
-        ("Possible fault", possible),
+        ("Possible fault", [*possible, *_not_taken_off(content, bool(possible))]),
         ("Leave out", [*_few([_out(one) for one in not_used(content)]), *_if_kept(content)]),
         ("Check first", [*_few(_check(content)), *_what_clears(content)]),
         ("Next tests", _next(content)),
@@ -141,7 +142,7 @@ def _data(content: Content) -> list[str]:
     parts += [f"{trust['check']} only if a check clears them{at}"] * bool(trust["check"])
     parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
     phases = (
-        ["Of the usable ones, |E*| can be used now, the phases after the test on metal below."]
+        ["Use |E*| now, and the phases after the test on metal, less what metal shows."]
         if content.get("one_sided")
         else []
     )
@@ -174,20 +175,30 @@ def _fault(rung: Content, content: Content) -> str:
         same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
         if same:
             return f"{said} Not certain: {joined(list(map(sentences.in_words, same)), 'or')} fits as well."
-        taken_off = "law.json is corrected for it all the same" if "law_misses" in content else ""
-        kept = "law.json is not corrected for it" if "law_misses" in content else ""
-        kept = taken_off if rung.get("taken_off", True) else kept
-        return f"{said} {_sentence('; '.join(filter(None, ['not certain', kept])))}"
+        return f"{said} law.json is corrected for it all the same." if _taken_off(rung, content) else said
     if bench:
         return f"{said} Say first what was tested."
     correction = verdict.correction(rung)
     return f"{said} Correction: {correction}." if correction else said
 
 
+def _taken_off(rung: Content, content: Content) -> bool:
+    return "law_misses" in content and bool(rung.get("taken_off", True))
+
+
+def _not_taken_off(content: Content, possible: bool) -> list[str]:
+    """That law.json holds what is not certain, where no such cause was taken off."""
+    told = possible and "law_misses" in content
+    taken_off = any(
+        _taken_off(rung, content) for rung in verdict.faults(content) if not _certain(rung, content)
+    )
+    return ["law.json is not corrected for what is only possible."] if told and not taken_off else []
+
+
 def _if_kept(content: Content) -> list[str]:
     """What would be named with the tests left out, where that is something else."""
     changed = sentences.only_with_suspects(content)
-    return [f"{changed} Their own errors can look like that."] if changed else []
+    return [f"{changed} Bad tests can imitate that."] if changed else []
 
 
 def _out(one: Content) -> str:
@@ -197,7 +208,7 @@ def _out(one: Content) -> str:
 def _check(content: Content) -> list[str]:
     """What is doubtful, where, and what to check."""
     read, tests = content.get("reading", {}), content["tests"] + len(not_used(content))
-    said = [_contradiction(one) for one in content.get("contradictory_isotherms", [])]
+    said = _contradictions(content.get("contradictory_isotherms", []))
     said += [
         _sentence(
             f"{specimen_named(one['specimen'])} at {one['temperature_C']:g} degC: measured at {one['measured_C']:g} "
@@ -225,19 +236,12 @@ def _what_clears(content: Content) -> list[str]:
     trust = content.get("trust", {"check": 0})
     if not trust["check"]:
         return []
-    found = []
-    if broken:
-        at = joined([f"{t:g}" for t in broken])
-        found.append(
-            f"After the check, test at {at} degC again. If phase and slope then agree, use the new tests in place of "
-            "the old."
-        )
-    if trust.get("check_at_C") != broken or not broken:
-        found.append(
-            f"Use {'any other' if broken else 'a'} doubtful test if its repeat after the check agrees with it"
-            f"{_within_scatter(content)}."
-        )
-    return found
+    if broken and trust.get("check_at_C") == broken:
+        return []
+    return [
+        f"Repeat {'any other' if broken else 'a'} doubtful test after the check. If both agree"
+        f"{_within_scatter(content)}, keep the old one, else use the new."
+    ]
 
 
 def _within_scatter(content: Content) -> str:
@@ -245,7 +249,9 @@ def _within_scatter(content: Content) -> str:
     within = (content.get("repeatability") or {}).get("within")
     if within is None:
         return ""
-    return f" to {2.8 * within['E_percent']:.2g} % in |E*| and {2.8 * within['phase_deg']:.2g} deg in phase"
+    return (
+        f" within {2.8 * within['E_percent']:.2g} % in |E*| and {2.8 * within['phase_deg']:.2g} deg in phase"
+    )
 
 
 def _where_exceeded(above: list[Content], content: Content) -> str:
@@ -264,20 +270,30 @@ def _where_exceeded(above: list[Content], content: Content) -> str:
         if name not in whole:
             place = f" at {at[0]:g} degC" if len(set(at)) == 1 else ""
             parts.append(f"{len(at)} {'' if parts else 'tests '}of {specimen_named(name)}{place}")
-    return joined(parts)
+    return ", in ".join(parts)
 
 
-def _contradiction(one: Content) -> str:
-    """Where an isotherm contradicts itself most, and what to check."""
-    if "worst_deg" not in one:  # of a file written before
-        return (
-            f"{one['temperature_C']:g} degC: |E*| and phase contradict each other. Check strain and machine."
-        )
-    side = "higher" if one["worst_deg"] > 0.0 else "lower"
-    return (
-        f"{one['temperature_C']:g} degC: the phase is up to {abs(one['worst_deg']):.1f} deg {side} than the slope of "
-        f"log |E*| against log f requires (at {one['worst_Hz']:g} Hz). Check strain level, load control and gauges."
-    )
+def _contradictions(found: list[Content]) -> list[str]:
+    """Where isotherms contradict themselves most, what to check, and which tests to use then."""
+    again = "then test there again. If phase and slope then agree, use the new tests in place of the old."
+    known = [one for one in found if "worst_deg" in one]
+    said = [
+        f"{one['temperature_C']:g} degC: |E*| and phase contradict each other. Check strain and machine, {again}"
+        for one in found
+        if one not in known  # of a file written before
+    ]
+    for side, here in (
+        ("higher", [one for one in known if one["worst_deg"] > 0.0]),
+        ("lower", [one for one in known if one["worst_deg"] <= 0.0]),
+    ):
+        if here:
+            at = joined([f"{one['temperature_C']:g}" for one in here])
+            most = joined([f"{abs(one['worst_deg']):.1f} deg (at {one['worst_Hz']:g} Hz)" for one in here])
+            said.append(
+                f"At {at} degC the phase is up to {most} {side} than the slope of log |E*| against log f requires. "
+                f"Check strain level, load control and gauges, {again}"
+            )
+    return said
 
 
 def _scatter(content: Content) -> list[str]:
@@ -325,7 +341,7 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
 def _unexplained(content: Content) -> list[str]:
     parts = unexplained.left(content)[:2] if sentences.more_than_scatter(content) else []
     if content.get("discrepancy"):
-        parts = [f"Beyond scatter, the tests depart from the common master curve by {part}" for part in parts]
+        parts = [f"Off the common master curve, beyond scatter: {part}" for part in parts]
     said = map(_sentence, [*parts, *unexplained.which_departs(content, parts)])
     return [*filter(None, [content.get("one_sided", "")]), *said]
 
@@ -336,6 +352,7 @@ def _next(content: Content) -> list[str]:
     said = []
     for number, one in enumerate(orders, 1):
         hours, act = one["text"].removesuffix(".").split(": ", 1)
+        act = re.sub(r"[\d.]+ to [\d.]+ Hz \(\d+ frequencies\)", "all frequencies", act)
         why = f", {one['purpose']}" if one.get("purpose") else ""
         cost = f" ({hours})" if one["hours"] > 0.0 else ""
         said.append(f"{number}. {_sentence(f'{act}{why}{cost}')}")

@@ -17,8 +17,8 @@ from asphalt_nscd.measurements.campaign import OFF_TARGET
 
 Orders = list[dict[str, Any]]
 WHICH_TEST = (
-    "say what was tested and run this again: for a cylinder with --measured-in tension-compression, for two-point "
-    "bending with --geometry b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235 and your own numbers"
+    "say what was tested and run this again: with --measured-in tension-compression for a cylinder (AMPT too), with "
+    "--geometry for two-point bending (see --help)"
 )
 
 

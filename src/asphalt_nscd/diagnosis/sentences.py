@@ -66,7 +66,7 @@ def without_doubtful(content: Content) -> str:
 def only_with_suspects(content: Content) -> str:
     """What only the tests left out speak for, or against; empty where they change no name."""
     return (
-        _changed(content, "with_suspects", "If they were kept")
+        _changed(content, "with_suspects", "With them")
         if any(_names_changed(content, "with_suspects"))
         else ""
     )
@@ -114,7 +114,7 @@ def of_intervals(content: Content) -> str:
         return "+- is the 95 % interval."
     return (
         f"+- is the 95 % interval. The tests lie {factor:.1f} times as far from the common master curve as their "
-        f"scatter explains, so it is {factor:.1f} times as wide."
+        f"scatter explains, so it was widened {factor:.1f} times."
     )
 
 

@@ -163,8 +163,8 @@ def one_sided(observed: Observations, held: Held) -> str:
         if 2 * np.count_nonzero(there) >= max(apart.size, 1):
             return (
                 f"{np.count_nonzero(there)} of {apart.size} phases are {side} than the slope of log |E*| against log f "
-                f"requires (about 90 deg times the slope), by more than two standard errors. The mean of all phases is "
-                f"{abs(apart.mean()):.1f} deg {side}."
+                f"requires (about 90 deg times the slope), by more than two standard errors. On average all phases are "
+                f"{abs(apart.mean()):.1f} deg {side} than that."
             )
     return ""
 
@@ -268,7 +268,7 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
             f"{'; look for a misplaced decimal point' * bool(slip)}"
         )
     phase, required = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
-    delay = "; neither is corrected for the delay" if held.delay else ""
+    delay = "; both still contain the delay" if held.delay else ""
     return (
         f"phase {phase:.1f} deg, expected {required:.1f} deg from its |E*| and the other frequencies "
         f"(standard error {np.degrees(error):.1f} deg{delay})"
