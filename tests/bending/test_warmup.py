@@ -30,7 +30,7 @@ def compiled(step, cache):
 def test_a_step_compiles_its_own_kernels_and_those_of_no_other(tmp_path):
     bending = compiled("simulate", tmp_path / "bending")
     assert {name.partition("/")[0] for name in bending} == {"bonds", "stepping"}
-    assert bending["bonds/system._opening_rows"] == 2  # for the bonds of the paper, and for facets
+    assert bending["bonds/system._opening_rows"] == 1  # for the bonds of the paper and for facets
     assert len(list(tmp_path.glob("bending/core-*/*.native"))) == 1
     pouring = compiled("deposit", tmp_path / "pouring")
     assert "spheres/granular.step" in pouring and "spheres/neighbours._partners" in pouring

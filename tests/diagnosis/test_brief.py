@@ -93,12 +93,12 @@ def test_a_certain_fault_comes_with_its_correction():
     "then,said",
     [
         ({}, [" law.json is corrected for it all the same."]),
-        ({"taken_off": False}, ["", "law.json is not corrected for what is only possible."]),
+        ({"taken_off": False}, ["", "The master curve in law.json is not corrected for possible faults."]),
         (
             {"as_good": ["phase_offset @ 50.0", "damage"], "taken_off": False},
             [
                 " Not certain: phase offset at 50 degC fits as well.",
-                "law.json is not corrected for what is only possible.",
+                "The master curve in law.json is not corrected for possible faults.",
             ],
         ),
     ],
@@ -187,9 +187,9 @@ def test_what_is_odd_or_contradicts_itself_is_checked_first():
         },
     )
     assert told["Check first"] == [
-        "At 54 degC the phase is up to 19.1 deg (at 25 Hz) lower than the slope of log |E*| against log f requires. "
-        "Check strain level, load control and gauges, then test there again. If phase and slope then agree, use the "
-        "new tests in place of the old.",
+        "At 54 degC the phase is up to 19.1 deg (at 25 Hz) lower than |E*| requires (about 90 deg times the slope of "
+        "log |E*| against log f). Check strain level, load control and gauges, then test there again. If phase and "
+        "slope then agree, use the new tests in place of the old.",
         "Specimen A at 54 degC: measured at 57 degC, 3 K off its target (AASHTO T 378 allows 0.5 K). Look for a slip "
         "in the record, else test again.",
         "Specimen A at 35 degC: |E*| 0.70 times what its other temperatures and the other specimens say: check gauges, "
@@ -270,8 +270,8 @@ def test_what_no_cause_explains_is_told_in_two_parts_at_most():
     told = answer(discrepancy=left, scatter=scatter, lack_of_fit_p_value=1e-9, one_sided="All lie above.")
     assert told["Unexplained"] == [
         "All lie above.",
-        "Off the common master curve, beyond scatter: 1.5 deg in the phase at 37 degC.",
-        "Off the common master curve, beyond scatter: 2.0 % in |E*| at 21 degC.",
+        "Beyond scatter, the common master curve is off by 1.5 deg in the phase at 37 degC.",
+        "Beyond scatter, the common master curve is off by 2.0 % in |E*| at 21 degC.",
     ]
     assert "Unexplained" not in answer(discrepancy=left, scatter=scatter)  # no more than scatter
 
@@ -321,7 +321,7 @@ def test_usable_tests_that_are_all_of_one_specimen_are_told_so():
 def test_what_the_tests_left_out_would_name_is_told_where_it_is_something_else():
     other = {"verdict": "explained", "causes": [{"cause": "channel_delay", "where": None}]}
     *_, said = answer(out=1, with_suspects=other)["Leave out"]
-    assert said == ("With them, the diagnosis would name a channel delay. Bad tests can imitate that.")
+    assert said == ("With these tests, the diagnosis would name a channel delay, but they cannot be trusted.")
     same = {"verdict": "explained", "causes": []}
     assert answer(out=1, with_suspects=same)["Leave out"] == ["Specimen A, 4 degC, 25 Hz: x."]
 

@@ -141,11 +141,11 @@ def _data(content: Content) -> list[str]:
     at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)" if "check_at_C" in trust else ""
     parts += [f"{trust['check']} only if a check clears them{at}"] * bool(trust["check"])
     parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
-    phases = (
-        ["Use |E*| now, and the phases after the test on metal, less what metal shows."]
-        if content.get("one_sided")
-        else []
-    )
+    side = "higher" if "higher" in content.get("one_sided", "") else "lower"
+    phases = [
+        f"Use their |E*| now. Most phases are {side} than |E*| requires: use them after the test on metal, less the "
+        "phase of metal."
+    ] * bool(content.get("one_sided"))
     return [" ".join([f"{', '.join(parts)}.", *phases])]
 
 
@@ -192,13 +192,17 @@ def _not_taken_off(content: Content, possible: bool) -> list[str]:
     taken_off = any(
         _taken_off(rung, content) for rung in verdict.faults(content) if not _certain(rung, content)
     )
-    return ["law.json is not corrected for what is only possible."] if told and not taken_off else []
+    return (
+        ["The master curve in law.json is not corrected for possible faults."]
+        if told and not taken_off
+        else []
+    )
 
 
 def _if_kept(content: Content) -> list[str]:
     """What would be named with the tests left out, where that is something else."""
     changed = sentences.only_with_suspects(content)
-    return [f"{changed} Bad tests can imitate that."] if changed else []
+    return [f"{changed.rstrip('.')}, but they cannot be trusted."] if changed else []
 
 
 def _out(one: Content) -> str:
@@ -258,9 +262,9 @@ def _where_exceeded(above: list[Content], content: Content) -> str:
     """`all tests of specimens A and B and 3 of specimen C at 4 degC`; specimens were tested alike."""
     specimens = content.get("reading", {}).get("specimens", [])
     tests = content["tests"] + len(not_used(content))
-    places: dict[str, list[float]] = {}
+    places: dict[str, list[Content]] = {}
     for one in above:
-        places.setdefault(one["specimen"], []).append(one["temperature_C"])
+        places.setdefault(one["specimen"], []).append(one)
     whole = [name for name, at in places.items() if len(at) * len(specimens) == tests]
     parts = []
     if whole:
@@ -268,7 +272,11 @@ def _where_exceeded(above: list[Content], content: Content) -> str:
         parts.append(f"all tests of {named}")
     for name, at in places.items():
         if name not in whole:
-            place = f" at {at[0]:g} degC" if len(set(at)) == 1 else ""
+            place = ""
+            if len({one["temperature_C"] for one in at}) == 1:
+                place = f" at {at[0]['temperature_C']:g} degC"
+                if len(at) < FEW:
+                    place += f" ({joined([f'{f:g}' for f in sorted(one['frequency_Hz'] for one in at)])} Hz)"
             parts.append(f"{len(at)} {'' if parts else 'tests '}of {specimen_named(name)}{place}")
     return ", in ".join(parts)
 
@@ -290,8 +298,8 @@ def _contradictions(found: list[Content]) -> list[str]:
             at = joined([f"{one['temperature_C']:g}" for one in here])
             most = joined([f"{abs(one['worst_deg']):.1f} deg (at {one['worst_Hz']:g} Hz)" for one in here])
             said.append(
-                f"At {at} degC the phase is up to {most} {side} than the slope of log |E*| against log f requires. "
-                f"Check strain level, load control and gauges, {again}"
+                f"At {at} degC the phase is up to {most} {side} than |E*| requires (about 90 deg times the slope "
+                f"of log |E*| against log f). Check strain level, load control and gauges, {again}"
             )
     return said
 
@@ -302,7 +310,7 @@ def _scatter(content: Content) -> list[str]:
         f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase"
         for way, words in (
             ("between", "between specimens"),
-            ("within", "within one specimen, its mean offset taken off"),
+            ("within", "within one specimen, after removing its mean deviation"),
         )
         if found.get(way) is not None
     ]
@@ -341,7 +349,7 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
 def _unexplained(content: Content) -> list[str]:
     parts = unexplained.left(content)[:2] if sentences.more_than_scatter(content) else []
     if content.get("discrepancy"):
-        parts = [f"Off the common master curve, beyond scatter: {part}" for part in parts]
+        parts = [f"Beyond scatter, the common master curve is off by {part}" for part in parts]
     said = map(_sentence, [*parts, *unexplained.which_departs(content, parts)])
     return [*filter(None, [content.get("one_sided", "")]), *said]
 

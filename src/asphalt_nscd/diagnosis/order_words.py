@@ -130,7 +130,7 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
             places = [other.other for other in helped if (other.kind, other.about) == (kind, one.about)]
             if kind == "reach" and one.about.startswith(an(BIAS)):
                 size = one.about.removeprefix(f"{an(BIAS)} of ")
-                return f"to make an error of {size} in the temperature{_places(places)} visible"
+                return f"to see an error of {size} in the temperature of any isotherm"
             return words.format(about=one.about.split(" (")[0], a=article, other=rest or one.other) + (
                 _places(places) if kind == "reach" else ""
             )

@@ -66,7 +66,7 @@ def without_doubtful(content: Content) -> str:
 def only_with_suspects(content: Content) -> str:
     """What only the tests left out speak for, or against; empty where they change no name."""
     return (
-        _changed(content, "with_suspects", "With them")
+        _changed(content, "with_suspects", "With these tests")
         if any(_names_changed(content, "with_suspects"))
         else ""
     )

@@ -162,8 +162,8 @@ def one_sided(observed: Observations, held: Held) -> str:
     for side, there in (("higher", far & (apart > 0.0)), ("lower", far & (apart < 0.0))):
         if 2 * np.count_nonzero(there) >= max(apart.size, 1):
             return (
-                f"{np.count_nonzero(there)} of {apart.size} phases are {side} than the slope of log |E*| against log f "
-                f"requires (about 90 deg times the slope), by more than two standard errors. On average all phases are "
+                f"{np.count_nonzero(there)} of {apart.size} phases are {side} than |E*| requires (about 90 deg times "
+                "the slope of log |E*| against log f), by more than two standard errors. On average all phases are "
                 f"{abs(apart.mean()):.1f} deg {side} than that."
             )
     return ""
@@ -268,7 +268,7 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
             f"{'; look for a misplaced decimal point' * bool(slip)}"
         )
     phase, required = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
-    delay = "; both still contain the delay" if held.delay else ""
+    delay = "; both phases as recorded, with the delay" if held.delay else ""
     return (
         f"phase {phase:.1f} deg, expected {required:.1f} deg from its |E*| and the other frequencies "
         f"(standard error {np.degrees(error):.1f} deg{delay})"

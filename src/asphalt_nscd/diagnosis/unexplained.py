@@ -38,7 +38,7 @@ def unseen(content: Content) -> list[str]:
         if limit and cause not in named:
             told.append(f"{words} smaller than {_sizes(limit, content)}.")
         elif cause in never:
-            told.append(f"{words}, however large.")
+            told.append(f"{words}, of any size.")
     return told
 
 
@@ -53,7 +53,7 @@ def _sizes(limit: Content, content: Content) -> str:
     ]
     tested = content.get("reading", {}).get("isotherms_C", [])
     never = [f"{t:g}" for t in tested if t not in map(float, places)]
-    return joined(sizes) + (f", and at {joined(never)} degC however large" if never else "")
+    return joined(sizes) + (f", and of any size at {joined(never)} degC" if never else "")
 
 
 def _size(value: float, unit: str, content: Content) -> str:
@@ -83,7 +83,7 @@ def which_departs(content: Content, parts: Sequence[str]) -> list[str]:
     """Of few specimens each has a large part in the common curve that it is compared with. parts: what departs."""
     specimens = len(content.get("reading", {}).get("specimens", []))
     if 1 < specimens < MANY_SPECIMENS and any("specimen " in part for part in parts):
-        return [f"With {specimens} specimens nobody can tell which one is odd"]
+        return [f"{specimens} specimens are too few to tell which one is odd"]
     return []
 
 

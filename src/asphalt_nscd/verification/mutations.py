@@ -49,7 +49,7 @@ MUTANTS = [
     ("gravity of a sphere", "spheres", "nscd/spheres/granular.py", "+= dt * gravity[k]", "-= dt * gravity[k]"),
     ("moment of a contact on a sphere", "spheres", "nscd/spheres/gauss_seidel.py", "j[2] + w * z, w, j[4] - u * tx", "j[2] + w * z, w, j[4] + u * tx"),
     ("spin in the slip of two spheres", "spheres", "nscd/spheres/gauss_seidel.py", "(vx - (sy * nz - sz * ny))", "(vx + (sy * nz - sz * ny))"),
-    ("width of the slabs that threads share out", "spheres", "nscd/spheres/slabs.py", "width = apart *", "width = 0.3 * apart *"),
+    ("width of the slabs that threads share out", "spheres", "nscd/spheres/slabs.py", "* (1.0 + 1e-9)", "* 0.3"),
     ("restitution of an impact", "spheres", "nscd/spheres/granular.py", "= -restitution * opening", "= restitution * opening"),
 ]  # fmt: skip
 
