@@ -147,11 +147,14 @@ def test_faults_of_a_bench_that_nobody_stated_are_possible_ones():
 def test_tests_left_out_stand_with_their_reasons_and_many_are_counted():
     one = "Specimen A, 4 degC, 25 Hz: x."
     assert answer(out=2)["Leave out"] == [one, one]
-    assert answer(out=MOST + 2)["Leave out"] == [one] * (MOST - 1) + ["3 more: see the reasons"]
+    assert answer(out=MOST + 2)["Leave out"] == [one] * (MOST - 1) + ["3 more: see the reasons."]
 
 
-@pytest.mark.parametrize("exceeded,told", [(36, True), (35, False)])
-def test_a_quality_limit_that_half_of_the_tests_exceed_is_checked_first(exceeded, told):
+@pytest.mark.parametrize(
+    "exceeded,where",
+    [(36, "30 tests of specimen A, in 6 of specimen B at 4 degC"), (18, "18 tests of specimen A"), (17, "")],
+)
+def test_a_quality_limit_that_half_of_a_specimen_s_tests_exceed_is_checked_first(exceeded, where):
     above = [
         {
             "column": "phase_uniformity_deg",
@@ -162,14 +165,11 @@ def test_a_quality_limit_that_half_of_the_tests_exceed_is_checked_first(exceeded
         for k in range(exceeded)
     ]
     read = {"specimens": ["A", "B"], "isotherms_C": [4.0], "test_type": "bending", "limits_exceeded": above}
-    said = (
-        "Phase uniformity is above 3 deg in 30 tests of specimen A, in 6 of specimen B at 4 degC. Check the gauges and "
-        "the ends of the specimens."
-    )
-    assert answer(reading=read).get("Check first") == ([said] if told else None)
-    whole = {"limits_exceeded": [one | {"specimen": "A"} for one in above]}
-    said = said.replace("30 tests of specimen A, in 6 of specimen B at 4 degC", "all tests of specimen A")
-    assert answer(reading=read | whole).get("Check first") == ([said] if told else None)
+    said = "Phase uniformity is above 3 deg in {}. Check the gauges and the ends of the specimens."
+    assert answer(reading=read).get("Check first") == ([said.format(where)] if where else None)
+    if exceeded == 36:
+        whole = {"limits_exceeded": [one | {"specimen": "A"} for one in above]}
+        assert answer(reading=read | whole)["Check first"] == [said.format("all tests of specimen A")]
 
 
 def test_what_is_odd_or_contradicts_itself_is_checked_first():
@@ -276,6 +276,22 @@ def test_what_no_cause_explains_is_told_in_two_parts_at_most():
     assert "Unexplained" not in answer(discrepancy=left, scatter=scatter)  # no more than scatter
 
 
+def test_that_few_specimens_do_not_tell_which_is_odd_is_a_sentence_of_its_own():
+    read = {"specimens": ["A", "B"], "isotherms_C": [4.0], "test_type": "bending"}
+    scatter = {"phase_deg": 0.5, "modulus_percent": 1.0, "from_replicates": True}
+    left = {"specimen A, modulus": 3.0}
+    told = answer(discrepancy=left, scatter=scatter, lack_of_fit_p_value=1e-9, reading=read)["Unexplained"]
+    assert told[1:] == ["2 specimens are too few to tell which one is odd."] and len(told) == 2
+
+
+def test_temperatures_off_their_target_are_noted_before_all_else():
+    off = [{"specimen": "A", "temperature_C": 35.0, "measured_C": 36.2}]
+    read = {"specimens": ["A"], "isotherms_C": [35.0], "test_type": "bending", "off_target": off}
+    assert answer(reading=read)["Note"] == [
+        "All this takes the recorded temperatures for right. Some are off their target: see Check first."
+    ]
+
+
 def test_orders_stand_with_purpose_and_hours():
     order = {
         "text": "2.5 h: test specimen A again, 0.1 to 25 Hz (6 frequencies).",
@@ -312,7 +328,7 @@ def test_too_few_temperatures_prove_no_fault(tested, lacks):
 def test_usable_tests_that_are_all_of_one_specimen_are_told_so():
     trust = {"use": 14, "check": 58, "not_used": 0, "use_by_specimen": {"A": 14, "B": 0}}
     assert answer(trust=trust)["Data"] == [
-        "14 of 72 tests, all of specimen A, can be used, 58 only if a check clears them."
+        "14 of 72 tests can be used (of specimen A only), 58 only if a check clears them."
     ]
     both = trust | {"use_by_specimen": {"A": 7, "B": 7}}
     assert answer(trust=both)["Data"] == ["14 of 72 tests can be used, 58 only if a check clears them."]

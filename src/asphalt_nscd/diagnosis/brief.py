@@ -25,7 +25,7 @@ Rows = list[tuple[str, list[str]]]
 WIDTH, LABEL = 100, 16  # columns of a terminal, and those of them for labels
 MOST = 4  # sentences of a row; a reader finds the others in the reasons
 FEW = 6  # specimens that are named one by one
-MORE = "{} more: see the reasons"
+MORE = "{} more: see the reasons."
 
 
 def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
@@ -118,6 +118,10 @@ def _notes(content: Content) -> list[str]:
     said += ["Nobody said what was tested. For a cylinder, add --measured-in tension-compression."] * bool(
         read.get("bench_assumed")
     )
+    if read.get("off_target"):
+        said.append(
+            "All this takes the recorded temperatures for right. Some are off their target: see Check first."
+        )
     if content.get("origin", "measured") != "measured":
         said += sentences.origin(content)
     if read.get("test_type") == "tension-compression" and not read.get("quality_columns", True):
@@ -132,12 +136,12 @@ def _data(content: Content) -> list[str]:
     tests, out = content["tests"], len(not_used(content))
     trust = content.get("trust", {"use": tests, "check": 0, "not_used": out})
     everywhere = any(_certain(rung, content) and rung["where"] is None for rung in verdict.faults(content))
-    corrected = " after correction" * everywhere
+    corrected = " after correction" * (everywhere and trust["use"] > 0)
     if not trust["check"] and not trust["not_used"]:
         return [f"All {tests} tests can be used{corrected}."]
     of = [name for name, count in trust.get("use_by_specimen", {}).items() if count]
-    alone = f", all of {specimen_named(of[0])}," if len(of) == 1 < len(trust["use_by_specimen"]) else ""
-    parts = [f"{trust['use'] or 'None'} of {tests + out} tests{alone} can be used{corrected}"]
+    alone = f" (of {specimen_named(of[0])} only)" if len(of) == 1 < len(trust["use_by_specimen"]) else ""
+    parts = [f"{trust['use'] or 'None'} of {tests + out} tests can be used{corrected}{alone}"]
     at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)" if "check_at_C" in trust else ""
     parts += [f"{trust['check']} only if a check clears them{at}"] * bool(trust["check"])
     parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
@@ -224,7 +228,9 @@ def _check(content: Content) -> list[str]:
     above = read.get("limits_exceeded", [])
     for name, limit in quality.LIMITS.items():
         here = [one for one in above if one["column"] == name]
-        if 2 * len(here) >= tests:
+        of = [one["specimen"] for one in here]
+        most = max(map(of.count, of), default=0)
+        if 2 * len(here) >= tests or 2 * most * len(read.get("specimens", [])) >= tests > 0 < most:
             said.append(
                 f"{limit.label.capitalize()} is above {limit.limit:g} {limit.unit} in "
                 f"{_where_exceeded(here, content)}. Check {limit.check}."
@@ -348,10 +354,10 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
 
 def _unexplained(content: Content) -> list[str]:
     parts = unexplained.left(content)[:2] if sentences.more_than_scatter(content) else []
-    if content.get("discrepancy"):
-        parts = [f"Beyond scatter, the common master curve is off by {part}" for part in parts]
-    said = map(_sentence, [*parts, *unexplained.which_departs(content, parts)])
-    return [*filter(None, [content.get("one_sided", "")]), *said]
+    remark = unexplained.which_departs(content, parts)
+    off = "the common master curve is off by " if content.get("discrepancy") else ""
+    said = [f"Beyond scatter, {off}{part}" for part in parts if part not in remark]
+    return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, [*said, *remark])]
 
 
 def _next(content: Content) -> list[str]:

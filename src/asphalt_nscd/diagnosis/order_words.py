@@ -137,6 +137,11 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
     return ""
 
 
+def _upper(words: str) -> str:
+    """With a capital first; units keep theirs."""
+    return f"{words[:1].upper()}{words[1:]}"
+
+
 def _frequencies(tests: Sequence[str]) -> str:
     """`10 and 25 Hz`, of tests in words."""
     found = {one.rpartition(", ")[2].removesuffix(" Hz") for one in tests}
@@ -198,9 +203,9 @@ def _reason(one: Open, before: float, after: float) -> str:
     if before >= CLEAR and not one.alike:
         return ""
     now = (
-        f"{an(one.other).capitalize()} fits these tests as well as the {one.about}."
+        f"{_upper(an(one.other))} fits these tests as well as the {one.about}."
         if one.alike
-        else f"{an(one.other).capitalize()} would look much the same. These tests speak for the {one.about}, but not "
+        else f"{_upper(an(one.other))} would look much the same. These tests speak for the {one.about}, but not "
         "beyond doubt."
     )
     return f"{now} This test should {'decide' if after >= CLEAR else 'make it clearer'}."
