@@ -26,7 +26,8 @@ from rows import Clock, write_rows
 
 from asphalt_nscd.bending.bending_test import bond_law, run_test
 from asphalt_nscd.bending.case import LoadCase, Numerics
-from asphalt_nscd.bending.model import Bonds, condense, read_model
+from asphalt_nscd.bending.condensing import Bonds, condense
+from asphalt_nscd.bending.model import read_model
 from asphalt_nscd.measurements.signals import harmonic_response
 from asphalt_nscd.measurements.twopoint import complex_modulus
 from asphalt_nscd.nscd.bonds.implicit_operator import LARGEST_FACTORED

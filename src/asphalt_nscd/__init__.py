@@ -15,7 +15,7 @@ __version__ = "0.1.0"
 # Name: its module, imported when the name is first asked for. The same names stand in __init__.pyi, which editors
 # and type checkers read.
 _NAMES = {
-    "Bonds": "bending.model",
+    "Bonds": "bending.condensing",
     "Diagnosis": "api.diagnosis",
     "Draws": "diagnosis.run",
     "ExportSettings": "api.exporting",

@@ -9,7 +9,8 @@ import pytest
 
 from asphalt_nscd.bending.bending_test import TestFiles, run_test, simulate
 from asphalt_nscd.bending.case import LoadCase, Numerics
-from asphalt_nscd.bending.model import Bonds, condense, read_model
+from asphalt_nscd.bending.condensing import Bonds, condense
+from asphalt_nscd.bending.model import read_model
 from asphalt_nscd.bending.rig import Rig, write_rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save

@@ -17,7 +17,8 @@ from asphalt_nscd.api.results import Result
 from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told
 from asphalt_nscd.bending.case import Load, Numerics, RunOptions
-from asphalt_nscd.bending.model import Bonds, Model, condensed, model_of
+from asphalt_nscd.bending.condensing import Bonds, condensed
+from asphalt_nscd.bending.model import Model, model_of
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.files.words import counted

@@ -1,4 +1,4 @@
-"""A specimen condensed for tests: the whole model, and the excerpt of it that most tests need."""
+"""A specimen condensed for tests (condensing.py): all of it. Most tests need an excerpt alone (excerpt.py)."""
 
 from __future__ import annotations
 
@@ -10,39 +10,16 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import SuperLU
 
-from asphalt_nscd.bending.excerpt import write_excerpt
 from asphalt_nscd.bending.layers import Layers
-from asphalt_nscd.files.store import Record, load, save
+from asphalt_nscd.files.store import Record, load
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.bonds.system import BondedSystem
-from asphalt_nscd.nscd.stepping.break_modes import BONDS, StandBy
+from asphalt_nscd.nscd.stepping.break_modes import StandBy
 from asphalt_nscd.nscd.stepping.harmonic import static_factor
-from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis, shifted_factor
-from asphalt_nscd.specimen.preparation import Content, read_specimen
-from asphalt_nscd.specimen.system import bending_system
-from asphalt_nscd.specimen.trimming import Specimen
+from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
 
 SHAPE = "shape/"
-KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
-
-
-@dataclass(frozen=True)
-class Bonds:
-    """What bonds are beside their law, and whether the head rotates.
-
-    head: "free" or "blocked". poisson: nu of Eqs. (8)-(11), for bonds by area "paper"; kt_over_kn: tangential over
-    normal stiffness, for "facets". yield_Pa: stress at which a bond breaks. friction: where its gap then closes.
-
-    >>> Bonds(head="blocked", yield_Pa=5e6).kt_over_kn
-    1.0
-    """
-
-    head: str = "free"
-    poisson: float = 0.35
-    kt_over_kn: float = 1.0
-    yield_Pa: float = 2.7e6
-    friction: float = 0.7
 
 
 @dataclass(frozen=True)
@@ -99,77 +76,6 @@ class Model:
     def layers(self) -> Layers:
         """Over which velocities are averaged."""
         return Layers.of(self.sphere_height, self.geometry.h, self.system.mass.size)
-
-
-def condense(
-    specimen_file: str | Path,
-    bonds: Bonds,
-    output: str | Path,
-    excerpt_output: str | Path | None = None,
-    stand_by: int | None = None,
-) -> int:
-    """Assemble the system of a specimen, find its basis and directions for breaks, and save all; its unknowns.
-
-    excerpt_output: for what most tests need of it. stand_by: see `condensed`.
-    """
-    arrays, attributes = condensed(read_specimen(specimen_file), Path(specimen_file).stem, bonds, stand_by)
-    digest = save(output, "model", arrays, attributes)
-    if excerpt_output is not None:
-        write_excerpt(excerpt_output, model_of(Record(arrays, attributes, digest)), digest)
-    return int(arrays["mass"].size)
-
-
-def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None = None) -> Content:
-    """Arrays and attributes of a model file; see `condense`.
-
-    stand_by: so many bonds have directions ready for their break, those the driven motion breaks first. A test that
-    breaks others finds theirs itself, for seconds. None: BONDS, but none of facets, which bear stress so evenly that
-    they seldom break.
-    """
-    system = bending_system(
-        specimen, bonds.poisson, bonds.yield_Pa, bonds.friction, bonds.head, kt_over_kn=bonds.kt_over_kn
-    )
-    g, shifted = system.operator, shifted_factor(system)
-    basis = ritz_basis(system, KRYLOV_STEPS, shifted)
-    arrays = {
-        "basis": basis,
-        "operator/indptr": g.indptr,
-        "operator/indices": g.indices,
-        "operator/data": g.data,
-        "weight": system.weight,
-        "mass": system.mass,
-        "load": system.load,
-        "gap": system.gap,
-        "strength": system.strength,
-        "position": system.position,
-        "sphere_height": specimen.position[:, 2],
-        **{f"{SHAPE}{name}": values for name, values in _shape(specimen).items()},
-    }
-    if not isinstance(shifted, Multigrid):  # by which they cost more than the few breaks they may save
-        most = (0 if specimen.area == "facets" else BONDS) if stand_by is None else stand_by
-        ready = StandBy.of(system, basis, shifted, most).arrays()
-        arrays |= {f"stand_by/{name}": value for name, value in ready.items()}
-    attributes = {
-        "name": name,
-        "head": bonds.head,
-        "driven": system.driven,
-        "friction": bonds.friction,
-        **{name: getattr(specimen.geometry, name) for name in Geometry.__dataclass_fields__},
-    }
-    return arrays, attributes
-
-
-def _shape(specimen: Specimen) -> dict[str, np.ndarray]:
-    """position_m (n, 3), radius_m (n,); of bonds: bodies joined (b,) (n: head, n + 1: foot), point_m (b, 3), area."""
-    network = specimen.network
-    return {
-        "position_m": specimen.position,
-        "radius_m": specimen.radius,
-        "first": network.first,
-        "second": network.second,
-        "point_m": network.point,
-        "area_m2": network.area,
-    }
 
 
 def read_model(path: str | Path) -> Model:

@@ -49,7 +49,7 @@ def command(
     specimen: Path, bonds: dict[str, Any], stand_by: int | None, output: Path, excerpt_output: Path | None
 ) -> None:
     """Assemble the bonded system of a specimen and its reduced form. Every test on the specimen uses them."""
-    from asphalt_nscd.bending.model import Bonds, condense
+    from asphalt_nscd.bending.condensing import Bonds, condense
 
     unknowns = condense(specimen, Bonds(**bonds), output, excerpt_output, stand_by)
     click.echo(f"{output}: {unknowns} unknowns")
