@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 import pytest
 
 from asphalt_nscd.nscd.compiled import compiled_for_teams
-from asphalt_nscd.nscd.team import Team, meet, share
+from asphalt_nscd.nscd.team import Team, arrive, meet, share
 
 
 @compiled_for_teams
 def pass_round(rank, members, barrier, rounds, seen):
     """In each round a member reads what its neighbour wrote in the round before; returns how often it was not there."""
+    arrive(barrier)
     missed = 0
     for k in range(rounds):
         missed += seen[k % 2, (rank + 1) % members, 0] != k
@@ -27,34 +30,31 @@ def test_members_see_what_all_wrote_before_they_met(members):
             assert team.run(pass_round, 5000, np.zeros((2, members, 8), np.int64)) == members * [0]
 
 
-@pytest.mark.parametrize("who", [0, 1])
-def test_one_that_fails_keeps_none_waiting(who):
+@pytest.mark.parametrize("failure", [MemoryError, KeyboardInterrupt])
+@pytest.mark.parametrize("who", [0, 1, 2])
+def test_one_that_fails_keeps_none_waiting(who, failure):
     def kernel(rank, members, barrier):
+        arrive(barrier)
         if rank == who:
-            raise MemoryError
+            raise failure
         meet(barrier, members)
 
-    with Team(2) as team:
-        with pytest.raises(MemoryError):
-            team.run(kernel)
-        assert team.run(pass_round, 10, np.zeros((2, 2, 8), np.int64)) == [0, 0]
-
-
-def test_interruption_between_two_members_ends_the_meeting(monkeypatch):
-    """Control-C comes when one member waits already and the caller has not begun."""
     with Team(3) as team:
-        submit, submitted = team._others.submit, []
+        with pytest.raises(failure):
+            team.run(kernel)
+        assert team.run(pass_round, 10, np.zeros((2, 3, 8), np.int64)) == [0, 0, 0]
 
-        def interrupted(*arguments):
-            if submitted:
-                raise KeyboardInterrupt
-            submitted.append(submit(*arguments))
-            return submitted[-1]
 
-        monkeypatch.setattr(team._others, "submit", interrupted)
-        with pytest.raises(KeyboardInterrupt):
-            team.run(pass_round, 10, np.zeros((2, 3, 8), np.int64))
-        submitted[0].result(timeout=10)
+def test_members_that_fell_asleep_are_woken():
+    with Team(3) as team:
+        for _ in range(5):
+            until = time.monotonic() + 60.0
+            while not all(other._asleep for other in team._others):
+                assert time.monotonic() < until, "members stay awake for ever"
+                time.sleep(0.01)
+            assert team.run(pass_round, 2, np.zeros((2, 3, 8), np.int64)) == [0, 0, 0]
+        threads = list(team._others)
+    assert not any(thread.is_alive() for thread in threads)
 
 
 @pytest.mark.parametrize("members", [1, 2, 3, 8])

@@ -7,9 +7,9 @@ own threads take 50 us to start there; members of a team that are awake meet in 
 from __future__ import annotations
 
 import sys
+import threading
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from llvmlite import ir
@@ -18,8 +18,12 @@ from numba.extending import intrinsic
 
 from asphalt_nscd.nscd.compiled import compiled_for_teams
 
-ARRIVED, MEETINGS, BROKEN_UP = 0, 8, 16  # places in a barrier, each in a cache line of its own
+ARRIVED, MEETINGS, BROKEN_UP, STARTED = 0, 8, 16, 24  # places in a barrier, each in a cache line of its own
 SPINS = 2000  # looks at the barrier before a member lets others use its core
+AWAKE = 6000  # looks before it falls asleep, after about a millisecond
+
+# a kernel, the barrier, and its other arguments
+Task: TypeAlias = tuple[Callable[..., Any], np.ndarray, tuple[Any, ...]]
 
 _give_way = types.ExternalFunction(
     "SwitchToThread" if sys.platform == "win32" else "sched_yield", types.int32()
@@ -75,40 +79,136 @@ def share(rank, members, count):
     return rank * count // members, (rank + 1) * count // members
 
 
+@compiled_for_teams
+def arrive(barrier):
+    """What a kernel does first: it tells that this member has Python's lock no longer."""
+    _add(barrier, STARTED, 1)
+
+
+@compiled_for_teams
+def _reached(count, at, number, most_looks):
+    """Wait until a count is at least `number`; False if it is not yet after so many looks (0: however many)."""
+    looks = 0
+    while _read(count, at) < number:
+        looks += 1
+        if looks == most_looks:
+            return False
+        if looks > SPINS:
+            _give_way()
+    return True
+
+
+@compiled_for_teams
+def _call(calls, barrier, members):
+    """Call other members that are awake, and wait a while until they have begun.
+
+    In one kernel: a member that has to wait for Python's lock falls asleep.
+    """
+    _add(calls, 0, 1)
+    _reached(barrier, STARTED, members - 1, AWAKE)
+
+
+@compiled_for_teams
+def _answer(answers, calls, number):
+    """Say that one call is answered, and wait a while for call `number`; False if it did not come."""
+    _add(answers, 0, 1)
+    return _reached(calls, 0, number, AWAKE)
+
+
+class _Member(threading.Thread):
+    """A thread that stays awake for a while after its work: a step calls it eight times, and waking takes 0.1 ms."""
+
+    def __init__(self, rank: int, members: int, calls: np.ndarray) -> None:
+        super().__init__(daemon=True, name=f"member {rank} of a team of {members}")
+        self._place, self._calls = (rank, members), calls
+        self._answers = np.zeros(1, np.int64)
+        self._asleep, self._bell = False, threading.Semaphore(0)
+        self.task: Task | None = None  # of a call; None: to end
+        self._returned: tuple[Any, BaseException | None] = None, None
+        self.start()
+
+    def wake(self) -> None:
+        """A call will come."""
+        if self._asleep:
+            self._bell.release()
+
+    def wait(self, call: int) -> None:
+        """Until its kernel has ended at call number `call`."""
+        _reached(self._answers, 0, call, 0)
+
+    def result(self, call: int) -> Any:
+        """What its kernel returned or raised at call number `call`."""
+        self.wait(call)
+        value, failure = self._returned
+        if failure is not None:
+            raise failure
+        return value
+
+    def run(self) -> None:
+        number, called = 1, _reached(self._calls, 0, 1, AWAKE)
+        while True:
+            while not called:
+                self._asleep = True
+                if self._calls[0] < number:
+                    self._bell.acquire()
+                self._asleep = False
+                called = _reached(self._calls, 0, number, AWAKE)
+            if self.task is None:
+                return
+            kernel, barrier, arguments = self.task
+            try:
+                self._returned = kernel(*self._place, barrier, *arguments), None
+            except BaseException as failure:
+                barrier[BROKEN_UP] = 1
+                self._returned = None, failure
+            self.task = None
+            del kernel, barrier, arguments
+            number += 1
+            called = _answer(self._answers, self._calls, number)
+
+
 class Team:
     """So many threads, the caller's among them. Close it, or use it as a context."""
 
     def __init__(self, members: int = 1) -> None:
         self.members = members
-        self._others = ThreadPoolExecutor(members - 1) if members > 1 else None
+        self._calls = np.zeros(1, np.int64)
+        self._others = [_Member(rank, members, self._calls) for rank in range(1, members)]
 
     def run(self, kernel: Callable[..., Any], *arguments: Any) -> list[Any]:
         """kernel(rank, members, barrier, *arguments) by all members; what each returned.
 
-        The kernel is compiled for teams. If one member fails or the caller is interrupted, meetings end.
+        The kernel is compiled for teams and begins with `arrive`. If one member fails or the caller is interrupted,
+        meetings end.
         """
-        barrier = np.zeros(24, np.int64)
-
-        def work(rank: int) -> Any:
-            try:
-                return kernel(rank, self.members, barrier, *arguments)
-            except BaseException:
-                barrier[BROKEN_UP] = 1
-                raise
-
-        others: list[Future[Any]] = []
+        barrier = np.zeros(32, np.int64)
         try:
-            if self._others is not None:
-                for rank in range(1, self.members):
-                    others.append(self._others.submit(work, rank))
-            return [work(0), *(future.result() for future in others)]
+            if self._others:
+                self._begin((kernel, barrier, arguments), barrier, self.members)
+            call = int(self._calls[0])
+            return [
+                kernel(0, self.members, barrier, *arguments),
+                *(other.result(call) for other in self._others),
+            ]
         except BaseException:
             barrier[BROKEN_UP] = 1
             raise
+
+    def _begin(self, task: Task | None, barrier: np.ndarray, members: int) -> None:
+        for other in self._others:
+            other.wait(int(self._calls[0]))  # of a call that ended by the failure of another
+            other.task = task
+            other.wake()
+        _call(self._calls, barrier, members)
+        for other in self._others:
+            other.wake()  # who fell asleep before the call, and after being looked at
 
     def __enter__(self) -> Team:
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._others is not None:
-            self._others.shutdown()
+        if self._others:
+            self._begin(None, np.zeros(32, np.int64), 1)
+        for other in self._others:
+            other.join()
+        self._others = []

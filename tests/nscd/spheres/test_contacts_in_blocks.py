@@ -33,7 +33,7 @@ def test_blocks_are_those_of_the_naive_twin(count):
     bodies[:, 1] = np.where(
         bodies[:, 1] >= SPHERES, bodies[:, 1] + 50, bodies[:, 1]
     )  # as rows that do not yield
-    found = number_blocks(bodies, 10, count, SPHERES, room)
+    found = number_blocks(bodies, 10, count, SPHERES, room, np.empty(len(room.motion), np.int32))
     expected = blocks_in_order(bodies[10 : 10 + count], SPHERES)
     assert found == len(expected)
     for block, contacts in enumerate(expected):
@@ -101,6 +101,7 @@ def test_sweeps_block_by_block_are_those_one_by_one(relaxation):
     contact = np.argsort(slabs.pair)[-300:]  # of each pair
     packed, motion = room.packed[contact], room.motion[:BODIES].copy()
     rest = np.delete(room.packed, contact, axis=0)
+    last = np.empty(len(room.motion), np.int32)
     blocks, begin, count, visits = slabs.blocks, 0, slabs.begin[1], range(300)
     for quiet, calm in ((0.3, np.inf), (np.inf, 0.5)):
         *sums, noted = sweep_blocks(blocks, begin, count, 8, 0.3, relaxation, quiet, calm, room)
@@ -116,7 +117,7 @@ def test_sweeps_block_by_block_are_those_one_by_one(relaxation):
         np.testing.assert_array_equal(bodies[found, 0], room.bodies[8 : 8 + noted, 0])
         assert 20 < noted < len(visits) - 20
         assert min(kinds.values()) > 10
-        blocks, begin, count = room.lively_blocks, 8, deal_lively(0, 8, noted, room)
+        blocks, begin, count = room.lively_blocks, 8, deal_lively(0, 8, noted, room, last)
         visits = found.tolist()
     own = own_rows(0, room)[1]
     assert not room.motion[own].any()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
-from asphalt_nscd.nscd.spheres.slabs import FAIR, LAYER, MOST_SLABS, first_and_end, slabs_of
+from asphalt_nscd.nscd.spheres.slabs import FAIR, LAYER, MOST_SLABS, first_and_end, part_of, slabs_of
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
@@ -99,6 +99,21 @@ def test_each_slab_has_one_member(members, slabs):
         for s in range(*first_and_end(rank, members, slabs, kind), 2)
     ]
     assert sorted(mine) == list(range(slabs + 1))
+
+
+@pytest.mark.parametrize("kind", [0, 1, 2])
+@pytest.mark.parametrize("members", [1, 2, 3, 5])
+def test_parts_have_about_equal_work(members, kind):
+    """Each slab of a kind is swept once, whoever has how much; more than half a slab too much has nobody."""
+    slabs, rng = 13, np.random.default_rng(5)
+    for work in (rng.exponential(size=slabs), np.arange(slabs) ** 3.0, np.zeros(slabs)):
+        parts = [range(*part_of(rank, members, slabs, kind, work), 2) for rank in range(members)]
+        if kind == 2:
+            assert [list(part) for part in parts] == [[slabs]] + [[]] * (members - 1)
+            continue
+        assert [s for part in parts for s in part] == list(range(kind, slabs, 2))
+        for part in parts:
+            assert work[part].sum() <= work[kind::2].sum() / members + work[kind::2].max() + 1e-12
 
 
 def states(members: int) -> str:

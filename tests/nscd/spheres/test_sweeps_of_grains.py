@@ -45,7 +45,7 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
         sweeps, change = sweep_until(
             0,
             1,
-            np.zeros(24, int),
+            np.zeros(32, int),
             slabs,
             room,
             0.5,

@@ -12,17 +12,17 @@ import numpy as np
 from asphalt_nscd.nscd.compiled import compiled_for_teams
 from asphalt_nscd.nscd.lanes import WIDTH
 from asphalt_nscd.nscd.spheres.slabs import Room, Slabs, first_and_end, own_rows, room_for
-from asphalt_nscd.nscd.team import Team, meet
+from asphalt_nscd.nscd.team import Team, arrive, meet
 
 
 @compiled_for_teams
-def number_blocks(bodies, begin, count, fixed, room):
+def number_blocks(bodies, begin, count, fixed, room, last):
     """Deal contacts between bodies[begin:begin + count] (c, 2) into blocks; returns how many there are.
 
     room.block and room.lane then hold where each stands. Bodies from `fixed` on do not yield, so that
-    contacts of a block may share them.
+    contacts of a block may share them. last (r,): room of this member alone, for the block in which each body stood.
     """
-    last, filled, following = room.last_block, room.filled, room.following
+    filled, following = room.filled, room.following
     for k in range(begin, begin + count):
         last[bodies[k, 0]] = last[bodies[k, 1]] = -1
     found = 0
@@ -47,9 +47,9 @@ def number_blocks(bodies, begin, count, fixed, room):
 
 
 @compiled_for_teams
-def deal_lively(s, begin, count, room):
+def deal_lively(s, begin, count, room, last):
     """Deal the contacts that were noted in slab s, from `begin` on, into room.lively_blocks; returns how many."""
-    found = number_blocks(room.bodies, begin, count, room.wall + 1, room)
+    found = number_blocks(room.bodies, begin, count, room.wall + 1, room, last)
     no_contact, nobody, _ = own_rows(s, room)
     for block in range(begin, begin + found):
         for lane in range(WIDTH):
@@ -85,7 +85,9 @@ def in_blocks(
 
 @compiled_for_teams
 def _number_slabs(rank, members, barrier, begin, bodies, rows, counts, room):
+    arrive(barrier)
     last, first_plane = begin.shape[0] - 2, room.wall + 1 - room.planes
+    last_block = np.empty(room.motion.shape[0], np.int32)
     for kind in range(3):
         first, end = first_and_end(rank, members, last, kind)
         for s in range(first, end, 2):
@@ -93,12 +95,15 @@ def _number_slabs(rank, members, barrier, begin, bodies, rows, counts, room):
             for k in range(begin[s], begin[s + 1]):
                 i, j = bodies[k, 0], bodies[k, 1]
                 rows[k, 0], rows[k, 1] = i, j if j < first_plane or j == room.wall else j + own
-            counts[s] = number_blocks(rows, begin[s], begin[s + 1] - begin[s], room.wall + 1, room)
+            counts[s] = number_blocks(
+                rows, begin[s], begin[s + 1] - begin[s], room.wall + 1, room, last_block
+            )
         meet(barrier, members)
 
 
 @compiled_for_teams
 def _fill_slabs(rank, members, barrier, begin, pair, rows, slabs, room):
+    arrive(barrier)
     last = begin.shape[0] - 2
     for kind in range(3):
         first, end = first_and_end(rank, members, last, kind)

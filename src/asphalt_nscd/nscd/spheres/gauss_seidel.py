@@ -30,7 +30,7 @@ from asphalt_nscd.nscd.lanes import (
     where_above,
 )
 from asphalt_nscd.nscd.spheres.blocks import deal_lively
-from asphalt_nscd.nscd.spheres.slabs import first_and_end
+from asphalt_nscd.nscd.spheres.slabs import part_of
 from asphalt_nscd.nscd.team import meet
 
 ROUND = 9  # sweeps, the first of which visits all contacts and the others those that were not quiet
@@ -146,14 +146,13 @@ def push_blocks(packed, motion, blocks, begin, count):
 
 
 @compiled_for_teams
-def sweep_slabs(rank, members, barrier, slabs, room, friction, kind, relaxation, everyone, quiet, calm):
-    """A member's part of a sweep over the slabs of one kind (0 even, 1 odd, 2 the last body), then a meeting.
+def sweep_slabs(part, slabs, room, friction, relaxation, everyone, quiet, calm, last_block):
+    """A sweep over every other slab from part[0] on, below part[1].
 
     Over all contacts, or over those that were noted. Notes contacts anew if `quiet` or `calm` is finite (sweep_blocks).
     """
     account = room.account
-    first, end = first_and_end(rank, members, slabs.begin.shape[0] - 2, kind)
-    for s in range(first, end, 2):
+    for s in range(part[0], part[1], 2):
         start, count, of_lively = slabs.begin[s], slabs.begin[s + 1] - slabs.begin[s], WIDTH * slabs.begin[s]
         blocks = slabs.blocks
         if not everyone:
@@ -166,8 +165,7 @@ def sweep_slabs(rank, members, barrier, slabs, room, friction, kind, relaxation,
             account[s, FASTEST] = fastest
         if quiet < np.inf or calm < np.inf:
             account[s, NOTED] = noted
-            account[s, LIVELY_BLOCKS] = deal_lively(s, of_lively, noted, room)
-    meet(barrier, members)
+            account[s, LIVELY_BLOCKS] = deal_lively(s, of_lively, noted, room, last_block)
 
 
 @compiled_for_teams
@@ -184,13 +182,16 @@ def sweep_until(
     """
     begin, last = slabs.begin, slabs.begin.shape[0] - 2
     account, motion = room.account, room.motion
+    last_block = np.empty(motion.shape[0], np.int32)
+    parts, lively_parts = np.empty((3, 2), np.int64), np.empty((3, 2), np.int64)
+    for kind in range(3):
+        parts[kind] = part_of(rank, members, last, kind, np.diff(begin))
     contacts = 0
     for s in range(last + 1):
         contacts += int(account[s, COUNT])
     idle = 0 if account[last, COUNT] > 0.0 else 1  # the last body touches nothing
     for k in range(idle, 3):
-        first, end = first_and_end(rank, members, last, ORDER[k])
-        for s in range(first, end, 2):
+        for s in range(parts[ORDER[k], 0], parts[ORDER[k], 1], 2):
             count = begin[s + 1] - begin[s]
             account[s, PUSHED] = push_blocks(room.packed, motion, slabs.blocks, begin[s], count)
         meet(barrier, members)
@@ -206,20 +207,13 @@ def sweep_until(
         quiet, limit = np.inf, np.inf
         if turn in (0, AGAIN):
             quiet, limit = tolerance * tolerance * size / max(contacts, 1), calm
+        if turn in (1, AGAIN + 1):  # since the contacts were noted, all have met
+            for kind in range(3):
+                lively_parts[kind] = part_of(rank, members, last, kind, account[:, LIVELY_BLOCKS])
         for k in range(idle, 3):
-            sweep_slabs(
-                rank,
-                members,
-                barrier,
-                slabs,
-                room,
-                friction,
-                ORDER[k],
-                relaxation,
-                everyone,
-                quiet,
-                limit,
-            )
+            part = parts[ORDER[k]] if everyone else lively_parts[ORDER[k]]
+            sweep_slabs(part, slabs, room, friction, relaxation, everyone, quiet, limit, last_block)
+            meet(barrier, members)
         if rank == 0:
             push = guide_wall(motion, room.wall, drive, push)
         if everyone:

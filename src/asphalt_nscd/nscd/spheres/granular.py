@@ -16,7 +16,7 @@ from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
 from asphalt_nscd.nscd.lanes import WIDTH, gather, largest, nothing, root, scatter, spread, total, where_above
 from asphalt_nscd.nscd.spheres.gauss_seidel import COUNT, DEEPEST, sweep_until
 from asphalt_nscd.nscd.spheres.slabs import first_and_end, own_rows
-from asphalt_nscd.nscd.team import meet, share
+from asphalt_nscd.nscd.team import arrive, meet, share
 
 OUT_OF_REACH = 1e30  # m or m/s
 
@@ -218,6 +218,7 @@ def step(
     drive (2,): speed [m/s] and largest impulse [N s] of the last plane where its mass is finite (guide_wall).
     Returns (sweeps, relative change of the last sweep, largest overlap at the start [m]).
     """
+    arrive(barrier)
     n, bodies, last = position.shape[0], velocity.shape[0], slabs.begin.shape[0] - 2
     begin, end = share(rank, members, n)
     pack_motion(velocity, inverse_mass, begin, end, room.motion)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
-from asphalt_nscd.nscd.team import Team, share
+from asphalt_nscd.nscd.team import Team, arrive, share
 
 PARTS = 8  # of the spheres for each member of a team, dealt in turns
 
@@ -87,6 +87,7 @@ def _partners(
     Part k lies from its bound to the next, and is that of member k % members: the first spheres in a rain have landed
     and lie dense, the last ones still fall.
     """
+    arrive(barrier)
     furthest = extra.max()
     other = np.empty(16 * (position.shape[0] // members) + 64, np.int64)
     end = 0
@@ -170,6 +171,7 @@ def _speeds_by_height(position, radius, velocity):
 def _bound_speeds(
     rank, members, barrier, position, radius, velocity, reach, bottom, thickness, least, most, bound
 ):
+    arrive(barrier)
     begin, end = share(rank, members, position.shape[0])
     for i in range(begin, end):
         away = 2.0 * radius[i] + reach
@@ -213,6 +215,7 @@ def carry_reactions(team, old_start, old_other, old_reaction, start, other):
 
 @compiled_for_teams
 def _carry(rank, members, barrier, old_start, old_other, old_reaction, start, other, reaction):
+    arrive(barrier)
     first, last_pair = share(rank, members, other.shape[0])
     spheres = start.shape[0] - 1
     begin = np.searchsorted(start[:spheres], first)

@@ -15,7 +15,7 @@ import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled_for_teams
 from asphalt_nscd.nscd.lanes import WIDTH, aligned
-from asphalt_nscd.nscd.team import Team, meet, share
+from asphalt_nscd.nscd.team import Team, arrive, meet, share
 
 MOST_SLABS = 256
 LAYER = 5e-4  # m, within which pairs stand in the order of the list
@@ -48,7 +48,6 @@ class Room(NamedTuple):
     lane: np.ndarray  # (c,)
     filled: np.ndarray  # (c,) lanes of each block that are taken,
     following: np.ndarray  # (c,) the next block that may have room,
-    last_block: np.ndarray  # (r,) in which each body stood
     account: np.ndarray  # (slabs + 1, 8) see gauss_seidel.py
     wall: int  # row of the last body
     planes: int  # it and those before it
@@ -69,7 +68,6 @@ def room_for(contacts: int, bodies: int, planes: int) -> Room:
         lane=lane,
         filled=filled,
         following=following,
-        last_block=np.empty(rows, np.int32),
         account=aligned((MOST_SLABS + 1, WIDTH)),
         wall=bodies - 1,
         planes=planes,
@@ -118,6 +116,7 @@ def slabs_of(
 @compiled_for_teams
 def _measure(rank, members, barrier, shares, position, start, other):
     """Least and most of each coordinate in a share of spheres; how far pairs are apart along each."""
+    arrive(barrier)
     found = np.empty((3, 3))
     found[0], found[1], found[2] = np.inf, -np.inf, 0.0
     n = position.shape[0]
@@ -150,6 +149,7 @@ def _deal(
     bodies,
 ):
     """Pairs into layers of slabs, in the order of the list in each. place (members, layers): zeros."""
+    arrive(barrier)
     axis, low, extent, top = box
     n, slabs = position.shape[0], begin.shape[0] - 2
     layers = place.shape[1] // (slabs + 1)
@@ -193,3 +193,21 @@ def first_and_end(rank, members, slabs, kind):
         return slabs, slabs + (1 if rank == 0 else 0)
     begin, end = share(rank, members, (slabs - kind + 1) // 2)
     return kind + 2 * begin, kind + 2 * end
+
+
+@compiled_for_teams
+def part_of(rank, members, slabs, kind, work):
+    """The same, with parts of about equal work; work (slabs,) of each slab, not negative."""
+    if kind == 2:
+        return first_and_end(rank, members, slabs, kind)
+    total = 0.0
+    for s in range(kind, slabs, 2):
+        total += work[s]
+    first = end = kind
+    before = 0.0
+    for s in range(kind, slabs, 2):
+        middle = (before + 0.5 * work[s]) * members
+        first += 2 * (middle < rank * total)
+        end += 2 * (middle < (rank + 1) * total or rank == members - 1)  # the last one takes empty slabs, too
+        before += work[s]
+    return first, end
