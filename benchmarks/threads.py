@@ -50,6 +50,8 @@ def shake(granulate: Granulate, numerics: PouringNumerics) -> None:
 def measured(granulate: Granulate, numerics: PouringNumerics, work, threads: int) -> tuple[float, bytes]:
     """Wall time [s] of the same work from the same state, and what came of it."""
     copy = deepcopy(granulate)
+    copy._room = None  # rows of a copy do not begin at cache lines, as those of a pouring do
+    copy._list(copy._start, copy._other)
     with Team(threads) as copy.team:
         copy.advance(numerics)
         began = time.perf_counter()
