@@ -15,7 +15,11 @@ LIMITS = {
     "F0_N": Limits(1e-6, 1e5, "give a positive force amplitude in N"),
     "z0_m": Limits(1e-8, 5e-3, "give a positive displacement amplitude in m (63 micrometres are 63e-6)"),
     "psi_deg": Limits(-180, 180, "give the angle by which the force leads, in degrees"),
-    "E_MPa": Limits(0.1, 2e5, "give |E*| in MPa, greater than zero"),
+    "E_MPa": Limits(
+        0.1,
+        2e5,
+        "give |E*| in MPa, greater than zero, or write the unit into the name of the column, as in E (GPa)",
+    ),
     "phase_deg": Limits(-90, 90, "give the phase of E* in degrees"),
 }
 
