@@ -12,7 +12,7 @@ report: "workflow/report/study.rst"
 
 
 onsuccess:
-    if Path(REPORT).is_file():
+    if any(REPORT in job.output for job in workflow.dag.jobs):  # it was asked for
         logger.info(f"Report: {Path(REPORT).resolve()}")
 
 

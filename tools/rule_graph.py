@@ -18,7 +18,7 @@ KINDS = [
     (r"fig\w+|table\d|samples|preparation|ladder|fracture|families|audit", "figures and tables"),
     (r"export_\w+", "export_abaqus, ..."),
     (r"(draw|reduce|diagnose)_family", "draw_, reduce_,\ndiagnose_family"),
-    (r"\w+_page|report|workflow_report|timings|provenance", "pages, report"),
+    (r"\w+_page|pages|report|workflow_report|timings|provenance", "pages, report"),
     (r"simulate_(packed\w*|blocked|pascal)", "simulate_packed,\n_blocked, _pascal"),
     (r"(trim|condense)_facets", "trim_facets,\ncondense_facets"),
     (r"simulate_(step|sweeps)", "simulate_step,\n_sweeps"),

@@ -60,34 +60,38 @@ for name, data in TABLES.items():
             "asphalt-nscd table {rule} {params.data:q} --output {output} > {log} 2>&1"
 
 
-for name, category in PAGES.items():
-
-    rule:
-        name:
-            f"{name}_page"
-        input:
-            table=f"<results>/{name}.csv",
-            code=code("page"),
-            template=page_files(),
-        output:
+rule pages:
+    # Each table as a page: one job, for a page takes less time than the start of a job.
+    input:
+        tables=[f"<results>/{name}.csv" for name in PAGES],
+        code=code("page"),
+        template=page_files(),
+    output:
+        [
             report(
                 f"<results>/pages/{name}.html",
                 caption=f"../report/{name}.rst",
                 category=category,
                 labels={"result": title(name)},
-            ),
-        params:
-            title=title(name),
-        log:
-            f"<results>/logs/page/{name}.log",
-        benchmark:
-            f"<results>/benchmarks/page/{name}.tsv"
-        group:
-            "pages"
-        message:
-            f"Show {name} as a page"
-        shell:
-            "asphalt-nscd page {input.table} --title {params.title:q} --output {output} > {log} 2>&1"
+            )
+            for name, category in PAGES.items()
+        ],
+    params:
+        pages=lambda wildcards, output: [
+            part
+            for name, path in zip(PAGES, output, strict=True)
+            for part in ("--title", title(name), "--output", path)
+        ],
+    log:
+        "<results>/logs/pages.log",
+    benchmark:
+        "<results>/benchmarks/pages.tsv"
+    group:
+        "pages"
+    message:
+        "Show the tables as pages"
+    shell:
+        "asphalt-nscd page {input.tables} {params.pages:q} > {log} 2>&1"
 
 
 rule study:

@@ -15,7 +15,7 @@ GEOMETRY_KEYS = ("b_mm", "B_mm", "e_mm", "h_mm", "mass_kg", "mobile_mass_kg")
 File = click.Path(path_type=Path)
 output = click.option("--output", required=True, type=File, help="File to write.")
 outputs = click.option(
-    "--output", "outputs", required=True, multiple=True, type=File, help="File to write, one for each test."
+    "--output", "outputs", required=True, multiple=True, type=File, help="File to write, one for each."
 )
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import time
 
 from comparison import differences
-from faults.study import Victims
+from faults.ended import killed
+from faults.study import Missed, Victims
 from faults.table import standing
 
 
@@ -21,6 +22,20 @@ def test_one_job_of_a_rule_gets_the_signal_and_one_too_quick_gives_way(monkeypat
     time.sleep(0.02)
     victims.look({"b": 2})
     assert sorted(ended) == [2, 3] and victims.killed == {"fit": "b", "trim": "c"}
+
+
+def test_a_job_of_a_tenth_of_a_second_is_killed_too(tmp_path):
+    class QuickStudy:
+        results = tmp_path
+
+        def killed(self, log, delay):
+            (tmp_path / "T0.json").touch()
+            if delay > 0.1:
+                raise Missed(log)
+            return delay
+
+    (tmp_path / "T0.json").touch()
+    assert killed("published_law", "T0.json", "T0.log").disturb(QuickStudy()) < 0.1
 
 
 def test_provenance_makes_no_difference_and_a_number_does(tmp_path):
