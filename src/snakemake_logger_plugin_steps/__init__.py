@@ -112,9 +112,7 @@ class LogHandler(LogHandlerBase):
                 total = f"/{steps.total}" if steps.total else ""
                 self.console.print(f"{steps.done}{total} {title} ({seconds:.1f} s)", markup=False)
         elif event == LogEvent.RUN_INFO:
-            steps.total = int(
-                said.get("total_job_count") or sum((said.get("per_rule_job_counts") or {}).values())
-            )
+            steps.total = int((said.get("stats") or {}).get("total", 0))
         elif event == LogEvent.PROGRESS:
             steps.done, steps.total = said["done"], said["total"]
         elif event in (LogEvent.JOB_ERROR, LogEvent.GROUP_ERROR):

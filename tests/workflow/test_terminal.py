@@ -115,6 +115,7 @@ def test_a_run_is_a_line_for_each_step_and_its_commands_are_kept(workspace):
     assert done.returncode == 0, done.stderr
     lines = done.stderr.strip().splitlines()
     steps = [line for line in lines if " s)" in line]
+    assert [line.split()[0] for line in steps] == ["1/4", "2/4", "3/4", "4/4"]
     assert len(steps) == 4 and len(lines) <= len(steps) + 2 and max(map(len, lines)) < 120, lines
     (log,) = workspace.folder.glob(".snakemake/log/*.log")
     assert "asphalt-nscd reduce" in log.read_text()

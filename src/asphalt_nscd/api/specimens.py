@@ -176,8 +176,8 @@ def pour(
 
     counts: number of spheres by diameter in mm, {6.0: 120, 10.0: 30}, or a table diameter_mm,count. box_m: length,
     width and height [m]. friction: of spheres and walls. vibration: Vibration(stroke [m], frequency [Hz],
-    duration [s]); a duration of 0 is none. threads: to compute on; they change no number. Raises InputError where the
-    box cannot hold the spheres.
+    duration [s]); a duration of 0 is none. threads: to compute on, at most as many as the cores granted; they change
+    no number. Raises InputError where the box cannot hold the spheres.
 
     >>> packing = pour({8.0: 40}, (0.04, 0.03, 0.12), vibration=Vibration(duration=0.0))
     >>> packing.radius_m.size, 0.4 < packing.attributes["solid_fraction"] < 0.7

@@ -29,7 +29,12 @@ from asphalt_nscd.cli import _options, _progress
     "--vibration-s", default=1.0, type=_options.NOT_NEGATIVE, help="Duration of the vibration, s; 0 for none."
 )
 @click.option("--time-step-s", default=4e-4, type=_options.Number(above=0.0, high=1e-3), help="Time step, s.")
-@click.option("--threads", default=1, type=int, help="Threads to compute on; they change no number.")
+@click.option(
+    "--threads",
+    default=1,
+    type=int,
+    help="Threads to compute on, at most as many as the cores granted; they change no number.",
+)
 @_options.output
 @_options.gather("vibration", stroke="stroke_mm", frequency="vibration_hz", duration="vibration_s")
 @_options.gather(
