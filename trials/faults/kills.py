@@ -24,11 +24,14 @@ def kill_each_rule(finished: Study, folder: Path) -> list[Judged]:
     study = Study(folder / "study")
     study.configure()
     judged: dict[str, Judged] = {}
+    tried: set[str] = set()
     while True:
-        victims = Victims({log: rule for log, rule in rules.items() if rule not in judged}, half(finished))
+        victims = Victims({log: rule for log, rule in rules.items() if rule not in tried}, half(finished))
         met = study.watched(victims.look, "--keep-going")
         for rule, log in victims.killed.items():
-            judged[rule] = Judged(KIND, f"SIGKILL in {rule}", *_told(met, log))
+            if log in met.stderr:  # else it had ended just before
+                judged[rule] = Judged(KIND, f"SIGKILL in {rule}", *_told(met, log))
+        tried |= victims.killed.keys()
         if not victims.killed:
             break
     different = [met.stderr[-300:]] if met.returncode else differences(finished.results, study.results)

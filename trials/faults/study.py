@@ -78,7 +78,7 @@ class Study(Workspace):
         """A run in which the job that writes `log` gets a signal shortly after it began."""
         victims = Victims({log: log}, lambda log: delay, signum)
         met = self.watched(victims.look)
-        if not victims.killed:
+        if not victims.killed or met.returncode == 0:
             raise Missed(f"the job that writes {log} ended before it was killed")
         return met
 
