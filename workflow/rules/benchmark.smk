@@ -99,6 +99,36 @@ rule benchmark_threads:
         MEASURE + "/threads.py 30000 {input.counts} --output {output} > {log} 2>&1"
 
 
+rule benchmark_limits:
+    # How near the work of each stage is to the memory's limit. By wall time, on cores with nothing else to do: only on request.
+    input:
+        compiled=["<results>/compiled/deposit", "<results>/compiled/simulate"],
+        deposit=f"<results>/deposits/{SAMPLES[0]}.h5",
+        model=f"<results>/models/{HEAD}/{SAMPLES[0]}.h5",
+        code=["benchmarks/limits.py", code("deposit"), code("condense"), code("simulate")],
+    output:
+        "results/benchmark/limits.csv",
+    threads: 2
+    log:
+        "results/benchmark/logs/limits.log",
+    message:
+        "Measure sweeps, factors and solutions on one core and on two, beside copying"
+    shell:
+        MEASURE + "/limits.py {input.deposit} {input.model} --cores {threads} --output {output} > {log} 2>&1"
+
+
+rule publish_limits:
+    # What is committed of them, and their table in docs. Only on request: snakemake --cores 2 publish_limits
+    input:
+        table="results/benchmark/limits.csv",
+        code=code("publish"),
+    message:
+        "Copy the limits of the stages, and fill their table in docs"
+    shell:
+        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark"
+        " --document docs --block limits={input.table}"
+
+
 rule benchmark_layer:
     # A layer of 200 000 spheres, poured on two threads, vibrated for the whole second and tested. An hour: only on request.
     input:

@@ -258,6 +258,19 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             }
         )
     ],
+    "limits": [
+        Layout(
+            {
+                "work": "work",
+                "alone_s": "time alone, s",
+                "slower": "times as long with all cores busy",
+                "bytes": "bytes moved",
+                "all_cores_GB_s": "all cores, GB/s",
+                "of_copy_percent": "of copying, %",
+            },
+            figures=3,
+        )
+    ],
     "million": [
         Layout(
             {
