@@ -262,10 +262,10 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         Layout(
             {
                 "work": "work",
-                "alone_s": "time alone, s",
-                "slower": "times as long with all cores busy",
-                "bytes": "bytes moved",
-                "all_cores_GB_s": "all cores, GB/s",
+                "alone_s": "alone, s",
+                "slower": "slower on both",
+                "bytes": "bytes",
+                "all_cores_GB_s": "both, GB/s",
                 "of_copy_percent": "of copying, %",
             },
             figures=3,
