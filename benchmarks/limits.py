@@ -2,8 +2,8 @@
 
     python benchmarks/limits.py DEPOSIT.h5 MODEL.h5 --cores 2 --output LIMITS.csv
 
-Work that becomes slower on busy cores waits for memory, which all cores share. A unit of work moves so many bytes to
-and from arrays that do not fit into a core's own cache; spheres and bodies, which do, are not counted.
+Work that takes longer on busy cores waits for what cores share: the last cache and memory. A unit of work moves so many
+bytes to and from arrays that do not fit into a core's own cache; spheres and bodies, which do, are not counted.
 Wall time counts here, so the machine has to be quiet.
 """
 
@@ -114,7 +114,7 @@ WORKS = {
 
 
 def _worker(name: str, files: tuple[Path, Path], barrier: Barrier, answer) -> None:
-    """Waits for all others before and after each measurement; sends (s for a unit, bytes of a unit)."""
+    """Begins together with all others; sends (s for a unit, bytes of a unit)."""
     work = WORKS[name](*files)
     work.call()  # compiles
     barrier.wait()

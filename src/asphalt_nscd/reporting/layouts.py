@@ -263,9 +263,9 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             {
                 "work": "work",
                 "alone_s": "alone, s",
-                "slower": "slower on both",
+                "slower": "on both, times as long",
                 "bytes": "bytes",
-                "all_cores_GB_s": "both, GB/s",
+                "all_cores_GB_s": "on both, GB/s",
                 "of_copy_percent": "of copying, %",
             },
             figures=3,
