@@ -125,9 +125,11 @@ if "packing_study" in STUDY:
 if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= set(STUDY):
     PAGES["audit"] = "6 Audit"
     TABLES["audit"] = {
+        "statements": ["data/paper/statements.csv"],
         "grading": [STUDY["published"]["grading_table"]],
         "counts": [STUDY["published"]["counts_table"]],
         "laws": [STUDY["laws"]["published"]["table"]],
+        "errors": [STUDY["published"]["errors_table"]],
         "fitted": FITTED_LAWS,
         "measured": MEASURED,
         "simulations": SIMULATIONS,
@@ -136,12 +138,12 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
         "bond_readings": ["<results>/bond_readings.csv"],
         "packing": ["<results>/packing.csv"],
         "facets": FACET_SIMULATIONS,
-        "ladder": ["<results>/ladder.csv"],
         "table4": ["<results>/table4.csv"],
         "deposits": DEPOSITS,
         "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
         "converged": SOLVED,
         "stopped": STOPPED,
+        "waveform": FIGURES["fig07"][1]["test"],
         "profile": FIGURES["fig08"][1]["test"],
     }
 

@@ -361,7 +361,9 @@ def _unexplained(content: Content) -> list[str]:
 
 
 def _next(content: Content) -> list[str]:
-    """The orders, numbered, each with its hours and purpose."""
+    """The orders, numbered, each with its hours and purpose; none for data that no laboratory made."""
+    if "reconstructed" in content.get("origin", "measured"):
+        return []
     orders = content.get("instructions", {"orders": []})["orders"]
     said = []
     for number, one in enumerate(orders, 1):

@@ -98,7 +98,7 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     )
     facets = ["facets for bonds"] if bonded(content) else []
     found = joined([*facets, *(_noun(rung) for rung in ladder if rung["cause"] != BOND_MAPPING)])
-    simpler = "the simulation of the paper" if facets else _first_law(content)
+    simpler = "this simulation with the bonds of the paper" if facets else _first_law(content)
     worse = _worse([first[name]["before"] for name in names], missed)
     missed_by = _whom(content)
     if facets or left is not None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
@@ -26,6 +28,14 @@ def ratio_without_moments(specimen: Specimen, poisson: float) -> float:
     displacement = np.ones(driven.size)
     displacement[~driven] = factors(stiffness[~driven][:, ~driven]).solve(-of_head[~driven])
     return float(form_factor(specimen.geometry) * of_head @ displacement)
+
+
+def with_mean_radius(specimen: Specimen) -> Specimen:
+    """The same bonds with the mean radius r of both spheres in pi r^2; a plate has none, and the sphere's is kept."""
+    network = specimen.network
+    ends = np.stack([network.first, network.second])
+    radius = np.append(specimen.radius, [np.nan, np.nan])[ends]
+    return replace(specimen, network=replace(network, area=np.pi * np.nanmean(radius, axis=0) ** 2))
 
 
 def crossing(specimen: Specimen) -> np.ndarray:

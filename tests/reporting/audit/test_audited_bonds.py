@@ -3,23 +3,42 @@
 from __future__ import annotations
 
 import pandas as pd
+import pytest
 
 from asphalt_nscd.reporting.audit import preparation
-from asphalt_nscd.reporting.audit.statement import DIFFERS, INCONSISTENT
+from asphalt_nscd.reporting.audit.statement import DIFFERS, LEFT_OPEN, REPRODUCED, UNCHECKED
+
+
+def judged(said=1.1):
+    table = pd.DataFrame(
+        {
+            "reading": ["as in the paper", "smaller", "without moments", "mean radius"],
+            "gap_max_mm": [2.0, 1.931, 2.0, 2.0],
+            "bonds": [70, 60, 70, 70],
+            "through_third_sphere_percent": [12.5, 10.0, 12.5, 12.5],
+            "E_over_law": [said, 1.0, 80.0, 2.4],
+        }
+    )
+    return {row.id: row for row in preparation.bonds(table)}
 
 
 def test_each_reading_stands_beside_that_of_the_study():
-    table = pd.DataFrame(
-        {
-            "reading": ["as in the paper", "smaller", "without moments"],
-            "gap_max_mm": [2.0, 1.931, 2.0],
-            "bonds": [70, 60, 70],
-            "through_third_sphere_percent": [12.5, 10.0, 12.5],
-            "E_over_law": [1.1, 1.0, 80.0],
-        }
-    )
-    distance, moments, third = preparation.bonds(table)
-    assert (distance.published, distance.ours, distance.verdict) == (1.1, 1.0, DIFFERS)
-    assert "2 mm, 70 bonds" in distance.evidence and "1.931 mm, 60 bonds" in distance.evidence
-    assert (moments.published, moments.ours, moments.verdict) == (1.0, 80.0, INCONSISTENT)
-    assert (third.published, third.ours, third.verdict) == (0.0, 12.5, DIFFERS)
+    rows = judged()
+    assert rows["reach"].ours == "1.1 or 1" and rows["reach"].verdict == LEFT_OPEN
+    assert "2 mm make 70 bonds" in rows["reach"].evidence and "1.931 mm 60" in rows["reach"].evidence
+    assert rows["barycentre"].ours == "80 or 1.1" and rows["barycentre"].verdict == LEFT_OPEN
+
+
+def test_the_smallest_radius_is_conservative_only_where_it_makes_too_soft_a_specimen():
+    assert judged(said=1.1)["conservative"].verdict == DIFFERS
+    assert judged(said=0.9)["conservative"].verdict == REPRODUCED
+
+
+def test_the_poisson_ratio_is_that_of_a_network_and_not_the_printed_one():
+    row = judged()["tangential"]
+    assert row.verdict == DIFFERS and row.ours == pytest.approx((1 - 1 / 2.7) / (4 + 1 / 2.7))
+
+
+@pytest.mark.parametrize(("gap", "verdict"), [(3e-5, UNCHECKED), (-1e-9, REPRODUCED)])
+def test_contacts_count_only_where_a_gap_closes(gap, verdict):
+    assert preparation.contacts(pd.DataFrame({"smallest_gap_m": [1e-4, gap]})).verdict == verdict

@@ -108,7 +108,9 @@ def sections(
 def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any]:
     """What a laboratory reads first, as the terminal says it; of a study, with the errors of its own campaigns."""
     left = left_by_the_last(read_ladder(ladder)) if ladder else None
-    found = content.get("instructions", {"orders": [], "costs": ""})
+    none = {"orders": [], "costs": ""}
+    # nobody can test again a specimen that never was
+    found = none if "reconstructed" in content.get("origin", "measured") else content.get("instructions", none)
     return {
         "answer": brief.rows(content, left),
         "simulated": verdict.on_simulation(content, left),

@@ -1,9 +1,9 @@
-"""Every checkable statement of the paper beside what we find."""
+"""The statements of the paper, sections 2 to 5, beside what we find."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 
@@ -15,8 +15,10 @@ from asphalt_nscd.files.store import load, read_json
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.measurements.tables import at_temperature, read_measured, the_only
 from asphalt_nscd.reporting.audit import equations, outcomes, preparation
+from asphalt_nscd.reporting.audit.statement import told
 from asphalt_nscd.reporting.gathered import gathered
 from asphalt_nscd.reporting.tables import table2
+from asphalt_nscd.reporting.tables.table4 import read_errors
 from asphalt_nscd.rheology.laws_io import read_law
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.specimen.counts import read_counts
@@ -26,9 +28,11 @@ from asphalt_nscd.specimen.counts import read_counts
 class Results:
     """Paths of all that the statements are held against."""
 
+    statements: list[Path]
     grading: list[Path]
     counts: list[Path]
     laws: list[Path]
+    errors: list[Path]
     fitted: list[Path]
     measured: list[Path]
     simulations: list[Path]
@@ -41,35 +45,36 @@ class Results:
     specimens: list[Path]
     converged: list[Path]
     stopped: list[Path]
+    waveform: list[Path]
     profile: list[Path]
-    ladder: list[Path]
     facets: Sequence[Path] = ()
 
 
 @gathered(Results)
 def make(results: Results) -> pd.DataFrame:
-    """One row for each statement: where, statement, published, ours, unit, verdict, evidence."""
+    """One row for each statement of the paper: what it says, what we find, and what would have changed that."""
     tests = pd.read_csv(the_only(results.simulations, "simulations"))
     changed = pd.read_csv(the_only(results.sensitivity, "sensitivity"))
-    other = pd.read_csv(the_only(results.readings, "readings"))
-    errors = pd.read_csv(the_only(results.table4, "table4"))
     published = dict(zip(*read_published(the_only(results.laws, "laws"), "kPa"), strict=True))
-    other["ratio"] = other["E_MPa"] / other["E_law_MPa"]
-    pascal, blocked = other[other["law_source"] == "pascal"], other[other["head"] == "blocked"]
-    audited = str(other["specimen"].iloc[0])
-    whole = tests[(tests["specimen"] == audited) & (tests["broken_bonds"] == 0)]
-    c = float((whole["E_MPa"] / whole["E_law_MPa"]).mean())
-    rungs = pd.read_csv(the_only(results.ladder, "ladder"))
-    scatter = float(rungs.loc[rungs["temperature_C"].idxmin(), "scatter_phase_percent"])
+    pascal, blocked = _relative(pd.read_csv(the_only(results.readings, "readings")), tests)
+    diameter, count = read_counts(the_only(results.counts, "counts"))
+    deposits = [load(path, "deposit") for path in results.deposits]
     rows = chain(
-        equations.equations(published),
-        equations.readings(c, _by_frequency(pascal), _by_frequency(blocked)),
+        equations.laboratory(),
+        equations.contact_law(published[15.0]),
+        equations.calibration(published, pascal),
+        equations.table_4(published, read_errors(the_only(results.errors, "errors"))),
+        equations.typical_numbers(diameter, count, preparation.DENSITY),
         preparation.bonds(pd.read_csv(the_only(results.bond_readings, "bond_readings"))),
-        preparation.counts(*read_counts(the_only(results.counts, "counts"))),
-        preparation.grading(table2.make(results.grading, results.counts, results.counts)),
+        [
+            preparation.lattice(count),
+            preparation.grading(table2.make(results.grading, results.counts, results.counts)),
+            preparation.contacts(tests),
+        ],
         preparation.samples(
-            [load(path, "deposit").attributes for path in results.deposits],
+            [deposit.attributes for deposit in deposits],
             [load(path, "specimen").attributes for path in results.specimens],
+            [preparation.moved_above(deposit.arrays) for deposit in deposits],
         ),
         outcomes.numerics(tests, collect(results.converged), collect(results.stopped)),
         outcomes.profile(load(the_only(results.profile, "profile"), "test").arrays),
@@ -78,19 +83,34 @@ def make(results: Results) -> pd.DataFrame:
             pd.read_csv(the_only(results.packing, "packing")),
             pd.read_csv(the_only(results.facets, "facets")) if results.facets else None,
         ),
-        outcomes.agreement(errors, _refit_errors(results.fitted, results.measured), scatter),
+        outcomes.agreement(
+            pd.read_csv(the_only(results.table4, "table4")),
+            tests,
+            _refit_errors(results.fitted, results.measured),
+            equations.head(blocked),
+        ),
+        [
+            outcomes.reduction(tests),
+            outcomes.waveform(load(the_only(results.waveform, "waveform"), "test")),
+        ],
         outcomes.sensitivity(changed, at_temperature(tests, float(changed["temperature_C"].iloc[0]))),
-        outcomes.not_checkable(),
     )
-    return pd.DataFrame([asdict(row) for row in rows]).map(_rounded)
+    return told(the_only(results.statements, "statements"), rows)
 
 
-def _rounded(value: object) -> object:
-    return float(f"{value:.6g}") if isinstance(value, float) else value
+def _relative(other: pd.DataFrame, tests: pd.DataFrame) -> tuple[dict[float, float], dict[float, float]]:
+    """|E*| over its law by frequency [Hz], over that of the same sample in the study: in Pa, and with its head blocked.
 
-
-def _by_frequency(tests: pd.DataFrame) -> dict[float, float]:
-    return dict(zip(tests["frequency_Hz"], tests["ratio"], strict=True))
+    other: readings.csv; tests: simulations.csv.
+    """
+    whole = tests[(tests["specimen"] == str(other["specimen"].iloc[0])) & (tests["broken_bonds"] == 0)]
+    level = float((whole["E_MPa"] / whole["E_law_MPa"]).mean())
+    ratio = other["E_MPa"] / other["E_law_MPa"] / level
+    pascal, blocked = (
+        dict(zip(other.loc[rows, "frequency_Hz"], ratio[rows], strict=True))
+        for rows in (other["law_source"] == "pascal", other["head"] == "blocked")
+    )
+    return pascal, blocked
 
 
 def _refit_errors(fitted: list[Path], measured: list[Path]) -> pd.DataFrame:

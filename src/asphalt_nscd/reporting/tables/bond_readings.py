@@ -1,4 +1,4 @@
-"""The same sample bonded as the paper says it, and under two other readings of its words."""
+"""The same sample bonded as the paper says it, and under other readings of its words."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pandas as pd
 
 from asphalt_nscd.files.store import load
 from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.specimen.bond_readings import crossing, ratio_without_moments
+from asphalt_nscd.specimen.bond_readings import crossing, ratio_without_moments, with_mean_radius
 from asphalt_nscd.specimen.preparation import read_specimen
 from asphalt_nscd.specimen.prism import static_ratio
 from asphalt_nscd.specimen.system import bending_system
@@ -38,6 +38,7 @@ def make(deposit: list[Path], specimen: list[Path]) -> pd.DataFrame:
             as_paper,
             ratio_without_moments(as_paper, POISSON),
         ),
+        ("mean radius of both spheres", gap, as_paper, _ratio(with_mean_radius(as_paper))),
     ]
     return pd.DataFrame(
         {
