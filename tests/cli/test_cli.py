@@ -243,7 +243,7 @@ def test_number_out_of_its_range_is_refused_before_anything_is_read(arguments, c
         (["table", "table4", "simulation=s", "--output", "x.csv"], "data simulation: not known"),
         (
             ["table", "audit", "gradings=g", "--output", "x.csv"],
-            "data gradings: not known; give grading, counts",
+            "data gradings: not known; give statements, grading, counts",
         ),
     ],
 )

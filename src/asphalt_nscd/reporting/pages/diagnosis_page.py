@@ -110,7 +110,9 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
     left = left_by_the_last(read_ladder(ladder)) if ladder else None
     none = {"orders": [], "costs": ""}
     # nobody can test again a specimen that never was
-    found = none if "reconstructed" in content.get("origin", "measured") else content.get("instructions", none)
+    found = (
+        none if "reconstructed" in content.get("origin", "measured") else content.get("instructions", none)
+    )
     return {
         "answer": brief.rows(content, left),
         "simulated": verdict.on_simulation(content, left),
