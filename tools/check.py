@@ -30,8 +30,12 @@ REDONE = {
     "diagnosis/diagnosis.json": 1e-3,
     "diagnosis/residuals.csv": 1e-3,
     "diagnosis/law.json": 1e-3,
+    "families.csv": 1e-3,
 }
-RULES = ("reconstruct", "reduce", "published_law", "fit", "table2", "table3", "table4", "diagnose", "ladder")
+RULES = (
+    "reconstruct", "reduce", "published_law", "fit", "table2", "table3", "table4", "diagnose", "ladder",
+    "draw_family", "reduce_family", "diagnose_family", "families",
+)  # fmt: skip
 PUBLISHED = ("benchmark", "blind", "cluster", "faults", "fuzz", "mapping", "paper", "verification")
 TAKEN = ("simulations.csv", "facets.csv", "extended.csv")  # of full simulations
 

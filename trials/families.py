@@ -1,14 +1,12 @@
 """Measurements drawn from a family of laws that the simulation does not fit, as a table for `diagnose`.
 
     python -m families huet_sayegh --seed 2020 --temperatures=-10,0,15 --frequencies 3,10,40 --output measured.csv
-    python -m families mix.csv --output measured.csv
 
 The reconstructed measurements are drawn from 2S2P1D with a WLF shift, and the extended simulation fits just that. These
 are the same design and scatter about another mix: Huet-Sayegh with an Arrhenius shift, a ladder of Maxwell branches
 whose weights are skewed with a WLF shift, or Havriliak-Negami with a quadratic shift. Huet-Sayegh is 2S2P1D without its
 dashpot, and Arrhenius is WLF with C2 = 288 K at 15 degC, so that only the others are outside the fitted family. The
-laws are those of the blind tests; nothing of the package
-under test is imported. A real table in place of a family is copied in our columns.
+laws are those of the blind tests; nothing of the package under test is imported.
 """
 
 from __future__ import annotations
@@ -19,7 +17,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from blind.backgrounds import Background
 from blind.laws import CENTRES, Law
 
 SHIFTS = {
@@ -61,27 +58,16 @@ def draw(family: str, temperatures: Sequence[float], frequencies: Sequence[float
     return pd.concat(parts, ignore_index=True)
 
 
-def measured(path: str) -> pd.DataFrame:
-    """Moduli of a real table in the same columns."""
-    table = Background.read(path).table.assign(origin="measured")
-    return table[["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg", "origin"]]
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("family", help=f"one of {', '.join(SHIFTS)}, or a real table (CSV)")
-    parser.add_argument("--seed", type=int)
+    parser.add_argument("family", choices=SHIFTS)
+    parser.add_argument("--seed", type=int, required=True)
     for name in ("temperatures", "frequencies"):
-        parser.add_argument(f"--{name}", type=lambda text: [float(x) for x in text.split(",")])
+        parser.add_argument(f"--{name}", type=lambda text: [float(x) for x in text.split(",")], required=True)
     parser.add_argument("--output", type=Path, required=True)
     given = parser.parse_args()
     given.output.parent.mkdir(parents=True, exist_ok=True)
-    drawn = given.family in SHIFTS
-    table = (
-        draw(given.family, given.temperatures, given.frequencies, given.seed)
-        if drawn
-        else measured(given.family)
-    )
+    table = draw(given.family, given.temperatures, given.frequencies, given.seed)
     table.to_csv(given.output, index=False, float_format="%.10g", lineterminator="\n")
 
 

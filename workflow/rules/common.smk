@@ -80,7 +80,7 @@ wildcard_constraints:
     head="free|blocked",
     parameter="Em|eta_m|Ek|eta_k",
     factor=r"[\d.]+(e[+-]?\d+)?",
-    family=r"[a-z_]+\d*",
+    family=r"[\w.-]+",
     friction=r"[\d.]+(e[+-]?\d+)?",
     time_step=r"[\d.]+(e[+-]?\d+)?",
 

@@ -218,7 +218,7 @@ if COMMON_LAW:
     ]
 if FAMILIES:
     KEPT += [
-        expand(rules.draw_family.output, family=FAMILIES),
+        expand(rules.draw_family.output, family=DRAWN),
         expand(rules.reduce_family.output, family=FAMILIES),
         expand(rules.diagnose_family.output, family=FAMILIES),
     ]

@@ -225,6 +225,10 @@ def _check(study: dict[str, Any], source: str) -> None:
         "specimens.counts_table": study["specimens"].get("counts_table"),
         **{f"specimens.packings[{n}]": path for n, path in enumerate(study["specimens"].get("packings", []))},
         **{f"published.{key}": path for key, path in study.get("published", {}).items()},
+        **{
+            f"tables_beside[{n}]": path
+            for n, path in enumerate(study.get("tables_beside", {}).get("tables", []))
+        },
     }.items():
         if path is not None and not is_file(path):
             raise InputError(f"{source}: {where} is {path!r}, but there is no such file; check the path.")
