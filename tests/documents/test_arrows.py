@@ -21,6 +21,7 @@ ARROWS = {
     "specimen": ["files", "measurements", "nscd"],
     "packings": ["files", "nscd", "specimen"],
     "bending": ["files", "measurements", "nscd", "rheology", "specimen"],
+    "forecast": ["files", "measurements", "nscd", "rheology", "specimen"],
     "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
     "exports": ["files", "measurements", "rheology", "diagnosis"],
     "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis"],

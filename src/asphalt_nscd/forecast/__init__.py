@@ -1,0 +1,1 @@
+"""The modulus of a mix from its binder and its recipe."""
