@@ -1,14 +1,18 @@
 """Stiffness of a bond that is a film of matrix between two elastic spheres (docs/film.md).
 
 The facet of the power diagram is taken as a disc around the line of centres. On a line at distance r from it stand
-grain, film of thickness h(r), grain. The deviatoric stress 2 G e runs through them in series. The film, squeezed, must
-flow out between the grains or be compressed: its pressure obeys Reynolds' equation
+grain, film of thickness h(r), grain. The film's deviatoric stress D e acts along the line. The film, squeezed,
+must flow out between the grains or be compressed: its pressure obeys Reynolds' equation
 
-    -(1/r) d/dr(r h^3/(12 G) dp/dr) + p h / K = h (e_film - e_grain),    p = 0 at the rim of the facet.
+    -(1/r) d/dr(r h^3/(12 G c) dp/dr) + p h / (K - 2 G/3) = h (e_film - e_grain),   p = 0 at the rim of the facet,
 
-Forces in the convention of docs/mapping.md (one material: k = E A / l for normal and shear, Poisson's ratio zero): the
-pressure that all films share is no matter of pairs, and enters by the ratio of Young's modulus to that of
-the pairs (`_young`).
+c = 1 + c1 (s1^2 + s2^2) + c2 s1 s2 of the slopes s of both surfaces: second order of lubrication (Jeffrey & Onishi
+1984). The mean stress of the facet compresses grains over their whole length, what exceeds it over about the width of
+the spot on which it acts (`SPOT`).
+
+A network of such pairs has the shear modulus of the mix, but not its Poisson's ratio: the pressure that all films share
+is no matter of pairs. `film_stiffness` scales them to the Young's modulus that belongs to this shear modulus, so that
+one material gives the bond of docs/mapping.md, k = E A / l for normal and shear.
 """
 
 from __future__ import annotations
@@ -19,7 +23,10 @@ import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled
 
-RINGS = 24  # of a facet; 96 change the stiffness by less than 0.2 %
+RINGS = 24  # of a facet
+SPOT = (
+    2.8  # depth of grain under a spot over its radius sqrt(r^2 + 2 a h), times 1 - nu^2: by finite elements
+)
 
 
 @dataclass(frozen=True)
@@ -53,92 +60,153 @@ class Films:
         if not (np.asarray(self.gap) > 0.0).all():
             raise ValueError("a film needs a gap above zero: grains that touch or overlap have none")
 
+    @property
+    def length(self) -> np.ndarray:
+        """Between the centres (b,) [m]."""
+        return self.first_radius + self.second_radius + self.gap
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """Moduli (...) [Pa] between the grains, real or complex: as many as are asked for."""
+
+    modulus: np.ndarray  # E
+    bulk: np.ndarray | float  # K
+
+    @property
+    def shear(self) -> np.ndarray:
+        """G (...) [Pa]."""
+        bulk, young = np.asarray(self.bulk), np.asarray(self.modulus)
+        return 3.0 * bulk * young / (9.0 * bulk - young)
+
 
 def film_stiffness(
-    films: Films, grain: Solid, matrix_modulus: np.ndarray, matrix_bulk_modulus: np.ndarray | float
+    films: Films, grain: Solid, matrix: Matrix, solid_fraction: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Normal and tangential stiffness (..., b) [N/m] for Young's modulus (...) [Pa] of the matrix, real or complex.
+    """Normal and tangential stiffness (..., b) [N/m] of the bonds of a network that has the mix's Young's modulus.
 
-    matrix_bulk_modulus [Pa]: one number, or one for each modulus. The tangential opening is that of the surfaces,
+    solid_fraction: volume of grains in a volume of grains and matrix. The tangential opening is that of the surfaces,
     rotations of the spheres included.
     """
-    young = np.asarray(matrix_modulus)
-    bulk = np.broadcast_to(matrix_bulk_modulus, young.shape)
-    kind = np.result_type(young, bulk, np.float64)
-    shear = (3.0 * bulk * young / (9.0 * bulk - young)).astype(kind)
-    rows = [np.ascontiguousarray(value, float) for value in vars(films).values()]
-    rows = [np.ascontiguousarray(row) for row in np.broadcast_arrays(*np.atleast_1d(*rows))]
-    found = np.empty((2, shear.size, rows[0].size), kind)
-    _pairs(*rows, grain.shear, shear.ravel(), np.ascontiguousarray(bulk.ravel().astype(kind)), found)
-    normal, tangential = found.reshape((2, *young.shape, -1))
-    return _young(films, grain, bulk, normal, tangential)
-
-
-def _young(
-    films: Films, grain: Solid, bulk: np.ndarray, normal: np.ndarray, tangential: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffnesses scaled so that pairs, which know no common pressure, have Young's modulus of the composite.
-
-    Pairs of normal stiffness s A / l and tangential t A / l in all directions have the shear modulus (2 s + 3 t) / 10
-    and Young's modulus s (2 s + 3 t) / (4 s + t); bulk moduli of grain and film act in series.
-    """
-    length = films.first_radius + films.second_radius + films.gap
-    s, t = normal * length / films.area, tangential * length / films.area
-    film = films.gap / length
-    whole = 1.0 / (film / bulk[..., None] + (1.0 - film) / grain.bulk)
-    shear = (2.0 * s + 3.0 * t) / 10.0
-    scale = 9.0 * whole * shear / (3.0 * whole + shear) * (4.0 * s + t) / (s * (2.0 * s + 3.0 * t))
+    normal, tangential = deviatoric_stiffness(films, grain, matrix)
+    scale = _young(films, bulk_modulus(grain, matrix, solid_fraction), normal, tangential)[..., None]
     return normal * scale, tangential * scale
 
 
+def bulk_modulus(grain: Solid, matrix: Matrix, solid_fraction: float) -> np.ndarray:
+    """K (...) [Pa] of the mix: the lower bound of Hashin & Shtrikman (1963), where bitumen flows the value itself."""
+    bulk, stiffer = np.asarray(matrix.bulk), grain.bulk - np.asarray(matrix.bulk)
+    share = 3.0 * (1.0 - solid_fraction) / (3.0 * bulk + 4.0 * matrix.shear)
+    return bulk + solid_fraction * stiffer / (1.0 + stiffer * share)
+
+
+def deviatoric_stiffness(
+    films: Films, grain: Solid, matrix: Matrix, rings: int = RINGS
+) -> tuple[np.ndarray, np.ndarray]:
+    """The same of a network that has the mix's shear modulus; one material: k = 2 G A / l."""
+    return pair_stiffness(films, grain, matrix, (2.0 * matrix.shear, 2.0 * grain.shear), rings)
+
+
+def pair_stiffness(
+    films: Films, grain: Solid, matrix: Matrix, along: tuple[np.ndarray, float], rings: int = RINGS
+) -> tuple[np.ndarray, np.ndarray]:
+    """Normal and tangential stiffness (..., b) [N/m].
+
+    along: moduli D [Pa] of film (...) and grain along a line, 2 G where the volume is kept.
+    """
+    shear, bulk, stretch = np.broadcast_arrays(matrix.shear, matrix.bulk, along[0])
+    kind = np.result_type(shear, bulk, stretch, np.float64)
+    given = np.array([value.ravel() for value in (shear, bulk, stretch)], kind)
+    rows = np.array(np.broadcast_arrays(*np.atleast_1d(*vars(films).values())), float)
+    found = np.empty((2, given.shape[1], rows.shape[1]), kind)
+    # lines and pressure together have the logarithm of Jeffrey & Onishi for any ratio of radii
+    share = float(np.real(given[2, 0] / given[0, 0]))
+    one = (19.2 - 2.0 * share) / 24.0
+    slopes = np.array([one, (9.6 - 6.0 * share) / 24.0 - one])
+    spot = SPOT * (1.0 - grain.poisson**2) * along[1] / grain.modulus
+    _pairs(rows, given, slopes, along[1], grain.shear, spot, rings, found)
+    normal, tangential = found.reshape((2, *shear.shape, -1))
+    return normal, tangential
+
+
+def _young(films: Films, bulk: np.ndarray, normal: np.ndarray, tangential: np.ndarray) -> np.ndarray:
+    """Factor (...) that gives pairs the Young's modulus of their shear modulus and the mix's bulk modulus (...).
+
+    Pairs in all directions, of mean stiffnesses s A / l and t A / l, have the shear modulus (2 s + 3 t) / 10 and
+    Young's modulus s (2 s + 3 t) / (4 s + t).
+    """
+    volume = (films.area * films.length).sum()
+    s, t = (stiffness @ films.length**2 / volume for stiffness in (normal, tangential))
+    shear = (2.0 * s + 3.0 * t) / 10.0
+    return 9.0 * bulk * shear / (3.0 * bulk + shear) * (4.0 * s + t) / (s * (2.0 * s + 3.0 * t))
+
+
 @compiled
-def _pairs(first, second, gap, area, grain, shear, bulk, found):
-    n = RINGS
-    width, film, stone = np.empty(n), np.empty(n), np.empty(n)
-    flow = np.empty(n)  # 4 rho h^3 / (12 d rho) across the outer edge of a ring, rho = r^2
-    upper = np.empty(n, shear.dtype)
-    right = np.empty(n, shear.dtype)
+def _pairs(rows, given, slopes, grain, grain_shear, spot, n, found):
+    first, second, gap, area = rows
+    shear, bulk, stretch = given
+    width, film, stone, near = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
+    flow = np.empty(n)  # 4 rho h^3 / (12 c d rho) across the outer edge of a ring, rho = r^2
+    upper, of_one, of_mean = np.empty(n, shear.dtype), np.empty(n, shear.dtype), np.empty(n, shear.dtype)
     for b in range(gap.size):
         r1, r2 = first[b], second[b]
+        q1, q2 = r1 * r1, r2 * r2
         length = r1 + r2 + gap[b]
-        curved = r1 * r2 / (r1 + r2) if r2 > 0.0 else r1
-        start = 2.0 * curved * gap[b]
-        span = np.log1p(area[b] / np.pi / start) / n
+        start = 2.0 * gap[b] * (r1 * r2 / (r1 + r2) if r2 > 0.0 else r1)
+        section = area[b] / np.pi
+        span = np.log1p(section / start) / n
         inner = 0.0
         for i in range(n):
             outer = start * np.expm1(span * (i + 1.0))
-            width[i] = outer - inner
+            width[i] = (outer - inner) / section
             inner = outer
             middle = start * np.expm1(span * (i + 0.5))
-            stone[i] = np.sqrt(max(r1 * r1 - middle, 0.0)) + np.sqrt(max(r2 * r2 - middle, 0.0))
-            film[i] = length - stone[i]
-            next_one = start * np.expm1(span * (i + 1.5)) if i < n - 1 else outer
-            at_edge = length - np.sqrt(max(r1 * r1 - outer, 0.0)) - np.sqrt(max(r2 * r2 - outer, 0.0))
-            flow[i] = outer * at_edge**3 / (3.0 * (next_one - middle))
+            t1, t2 = np.sqrt(max(q1 - middle, 0.0)), np.sqrt(max(q2 - middle, 0.0))
+            stone[i], film[i] = t1 + t2, length - t1 - t2
+            depth = spot * np.sqrt(middle + start)
+            near[i] = min(t1, depth) + min(t2, depth)
+            further = start * np.expm1(span * (i + 1.5)) if i < n - 1 else outer
+            edge = length - np.sqrt(max(q1 - outer, 0.0)) - np.sqrt(max(q2 - outer, 0.0))
+            s1, s2 = min(outer / q1, 1.0), (min(outer / q2, 1.0) if r2 > 0.0 else 0.0)
+            turned = 1.0 + slopes[0] * (s1 + s2) + slopes[1] * np.sqrt(s1 * s2)
+            flow[i] = outer * edge**3 / (3.0 * turned * (further - middle) * section)
         for m in range(shear.size):
-            g, k = shear[m], bulk[m]
-            normal, tangential = 0.0 * g, 0.0 * g
-            before = 0.0
+            g, d = shear[m], stretch[m]
+            lame = bulk[m] - 2.0 / 3.0 * g
+            # film strain e = own - shed p - back s of the line's pressure p and the facet's mean stress s
+            before = 0.0 * g
+            sheared, shear_back = 0.0 * g, 0.0 * g
             for i in range(n):
-                # film strain = alpha - beta p; stress 2 g strain + p = 2 grain (strain of the grain)
-                alpha = 1.0 / (film[i] + stone[i] * g / grain)
-                beta = 0.5 * alpha * stone[i] / grain
-                source = film[i] * alpha * (1.0 - g / grain) * width[i]
-                yielding = film[i] * (beta + 0.5 * (1.0 - 2.0 * g * beta) / grain + 1.0 / k) * width[i]
-                pivot = yielding + (before + flow[i]) / g
-                right[i] = source
+                own = 1.0 / (film[i] + d * near[i] / grain)
+                shed = near[i] / grain * own
+                back = (stone[i] - near[i]) / grain * own
+                # source e - (1 - e h) / stone, where there is a grain on the line
+                inverse = 1.0 / stone[i] if stone[i] > 0.0 else 0.0
+                gain = 1.0 + film[i] * inverse
+                through = flow[i] / g
+                pivot = film[i] * (gain * shed + 1.0 / lame) * width[i] + before + through
+                of_one[i] = film[i] * (gain * own - inverse) * width[i]
+                of_mean[i] = -film[i] * gain * back * width[i]
                 if i > 0:
-                    pivot -= before / g * upper[i - 1]
-                    right[i] += before / g * right[i - 1]
-                upper[i] = flow[i] / g / pivot
-                right[i] /= pivot
-                before = flow[i]
-                normal += 2.0 * g * alpha * width[i]
-                tangential += 2.0 * g * alpha * width[i]
-            pressure = 0.0 * g
+                    pivot -= before * upper[i - 1]
+                    of_one[i] += before * of_one[i - 1]
+                    of_mean[i] += before * of_mean[i - 1]
+                inverted = 1.0 / pivot
+                upper[i] = through * inverted
+                of_one[i] *= inverted
+                of_mean[i] *= inverted
+                before = through
+                slide = width[i] / (film[i] / g + near[i] / grain_shear)
+                sheared += slide
+                shear_back += slide * (stone[i] - near[i]) / grain_shear
+            one, mean = 0.0 * g, 0.0 * g
+            force, relief = 0.0 * g, 0.0 * g
             for i in range(n - 1, -1, -1):
-                pressure = right[i] + upper[i] * pressure
-                beta = 0.5 * stone[i] / grain / (film[i] + stone[i] * g / grain)
-                normal += (1.0 - 2.0 * g * beta) * pressure * width[i]
-            found[0, m, b] = np.pi * normal
-            found[1, m, b] = np.pi * tangential
+                one = of_one[i] + upper[i] * one
+                mean = of_mean[i] + upper[i] * mean
+                own = 1.0 / (film[i] + d * near[i] / grain)
+                rest = 1.0 - d * near[i] / grain * own
+                force += (d * own + rest * one) * width[i]
+                relief += (d * (stone[i] - near[i]) / grain * own - rest * mean) * width[i]
+            found[0, m, b] = area[b] * force / (1.0 + relief)
+            found[1, m, b] = area[b] * (sheared / (1.0 + shear_back) + g / length)
