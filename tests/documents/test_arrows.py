@@ -24,7 +24,7 @@ ARROWS = {
     "forecast": ["files", "measurements", "nscd", "rheology", "specimen"],
     "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
     "exports": ["files", "measurements", "rheology", "diagnosis"],
-    "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis"],
+    "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "forecast", "diagnosis"],
     "study": ["files", "measurements", "rheology", "specimen", "packings", "reporting"],
     "table_import": ["files", "measurements", "study", "reporting"],
     "verification": [
@@ -36,7 +36,7 @@ ARROWS = {
     ],
     "cli": [
         "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "study", "table_import", "verification", "nscd", "api", "contact_problems",
+        "study", "table_import", "verification", "nscd", "api", "contact_problems", "forecast",
     ],
 }  # fmt: skip
 

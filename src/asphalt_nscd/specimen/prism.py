@@ -45,26 +45,39 @@ def cut_prism(
 def pull(prism: Specimen, share: np.ndarray) -> tuple[float, float]:
     """(E over the modulus of the bonds, Poisson's ratio) of a prism whose ends are pulled apart.
 
-    share (3,): normal and two tangential stiffnesses of a bond over A / l. The plates neither turn nor contract.
-    Strains are slopes of a line through the displacements of the spheres in the middle third of the length; Poisson's
-    ratio is the mean of both lateral ones. Force over the nominal section b e.
+    share (3,): normal and two tangential stiffnesses of a bond over A / l. See `stretched`.
     """
-    n, geometry, network = prism.radius.size, prism.geometry, prism.network
-    position = np.concatenate([prism.position, [[0.0, 0.0, geometry.h]]])
+    return stretched(prism, pulled_system(prism, (prism.network.form[:, None] * share).ravel()))
+
+
+def pulled_system(prism: Specimen, weight: np.ndarray) -> BondedSystem:
+    """A prism between a fixed plate and one that moves along z; weight (3 b,) [m] of its bonds. For statics."""
+    n, network = prism.radius.size, prism.network
+    position = np.concatenate([prism.position, [[0.0, 0.0, prism.geometry.h]]])
     operator = opening_operator(network.first, network.second, network.frame, network.point, position)
     kept = np.append(np.arange(6 * n), 6 * n + 2)  # the head moves along z alone
-    bonds, ones = network.first.size, np.ones(6 * n + 1)
-    system = BondedSystem(
+    ones = np.ones(6 * n + 1)
+    return BondedSystem(
         operator=operator[:, kept],
-        weight=(network.form[:, None] * share).ravel(),
+        weight=weight,
         mass=1e-9 * ones,
         load=0.0 * ones,
         driven=6 * n,
         gap=network.gap,
-        strength=np.full(bonds, np.inf),
+        strength=np.full(network.first.size, np.inf),
         friction=0.0,
         position=position,
     )
+
+
+def stretched(prism: Specimen, system: BondedSystem) -> tuple[float, float]:
+    """(E over the modulus to which the weights refer, Poisson's ratio) of a prism pulled; its `pulled_system`.
+
+    The plates neither turn nor contract. Strains are slopes of a line through the displacements of the spheres in
+    the middle third of the length; Poisson's ratio is the mean of both lateral ones. Force over the nominal section
+    b e.
+    """
+    n, geometry = prism.radius.size, prism.geometry
     motion = ritz_basis(system, 0)[:, 0]
     middle = np.abs(prism.position[:, 2] - geometry.h / 2) < MEASURED * geometry.h / 2
     along = motion[: 6 * n].reshape(n, 6)[middle, :3]

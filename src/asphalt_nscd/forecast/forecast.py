@@ -1,0 +1,200 @@
+"""The forecast: from the modulus of the binder, level by level, to that of the mix."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.forecast.film import Solid
+from asphalt_nscd.forecast.levels import CUTS, Level, film_thickness, levels_of
+from asphalt_nscd.forecast.network import Contents, Physics, contents_of, level_map
+from asphalt_nscd.forecast.packing import LevelPacking, packing_of
+from asphalt_nscd.forecast.recipe import Recipe
+from asphalt_nscd.forecast.static_map import StaticMap
+
+Packings = Callable[[Level, int], LevelPacking]
+"""The packing of a level and a seed."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the forecast takes for granted: stated, not fitted (docs/forecast.md says why, and from where).
+
+    film_factor: film between touching grains over the mean binder film. touching_voids: air voids at which the
+    stones touch, of the volume; each percent more sets them apart. skeleton_pressure [Pa]: holds dry contacts
+    together when the binder has relaxed. The switches take a part of the physics away.
+    """
+
+    film_factor: float = 1.0
+    touching_voids: float = 0.04
+    skeleton_pressure: float = 10e3
+    binder_bulk: float = 2.5e9  # Pa
+    cuts: tuple[float, ...] = CUTS
+    squeezed: bool = True
+    touching: bool = True
+    voids: bool = True
+
+
+# Factor by which each stated number may be wrong, about two standard deviations; of air voids the difference.
+DOUBTS: dict[str, float] = {"film_factor": 2.0, "skeleton_pressure": 10.0, "aggregate": 1.25, "voids": 0.005}
+
+
+@dataclass(frozen=True)
+class LevelResult:
+    """A level of a forecast, its packing, and its map."""
+
+    level: Level
+    packing: LevelPacking
+    grains: int  # in the prism that is pulled
+    map: StaticMap
+    matrix_bulk: float  # Pa
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """E* [Pa] of the mix at the points of its recipe, (n,), and how it came about.
+
+    deviation: change of ln E* (n,) by each doubt, its real part of |E*| and its imaginary part of the phase;
+    `packing` is half the range over the seeds.
+    """
+
+    recipe: Recipe
+    settings: Settings
+    packed: tuple[tuple[LevelResult, ...], ...]  # the levels, for each seed
+    modulus: np.ndarray
+    deviation: dict[str, np.ndarray]
+
+    @property
+    def levels(self) -> tuple[LevelResult, ...]:
+        """Those of the first seed."""
+        return self.packed[0]
+
+    def modulus_at(self, omega: np.ndarray, temperature: float) -> np.ndarray:
+        """E* [Pa] of the mix at angular frequencies (n,) [rad/s] and a temperature [degC]."""
+        binder = self.recipe.binder.complex_modulus(omega, temperature)
+        logs = [np.log(modulus_of(levels, self.recipe.aggregate, binder)) for levels in self.packed]
+        return np.exp(np.mean(logs, axis=0))
+
+    @property
+    def doubt(self) -> np.ndarray:
+        """Root of the sum of squares of all deviations (n,): of ln|E*|, and of the phase [rad]."""
+        parts = np.array([*self.deviation.values()]).reshape(-1, self.modulus.size)
+        return np.sqrt((parts.real**2).sum(axis=0)) + 1j * np.sqrt((parts.imag**2).sum(axis=0))
+
+
+class Networks:
+    """The packing of each level and seed, and the maps that were solved with them, each once."""
+
+    def __init__(self, packings: Packings) -> None:
+        self._packings = packings
+        self._cut: dict[tuple[str, int], tuple[LevelPacking, Contents]] = {}
+        self._maps: dict[tuple, StaticMap] = {}
+
+    def chain(self, recipe: Recipe, settings: Settings, seed: int) -> tuple[LevelResult, ...]:
+        """All levels, the finest first; what leaves one is the matrix of the next."""
+        bulk, results = settings.binder_bulk, []
+        found = levels_of(recipe, settings.cuts)
+        for level in found:
+            packing, contents = self._contents(level, seed)
+            physics = physics_of(recipe, settings, level, last=level is found[-1])
+            key = (level.name, level.largest, level.fraction, seed, recipe.aggregate, bulk, physics)
+            if key not in self._maps:
+                self._maps[key] = level_map(contents, level, recipe.aggregate, bulk, physics)
+            results.append(LevelResult(level, packing, contents.prism.radius.size, self._maps[key], bulk))
+            bulk = 1.0 / (level.fraction / recipe.aggregate.bulk + (1.0 - level.fraction) / bulk)
+        return tuple(results)
+
+    def _contents(self, level: Level, seed: int) -> tuple[LevelPacking, Contents]:
+        key = (level.name, seed)
+        if key not in self._cut:
+            packing = self._packings(level, seed)
+            self._cut[key] = packing, contents_of(packing)
+        return self._cut[key]
+
+
+def forecast(
+    recipe: Recipe,
+    networks: Networks,
+    settings: Settings = Settings(),
+    seeds: tuple[int, ...] = (1, 2),
+    progress: Callable[[str, float, float], None] = lambda stage, done, total: None,
+) -> Forecast:
+    """E* of the mix of a recipe: the geometric mean over packings of these seeds, with the doubts of the first."""
+    doubts = _doubted(recipe, settings)
+    stages, runs, made = len(seeds) + len(doubts), [], []
+    for k, seed in enumerate(seeds):
+        progress("networks", k, stages)
+        made.append(networks.chain(recipe, settings, seed))
+        runs.append(np.log(modulus_of(made[-1], recipe.aggregate, recipe.binder_modulus())))
+    logs = np.array(runs)
+    deviation = {"packing": _half_range(logs)} if len(seeds) > 1 else {}
+    for k, (name, (doubted, chosen)) in enumerate(doubts.items()):
+        progress("networks", len(seeds) + k, stages)
+        levels = networks.chain(doubted, chosen, seeds[0])
+        deviation[name] = np.log(modulus_of(levels, doubted.aggregate, doubted.binder_modulus())) - logs[0]
+    progress("networks", stages, stages)
+    return Forecast(recipe, settings, tuple(made), np.exp(logs.mean(axis=0)), deviation)
+
+
+def physics_of(recipe: Recipe, settings: Settings, level: Level, last: bool) -> Physics:
+    """What a level's films and contacts do; air voids and the dry skeleton belong to the coarsest, `last`."""
+    touching = settings.touching and level.touching
+    voids = recipe.voids if settings.voids and last else 0.0
+    matrix = 1.0 - level.fraction * (1.0 - recipe.voids)  # and air, of the volume of the mix
+    return Physics(
+        film=settings.film_factor * film_thickness(recipe) if touching else None,
+        loosening=max(0.0, voids - settings.touching_voids) / 3.0 if voids else 0.0,
+        void_share=voids / matrix,
+        skeleton_pressure=settings.skeleton_pressure if touching and last else 0.0,
+        squeezed=settings.squeezed,
+    )
+
+
+def modulus_of(levels: tuple[LevelResult, ...], aggregate: Solid, binder: np.ndarray) -> np.ndarray:
+    """E* [Pa] of the mix for E* [Pa] of the binder (n,)."""
+    ratio = binder / aggregate.modulus
+    for result in levels:
+        ratio = result.map(ratio)
+    return ratio * aggregate.modulus
+
+
+def _doubted(recipe: Recipe, settings: Settings) -> dict[str, tuple[Recipe, Settings]]:
+    """The recipe and settings with one doubt each."""
+    stiffer = replace(recipe.aggregate, modulus=recipe.aggregate.modulus * DOUBTS["aggregate"])
+    changed = {
+        "aggregate": (replace(recipe, aggregate=stiffer), settings),
+        "film_factor": (recipe, replace(settings, film_factor=settings.film_factor * DOUBTS["film_factor"])),
+        "skeleton_pressure": (
+            recipe,
+            replace(settings, skeleton_pressure=settings.skeleton_pressure / DOUBTS["skeleton_pressure"]),
+        ),
+        "voids": (replace(recipe, voids=recipe.voids + DOUBTS["voids"]), settings),
+    }
+    unused = set() if settings.touching else {"film_factor", "skeleton_pressure"}
+    unused |= set() if settings.voids else {"voids"}
+    return {name: pair for name, pair in changed.items() if name not in unused}
+
+
+def _half_range(logs: np.ndarray) -> np.ndarray:
+    return 0.5 * (np.ptp(logs.real, axis=0) + 1j * np.ptp(logs.imag, axis=0))
+
+
+def kept_in(folder: str | Path, progress: Callable[[str, float, float], None] | None = None) -> Packings:
+    """Packings in a folder, poured where they are missing."""
+    Path(folder).mkdir(parents=True, exist_ok=True)
+
+    def packing(level: Level, seed: int) -> LevelPacking:
+        def stage(name: str, done: float, total: float) -> None:
+            if progress is not None:
+                progress(f"{level.name} {seed}: {name}", done, total)
+
+        try:
+            return packing_of(level, seed, Path(folder), stage)
+        except InputError as error:
+            raise InputError(f"{level.name}: {error}") from None
+
+    return packing

@@ -1,0 +1,262 @@
+"""The forecast held against mixes whose binder was measured too: what each part of the physics is worth, and who else
+does as well.
+
+Of each mix the law of the binder makes the forecast, and the law of the mix is the truth; both are 2S2P1D fits to
+measurements, as published. All mixes of the table share one recipe.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from scipy.optimize import least_squares, minimize_scalar, nnls
+
+from asphalt_nscd.files.csvinput import Limits, read_csv
+from asphalt_nscd.forecast.film import Solid
+from asphalt_nscd.forecast.forecast import LevelResult, Networks, Settings, modulus_of
+from asphalt_nscd.forecast.recipe import UNSTATED, Recipe
+from asphalt_nscd.forecast.rivals import RIVALS
+from asphalt_nscd.rheology.shift import Arrhenius
+from asphalt_nscd.rheology.spectrum import TwoS2P1D
+
+CALIBRATED_ON, SHIFTED_ON, SHIFTED = "H0", "W0", "W"  # the shift is that of the warm mixes' binder
+PRESSURES = (0.3e3, 1e3, 3e3, 10e3)  # Pa
+ANY = Limits(0.0, 1e12, "give a number that is not negative")
+COLUMNS = {
+    "static_modulus": ("E00_MPa", 1e6),
+    "glassy_modulus": ("E0_MPa", 1e6),
+    "delta": ("delta", 1.0),
+    "tau": ("tau_s", 1.0),
+    "k": ("k", 1.0),
+    "h": ("h", 1.0),
+    "beta": ("beta", 1.0),
+}
+ANY_MAP = np.geomspace(1e-4, 1e4, 33) * 1e6  # Pa, poles of a map that knows the measurements
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A mix, and what its binder is."""
+
+    name: str
+    recipe: Recipe  # with its binder
+    mix: TwoS2P1D
+
+    @property
+    def omega(self) -> np.ndarray:
+        return 2.0 * np.pi * self.recipe.frequency
+
+    @property
+    def measured(self) -> np.ndarray:
+        """E* [Pa] of the mix at the points of the recipe."""
+        return self.mix.complex_modulus(self.omega, self.recipe.temperature)
+
+    def binder(self, decades: float = 0.0) -> np.ndarray:
+        """E* [Pa] of the binder, at frequencies so many decades higher."""
+        return self.recipe.binder.complex_modulus(self.omega * 10.0**decades, self.recipe.temperature)
+
+
+def read_pairs(table: str | Path, recipe: Recipe) -> list[Pair]:
+    """Mixes of a table with a row for binder and mix of each state; the recipe gives all else."""
+    rows = read_csv(table)
+    rows.require(["ageing_state", "level", *(column for column, _ in COLUMNS.values())])
+    laws: dict[tuple[str, str], TwoS2P1D] = {}
+    numbers = {name: scale * rows.numbers(column, ANY) for name, (column, scale) in COLUMNS.items()}
+    for row, key in enumerate(zip(rows.columns["ageing_state"], rows.columns["level"], strict=True)):
+        values = {name: float(column[row]) for name, column in numbers.items()}
+        refusal = TwoS2P1D.refusal(values)
+        if refusal:
+            raise rows.error(row, f"{refusal}; correct it.")
+        laws[key] = TwoS2P1D(**values, shift=Arrhenius(150e3, UNSTATED))
+    return [
+        Pair(state, replace(recipe, name=state, binder=law, shifted=False), laws[state, "mix"])
+        for (state, level), law in laws.items()
+        if level == "binder"
+    ]
+
+
+def rungs(settings: Settings) -> Iterator[tuple[str, Settings]]:
+    """What the forecast gains with each part of its physics, and loses without it."""
+    bare = replace(settings, squeezed=False, touching=False, voids=False, skeleton_pressure=0.0)
+    yield "levels", bare
+    yield "+ squeezed films", replace(bare, squeezed=True)
+    yield "+ grains that touch", replace(bare, squeezed=True, touching=True)
+    yield "+ dry skeleton", replace(settings, voids=False)
+    yield "+ air voids: the forecast", settings
+    yield "without squeezed films", replace(settings, squeezed=False)
+    yield "without grains that touch", replace(settings, touching=False)
+    yield "without dry skeleton", replace(settings, skeleton_pressure=0.0)
+
+
+def compare(
+    pairs: list[Pair], networks: Networks, progress: Callable[[str, float, float], None]
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """(errors of each rung and rival for each mix, points of the last rungs).
+
+    errors: factor_rms is exp of the root mean square of ln(|E*| / measured), phase_rms_deg that of the phase.
+    """
+    recipe, settings = pairs[0].recipe, Settings()
+    made: dict[str, tuple[str, int, Callable[[Pair], np.ndarray]]] = {}
+    for name, rival in RIVALS.items():
+        made[name] = "rival", 0, partial(_rival, rival)
+    steps = list(rungs(settings))
+    for k, (name, chosen) in enumerate(steps):
+        progress("rungs", k, len(steps) + 1)
+        levels = networks.chain(recipe, chosen, 1)
+        made[name] = "forecast", 0, partial(_forecast, levels, recipe.aggregate)
+    fitted, levels = calibrated(
+        next(pair for pair in pairs if pair.name == CALIBRATED_ON), settings, networks
+    )
+    progress("rungs", len(steps) + 1, len(steps) + 1)
+    calibrated_name = (
+        f"aggregate {fitted[0].aggregate.modulus / 1e9:.0f} GPa and skeleton "
+        f"{fitted[1].skeleton_pressure / 1e3:.2g} kPa, set on {CALIBRATED_ON}"
+    )
+    stone = fitted[0].aggregate
+    made[calibrated_name] = "calibrated", 2, partial(_forecast, levels, stone)
+    decades = binder_shift(next(pair for pair in pairs if pair.name == SHIFTED_ON), levels, fitted[0])
+    made[f"and {SHIFTED} binders {abs(decades):.2f} decades slower, set on {SHIFTED_ON}"] = (
+        "calibrated",
+        3,
+        lambda pair: modulus_of(
+            levels, stone, pair.binder(decades if pair.name.startswith(SHIFTED) else 0.0)
+        ),
+    )
+    best = best_map(pairs)
+    made["best map of binder to mix, fitted to all"] = (
+        "bound",
+        len(best),
+        lambda pair: _any_map(pair.binder()) @ best,
+    )
+    errors, points = [], []
+    for name, (kind, parameters, modulus) in made.items():
+        for pair in pairs:
+            found = modulus(pair)
+            off = np.log(found / pair.measured)
+            has_phase = bool(np.iscomplexobj(found) and np.any(found.imag))
+            errors.append(
+                {
+                    "forecast": name,
+                    "kind": kind,
+                    "parameters": parameters,
+                    "mix": pair.name,
+                    "factor_rms": float(np.exp(np.sqrt((off.real**2).mean()))),
+                    "phase_rms_deg": float(np.degrees(np.sqrt((off.imag**2).mean())))
+                    if has_phase
+                    else np.nan,
+                }
+            )
+            points += [
+                {
+                    "forecast": name,
+                    "mix": pair.name,
+                    "omega_rad_s": w,
+                    "E_MPa": 1e-6 * abs(e),
+                    "phase_deg": np.degrees(np.angle(e)) if has_phase else np.nan,
+                    "measured_E_MPa": 1e-6 * abs(m),
+                    "measured_phase_deg": np.degrees(np.angle(m)),
+                }
+                for w, e, m in zip(pair.omega, found, pair.measured, strict=True)
+            ]
+    return pd.DataFrame(errors), pd.DataFrame(points)
+
+
+def _rival(rival: Callable[[Recipe], np.ndarray], pair: Pair) -> np.ndarray:
+    return rival(pair.recipe)
+
+
+def _forecast(levels: tuple[LevelResult, ...], stone: Solid, pair: Pair) -> np.ndarray:
+    return modulus_of(levels, stone, pair.binder())
+
+
+def calibrated(
+    pair: Pair, settings: Settings, networks: Networks
+) -> tuple[tuple[Recipe, Settings], tuple[LevelResult, ...]]:
+    """The two inputs that the source leaves open, set on one mix: modulus of the aggregate, pressure in dry contacts.
+
+    The pressure is the best of PRESSURES; with each the modulus is fitted to the maps of the usual one, since they
+    know ratios of moduli alone, but for the bulk modulus of the binder. The best is solved anew.
+    """
+    usual = pair.recipe.aggregate.modulus
+
+    def fitted(levels: tuple[LevelResult, ...]) -> tuple[float, float]:
+        def off(x: np.ndarray) -> np.ndarray:
+            stone = replace(pair.recipe.aggregate, modulus=usual * float(np.exp(x[0])))
+            found = np.log(modulus_of(levels, stone, pair.binder()) / pair.measured)
+            return np.concatenate([found.real, found.imag])
+
+        best = least_squares(off, np.zeros(1), bounds=(-1.0, 1.0))
+        return float(best.cost), usual * float(np.exp(best.x[0]))
+
+    tried = []
+    for pressure in PRESSURES:
+        chosen = replace(settings, skeleton_pressure=pressure)
+        tried.append((*fitted(networks.chain(pair.recipe, chosen, 1)), chosen))
+    _, modulus, chosen = min(tried, key=lambda one: one[0])
+    recipe = replace(pair.recipe, aggregate=replace(pair.recipe.aggregate, modulus=modulus))
+    return (recipe, chosen), networks.chain(recipe, chosen, 1)
+
+
+def binder_shift(pair: Pair, levels: tuple[LevelResult, ...], recipe: Recipe) -> float:
+    """Decades by which the binder's frequencies must be raised for the forecast to meet one mix best."""
+
+    def off(decades: float) -> float:
+        found = np.log(modulus_of(levels, recipe.aggregate, pair.binder(decades)) / pair.measured)
+        return float((np.abs(found) ** 2).sum())
+
+    return float(minimize_scalar(off, bounds=(-3.0, 3.0), method="bounded").x)
+
+
+def best_map(pairs: list[Pair]) -> np.ndarray:
+    """Weights of the Stieltjes function of the binder's modulus that comes nearest to all mixes of one recipe.
+
+    No forecast that knows the recipe and the binder alone can come much nearer: it is one such function.
+    """
+    basis = np.vstack([_any_map(pair.binder()) for pair in pairs])
+    measured = np.concatenate([pair.measured for pair in pairs])
+    relative = basis / np.abs(measured)[:, None]
+    unit = measured / np.abs(measured)
+    start = nnls(np.vstack([relative.real, relative.imag]), np.concatenate([unit.real, unit.imag]))[0]
+    kept = start > 0.0
+
+    def off(logs: np.ndarray) -> np.ndarray:
+        found = np.log(basis[:, kept] @ np.exp(logs) / measured)
+        return np.concatenate([found.real, found.imag])
+
+    weights = np.zeros(start.size)
+    weights[kept] = np.exp(least_squares(off, np.log(start[kept])).x)
+    return weights
+
+
+def _any_map(binder: np.ndarray) -> np.ndarray:
+    """Terms (n, 35) of a Stieltjes function of the binder's modulus [Pa]."""
+    x = binder[:, None]
+    return np.hstack([np.full_like(x, 1e6), x, x / (1.0 + x / ANY_MAP)])
+
+
+def overall(errors: pd.DataFrame) -> pd.DataFrame:
+    """One row for each forecast: errors of each mix and of all together."""
+    rows = []
+    for name, group in errors.groupby("forecast", sort=False):
+        rows.append(
+            {
+                "forecast": name,
+                "parameters": int(group["parameters"].iloc[0]),
+                "factor_all": float(np.exp(np.sqrt((np.log(group["factor_rms"]) ** 2).mean()))),
+                "phase_all_deg": float(np.sqrt((group["phase_rms_deg"] ** 2).mean())),
+                **{
+                    f"factor_{mix}": value
+                    for mix, value in zip(group["mix"], group["factor_rms"], strict=True)
+                },
+                **{
+                    f"phase_{mix}_deg": value
+                    for mix, value in zip(group["mix"], group["phase_rms_deg"], strict=True)
+                },
+            }
+        )
+    return pd.DataFrame(rows)

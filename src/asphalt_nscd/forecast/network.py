@@ -1,0 +1,134 @@
+"""The network of a level: grains of a packing, films of matrix between them, and its static modulus."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from asphalt_nscd.forecast.film import Films, Matrix, Solid, film_stiffness
+from asphalt_nscd.forecast.levels import Level
+from asphalt_nscd.forecast.packing import LARGEST, LevelPacking
+from asphalt_nscd.forecast.static_map import RATIOS, StaticMap, fit_map
+from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.specimen.network import facet_network
+from asphalt_nscd.specimen.prism import cut_prism, pulled_system, stretched
+from asphalt_nscd.specimen.trimming import Specimen, layer_height
+
+SKIN = 0.6  # largest grains, cut off from each side of the layer
+POINTS = 200_000  # thrown into the prism to find its solid fraction
+CONTACT = 0.01  # of the smaller radius: a smaller gap in the poured layer is a contact
+THINNEST = 1e-5  # film over the distance of the centres; a sphere cut by a plate has none
+ABSENT = 1e-6  # of its stiffness: a film that is a void
+
+
+@dataclass(frozen=True)
+class Physics:
+    """What films and contacts do; each can be taken away (docs/forecast.md).
+
+    film: thickness [m] of the matrix between grains that touch; None keeps grains apart as the fraction says.
+    loosening: widening of these films, linear strain. void_share: of the facets, without film. skeleton_pressure [Pa]:
+    presses dry contacts together, zero for none. squeezed: the matrix is nearly incompressible; else Poisson's
+    ratio of a film is zero, and lines through grain and film do not know of each other.
+    """
+
+    film: float | None = None
+    loosening: float = 0.0
+    void_share: float = 0.0
+    skeleton_pressure: float = 0.0
+    squeezed: bool = True
+
+
+@dataclass(frozen=True)
+class Contents:
+    """A prism of a level's packing: spheres at their own size, and what its volume holds."""
+
+    prism: Specimen
+    solid_fraction: float
+
+
+def contents_of(packing: LevelPacking) -> Contents:
+    """The prism cut from the middle of a layer."""
+    position, radius, margin = packing.position, packing.radius, SKIN * LARGEST
+    top = layer_height(position, radius)
+    length, width = packing.box[:2] - 2.0 * margin
+    geometry = Geometry(
+        b=top - 2.0 * margin, B=top - 2.0 * margin, e=width, h=length, mass=1.0, mobile_mass=1.0
+    )
+    corner = np.full(3, margin)
+    prism = cut_prism(position, radius, corner, geometry, lambda at, r: facet_network(at, r, geometry))
+    size = np.array([geometry.h, geometry.e, geometry.b])
+    point = corner + np.random.default_rng(0).random((POINTS, 3)) * size
+    inside = np.zeros(POINTS, bool)
+    for r in np.unique(radius):
+        inside |= np.isfinite(cKDTree(position[radius == r]).query(point, distance_upper_bound=r)[0])
+    return Contents(prism, float(inside.mean()))
+
+
+def films_of(contents: Contents, level: Level, physics: Physics) -> tuple[Films, np.ndarray]:
+    """Films at the level's fraction, and which of them lie between grains that touch (b,).
+
+    Spheres shrink alike until they fill the fraction; grains that touched in the layer stay as close as physics.film
+    says: a crushed grain holds less than the sphere that touches the same neighbours.
+    """
+    prism, network = contents.prism, contents.prism.network
+    radius = np.append(prism.radius, [0.0, 0.0])  # the plates
+    own = radius[np.minimum(network.first, prism.radius.size)]
+    other = radius[np.minimum(network.second, prism.radius.size)]
+    length = network.length
+    between = (own > 0.0) & (other > 0.0)
+    touching = between & (network.gap < CONTACT * np.minimum(own, other))
+    shrunk = min(1.0, (level.fraction / contents.solid_fraction) ** (1.0 / 3.0))
+    gap = length - shrunk * (own + other)
+    if physics.film is not None:
+        film = physics.film * LARGEST / level.largest + physics.loosening * length
+        gap = np.where(touching, np.minimum(film, gap), gap)
+    gap = np.maximum(gap, THINNEST * length)
+    scale = (length - gap) / (own + other)
+    one, two = own * scale, other * scale
+    return Films(np.maximum(one, two), np.minimum(one, two), gap, network.area), touching
+
+
+def level_map(
+    contents: Contents, level: Level, grain: Solid, matrix_bulk: float, physics: Physics
+) -> StaticMap:
+    """Young's modulus of a level over that of its grains as a function of that of its matrix, likewise."""
+    films, touching = films_of(contents, level, physics)
+    young = RATIOS * grain.modulus
+    if physics.squeezed:  # at the modulus of the grains it is their material
+        bulk = matrix_bulk + RATIOS * (grain.bulk - matrix_bulk)
+    else:
+        bulk = young / 3.0
+    normal, tangential = film_stiffness(films, grain, Matrix(young, bulk), level.fraction)
+    present = np.ones(films.gap.size)
+    present[_voids(films.area, physics.void_share)] = ABSENT
+    dry = touching * _dry_contact(contents, touching, grain, physics.skeleton_pressure)
+    sliding = 2.0 * (1.0 - grain.poisson) / (2.0 - grain.poisson)  # Mindlin, stuck
+    system = pulled_system(contents.prism, np.zeros(3 * films.gap.size))
+    found = []
+    for one, two in zip(present * normal + dry, present * tangential + sliding * dry, strict=True):
+        weight = np.column_stack([one, two, two]).ravel() / grain.modulus
+        found.append(stretched(contents.prism, replace(system, weight=weight))[0])
+    return fit_map(np.array(found))
+
+
+def _voids(area: np.ndarray, share: float) -> np.ndarray:
+    """Facets drawn at random until they make up a share of the area."""
+    order = np.random.default_rng(0).permutation(area.size)
+    return order[np.cumsum(area[order]) < share * area.sum()]
+
+
+def _dry_contact(contents: Contents, touching: np.ndarray, grain: Solid, pressure: float) -> float:
+    """Normal stiffness [N/m] of a Hertz contact where equal forces in all contacts carry a pressure [Pa].
+
+    Love and Weber: p = sum F l / (3 V). Mean radius of curvature; stiffness 2 E' a with a^3 = 3 F R / (4 E').
+    """
+    if not pressure:
+        return 0.0
+    prism = contents.prism
+    volume = prism.geometry.b * prism.geometry.e * prism.geometry.h
+    force = 3.0 * pressure * volume / prism.network.length[touching].sum()
+    plane = grain.modulus / (2.0 * (1.0 - grain.poisson**2))
+    curvature = 0.5 * float(np.average(prism.radius, weights=prism.radius**2))
+    return 2.0 * plane * float(np.cbrt(0.75 * force * curvature / plane))

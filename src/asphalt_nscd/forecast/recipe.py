@@ -1,0 +1,217 @@
+"""The recipe of a mix: what a forecast knows of it, read and checked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+from jsonschema import Draft202012Validator
+from jsonschema.exceptions import best_match
+
+from asphalt_nscd.files.csvinput import Limits, read_csv
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.paths import require_readable
+from asphalt_nscd.forecast.film import Solid
+from asphalt_nscd.rheology.shift import WLF, Arrhenius
+from asphalt_nscd.rheology.spectrum import Spectrum, TwoS2P1D
+from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
+
+DEFAULT_FREQUENCIES = (0.1, 0.3, 1.0, 3.0, 10.0, 25.0)  # Hz
+DEFAULT_TEMPERATURES = (-10.0, 0.0, 10.0, 15.0, 20.0, 30.0)  # degC, of a binder with a shift
+UNSTATED = 15.0  # degC, what an unstated reference temperature is called
+DENSEST = 0.92  # of the volume: more solids than any grading packs
+
+
+@dataclass(frozen=True)
+class Grading:
+    """Share of the mass (and volume) of the aggregate that passes each sieve, rising with it."""
+
+    sieve: np.ndarray  # (s,) m
+    passing: np.ndarray  # (s,) 0 to 1; the last is 1
+
+    def passing_at(self, diameter: np.ndarray | float) -> np.ndarray:
+        """Share finer than diameters [m], straight between sieves over the logarithm of size; all below pass."""
+        return np.interp(np.log(diameter), np.log(self.sieve), self.passing)
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """What a mix is made of. Moduli [Pa], sizes [m], densities [kg/m3], shares 0 to 1.
+
+    binder: law of Young's modulus. shifted: whether the law holds at other temperatures than its reference.
+    """
+
+    name: str
+    source: str
+    binder: Spectrum
+    shifted: bool
+    binder_share: float  # of the mass of the mix
+    voids: float  # of the volume of the mix
+    aggregate_density: float
+    binder_density: float
+    aggregate: Solid
+    grading: Grading
+    temperature: np.ndarray  # (n,) degC, of each point of the forecast
+    frequency: np.ndarray  # (n,) Hz
+
+    @property
+    def aggregate_fraction(self) -> float:
+        """Volume of the aggregate over that of aggregate and binder."""
+        stone = (1.0 - self.binder_share) / self.aggregate_density
+        return stone / (stone + self.binder_share / self.binder_density)
+
+    def binder_modulus(self) -> np.ndarray:
+        """E* [Pa] of the binder at each point."""
+        return self.binder.complex_modulus(2.0 * np.pi * self.frequency, self.temperature)
+
+
+def read_recipe(path: str | Path) -> Recipe:
+    """The recipe in a YAML file; InputError names the key and the mend."""
+    require_readable(path, "check the path of the recipe")
+    try:
+        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not YAML ({error}); see data/forecast/recipe.yaml.") from None
+    return recipe_of(content, path)
+
+
+def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
+    """The recipe in a mapping as its file has it; path: its name in messages."""
+    schema = yaml.safe_load((files(__package__) / "recipe.schema.yaml").read_text(encoding="utf-8"))
+    if not isinstance(content, Mapping):
+        raise InputError(f"{path}: holds no mapping; see data/forecast/recipe.yaml.")
+    content = dict(content) | {"grading": _keyed(content.get("grading"))}
+    error = best_match(Draft202012Validator(schema).iter_errors(content))
+    if error is not None:
+        at = ".".join(str(part) for part in error.absolute_path) or "the recipe"
+        raise InputError(f"{path}: {at}: {error.message}; see data/forecast/recipe.yaml.")
+    aggregate = Solid(content["aggregate"]["E_GPa"] * 1e9, content["aggregate"]["poisson"])
+    binder, shifted = _binder(content["binder"], path)
+    stiffest = getattr(binder, "glassy_modulus", 0.0)
+    if stiffest >= aggregate.modulus:
+        raise InputError(
+            f"{path}: the binder's glassy modulus, {stiffest / 1e9:.3g} GPa, is not below the aggregate's "
+            f"{aggregate.modulus / 1e9:.3g} GPa; give E0_MPa in MPa and E_GPa in GPa."
+        )
+    temperature, frequency = _points(content, binder, shifted, path)
+    recipe = Recipe(
+        name=content.get("name", Path(path).stem),
+        source=content.get("source", "not stated"),
+        binder=binder,
+        shifted=shifted,
+        binder_share=content["binder_percent_by_mass"] / 100.0,
+        voids=content["air_voids_percent"] / 100.0,
+        aggregate_density=content["density_kg_m3"]["aggregate"],
+        binder_density=content["density_kg_m3"]["binder"],
+        aggregate=aggregate,
+        grading=_grading(content["grading"], path),
+        temperature=temperature,
+        frequency=frequency,
+    )
+    if recipe.aggregate_fraction > DENSEST:
+        raise InputError(
+            f"{path}: aggregate fills {100 * recipe.aggregate_fraction:.0f} % of the volume without air, more than "
+            f"grains can ({100 * DENSEST:.0f} %); correct binder_percent_by_mass or density_kg_m3."
+        )
+    return recipe
+
+
+def _keyed(grading: Any) -> Any:
+    """Sieves as text: YAML reads 0.063 as a number."""
+    return (
+        {str(sieve): share for sieve, share in grading.items()} if isinstance(grading, Mapping) else grading
+    )
+
+
+def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
+    try:
+        pairs = sorted((float(sieve) * 1e-3, share / 100.0) for sieve, share in content.items())
+    except ValueError:
+        raise InputError(f"{path}: grading: a sieve is no number; give it in mm, as 0.063.") from None
+    sieve, passing = np.array(pairs).T
+    if sieve[0] <= 0.0 or sieve[-1] > 0.1:
+        raise InputError(f"{path}: grading: sieves from 0.001 to 100 mm are allowed; give them in mm.")
+    falls = np.flatnonzero(np.diff(passing) < 0.0)
+    if falls.size:
+        low, high = 1e3 * sieve[falls[0]], 1e3 * sieve[falls[0] + 1]
+        raise InputError(
+            f"{path}: grading: less passes {high:g} mm than {low:g} mm; give per cent that passes, not that stays."
+        )
+    if abs(passing[-1] - 1.0) > 1e-9:
+        raise InputError(
+            f"{path}: grading: {100 * passing[-1]:g} % passes the largest sieve; add one that 100 % pass."
+        )
+    return Grading(sieve, passing)
+
+
+def _binder(content: Mapping[str, Any], path: str | Path) -> tuple[Spectrum, bool]:
+    if "table" in content:
+        return _from_rheometer(Path(path).parent / content["table"], content["poisson"]), True
+    reference = content.get("reference_temperature_C", UNSTATED)
+    shift: WLF | Arrhenius = Arrhenius(150e3, reference)  # never asked for another temperature
+    if "shift" in content:
+        of = content["shift"]
+        shift = (
+            WLF(of["wlf_C1"], of["wlf_C2_K"], reference)
+            if "wlf_C1" in of
+            else Arrhenius(of["activation_energy_J_mol"], reference)
+        )
+    values = {
+        "static_modulus": content["E00_MPa"] * 1e6,
+        "glassy_modulus": content["E0_MPa"] * 1e6,
+        "k": content["k"],
+        "h": content["h"],
+        "delta": content["delta"],
+        "tau": content["tau_s"],
+        "beta": content["beta"],
+    }
+    refusal = TwoS2P1D.refusal(values)
+    if refusal:
+        raise InputError(f"{path}: binder: {refusal}; correct it.")
+    return TwoS2P1D(**values, shift=shift), "shift" in content
+
+
+def _from_rheometer(path: Path, poisson: float) -> Spectrum:
+    """2S2P1D law with a WLF shift of Young's modulus, E = 2 (1 + nu) G, fitted to a table."""
+    table = read_csv(path)
+    table.require(["temperature_C", "frequency_Hz", "G_MPa", "phase_deg"])
+    temperature = table.numbers("temperature_C", Limits(-60.0, 120.0, "give it in degC"))
+    frequency = table.numbers("frequency_Hz", Limits(1e-8, 1e6, "give it in Hz, above zero"))
+    shear = table.numbers("G_MPa", Limits(1e-9, 5e3, "give |G*| in MPa, above zero"))
+    phase = table.numbers("phase_deg", Limits(0.0, 90.0, "give it in degrees"))
+    modulus = 2.0 * (1.0 + poisson) * 1e6 * shear * np.exp(1j * np.radians(phase))
+    reference = float(np.unique(temperature)[np.unique(temperature).size // 2])
+    try:
+        return fit_spectrum(2.0 * np.pi * frequency, temperature, modulus, reference, Form()).law
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def _points(
+    content: Mapping[str, Any], binder: Spectrum, shifted: bool, path: str | Path
+) -> tuple[np.ndarray, np.ndarray]:
+    """Temperature and frequency of each point, all frequencies at each temperature."""
+    if "frequencies_Hz" in content and "angular_frequencies_rad_s" in content:
+        raise InputError(f"{path}: frequencies_Hz and angular_frequencies_rad_s; give one of them.")
+    if "angular_frequencies_rad_s" in content:
+        frequency = np.asarray(content["angular_frequencies_rad_s"], float) / (2.0 * np.pi)
+    else:
+        frequency = np.asarray(content.get("frequencies_Hz", DEFAULT_FREQUENCIES), float)
+    reference = binder.shift.reference_temperature
+    if shifted:
+        temperature = np.asarray(content.get("temperatures_C", DEFAULT_TEMPERATURES), float)
+    else:
+        temperature = np.array([reference])
+        for asked in content.get("temperatures_C", ()):
+            if asked != reference:
+                raise InputError(
+                    f"{path}: temperatures_C: {asked:g} degC, but the binder's law has no shift from its "
+                    f"{reference:g} degC; add binder.shift, or leave temperatures_C out."
+                )
+    grid = np.meshgrid(temperature, frequency, indexing="ij")
+    return grid[0].ravel(), grid[1].ravel()
