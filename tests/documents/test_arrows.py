@@ -29,6 +29,7 @@ ARROWS = {
     "table_import": ["files", "measurements", "study", "reporting"],
     "verification": [
         "files", "workflow_support", "measurements", "nscd", "contact_problems", "rheology", "specimen", "bending",
+        "forecast",
     ],
     "api": [
         "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",

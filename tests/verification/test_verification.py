@@ -17,7 +17,7 @@ from asphalt_nscd.workflow_support.sources import PACKAGE
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize("theme", ["law", "facets", "accounts", "methods"])
+@pytest.mark.parametrize("theme", ["law", "facets", "films", "accounts", "methods"])
 def test_cheap_themes_pass(theme):
     rows = verify(theme)
     assert list(rows.columns) == COLUMNS and len(rows) >= 9

@@ -18,6 +18,7 @@ THEMES = (
     "law",
     "beams",
     "facets",
+    "films",
     "methods",
     "accounts",
     "fracture",

@@ -1,0 +1,165 @@
+"""Bonds that are films between spheres, against lubrication theory, finite elements and the bounds of elasticity."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from asphalt_nscd.forecast.film import (
+    Films,
+    Matrix,
+    Solid,
+    bulk_modulus,
+    deviatoric_stiffness,
+    film_stiffness,
+    pair_stiffness,
+)
+from asphalt_nscd.specimen.prism import pull
+from asphalt_nscd.specimen.trimming import Specimen
+from asphalt_nscd.verification.row import Checks, Row
+from asphalt_nscd.verification.specimens import jittered_beam
+
+checks = Checks()
+
+STONE = Solid(60e9, 0.2)
+RIGID = Solid(60e18, 0.2)
+SYRUP = Matrix(np.array(3.0), 1e20)  # G = 1 Pa, incompressible
+FINE = 4000  # rings where logarithms are read off
+
+# Approach of two spheres in a cylinder of free sides over M A / l, side 0.9 of the smaller radius, K = 2.5 GPa:
+# ratio of radii, gap over the smaller radius, M [Pa], finite elements (benchmarks/film_law.py pairs)
+ELEMENTS = [
+    (1.0, 0.3, 6e8, 4.324),
+    (1.0, 0.1, 6e5, 13.54),
+    (1.0, 0.03, 6e6, 41.66),
+    (0.3, 0.1, 6e8, 23.02),
+    (0.3, 0.01, 6e6, 493.2),
+    (0.1, 0.003, 6e5, 6107.0),
+]
+
+
+def bitumen(modulus: float) -> Matrix:
+    """Of this Young's modulus [Pa]."""
+    return Matrix(np.array(modulus), 2.5e9)
+
+
+def pair(gap: float, ratio: float = 1.0, side: float = 0.9) -> Films:
+    """One film; the larger sphere has the radius 1, gap and side are relative to the smaller one."""
+    return Films(*np.array([[1.0], [ratio], [gap * ratio], [np.pi * (side * ratio) ** 2]]))
+
+
+@checks
+def one_material() -> list[Row]:
+    """Matrix and grains alike: the bond of the homogeneous network, whatever the gap."""
+    rows, same = [], Matrix(np.array(STONE.modulus), STONE.bulk)
+    for gap in (0.003, 0.3):
+        films = pair(gap, 0.4)
+        homogeneous = STONE.modulus * films.area[0] / films.length[0]
+        for name, found in zip(
+            ("normal", "tangential"), film_stiffness(films, STONE, same, 0.5), strict=True
+        ):
+            name = f"one material, {name} stiffness over E A / l, gap {gap}"
+            rows.append(Row(name, 1.0, found[0] / homogeneous, 1e-12, "docs/mapping.md"))
+    return rows
+
+
+@checks
+def lubrication() -> list[Row]:
+    """Rigid spheres in an incompressible film: Jeffrey & Onishi (1984), whose logarithms hold for any radii."""
+    rows, source = [], "Jeffrey & Onishi 1984"
+    for ratio in (1.0, 0.2):
+        a, gaps = ratio / (1.0 + ratio), np.array([2e-4, 8e-4]) * ratio
+        found = [deviatoric_stiffness(pair(h / ratio, ratio), RIGID, SYRUP, FINE) for h in gaps]
+        normal, tangential = (np.array([stiffness[k][0] for stiffness in found]) for k in (0, 1))
+        leading = 6.0 * np.pi * a**2 / gaps
+        name = f"ratio of radii {ratio}, squeezed film"
+        rows.append(Row(f"{name}, over 6 pi mu a^2 / h", 1.0, normal[0] / leading[0], 3e-3, source))
+        second = (normal - leading) @ [1.0, -1.0] / np.log(4.0)
+        expected = 6.0 * np.pi * ratio * (1.0 + 7.0 * ratio + ratio**2) / (5.0 * (1.0 + ratio) ** 3)
+        rows.append(Row(f"{name}, factor of ln(1/h)", expected, second, 0.1, source))
+        slide = (tangential @ [1.0, -1.0]) / np.log(4.0)
+        rows.append(
+            Row(
+                f"ratio of radii {ratio}, sheared film, factor of ln(1/h)", 2 * np.pi * a, slide, 0.01, source
+            )
+        )
+    plane = deviatoric_stiffness(pair(2e-4, 1.0), RIGID, SYRUP, FINE)[0][0]
+    wall = Films(*np.array([[1.0], [0.0], [2e-4], [np.pi * 0.81]]))
+    found = deviatoric_stiffness(wall, RIGID, SYRUP, FINE)[0][0] / plane
+    rows.append(Row("sphere and plane over two spheres", 4.0, found, 0.01, "Brenner 1961: 6 pi mu R^2 / h"))
+    return rows
+
+
+@checks
+def finite_elements() -> list[Row]:
+    """Elastic grains, compressible bitumen: two spheres in a cylinder with free sides."""
+    rows = []
+    for ratio, gap, modulus, expected in ELEMENTS:
+        films, solid = pair(gap, ratio), bitumen(modulus)
+        along = modulus * (1.0 - 0.2 * (1.0 - float(solid.shear) / STONE.shear))
+        found = pair_stiffness(films, STONE, solid, (np.array(along), STONE.modulus))[0][0]
+        unit = modulus * films.area[0] / films.length[0]
+        name = f"approach over M A / l, ratio {ratio}, gap {gap}, M {modulus / 1e6:g} MPa"
+        rows.append(Row(name, expected, found / unit, 0.07, "finite elements"))
+    return rows
+
+
+@checks
+def network() -> list[Row]:
+    """A pulled prism of spheres between the bounds of Hashin & Shtrikman; few grains: Einstein and Smallwood."""
+    rows = []
+    for fill, modulus in ((0.45, 6e5), (0.45, 6e8), (0.3, 6e6)):
+        prism = jittered_beam(seed=4, shape=(5, 4, 12), fill=fill, area="facets")
+        fraction, solid = solid_fraction(prism), bitumen(modulus)
+        found, low, high = young(prism, solid), *bounds(solid, fraction)
+        place = np.log(found / low) / np.log(high / low)
+        name = f"{fraction:.2f} of grains, M {modulus / 1e6:g} MPa, place of ln E between its bounds"
+        rows.append(Row(name, 0.25, place, 0.25, "Hashin & Shtrikman 1963", 1.0))
+    prism = jittered_beam(seed=4, shape=(5, 4, 12), fill=0.2, area="facets")
+    fraction = solid_fraction(prism)
+    found = young(prism, bitumen(6e5)) / 6e5
+    rows.append(
+        Row(
+            f"{fraction:.3f} of grains, E over M",
+            1 + 2.5 * fraction,
+            found,
+            0.12,
+            "Einstein 1906, Smallwood 1944",
+        )
+    )
+    return rows
+
+
+def solid_fraction(prism: Specimen) -> float:
+    """Volume of the spheres over that of the prism."""
+    of = prism.geometry
+    return float(4.0 / 3.0 * np.pi * (prism.radius**3).sum() / (of.b * of.e * of.h))
+
+
+def young(prism: Specimen, solid: Matrix) -> float:
+    """Young's modulus [Pa] of the network of films."""
+    bonds, n = prism.network, prism.radius.size
+    radius = np.append(prism.radius, [0.0, 0.0])  # plates are planes
+    films = Films(radius[bonds.first], radius[bonds.second], bonds.gap, bonds.area)
+    assert (bonds.second < n + 2).all()
+    stiffness = film_stiffness(films, STONE, solid, solid_fraction(prism))
+    share = np.column_stack([stiffness[0], stiffness[1], stiffness[1]]) / bonds.form[:, None]
+    return pull(prism, share)[0]
+
+
+def bounds(solid: Matrix, fraction: float) -> tuple[float, float]:
+    """Young's modulus [Pa] by Hashin & Shtrikman, lower and upper."""
+    soft, hard = (float(solid.bulk), float(solid.shear)), (STONE.bulk, STONE.shear)
+    found = []
+    for (k, g), (bulk, shear), share in ((soft, hard, fraction), (hard, soft, 1.0 - fraction)):
+        rest = 1.0 - share
+        k_whole = k + share / (1.0 / (bulk - k) + 3.0 * rest / (3.0 * k + 4.0 * g))
+        g_whole = g + share / (1.0 / (shear - g) + 1.2 * rest * (k + 2.0 * g) / (g * (3.0 * k + 4.0 * g)))
+        found.append(9.0 * k_whole * g_whole / (3.0 * k_whole + g_whole))
+    return found[0], found[1]
+
+
+@checks
+def bulk() -> Row:
+    """An incompressible matrix under bitumen's compliance: volumes add up."""
+    found = float(bulk_modulus(STONE, bitumen(6e3), 0.4))
+    return Row("bulk modulus, soft matrix (Pa)", 1 / (0.4 / STONE.bulk + 0.6 / 2.5e9), found, 1e-4, "Reuss")
