@@ -163,7 +163,7 @@ def _pairs(rows, given, slopes, grain, grain_shear, spot, n, found):
             middle = start * np.expm1(span * (i + 0.5))
             t1, t2 = np.sqrt(max(q1 - middle, 0.0)), np.sqrt(max(q2 - middle, 0.0))
             stone[i], film[i] = t1 + t2, length - t1 - t2
-            depth = spot * np.sqrt(middle + start)
+            depth = spot * np.sqrt(middle + 0.375 * start)
             near[i] = min(t1, depth) + min(t2, depth)
             further = start * np.expm1(span * (i + 1.5)) if i < n - 1 else outer
             edge = length - np.sqrt(max(q1 - outer, 0.0)) - np.sqrt(max(q2 - outer, 0.0))
