@@ -56,6 +56,7 @@ python=$(find_python)
 echo "Setting up $VENV with $("$python" --version)."
 make_venv
 $pip install --quiet --disable-pip-version-check --compile --require-hashes --requirement requirements.txt
-$pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+$pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable . \
+    --editable plugins/snakemake-logger-plugin-steps --editable plugins/snakemake-executor-plugin-slurm-chunks
 "$VENV/bin/python" -m compileall -q src
 pwd >"$VENV/.ready"
