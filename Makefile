@@ -44,24 +44,24 @@ endif
 .PHONY: paper smoke blind study test lint verify check faults fuzz cluster benchmark api docs test-fast
 
 paper: $(READY)
-	@.venv/bin/snakemake --cores $(CORES) --configfile config/paper.yaml
+	@.venv/bin/snakemake --logger steps --cores $(CORES) --configfile config/paper.yaml
 
 smoke: $(READY)
-	@.venv/bin/snakemake --cores $(CORES) --configfile config/smoke.yaml
+	@.venv/bin/snakemake --logger steps --cores $(CORES) --configfile config/smoke.yaml
 
 blind: $(READY)
-	@.venv/bin/snakemake blind --cores $(CORES) --configfile config/blind.yaml
+	@.venv/bin/snakemake --logger steps blind --cores $(CORES) --configfile config/blind.yaml
 	@cat results/blind/summary.csv results/blind/real_summary.csv
 
 study: $(READY)
-	@.venv/bin/snakemake --cores $(CORES) --configfile $(CONFIG)
+	@.venv/bin/snakemake --logger steps --cores $(CORES) --configfile $(CONFIG)
 
 verify: $(READY)
-	@.venv/bin/snakemake --cores $(CORES) verify
+	@.venv/bin/snakemake --logger steps --cores $(CORES) verify
 	@echo "Table: $(CURDIR)/results/verification/verification.csv"
 
 benchmark: $(READY)
-	@.venv/bin/snakemake benchmark --cores 1 --configfile config/paper.yaml
+	@.venv/bin/snakemake --logger steps benchmark --cores 1 --configfile config/paper.yaml
 	@echo "Tables: $(CURDIR)/results/benchmark/benchmark.csv, growth.csv"
 
 test: $(READY)

@@ -111,7 +111,7 @@ def test_a_plan_is_told_by_snakemake_itself(handler):
 
 def test_a_run_is_a_line_for_each_step_and_its_commands_are_kept(workspace):
     workspace.configure()
-    done = workspace.run("--cores", "2", *FITS)
+    done = workspace.run("--logger", "steps", "--cores", "2", *FITS)
     assert done.returncode == 0, done.stderr
     lines = done.stderr.strip().splitlines()
     steps = [line for line in lines if " s)" in line]

@@ -333,29 +333,6 @@ def test_second_run_at_the_same_time_is_refused(workspace):
     assert "cannot be locked" in second.stderr
 
 
-def test_killed_run_is_finished_while_another_study_runs(workspace):
-    workspace.configure()
-    first = workspace.start("--cores", "1", *FITS)
-    try:
-        wait_for(workspace.folder / "results/smoke/logs/reconstruct.log")
-        first.send_signal(signal.SIGSTOP)
-        workspace.configure(study="other")
-        others = [path.replace("smoke", "other") for path in FITS]
-        second = workspace.start("--cores", "1", *others)
-        wait_for(workspace.folder / "results/other/logs/reconstruct.log")
-        second.kill()
-        second.communicate()
-        locks = list((workspace.folder / ".snakemake/locks").iterdir())
-        for path in locks:
-            os.utime(path, (0, 0))
-        again = workspace.run("--cores", "1", *others)
-        assert again.returncode == 0, again.stderr
-        assert 0 < sum(path.exists() for path in locks) < len(locks)
-    finally:
-        first.kill()
-        first.communicate()
-
-
 def test_changed_law_reruns_only_what_depends_on_it(workspace):
     workspace.configure()
     assert workspace.run("--cores", "2", *FITS).returncode == 0

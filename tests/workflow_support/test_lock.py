@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-import fcntl
-import os
 import subprocess
 import sys
 
@@ -55,37 +53,5 @@ def test_locks_of_a_living_process_stay_and_those_of_a_killed_one_go(directory, 
     assert not written.exists()
 
 
-def test_locks_of_a_killed_process_go_while_another_lives(directory, other):
-    assert other.stdout.readline() == "True\n"
-    held, left = (directory / f"locks/{n}.output.lock" for n in (1, 2))
-    for path in (held, left):
-        path.write_text("results/paper/audit.csv\n")
-        os.utime(path, (0, 0))
-    with held.open() as handle:
-        fcntl.flock(handle, fcntl.LOCK_SH)
-        assert lock.release_stale_locks(directory) is False
-        assert held.exists() and not left.exists()
-
-
 def test_directory_is_made(tmp_path):
     assert lock.release_stale_locks(tmp_path / ".snakemake") is True
-
-
-def test_a_snakemake_that_ends_leaves_the_locks_of_others(tmp_path):
-    """By Snakemake itself, two of which lock different files in one folder."""
-    from snakemake.persistence.file import FilePersistence
-
-    lock.hold_own_locks()
-    first, second = (FilePersistence.__new__(FilePersistence) for _ in range(2))
-    for persistence in (first, second):
-        persistence._lockdir, persistence._lockfile = str(tmp_path), {}
-    first._write_locks("output", ["results/mine/measured.csv"])
-    second._write_locks("output", ["results/other/measured.csv"])
-    for path in tmp_path.iterdir():
-        os.utime(path, (0, 0))
-        assert not lock._is_left_over(path)
-    second._write_locks("input", [])
-    second._delete_locks()
-    assert [path.read_text() for path in tmp_path.iterdir()] == ["results/mine/measured.csv\n"]
-    first._delete_locks()
-    assert not list(tmp_path.iterdir())

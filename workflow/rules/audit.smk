@@ -137,6 +137,8 @@ rule packing:
         "<results>/packing.csv",
     params:
         data=pairs,
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/packing.log",
     benchmark:

@@ -282,7 +282,7 @@ rule benchmark_outside:
     # Packings of LIGGGHTS and ours, bonded and bent alike. At small size: what is compared does not depend on it.
     input:
         compiled=["<results>/compiled/deposit", "<results>/compiled/simulate"],
-        counts=os.path.relpath(Path(workflow.basedir, "config/smoke_counts.csv")),
+        counts=shipped("config/smoke_counts.csv"),
         code=["benchmarks/outside.py", "benchmarks/pour.liggghts", code("deposit"), code("trim"), code("simulate")],
     output:
         "results/benchmark/outside.csv",

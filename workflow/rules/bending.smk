@@ -32,6 +32,8 @@ rule simulate:
         test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s", "rest_steps"),
     resources:
         mem_mb=lambda wildcards, attempt: 1600 * attempt,
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/simulate/{sample}/T{temperature}/f{frequency}.log",
     benchmark:
@@ -49,6 +51,8 @@ rule simulations:
         code=code("collect"),
     output:
         "<results>/simulations.csv",
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/simulations.log",
     benchmark:

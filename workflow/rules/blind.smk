@@ -3,10 +3,10 @@
 #   snakemake blind --cores all --configfile config/blind.yaml
 # Causes are put into real tables too, if ASPHALT_NSCD_TABLES names a folder of them.
 
-sys.path.insert(0, str(Path(workflow.basedir, "trials")))
+sys.path.insert(0, str(CLONE / "trials"))
 from blind import plan, real_plan
 
-BLIND = f"env PYTHONPATH={Path(workflow.basedir, 'trials')}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m blind"
+BLIND = f"env PYTHONPATH={CLONE / 'trials'}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m blind"
 GENERATOR = ["causes", "design", "generator", "laws", "outside", "plan", "records", "rig", "score", "sealed", "strength"]
 CHUNKS = expand("<results>/chunks/{number}.jsonl", number=range(len(plan.chunks())))
 INSIDE = expand("<results>/inside/{mix}/{effect}.jsonl", mix=plan.MIXES, effect=["nothing", *plan.INSIDE])

@@ -1,133 +1,58 @@
-# The study, the environment of jobs, and the few helpers that rules use.
-import csv
+# Where this workflow stands, and the environment of its jobs.
 import gc
 import json
 import os
-import re
+import shutil
 import sys
+from importlib.util import find_spec
 from pathlib import Path
-
-from asphalt_nscd.workflow_support.clock import mistrust_future
-from asphalt_nscd.files.digests import damaged, set_aside
-from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.workflow_support.failures import failures
-from asphalt_nscd.study.preflight import require_feasible
-from asphalt_nscd.workflow_support.lock import release_stale_locks, hold_own_locks
-from asphalt_nscd.files.paths import require_writable
-from asphalt_nscd.files.store import VERSIONS, package_versions
-from asphalt_nscd.nscd.core_cache import cache_base
-from asphalt_nscd.nscd.cores import cores
-from asphalt_nscd.workflow_support.sources import PACKAGE, modules_of, source_files, stamp, stamp_of_row
-from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
 
 gc.set_threshold(100_000, 50, 100)  # a plan of a thousand jobs holds little garbage to search for
 
-ALONE = workflow.is_main_process and release_stale_locks(".snakemake")
-if workflow.is_main_process:
-    hold_own_locks()
+HERE = Path(workflow.current_basedir.get_path_or_uri(secret_free=True))  # workflow/rules
+CLONE = HERE.parents[1] if HERE.is_dir() else None  # none where Snakemake fetched the workflow
+MAIN = workflow.modifier.is_main_snakefile()  # else a module of another workflow
 
-# `asphalt-nscd` is the one beside this Python, whether or not the environment is activated.
-os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+
+if MAIN and CLONE in Path.cwd().parents:  # called in a folder of the clone
+
+    workdir: CLONE
+
+
+def shipped(path):
+    """A file of this repository."""
+    return local(os.path.relpath(CLONE / path)) if CLONE else workflow.source_path(f"../../{path}")
+
+
+PAPER = os.path.relpath(CLONE / "config/paper.yaml") if CLONE else "config/paper.yaml"
+ENVIRONMENT = "../envs/asphalt-nscd.yaml"  # beside the rules, which name it
+IMAGE = "asphalt-nscd.sif"  # made by the commands at the head of Dockerfile
+
+# A clone need not be installed.
+if find_spec("asphalt_nscd") is None and CLONE:
+    sys.path.insert(0, str(CLONE / "src"))
+
+BARE = find_spec("pandas") is None  # a Snakemake whose jobs have an environment of their own
+
+from asphalt_nscd.nscd.core_cache import cache_base
+from asphalt_nscd.workflow_support.lock import release_stale_locks
+
+ALONE = MAIN and workflow.is_main_process and release_stale_locks(".snakemake")
+DEPLOYED = bool(workflow.deployment_settings.deployment_method)  # --sdm
+
+# `asphalt-nscd` is the one beside this Python, whether or not the environment is activated. Where there is none, or jobs
+# have an environment of their own, it is that of the clone, run by the first `python` of that environment.
+beside = Path(sys.executable).parent
+places = [str(beside), os.environ["PATH"]]
+if CLONE and (DEPLOYED or not shutil.which("asphalt-nscd", path=beside)):
+    places.insert(0, str(CLONE / "workflow/scripts"))
+else:
+    from asphalt_nscd.files.store import VERSIONS, package_versions
+
+    os.environ[VERSIONS] = json.dumps(package_versions())  # what each of many jobs would find out for itself
+os.environ["PATH"] = os.pathsep.join(places)
+os.environ["ASPHALT_NSCD_CACHE"] = cache_base()
 os.environ["ASPHALT_NSCD_WITHIN_WORKFLOW"] = "1"
-os.environ["ASPHALT_NSCD_CACHE"] = cache_base()  # this and the next: what each of many jobs would find out for itself
-os.environ[VERSIONS] = json.dumps(package_versions())
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-shell.prefix("exec ")
-
-try:
-    for _path in workflow.configfiles:
-        refuse_repeated_keys(_path)
-    _source = " + ".join(map(os.path.relpath, workflow.configfiles)) or "configuration"
-    STUDY = complete_study(
-        config,
-        source=_source,
-        schema=Path(workflow.basedir, "workflow/schemas/study.schema.yaml"),
-    )
-    if workflow.is_main_process:
-        require_feasible(STUDY, _source)
-        require_writable(f"results/{STUDY['study']}")
-        mistrust_future(f"results/{STUDY['study']}")
-        mistrust_future(".snakemake/code")
-        mistrust_future(".snakemake/rows")
-        if ALONE and not workflow.output_settings.dryrun:
-            _damaged = damaged(f"results/{STUDY['study']}")
-            if _damaged:
-                sys.exit("\n".join(f"error: {set_aside(found)}" for found in _damaged))
-except InputError as error:
-    sys.exit(f"error: {error}")
-
-pathvars:
-    results=f"results/{STUDY['study']}",
-
-REPORT = f"results/{STUDY['study']}/report.html"
-TEMPERATURES = [label(value) for value in STUDY["temperatures_C"]]
-FREQUENCIES = [label(value) for value in STUDY["frequencies_Hz"]]
-SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
-
-# Of a sample's pouring: more than one where the study has fewer samples than cores. `workflow.cores` raises where none
-# are given, as by `snakemake --report`.
-THREADS = max(1, min(workflow.resource_settings.cores or 1, cores()) // len(SAMPLES))
-
-POURED = "packings" not in STUDY["specimens"]
-COUNTS = STUDY["specimens"].get("counts_table", [])  # none where packings are given
-
-
-wildcard_constraints:
-    seed=r"\d+",
-    sample=r"s\d+(-friction[\d.]+(e[+-]?\d+)?)?",
-    temperature=r"-?[\d.]+(e[+-]?\d+)?",
-    frequency=r"[\d.]+(e[+-]?\d+)?",
-    head="free|blocked",
-    parameter="Em|eta_m|Ek|eta_k",
-    factor=r"[\d.]+(e[+-]?\d+)?",
-    family=r"[\w.-]+",
-    friction=r"[\d.]+(e[+-]?\d+)?",
-    time_step=r"[\d.]+(e[+-]?\d+)?",
-
-
-def code(step, *modules):
-    """What stands for the source behind a step of the command line and modules that it picks by name."""
-    files = source_files(f"cli.{step.replace('-', '_')}", *modules)
-    return stamp(".snakemake/code", "-".join([step, *modules[:1]]), files).as_posix()
-
-
-def page_files(*names):
-    """Templates behind a page, with what gives all pages their look and their buttons."""
-    return [os.path.relpath(PACKAGE / "reporting/pages" / name) for name in (*names, "page.css", "page.js")]
-
-
-def row_at(table):
-    """What stands for the row of a table at the temperature of a job; none where the study has no such table."""
-    if not table:
-        return []
-    return lambda wildcards: stamp_of_row(
-        ".snakemake/rows", table, "temperature_C", float(wildcards.temperature)
-    ).as_posix()
-
-
-def text(value):
-    """A value of the study as one word on the command line, the same in whatever order keys are written."""
-    if isinstance(value, dict):
-        return ",".join(f"{key}={item}" for key, item in sorted(value.items()))
-    if isinstance(value, list):
-        return ",".join(map(str, value))
-    return value
-
-
-def options(values, *keys):
-    """`{"gap_max_mm": 2}` as `--gap-max-mm 2`; all keys or those named."""
-    return " ".join(f"--{key.lower().replace('_', '-')} {text(values[key])}" for key in keys or values)
-
-
-def title(name):
-    """First line of a caption; numbers padded, because the report sorts by it."""
-    caption = Path(workflow.basedir, f"workflow/report/{name}.rst")
-    if not caption.exists():
-        sys.exit(f"error: workflow/report/{name}.rst: no caption of {name}; write it, its title in ** on the first line.")
-    line = caption.read_text(encoding="utf-8").splitlines()[0]
-    return re.sub(r"Fig\. (\d):", r"Fig. 0\1:", line.strip("*").replace("\\", ""))
-
-
-def pairs(wildcards, input):
-    """`simulations=results/paper/simulations.csv`, for each file that the rule was given by name."""
-    return [f"{kind}={path}" for kind, paths in input.items() if kind != "code" for path in paths]
+if MAIN:
+    shell.prefix("exec ")  # a signal reaches the step itself

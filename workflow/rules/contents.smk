@@ -125,7 +125,7 @@ if "packing_study" in STUDY:
 if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= set(STUDY):
     PAGES["audit"] = "6 Audit"
     TABLES["audit"] = {
-        "statements": ["data/paper/statements.csv"],
+        "statements": [shipped("data/paper/statements.csv")],
         "grading": [STUDY["published"]["grading_table"]],
         "counts": [STUDY["published"]["counts_table"]],
         "laws": [STUDY["laws"]["published"]["table"]],
@@ -149,7 +149,7 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
 
 if STUDY["study"] == "paper":
     # Only for the README, see publish.smk.
-    TABLES["outputs"] = {"outputs": ["data/paper/outputs.csv"], "timings": ["<results>/timings.csv"]}
+    TABLES["outputs"] = {"outputs": [shipped("data/paper/outputs.csv")], "timings": ["<results>/timings.csv"]}
 
 if COMMON_LAW:
     PAGES["extended"] = "0 Diagnosis"
@@ -167,9 +167,9 @@ if REMAPPED:
 if FAMILIES:
     PAGES["families"] = "0 Diagnosis"
     TABLES["families"] = {
-        "measured": [*MEASURED, *expand(FAMILY + "measured.csv", family=FAMILIES)],
-        "diagnosis": [DIAGNOSED[0], *expand(FAMILY + "diagnosis.json", family=FAMILIES)],
-        "law": [*COMMON_LAW, *expand(FAMILY + "law.json", family=FAMILIES)],
+        "measured": [*MEASURED, *expand(f"{FAMILY}measured.csv", family=FAMILIES)],
+        "diagnosis": [DIAGNOSED[0], *expand(f"{FAMILY}diagnosis.json", family=FAMILIES)],
+        "law": [*COMMON_LAW, *expand(f"{FAMILY}law.json", family=FAMILIES)],
         "specimen": [f"<results>/diagnosis/specimens/{FIRST}.h5"],
         "ladder": ["<results>/ladder.csv"],
     }

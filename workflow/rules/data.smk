@@ -27,6 +27,8 @@ rule reconstruct:
         amplitude=options(STUDY["test"], "amplitude_m"),
         scatter=options(STUDY["measurements"].get("reconstruct", {})),
     priority: 20  # before anything is poured: the measurements may yet be refused
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/reconstruct.log",
     benchmark:
@@ -49,6 +51,8 @@ rule reduce:
         geometry=text(STUDY["geometry"]),
         window=options(STUDY.get("reduction", {})),
     priority: 20  # before anything is poured: the measurements may yet be refused
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/reduce.log",
     benchmark:

@@ -14,6 +14,8 @@ rule reduced_specimen:
         code=code("reduced-specimen"),
     output:
         "<results>/diagnosis/specimens/{sample}.h5",
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/reduced_specimen/{sample}.log",
     benchmark:
@@ -41,6 +43,8 @@ rule diagnose:
         campaigns=lambda wildcards, input: f"--simulations {input.simulations}"
         + (f" --facets {input.facets}" if input.facets else ""),
         folder=lambda wildcards, output: os.path.dirname(output[0]),
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/diagnose.log",
     benchmark:
@@ -71,6 +75,8 @@ rule diagnosis_page:
     params:
         title=title("diagnosis"),
         data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "residuals", "causality", "table4", "ladder")],
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/page/diagnosis.log",
     benchmark:

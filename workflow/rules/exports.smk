@@ -26,6 +26,8 @@ if COMMON_LAW:
                 path,
             params:
                 form=form,
+            conda:
+                ENVIRONMENT
             log:
                 f"<results>/logs/export/{form}.log",
             benchmark:

@@ -23,6 +23,8 @@ rule extend:
             f"--test {temperature},{frequency},{law}"
             for (temperature, frequency), law in zip(product(TEMPERATURES, FREQUENCIES), output.laws, strict=True)
         ),
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/extend/{sample}.log",
     benchmark:

@@ -2,26 +2,30 @@
 # design and scatter about mixes of other families, and measured tables, diagnosed in the same way and predicted by the law
 # on facets.
 
-DRAWN = ["huet_sayegh", "maxwell_ladder", "havriliak_negami"] if "reconstruct" in STUDY["measurements"] and COMMON_LAW else []
+DRAWN = []
+if CLONE and COMMON_LAW and "reconstruct" in STUDY["measurements"]:
+    DRAWN = ["huet_sayegh", "maxwell_ladder", "havriliak_negami"]
 BESIDE = STUDY.get("tables_beside", {"tables": [], "measured_in": "bending"})
 # by folder and name: data/ncat/N1-1_RH.csv is ncat_N1-1_RH
-TABLES_BESIDE = {"_".join([Path(path).parent.name, Path(path).stem]): path for path in BESIDE["tables"] if COMMON_LAW}
+TABLES_BESIDE = {"_".join([Path(path).parent.name, Path(path).stem]): local(path) for path in BESIDE["tables"] if COMMON_LAW}
 FAMILIES = [*DRAWN, *TABLES_BESIDE]
 FAMILY = "<results>/families/{family}/"
-OF_FAMILIES = f"env PYTHONPATH={Path(workflow.basedir, 'trials')} {sys.executable} -m families"
 
 
 rule draw_family:
     input:
-        code=[os.path.relpath(Path(workflow.basedir, f"trials/{name}.py")) for name in ("families", "blind/laws")],
+        code=[shipped(f"trials/{name}.py") for name in ("families", "blind/laws")] if DRAWN else [],
     output:
-        FAMILY + "moduli.csv",
+        f"{FAMILY}moduli.csv",
     wildcard_constraints:
         family="|".join(DRAWN),
     params:
+        program=f"env PYTHONPATH={os.path.relpath(CLONE / 'trials')} python -m families" if DRAWN else "",
         seed=STUDY["measurements"].get("reconstruct", {"seed": 0})["seed"],
         temperatures=text(STUDY["temperatures_C"]),
         frequencies=text(STUDY["frequencies_Hz"]),
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/draw_family/{family}.log",
     benchmark:
@@ -29,7 +33,7 @@ rule draw_family:
     message:
         "Draw measurements from the family {wildcards.family}"
     shell:
-        OF_FAMILIES + " {wildcards.family} --seed {params.seed} --temperatures={params.temperatures} --frequencies {params.frequencies} --output {output} > {log} 2>&1"
+        "{params.program} {wildcards.family} --seed {params.seed} --temperatures={params.temperatures} --frequencies {params.frequencies} --output {output} > {log} 2>&1"
 
 
 use rule reduce as reduce_family with:
@@ -37,7 +41,7 @@ use rule reduce as reduce_family with:
         measurements=lambda wildcards: TABLES_BESIDE.get(wildcards.family, f"<results>/families/{wildcards.family}/moduli.csv"),
         code=code("reduce"),
     output:
-        FAMILY + "measured.csv",
+        f"{FAMILY}measured.csv",
     log:
         "<results>/logs/reduce_family/{family}.log",
     benchmark:
@@ -49,11 +53,11 @@ use rule reduce as reduce_family with:
 use rule diagnose as diagnose_family with:
     # One law for all temperatures, as for the measurements of the study.
     input:
-        measured=FAMILY + "measured.csv",
+        measured=f"{FAMILY}measured.csv",
         specimen=f"<results>/diagnosis/specimens/{SAMPLES[0]}.h5",
         code=code("diagnose", *modules_of("diagnosis.causes")),
     output:
-        [FAMILY + os.path.basename(path) for path in [*DIAGNOSED, "law.json"]],
+        [f"{FAMILY}{os.path.basename(path)}" for path in [*DIAGNOSED, "law.json"]],
     params:
         geometry=text(STUDY["geometry"]),
         settings=lambda wildcards: options(

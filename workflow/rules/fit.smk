@@ -9,6 +9,8 @@ rule fit:
     output:
         "<results>/laws/fitted/T{temperature}.json",
     priority: 20  # before anything is poured: the measurements may yet be refused
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/fit/T{temperature}.log",
     benchmark:
@@ -30,6 +32,8 @@ rule published_law:
         table=STUDY["laws"].get("published", {}).get("table"),
         unit=STUDY["laws"].get("published", {}).get("unit"),
     priority: 20  # before anything is poured: the measurements may yet be refused
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/published_law/T{temperature}.log",
     benchmark:

@@ -67,7 +67,7 @@ rule specimen_picture:
     #   snakemake --cores 1 specimen_picture --configfile config/smoke.yaml
     input:
         test=f"<results>/frames/{SAMPLES[0]}/T{TEMPERATURES[-1]}/f{FREQUENCIES[-1]}.h5",
-        tool=os.path.relpath(Path(workflow.basedir, "tools/picture.py")),
+        tool=shipped("tools/picture.py"),
         code=code("export"),
     output:
         "docs/specimen_forces.png",
@@ -91,7 +91,7 @@ rule first_page:
     output:
         f"results/published/{STUDY['study']}/first_page.png",
     params:
-        tests=os.path.relpath(Path(workflow.basedir, "trials")),
+        tests=shipped("trials"),
         python=sys.executable,
         folder=f"results/published/{STUDY['study']}",
     message:
@@ -138,3 +138,25 @@ rule publish_cluster:
         "Copy what a run through Slurm cost, and fill its table into docs"
     shell:
         "asphalt-nscd publish {input.table} {input.provenance} --root results/cluster --output results/published/cluster --document docs --block cluster={input.table}"
+
+
+rule rule_graph:
+    # Which rule needs which, as a picture for docs/workflow.md. Only on request: snakemake --cores 1 rule_graph
+    localrule: True
+    input:
+        rules=sorted(
+            os.path.relpath(path) for path in [CLONE / "workflow/Snakefile", *(CLONE / "workflow/rules").glob("*.smk")]
+        ),
+        tool=shipped("tools/rule_graph.py"),
+    output:
+        "docs/rule_graph.svg",
+    params:
+        snakefile=os.path.relpath(workflow.main_snakefile),
+        study=PAPER,
+        python=sys.executable,
+    log:
+        "<results>/logs/rule_graph.log",
+    message:
+        "Draw which rule needs which: {output}"
+    shell:
+        "snakemake --snakefile {params.snakefile} --configfile {params.study} --nolock --rulegraph 2> {log} | {params.python} {input.tool} {output} >> {log} 2>&1"

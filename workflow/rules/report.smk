@@ -22,8 +22,11 @@ for name, (category, data) in FIGURES.items():
                 labels={"result": title(name)},
             ),
         params:
+            name=name,
             data=pairs,
             stem=lambda wildcards, output: output[0].removesuffix(".pdf"),
+        conda:
+            ENVIRONMENT
         log:
             f"<results>/logs/{name}.log",
         benchmark:
@@ -33,7 +36,7 @@ for name, (category, data) in FIGURES.items():
         message:
             f"Draw {name}"
         shell:
-            "asphalt-nscd figure {rule} {params.data:q} --output-stem {params.stem} > {log} 2>&1"
+            "asphalt-nscd figure {params.name} {params.data:q} --output-stem {params.stem} > {log} 2>&1"
 
 
 for name, data in TABLES.items():
@@ -47,7 +50,10 @@ for name, data in TABLES.items():
         output:
             f"<results>/{name}.csv",
         params:
+            name=name,
             data=pairs,
+        conda:
+            ENVIRONMENT
         log:
             f"<results>/logs/{name}.log",
         benchmark:
@@ -57,7 +63,7 @@ for name, data in TABLES.items():
         message:
             f"Make {name}"
         shell:
-            "asphalt-nscd table {rule} {params.data:q} --output {output} > {log} 2>&1"
+            "asphalt-nscd table {params.name} {params.data:q} --output {output} > {log} 2>&1"
 
 
 rule pages:
@@ -82,6 +88,8 @@ rule pages:
             for name, path in zip(PAGES, output, strict=True)
             for part in ("--title", title(name), "--output", path)
         ],
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/pages.log",
     benchmark:
@@ -101,6 +109,8 @@ rule study:
         "<results>/study.json",
     params:
         study=json.dumps(STUDY),
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/study.log",
     benchmark:
@@ -128,8 +138,10 @@ rule timings:
         table="<results>/timings.csv",
         markdown="<results>/timings.md",
     params:
-        folder=f"results/{STUDY['study']}/benchmarks",
+        folder=lambda wildcards, output: f"{os.path.dirname(output.table)}/benchmarks",
         benchmarks=benchmarks,
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/timings.log",
     benchmark:
@@ -153,6 +165,8 @@ rule provenance:
             category="7 About this run",
             labels={"result": title("provenance")},
         ),
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/provenance.log",
     benchmark:
@@ -163,14 +177,14 @@ rule provenance:
         "asphalt-nscd provenance {input.study} --output {output} > {log} 2>&1"
 
 
-def sources_of_entries():
-    """Name of each figure or page, and the tables that it shows."""
+def sources_of_entries(results):
+    """Name of each figure or page, and the tables in the folder of results that it shows."""
     tables = {name: [path for paths in data.values() for path in paths] for name, (_, data) in FIGURES.items()}
     tables |= {"diagnosis": DIAGNOSED} | {name: [f"<results>/{name}.csv"] for name in PAGES}
     for name, paths in tables.items():
         for path in sorted(set(paths)):
             if path.endswith(".csv"):
-                yield name, path.replace("<results>", f"results/{STUDY['study']}")
+                yield name, path.replace("<results>", results)
 
 
 rule results:
@@ -184,10 +198,7 @@ rule report:
     input:
         figures=[f"<results>/figures/{name}.png" for name in FIGURES],
         pages=[f"<results>/pages/{name}.html" for name in ("diagnosis", *PAGES)],
-        captions=[
-            os.path.relpath(Path(workflow.basedir, f"workflow/report/{name}.rst"))
-            for name in ("diagnosis", *FIGURES, *PAGES)
-        ],
+        captions=[shipped(f"workflow/report/{name}.rst") for name in ("diagnosis", *FIGURES, *PAGES)],
         data=["<results>/measured.csv", "<results>/simulations.csv", "<results>/samples.csv"],
         diagnosis=DIAGNOSED[0],
         ladder="<results>/ladder.csv",
@@ -207,8 +218,12 @@ rule report:
         entries=lambda wildcards, input: [
             f"--entry={PARTS[Path(path).stem]}={path}" for path in [*input.pages, *input.figures]
         ],
-        sources=lambda wildcards: [f"--source={name}={path}" for name, path in sources_of_entries()],
+        sources=lambda wildcards, output: [
+            f"--source={name}={path}" for name, path in sources_of_entries(os.path.dirname(output[0]))
+        ],
         captions=lambda wildcards, input: os.path.dirname(input.captions[0]),
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/report.log",
     benchmark:
@@ -217,24 +232,3 @@ rule report:
         "Put figures and tables into one report: {output}"
     shell:
         "asphalt-nscd report {params.data:q} --study {params.study} {params.entries:q} {params.sources:q} --captions {params.captions} --output {output} > {log} 2>&1"
-
-
-rule workflow_report:
-    # Snakemake's own report, from the records of how each file was made. After ours, which looks for damaged files.
-    localrule: True
-    input:
-        RESULTS,
-        "<results>/report.html",
-        study="<results>/study.json",
-    output:
-        "<results>/workflow.html",
-    params:
-        snakefile=os.path.relpath(workflow.main_snakefile),
-    log:
-        "<results>/logs/workflow_report.log",
-    benchmark:
-        "<results>/benchmarks/workflow_report.tsv"
-    message:
-        "Put down how each file was made: {output}"
-    shell:
-        "snakemake results --snakefile {params.snakefile} --configfile {input.study} --report {output} > {log} 2>&1"

@@ -12,6 +12,8 @@ rule scale_law:
         code=code("scale-law"),
     output:
         SCALED_LAW,
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/scale_law/{parameter}_{factor}/T{temperature}.log",
     benchmark:

@@ -8,6 +8,8 @@ rule compile:
     output:
         touch("<results>/compiled/{step}"),
     priority: 30  # pouring waits for it, and a core would idle; small jobs run beside it
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/compile/{step}.log",
     benchmark:
@@ -31,6 +33,8 @@ rule deposit:
         pouring=options(STUDY["specimens"].get("deposit", {})),
     priority: 10  # the longest jobs first
     threads: THREADS  # which change no number
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/deposit/s{seed}.log",
     benchmark:
@@ -56,6 +60,8 @@ if not POURED:
                 for key in ("unit", "up")
                 if f"packing_{key}" in STUDY["specimens"]
             ),
+        conda:
+            ENVIRONMENT
         log:
             "<results>/logs/import_packing/s{seed}.log",
         benchmark:
@@ -78,6 +84,8 @@ rule trim:
     params:
         geometry=text(STUDY["specimens"]["geometry"]),
         bonds=options(STUDY["specimens"]["bonds"], "area", "volume_reduction", "gap_max_mm"),
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/trim/{sample}.log",
     benchmark:
@@ -103,6 +111,8 @@ rule condense:
         ready=lambda wildcards: "" if wildcards.head == HEAD and wildcards.sample in SAMPLES else "--stand-by 0",
     resources:
         mem_mb=lambda wildcards, attempt: 2700 * attempt,
+    conda:
+        ENVIRONMENT
     log:
         "<results>/logs/condense/{head}/{sample}.log",
     benchmark:

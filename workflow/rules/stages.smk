@@ -60,26 +60,3 @@ if "audit" not in TABLES:
         # Statements of the paper; a study without its parts has none to judge.
         input:
             ["<results>/readings.csv"] if "audit" in STUDY else [],
-
-
-rule rule_graph:
-    # Which rule needs which, as a picture for docs/workflow.md. Only on request: snakemake --cores 1 rule_graph
-    localrule: True
-    input:
-        rules=sorted(
-            os.path.relpath(path)
-            for path in [workflow.main_snakefile, *Path(workflow.basedir, "workflow/rules").glob("*.smk")]
-        ),
-        tool=os.path.relpath(Path(workflow.basedir, "tools/rule_graph.py")),
-    output:
-        "docs/rule_graph.svg",
-    params:
-        snakefile=os.path.relpath(workflow.main_snakefile),
-        study=os.path.relpath(Path(workflow.basedir, "config/paper.yaml")),
-        python=sys.executable,
-    log:
-        "<results>/logs/rule_graph.log",
-    message:
-        "Draw which rule needs which: {output}"
-    shell:
-        "snakemake --snakefile {params.snakefile} --configfile {params.study} --nolock --rulegraph 2> {log} | {params.python} {input.tool} {output} >> {log} 2>&1"

@@ -9,6 +9,8 @@ rule verify_theme:
         code=code("verify", *modules_of("verification")),
     output:
         "results/verification/themes/{theme}.csv",
+    conda:
+        ENVIRONMENT
     log:
         "results/verification/logs/{theme}.log",
     benchmark:
@@ -26,6 +28,8 @@ rule verification:
         code=code("verdict"),
     output:
         "results/verification/verification.csv",
+    conda:
+        ENVIRONMENT
     log:
         "results/verification/logs/verification.log",
     benchmark:
@@ -40,6 +44,8 @@ rule verify:
     # Fails where a row has failed; the table stays.
     input:
         "results/verification/verification.csv",
+    conda:
+        ENVIRONMENT
     log:
         "results/verification/logs/verify.log",
     benchmark:
@@ -54,6 +60,8 @@ rule mutations:
     # A wrong sign in an equation of the core must turn a row red; takes several times as long as the rows.
     input:
         f"results/verification/themes/{MUTATIONS}.csv",
+    conda:
+        ENVIRONMENT
     log:
         "results/verification/logs/judge_mutations.log",
     benchmark:
@@ -71,6 +79,8 @@ rule verification_summary:
         code=code("verdict"),
     output:
         "results/verification/summary.csv",
+    conda:
+        ENVIRONMENT
     log:
         "results/verification/logs/summary.log",
     benchmark:
@@ -87,6 +97,8 @@ rule verification_provenance:
         code=code("provenance"),
     output:
         "results/verification/provenance.json",
+    conda:
+        ENVIRONMENT
     log:
         "results/verification/logs/provenance.log",
     benchmark:
@@ -108,6 +120,8 @@ rule publish_verification:
             "results/verification/provenance.json",
         ],
         code=code("publish"),
+    conda:
+        ENVIRONMENT
     message:
         "Copy what is committed of the verification, and fill its table in docs"
     shell:

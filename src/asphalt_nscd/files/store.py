@@ -14,15 +14,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from asphalt_nscd.files import digests
 from asphalt_nscd.files.commit import commit
 from asphalt_nscd.files.errors import DamagedFile, InputError, unreadable
 from asphalt_nscd.files.paths import require_readable
 
-if TYPE_CHECKING:
-    import pandas as pd  # a quarter of the time in which a step starts
+if TYPE_CHECKING:  # a workflow reads this module beside a Snakemake that may have neither
+    import numpy as np
+    import pandas as pd
 
 FORMAT_VERSION = 1
 _OF_OTHERS = (".csv", ".tsv", ".txt", ".dump", ".liggghts", ".vtk", ".vtp", ".vtu")
@@ -101,6 +100,7 @@ def save(
     stays outside the digest: it may differ between two machines with equal results.
     """
     import h5py
+    import numpy as np
 
     arrays = {name: np.ascontiguousarray(value) for name, value in arrays.items()}
     content = io.BytesIO()  # HDF5 prints tracebacks of its own where a disk is full
@@ -192,6 +192,8 @@ def package_versions() -> dict[str, str]:
 
 
 def _digest(kind: str, arrays: Mapping[str, np.ndarray], attributes: Mapping[str, Any]) -> str:
+    import numpy as np
+
     digest = hashlib.sha256(kind.encode())
     for name in sorted(arrays, key=str):  # of a damaged file, some may be bytes
         value = np.ascontiguousarray(arrays[name])
@@ -203,6 +205,8 @@ def _digest(kind: str, arrays: Mapping[str, np.ndarray], attributes: Mapping[str
 
 
 def _plain(value: Any) -> Any:
+    import numpy as np
+
     return value.item() if isinstance(value, np.generic) else value
 
 

@@ -1,0 +1,127 @@
+# The study, and the few helpers that rules use.
+import csv
+import re
+
+from asphalt_nscd.files.digests import damaged, set_aside
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.paths import require_writable
+from asphalt_nscd.nscd.cores import cores
+from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
+from asphalt_nscd.workflow_support.clock import mistrust_future
+from asphalt_nscd.workflow_support.failures import failures
+from asphalt_nscd.workflow_support.sources import PACKAGE, modules_of, source_files, stamp, stamp_of_row
+
+
+def check(study, source):
+    """Refuse what cannot work, before anything is poured; set aside what was damaged since."""
+    results = f"results/{study['study']}"
+    if BARE:
+        logger.warning("The study's tables are not checked before it starts: there is no pandas beside Snakemake.")
+    else:
+        from asphalt_nscd.study.preflight import require_feasible
+
+        require_feasible(study, source)
+    require_writable(results)
+    for folder in (results, ".snakemake/code", ".snakemake/rows"):
+        mistrust_future(folder)
+    if ALONE and not workflow.output_settings.dryrun:
+        found = damaged(results)
+        if found:
+            sys.exit("\n".join(f"error: {set_aside(file)}" for file in found))
+
+
+try:
+    for _path in workflow.configfiles:
+        refuse_repeated_keys(_path)
+    _source = " + ".join(map(os.path.relpath, workflow.configfiles)) or "configuration"
+    STUDY = complete_study(config, source=_source, schema=Path(shipped("workflow/schemas/study.schema.yaml")))
+    if MAIN and workflow.is_main_process:
+        check(STUDY, _source)
+except InputError as error:
+    sys.exit(f"error: {error}")
+
+# A user's own tables stand where the configuration says, whatever the prefix of a module.
+for _holder, _key in [
+    (STUDY["measurements"], "table"),
+    (STUDY["laws"].get("published", {}), "table"),
+    (STUDY["specimens"], "counts_table"),
+    *((STUDY.get("published", {}), key) for key in STUDY.get("published", {})),
+]:
+    if _key in _holder:
+        _holder[_key] = local(_holder[_key])
+
+pathvars:
+    results=f"results/{STUDY['study']}",
+
+REPORT = f"results/{STUDY['study']}/report.html"
+TEMPERATURES = [label(value) for value in STUDY["temperatures_C"]]
+FREQUENCIES = [label(value) for value in STUDY["frequencies_Hz"]]
+SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
+
+# Of a sample's pouring: more than one where the study has fewer samples than cores. `workflow.cores` raises where none
+# are given, as by `snakemake --report`.
+THREADS = max(1, min(workflow.resource_settings.cores or 1, cores()) // len(SAMPLES))
+
+POURED = "packings" not in STUDY["specimens"]
+COUNTS = STUDY["specimens"].get("counts_table", [])  # none where packings are given
+
+
+wildcard_constraints:
+    seed=r"\d+",
+    sample=r"s\d+(-friction[\d.]+(e[+-]?\d+)?)?",
+    temperature=r"-?[\d.]+(e[+-]?\d+)?",
+    frequency=r"[\d.]+(e[+-]?\d+)?",
+    head="free|blocked",
+    parameter="Em|eta_m|Ek|eta_k",
+    factor=r"[\d.]+(e[+-]?\d+)?",
+    family=r"[\w.-]+",
+    friction=r"[\d.]+(e[+-]?\d+)?",
+    time_step=r"[\d.]+(e[+-]?\d+)?",
+
+
+def code(step, *modules):
+    """What stands for the source behind a step of the command line and modules that it picks by name."""
+    files = source_files(f"cli.{step.replace('-', '_')}", *modules)
+    return local(stamp(".snakemake/code", "-".join([step, *modules[:1]]), files).as_posix())
+
+
+def page_files(*names):
+    """Templates behind a page, with what gives all pages their look and their buttons."""
+    return [local(os.path.relpath(PACKAGE / "reporting/pages" / name)) for name in (*names, "page.css", "page.js")]
+
+
+def row_at(table):
+    """What stands for the row of a table at the temperature of a job; none where the study has no such table."""
+    if not table:
+        return []
+    return lambda wildcards: local(
+        stamp_of_row(".snakemake/rows", table, "temperature_C", float(wildcards.temperature)).as_posix()
+    )
+
+
+def text(value):
+    """A value of the study as one word on the command line, the same in whatever order keys are written."""
+    if isinstance(value, dict):
+        return ",".join(f"{key}={item}" for key, item in sorted(value.items()))
+    if isinstance(value, list):
+        return ",".join(map(str, value))
+    return value
+
+
+def options(values, *keys):
+    """`{"gap_max_mm": 2}` as `--gap-max-mm 2`; all keys or those named."""
+    return " ".join(f"--{key.lower().replace('_', '-')} {text(values[key])}" for key in keys or values)
+
+
+def title(name):
+    """First line of a caption; numbers padded, because the report sorts by it."""
+    caption = Path(shipped(f"workflow/report/{name}.rst"))
+    if not caption.exists():
+        sys.exit(f"error: workflow/report/{name}.rst: no caption of {name}; write it, its title in ** on the first line.")
+    line = caption.read_text(encoding="utf-8").splitlines()[0]
+    return re.sub(r"Fig\. (\d):", r"Fig. 0\1:", line.strip("*").replace("\\", ""))
+
+
+def pairs(wildcards, input):
+    """`simulations=results/paper/simulations.csv`, for each file that the rule was given by name."""
+    return [f"{kind}={path}" for kind, paths in input.items() if kind != "code" for path in paths]
