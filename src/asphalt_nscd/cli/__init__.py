@@ -36,7 +36,7 @@ _MENDS = {
     errno.ENOTDIR: "check the path",
     errno.EISDIR: "give a file, not a folder",
 }
-_OF_THE_WORKFLOW = ("docutils", "snakemake")  # modules of that extra in pyproject.toml
+_OF_THE_WORKFLOW = ("docutils", "rocrate", "snakemake")  # modules of that extra in pyproject.toml
 _NO_MEMORY = "the memory is used up; end other programs, or run fewer jobs at a time (--cores 1)."
 
 

@@ -1,0 +1,57 @@
+"""A study as an RO-Crate (https://w3id.org/ro/crate): results and what made them, in one archive."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+
+from rocrate.model.contextentity import ContextEntity
+from rocrate.rocrate import ROCrate
+
+from asphalt_nscd.files.paths import require_readable
+from asphalt_nscd.files.store import atomic_path, read_json
+
+LICENCE = "https://spdx.org/licenses/MIT"
+PAPER = "https://doi.org/10.1016/j.compgeo.2019.103255"
+TITLE = "asphalt-nscd: complex modulus of asphalt concrete by nonsmooth contact dynamics"
+
+
+def write_crate(files: Sequence[Path], root: Path, workflow: Path, provenance: Path, output: Path) -> None:
+    """Put files (below root) and the workflow into the archive `output` (.zip), as the results of one run.
+
+    provenance: `asphalt-nscd provenance` of the run, which names the study, the commit and the versions of packages.
+    Raises InputError if a file is not there.
+    """
+    for path in (*files, workflow, provenance):
+        require_readable(path, "run the study first, or check the path")
+    made_by = read_json(provenance)
+    crate = ROCrate()
+    crate.name = f"Study {made_by['study']['study']} of asphalt-nscd"
+    crate.description = (
+        "Measurements, laws, simulated bending tests and their diagnosis; report.html shows them."
+    )
+    crate.license = LICENCE
+    crate.datePublished = datetime.fromtimestamp(provenance.stat().st_mtime, UTC)
+    main = crate.add_workflow(workflow, workflow.name, main=True, lang="snakemake", gen_cwl=False)
+    main["name"], main["license"], main["citation"] = TITLE, LICENCE, {"@id": PAPER}
+    main["version"] = made_by["git_commit"]
+    main["softwareRequirements"] = [
+        crate.add(_software(crate, name, version))
+        for name, version in ({"python": made_by["python"]} | made_by["packages"]).items()
+    ]
+    given = crate.add_file(provenance, provenance.name)
+    results = [
+        crate.add_file(path, path.relative_to(root).as_posix()) for path in files if path != provenance
+    ]
+    run = ContextEntity(crate, "#run", {"@type": "CreateAction", "name": "The run that made these results"})
+    crate.add(run)
+    run["instrument"], run["object"], run["result"] = main, given, results
+    crate.root_dataset["mentions"] = run
+    with atomic_path(output) as temporary:
+        crate.write_zip(temporary)
+
+
+def _software(crate: ROCrate, name: str, version: str) -> ContextEntity:
+    properties = {"@type": "SoftwareApplication", "name": name, "softwareVersion": version}
+    return ContextEntity(crate, f"#{name}", properties)
