@@ -19,7 +19,7 @@ ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.sta
 OUTER = """
 module asphalt:
     snakefile:
-        "{root}/workflow/Snakefile"
+        {snakefile}
     prefix:
         "mix"
     config:
@@ -88,7 +88,7 @@ def outer(tmp_path):
     study |= {"study": "own", "measurements": {"table": "own/mine.csv"}, "laws": {"simulate": "fitted"}}
     study["specimens"]["counts_table"] = "own/counts.csv"
     (tmp_path / "config.yaml").write_text(yaml.safe_dump({"asphalt": study}))
-    (tmp_path / "Snakefile").write_text(OUTER.format(root=ROOT))
+    (tmp_path / "Snakefile").write_text(OUTER.format(snakefile=f'"{ROOT}/workflow/Snakefile"'))
     return tmp_path
 
 
@@ -102,6 +102,19 @@ def test_as_a_module_with_prefix_and_configuration_of_its_own(outer):
     assert (outer / targets[0]).read_text().count("\n") > 2
     assert (outer / "both.txt").read_text() == "one\ntwo\n"  # commands of others are as they were
     assert not (outer / "results").exists()
+
+
+def test_as_a_module_that_snakemake_fetches(outer):
+    commit = subprocess.run(
+        ["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True
+    ).stdout.strip()
+    if not commit:
+        pytest.skip("no git repository")
+    fetched = f'gitfile("{ROOT}", path="workflow/Snakefile", commit="{commit}")'
+    (outer / "Snakefile").write_text(OUTER.format(snakefile=fetched))
+    planned = snakemake("--dry-run", "--configfile", "config.yaml", "--quiet", "rules", folder=outer)
+    assert planned.returncode == 0, planned.stderr
+    assert re.search(r"^asphalt_simulate +4$", planned.stdout + planned.stderr, re.M)
 
 
 def test_every_step_of_a_study_names_its_software():
