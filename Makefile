@@ -50,7 +50,7 @@ smoke: $(READY)
 	@.venv/bin/snakemake --logger steps --cores $(CORES) --configfile config/smoke.yaml
 
 blind: $(READY)
-	@.venv/bin/snakemake --logger steps blind --cores $(CORES) --configfile config/blind.yaml
+	@.venv/bin/snakemake blind --logger steps --cores $(CORES) --configfile config/blind.yaml
 	@cat results/blind/summary.csv results/blind/real_summary.csv
 
 study: $(READY)
@@ -61,7 +61,7 @@ verify: $(READY)
 	@echo "Table: $(CURDIR)/results/verification/verification.csv"
 
 benchmark: $(READY)
-	@.venv/bin/snakemake --logger steps benchmark --cores 1 --configfile config/paper.yaml
+	@.venv/bin/snakemake benchmark --logger steps --cores 1 --configfile config/paper.yaml
 	@echo "Tables: $(CURDIR)/results/benchmark/benchmark.csv, growth.csv"
 
 test: $(READY)
