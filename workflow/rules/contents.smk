@@ -11,6 +11,11 @@ FIRST = SAMPLES[0]
 
 RESIDUALS = {"diagnosis": DIAGNOSED[:1], "residuals": DIAGNOSED[1:2]}
 
+ELEMENT = {
+    "laws": [f"<results>/laws/{LAWS}/T{label(AUDIT['temperature_C']) if 'audit' in STUDY else TYPICAL}.json"],
+    "study": ["<results>/study.json"],
+}
+
 # name: category in the report, {kind of data: files}
 FIGURES = {
     "fig_residual_map": ("0 Diagnosis", RESIDUALS),
@@ -26,6 +31,9 @@ FIGURES = {
     "fig_master": ("0 Diagnosis", RESIDUALS),
     "fig_limits": ("0 Diagnosis", {"diagnosis": RESIDUALS["diagnosis"]}),
     "fig01": ("1 Measurements and laws", {"study": ["<results>/study.json"]}),
+    "fig02": ("2 Preparation", {"study": ["<results>/study.json"]}),
+    "fig03": ("1 Measurements and laws", ELEMENT | {"specimen": [f"<results>/specimens/{FIRST}.h5"]}),
+    "fig04": ("1 Measurements and laws", ELEMENT),
     "fig07": (
         "3 Bending tests",
         {"test": expand(TESTS, sample=FIRST, temperature=TYPICAL, frequency=max(FREQUENCIES, key=float))},
@@ -87,12 +95,20 @@ if POURED:
     PAGES["preparation"] = "2 Preparation"
     TABLES["preparation"] = {"deposits": DEPOSITS}
 if "published" in STUDY:
+    PAGES["table1"] = "1 Measurements and laws"
+    TABLES["table1"] = {"grading": [STUDY["published"]["grading_table"]], "used": [COUNTS]}
     PAGES["table2"] = "2 Preparation"
     TABLES["table2"] = {
         "grading": [STUDY["published"]["grading_table"]],
         "published": [STUDY["published"]["counts_table"]],
         "used": [COUNTS],
     }
+    if "reconstruct" in STUDY["measurements"]:
+        PAGES["reconstructions"] = "1 Measurements and laws"
+        TABLES["reconstructions"] = {
+            "laws": [STUDY["laws"]["published"]["table"]],
+            "errors": [STUDY["published"]["errors_table"]],
+        }
 if "time_step_study" in STUDY:
     FIGURES["fig06"] = (
         "4 Time step",
@@ -116,8 +132,10 @@ if "audit" in STUDY:
     FIGURES["fig_readings"] = ("6 Audit", {"readings": ["<results>/readings.csv"], "simulations": SIMULATIONS})
     PAGES["bond_readings"] = "6 Audit"
     TABLES["bond_readings"] = {
-        "deposit": [f"<results>/deposits/s{AUDIT['seed']}.h5"],
-        "specimen": [f"<results>/specimens/s{AUDIT['seed']}.h5"],
+        "deposits": DEPOSITS,
+        "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
+        "loose": expand("<results>/deposits/{sample}.h5", sample=PACKED[1:]),
+        "blocked": expand(AUDITED[:1], reading="blocked"),
     }
 if "packing_study" in STUDY:
     PAGES["packing"] = "2 Preparation"
@@ -157,7 +175,13 @@ if COMMON_LAW:
     PAGES["dynamic_modulus"] = "0 Diagnosis"
     FIGURES["fig10_extended"] = (
         "0 Diagnosis",
-        {"simulations": SIMULATIONS, "extended": EXTENDED_SIMULATIONS, "measured": MEASURED},
+        {
+            "simulations": SIMULATIONS,
+            "extended": EXTENDED_SIMULATIONS,
+            "measured": MEASURED,
+            "laws": USED_LAWS,
+            "common": COMMON_LAW,
+        },
     )
 if REMAPPED:
     PAGES["facets"] = "0 Diagnosis"
@@ -165,6 +189,8 @@ if REMAPPED:
     TABLES["fracture"] = {"simulations": SIMULATIONS, "facets": FACET_SIMULATIONS}
 
 if FAMILIES:
+    PAGES["rivals"] = "0 Diagnosis"
+    TABLES["rivals"] = {"measured": [*MEASURED, *expand(FAMILY + "measured.csv", family=FAMILIES)]}
     PAGES["families"] = "0 Diagnosis"
     TABLES["families"] = {
         "measured": [*MEASURED, *expand(f"{FAMILY}measured.csv", family=FAMILIES)],

@@ -202,7 +202,7 @@ rule report:
         data=["<results>/measured.csv", "<results>/simulations.csv", "<results>/samples.csv"],
         diagnosis=DIAGNOSED[0],
         ladder="<results>/ladder.csv",
-        map="<results>/figures/fig_residual_map.png",
+        pictures=[f"<results>/figures/{name}.png" for name in ("fig_residual_map", "fig10_extended" if COMMON_LAW else "fig10")],
         code=code("report"),
         template=page_files("report.html"),
     output:
@@ -213,7 +213,7 @@ rule report:
             *(f"{Path(path).stem}={path}" for path in input.data),
             f"diagnosis={input.diagnosis}",
             f"ladder={input.ladder}",
-            f"map={input.map}",
+            *(f"pictures={path}" for path in input.pictures),
         ],
         entries=lambda wildcards, input: [
             f"--entry={PARTS[Path(path).stem]}={path}" for path in [*input.pages, *input.figures]

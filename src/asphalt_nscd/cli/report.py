@@ -50,7 +50,7 @@ def command(
     output: Path,
 ) -> None:
     """Put all results of a study into one HTML file. Its first page is made from measured=CSV
-    simulations=CSV samples=CSV diagnosis=JSON map=PNG."""
+    simulations=CSV samples=CSV diagnosis=JSON pictures=PNG."""
     from asphalt_nscd.files.store import atomic_path
     from asphalt_nscd.reporting.pages.assemble import Entry, assemble
     from asphalt_nscd.reporting.pages.first_page import first_page

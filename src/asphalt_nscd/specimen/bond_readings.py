@@ -38,6 +38,15 @@ def with_mean_radius(specimen: Specimen) -> Specimen:
     return replace(specimen, network=replace(network, area=np.pi * np.nanmean(radius, axis=0) ** 2))
 
 
+def farther_plates(specimen: Specimen, distance: float) -> Specimen:
+    """The same bonds, those to a plate longer by `distance` [m]: l0 ends behind the plate's surface."""
+    network = specimen.network
+    plate = np.maximum(network.first, network.second) >= specimen.radius.size
+    return replace(
+        specimen, network=replace(network, length=np.where(plate, network.length + distance, network.length))
+    )
+
+
 def crossing(specimen: Specimen) -> np.ndarray:
     """(c,) whether the line of a bond between two spheres passes through a third; those to the plates left out."""
     n, network = specimen.radius.size, specimen.network

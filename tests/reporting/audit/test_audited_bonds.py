@@ -7,16 +7,22 @@ import pytest
 
 from asphalt_nscd.reporting.audit import preparation
 from asphalt_nscd.reporting.audit.statement import DIFFERS, LEFT_OPEN, REPRODUCED, UNCHECKED
+from asphalt_nscd.reporting.tables.bond_readings import AFTER, BARYCENTRES, MEAN_RADIUS, OURS
 
 
 def judged(said=1.1):
+    names = [OURS, AFTER, OURS, BARYCENTRES, MEAN_RADIUS]
+    ratios = [said, 1.05, 1.0, 80.0, 2.4]
     table = pd.DataFrame(
         {
-            "reading": ["as in the paper", "smaller", "without moments", "mean radius"],
-            "gap_max_mm": [2.0, 1.931, 2.0, 2.0],
-            "bonds": [70, 60, 70, 70],
-            "through_third_sphere_percent": [12.5, 10.0, 12.5, 12.5],
-            "E_over_law": [said, 1.0, 80.0, 2.4],
+            "reading": names,
+            "friction": [0.2, 0.2, 0.5, 0.2, 0.2],
+            "gap_max_mm": [2.0, 1.931, 2.0, 2.0, 2.0],
+            "bonds": [70, 60, 65, 70, 70],
+            "through_third_sphere_percent": 12.5,
+            "E_over_law": ratios,
+            "expected": ratios,
+            "possible": [False, False, True, False, False],
         }
     )
     return {row.id: row for row in preparation.bonds(table)}
@@ -24,8 +30,12 @@ def judged(said=1.1):
 
 def test_each_reading_stands_beside_that_of_the_study():
     rows = judged()
-    assert rows["reach"].ours == "1.1 or 1" and rows["reach"].verdict == LEFT_OPEN
-    assert "2 mm make 70 bonds" in rows["reach"].evidence and "1.931 mm 60" in rows["reach"].evidence
+    assert rows["reach"].ours == "1.1 or 1.05" and rows["reach"].verdict == LEFT_OPEN
+    assert (
+        "2 mm (our reading) make 70 bonds" in rows["reach"].evidence
+        and "1.931 mm 60" in rows["reach"].evidence
+    )
+    assert f"allow these readings: {OURS}, friction 0.5: 1.000. A gap" in rows["reach"].evidence
     assert rows["barycentre"].ours == "80 or 1.1" and rows["barycentre"].verdict == LEFT_OPEN
 
 

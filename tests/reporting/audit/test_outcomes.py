@@ -125,7 +125,9 @@ def time_steps():
     tests = pd.DataFrame(
         {"frequency_Hz": [3.0, 40.0], "steps": [33333, 2500], "cpu_s": 1.0, "spheres": 9000, "residual": 1e-8}
     )
-    solved = pd.DataFrame({"E_MPa": [100.0, 100.1], "E_law_MPa": 100.0, "residual": 1e-8})
+    solved = pd.DataFrame(
+        {"E_MPa": [100.0, 100.1], "E_law_MPa": 100.0, "residual": 1e-8, "time_step_s": [5e-5, 2e-4]}
+    )
     stopped = {"E_MPa": [1.0, 10.0], "E_law_MPa": 100.0, "most_sweeps": 50, "frequency_Hz": 40.0}
     return tests, solved, pd.DataFrame(stopped | {"cpu_s": 1.0, "steps": 500, "spheres": 9000})
 

@@ -25,7 +25,7 @@ def places(axes, look):
 
 def test_each_specimen_has_a_panel_with_measured_less_required(results):
     first, second, bar = drawn(results).axes
-    assert [axes.get_title() for axes in (first, second)] == ["1", "2"]
+    assert [axes.get_title() for axes in (first, second)] == ["specimen 1", "specimen 2"]
     assert [text.get_text() for text in second.texts] == ["\N{MINUS SIGN}0.2"] * 2 + ["4.8"] + [
         "\N{MINUS SIGN}0.2"
     ] * 5

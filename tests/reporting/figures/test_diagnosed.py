@@ -15,6 +15,9 @@ from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_table
 from asphalt_nscd.reporting.figures import fig10_extended, fig_black, fig_limits, fig_master, fig_residual_map
+from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum import TwoS2P1D
+from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
 
 def texts_of(figure):
@@ -46,6 +49,7 @@ def test_map_marks_what_scatter_does_not_explain(results):
     norms = [axes.collections[0].norm for axes in figure.axes[:4]]
     assert norms[0] is norms[1] and norms[2] is norms[3] and norms[0].vmax >= 20.0
     assert "reconstructed data, means over specimens" in texts_of(figure)
+    assert "|E*| reconstructed − simulated (%)" in [axes.get_xlabel() for axes in figure.axes]
 
 
 def test_residual_of_three_standard_deviations_of_the_mean_is_the_edge(results):
@@ -138,12 +142,19 @@ def test_no_limit_is_a_sentence(results):
     assert texts_of(figure) == [fig_limits.NONE]
 
 
-def test_before_and_after_share_their_axes(results):
+def test_before_and_after_share_their_axes(results, tmp_path):
     after = results.simulations(name="after", samples=("s1", "s2"))
     table = pd.read_csv(after[0]).assign(phase_deg=lambda frame: frame["phase_deg"] + 5.0)
     write_table(after[0], table)
+    law = TwoS2P1D(30e6, 36e9, k=0.2, h=0.58, delta=2.2, tau=0.06, beta=250.0, shift=WLF(24.0, 160.0, 15.0))
+    common = tmp_path / "law.json"
+    write_spectrum(common, law, source="stated", rms_log_residual=0.0)
     figure = fig10_extended.draw(
-        simulations=results.simulations(), extended=after, measured=results.measured()
+        simulations=results.simulations(),
+        extended=after,
+        measured=results.measured(),
+        laws=results.laws(*LAWS),
+        common=[common],
     )
     first, second = figure.axes
     assert first.get_ylim() == second.get_ylim() and first.get_ylim()[0] <= 0.0
@@ -151,6 +162,17 @@ def test_before_and_after_share_their_axes(results):
     for before, later in zip(*filled, strict=True):
         assert later - before == pytest.approx(5.0)
     assert {"reconstructed", "simulated", "law of the bonds"} <= set(texts_of(figure))
+    # the laws as they are between the tested frequencies, with the bump of Burgers' law
+    frequency = np.geomspace(3.0, 40.0, 200)
+    burgers, smooth = (
+        next(line for line in axes.lines if len(line.get_xdata()) == 200) for axes in (first, second)
+    )
+    assert burgers.get_ydata() == pytest.approx(
+        np.degrees(np.angle(LAWS[0.0].complex_modulus(2 * np.pi * frequency)))
+    )
+    assert smooth.get_ydata() == pytest.approx(
+        np.degrees(np.angle(law.complex_modulus(2 * np.pi * frequency, 0.0)))
+    )
 
 
 def test_damaged_diagnosis_is_refused(results):

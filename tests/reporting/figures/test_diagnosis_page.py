@@ -63,7 +63,7 @@ def test_origin_is_said(page, origin, sentence):
     assert ("rests on reconstructed data" in html) == ("reconstructed" in origin)
 
 
-def test_published_table_is_the_check_of_reconstructed_data_only(page, tmp_path):
+def test_published_table_stands_beside_reconstructed_data_only(page, tmp_path):
     table = pd.DataFrame({
         "temperature_C": [0.0], "compared_with": ["reconstructed"], "mre_E_published_percent": [1.33],
         "mre_E_simulated_percent": [12.52], "mre_E_law_percent": [2.8], "mre_phase_published_percent": [9.75],
@@ -71,10 +71,10 @@ def test_published_table_is_the_check_of_reconstructed_data_only(page, tmp_path)
     })  # fmt: skip
     table.to_csv(path := tmp_path / "table4.csv", index=False)
     row = "<td>0 °C</td><td>1.33</td><td>12.5</td><td>9.75</td><td>12.1</td>"
-    assert row in page([path]) and "independent check" in page([path])
-    assert "independent check" not in page([path], origin="measured")
+    assert row in page([path]) and "no check of the simulation" in page([path])
+    assert "no check of the simulation" not in page([path], origin="measured")
     table.drop(columns=[name for name in table if "published" in name]).to_csv(path, index=False)
-    assert "independent check" not in page([path])
+    assert "no check of the simulation" not in page([path])
 
 
 def test_what_stays_unexplained_is_said(page):
@@ -202,6 +202,7 @@ def test_what_a_laboratory_is_to_do_stands_on_the_page(page):
     }
     other = {"verdict": "explained", "causes": [{"cause": "phase_offset", "where": None}]}
     html = page(
+        origin="measured",
         instructions={"costs": "Counted: 2 h.", "orders": [order]},
         suspect_tests=[suspect],
         with_suspects=other,

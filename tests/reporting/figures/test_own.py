@@ -61,6 +61,20 @@ def test_packing_one_point_per_deposit(results):
     assert axes.get_xlabel() == "solid fraction of the deposit"
 
 
+def test_open_symbols_are_explained(results):
+    packing = results.simulations(
+        name="a", frequencies=[3.0], friction=0.2, solid_fraction=0.65, mapping="paper"
+    )
+    packing += results.simulations(
+        name="b", frequencies=[3.0], friction=0.2, solid_fraction=0.65, mapping="facets"
+    )
+    (axes,) = fig_packing.draw(packing=packing).axes
+    assert [text.get_text() for text in axes.get_legend().get_texts()][1:] == [
+        "areas of Eqs. (30)-(33)",
+        "facets",
+    ]
+
+
 def test_compaction_from_the_start_of_the_vibration(results):
     (axes,) = fig_compaction.draw(deposit=results.deposit()).axes
     curve, last = axes.lines

@@ -94,12 +94,24 @@ def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
         "frequencies_Hz": [25.0],
         "half_strain": False,
     }
-    html = assemble("mine", page(instructions={"costs": "c", "orders": [order]}), [], tmp_path)
+    given = {"instructions": {"costs": "c", "orders": [order]}}
+    html = assemble("mine", page(origin="measured", **given), [], tmp_path)
     assert (
         "What to test next" in html
         and "<li>0.5 h: test a metal reference specimen, 25 Hz. As 7.1°.</li>" in html
     )
-    assert "What to test next" not in assemble("mine", page(), [], tmp_path)
+    assert "<h2>What was measured</h2>" in html
+    assert "What to test next" not in assemble("mine", page(origin="measured"), [], tmp_path)
+    # nobody can test again a specimen that never was
+    invented = assemble("mine", page(origin="reconstructed", **given), [], tmp_path)
+    assert (
+        "What to test next" not in invented and "<h2>The data: reconstructed, not measured</h2>" in invented
+    )
+
+
+def test_the_report_opens_with_pictures(page, tmp_path):
+    html = assemble("mine", page(), [], tmp_path)
+    assert html.index("data:image/png") < html.index('<div class="card">')
 
 
 def test_no_cause_where_none_is_named(page):

@@ -21,6 +21,7 @@ from asphalt_nscd.reporting.audit.statement import (
     compared,
     judged,
 )
+from asphalt_nscd.reporting.tables.bond_readings import AFTER, BARYCENTRES, MEAN_RADIUS, OURS
 from asphalt_nscd.specimen.system import affine_poisson
 
 BOX = (0.25, 0.025, 1.6)  # m
@@ -164,24 +165,30 @@ def moved_above(deposit: Mapping[str, np.ndarray]) -> float:
 
 def bonds(readings: pd.DataFrame) -> Iterator[Judgement]:
     """Rows on what the paper says of its bonds. readings: bond_readings.csv."""
-    as_paper, nearer, without_moments, mean_radius = readings.to_dict("records")
-    said = as_paper["E_over_law"]
+    usual = readings[readings["friction"] == readings["friction"].iloc[0]].set_index("reading")
+    said, nearer = usual.loc[OURS, "E_over_law"], usual.loc[AFTER, "E_over_law"]
+    possible = [
+        f"{row.reading}, friction {row.friction:g}: {row.expected:.3f}"
+        for row in readings[readings["possible"]].itertuples()
+    ]
     yield Judgement(
         "reach",
         "before or after the reduction",
-        f"{said:.4g} or {nearer['E_over_law']:.4g}",
-        "|E*| over that of the law with dmin from before or after the reduction of volume",
+        f"{said:.4g} or {nearer:.4g}",
+        "|E*| over that of the law with dmin from before or after the reduction of volume, mean of all samples",
         LEFT_OPEN,
-        f"The paper does not say which. {as_paper['gap_max_mm']:.4g} mm make {as_paper['bonds']} bonds (our reading), "
-        f"{nearer['gap_max_mm']:.4g} mm {nearer['bonds']}. A gap of one smallest diameter leaves room for another "
-        f"sphere: {as_paper['through_third_sphere_percent']:.3g} % of the bonds between spheres pass through a third "
+        f"The paper does not say which. {usual.loc[OURS, 'gap_max_mm']:.4g} mm (our reading) make "
+        f"{usual.loc[OURS, 'bonds']} bonds in a sample, {usual.loc[AFTER, 'gap_max_mm']:.4g} mm "
+        f"{usual.loc[AFTER, 'bonds']}. The printed errors allow these readings: {'; '.join(possible) or 'none'}. A gap "
+        "of one smallest diameter leaves room for another sphere: "
+        f"{usual.loc[OURS, 'through_third_sphere_percent']:.3g} % of the bonds between spheres pass through a third "
         "one.",
         "A value of dmin, or a ratio that does not depend on it.",
     )
     yield Judgement(
         "barycentre",
         "at the barycentre",
-        f"{without_moments['E_over_law']:.4g} or {said:.4g}",
+        f"{usual.loc[BARYCENTRES, 'E_over_law']:.4g} or {said:.4g}",
         "|E*| over that of the law, taken literally or with moments",
         LEFT_OPEN,
         "Taken literally no bond exerts a moment, no sphere turns, and tangential forces resist the turning of the "
@@ -200,7 +207,7 @@ def bonds(readings: pd.DataFrame) -> Iterator[Judgement]:
         "that bonds without tangential stiffness have.",
         "A network of such bonds with a Poisson's ratio of 0.35.",
     )
-    larger = mean_radius["E_over_law"]
+    larger = usual.loc[MEAN_RADIUS, "E_over_law"]
     yield Judgement(
         "conservative",
         "too small a section",

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, load
-from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.reporting.figures.records import last_cycle
 
 COMPARABLE = 5.0  # ratio of forces up to which the panels share one scale
@@ -60,7 +60,7 @@ def _panel(axes: Axes, records: list[Record], extent: float) -> None:
             color=colour,
             ls=dash,
             lw=3.0 - 2.2 * rank / max(1, len(records) - 1),
-            label=f"$dt$ = {_power(_step(record))} s",
+            label=f"$dt$ = {numbers.power(_step(record))} s",
             zorder=2 + rank,
         )
     axes.axhline(0.0, color=style.PALE, lw=0.5, zorder=0)
@@ -95,8 +95,3 @@ def _rounded(value: float) -> str:
 
 def _step(record: Record) -> float:
     return float(record.attributes["time_step_s"])
-
-
-def _power(value: float) -> str:
-    power = int(np.floor(np.log10(value) + 1e-9))
-    return rf"${value / 10.0**power:g}\times10^{{{power}}}$"

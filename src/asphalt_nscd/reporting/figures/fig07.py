@@ -16,56 +16,38 @@ from asphalt_nscd.reporting.figures.records import last_cycle
 
 @style.journal
 def draw(test: list[Path]) -> Figure:
-    """Two scales with one zero; the amplitudes and the lag are those of the harmonic fit."""
+    """Two panels over one time; the amplitudes and the lag are those of the harmonic fit."""
     record = load(the_only(test, "test"), "test")
     frequency = record.attributes["frequency_Hz"]
     time, displacement, force = last_cycle(record)
     history = record.arrays["time_s"], record.arrays["force_N"], record.arrays["displacement_m"]
     response = harmonic_response(*history, frequency, cycles=1)
-    milliseconds, micrometres = 1e3 * time, 1e6 * displacement
-
-    figure, axes = style.new_figure(style.SINGLE, 62.0)
-    right = axes.twinx()
-    right.spines["right"].set_visible(True)
-    axes.plot(milliseconds, micrometres, color=style.ORANGE, ls=style.DASHES[1])
-    right.plot(milliseconds, force, color=style.BLUE)
-    axes.axhline(0.0, color=style.PALE, lw=0.5, zorder=0)
-    axes.set_xlabel("time in the last cycle (ms)")
-    axes.set_ylabel("displacement of the head (µm)", color=_darker(style.ORANGE))
-    right.set_ylabel("force at the head (N)", color=style.BLUE)
-    axes.set_xlim(0.0, 1e3 / frequency)
-    for panel, values in ((axes, micrometres), (right, force)):
-        panel.set_ylim(*(1.3 * np.abs(values).max() * np.array([-1.0, 1.0])))
-
+    figure, (upper, lower) = style.new_figure(style.SINGLE, 84.0, rows=2, sharex=True)
+    upper.plot(1e3 * time, 1e6 * displacement, color=style.ORANGE)
+    lower.plot(1e3 * time, force, color=style.BLUE)
+    upper.set_ylabel("displacement (µm)")
+    lower.set_ylabel("force (N)")
+    lower.set_xlabel("time in the last cycle (ms)")
+    lower.set_xlim(0.0, 1e3 / frequency)
     # The force leads, so its crest comes first.
     displaced = 1e3 * time[np.argmax(displacement)]
-    lead = 1e3 * response.phase / (2.0 * np.pi * frequency)
-    crest, level = displaced - lead, 1.16 * response.force_amplitude
-    for at in (crest, displaced):
-        right.plot(
-            [at, at], [response.force_amplitude, 1.2 * response.force_amplitude], color=style.INK, lw=0.5
-        )
-    right.annotate(
-        f"$\\Psi$ = {np.degrees(response.phase):.1f}°",
-        (displaced, level),
-        xytext=(6.0, 0.0),
-        textcoords="offset points",
-        va="center",
+    crest = displaced - 1e3 * response.phase / (2.0 * np.pi * frequency)
+    for axes, values, words in (
+        (upper, 1e6 * displacement, f"$z_0$ = {1e6 * response.displacement_amplitude:.3g} µm"),
+        (lower, force, f"$F_0$ = {response.force_amplitude:.3g} N"),
+    ):
+        axes.set_ylim(*(1.25 * np.abs(values).max() * np.array([-1.0, 1.0])))
+        axes.axhline(0.0, color=style.PALE, lw=0.5, zorder=0)
+        for at, colour in ((crest, style.BLUE), (displaced, style.ORANGE)):
+            axes.axvline(at, color=colour, lw=0.6, ls=style.DASHES[1], zorder=0)
+        axes.text(0.97, 0.9, words, ha="right", transform=axes.transAxes, fontsize=7.0)
+    lower.text(
+        displaced,
+        lower.get_ylim()[0],
+        f"  $\\Psi$ = {np.degrees(response.phase):.1f}°",
+        va="bottom",
         fontsize=7.0,
     )
-    right.plot([crest, displaced], [level, level], color=style.INK, lw=0.8)
-    figure.legend(
-        [axes.lines[0], right.lines[0]],
-        [
-            f"displacement, $z_0$ = {1e6 * response.displacement_amplitude:.3g} µm",
-            f"force, $F_0$ = {response.force_amplitude:.3g} N",
-        ],
-        loc="outside upper left",
-        ncols=2,
-        borderpad=0.1,
-    )
+    style.letter(upper, "a", "displacement of the head")
+    style.letter(lower, "b", "force at the head")
     return figure
-
-
-def _darker(colour: str) -> str:
-    return {style.ORANGE: "#9c5510"}[colour]

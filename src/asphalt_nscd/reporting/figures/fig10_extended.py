@@ -11,32 +11,49 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from asphalt_nscd.measurements.tables import averages, origin_of, read_measured, read_tests
+from asphalt_nscd.files.store import read_json
+from asphalt_nscd.measurements.tables import averages, origin_of, read_measured, read_tests, the_only
 from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.isotherms import APART, AXIS, error_bars
+from asphalt_nscd.rheology.laws_io import read_law
+from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
-COLUMN, OF_THE_LAW = "phase_deg", "phase_law_deg"
+COLUMN = "phase_deg"
 
 
 @style.journal
-def draw(simulations: list[Path], extended: list[Path], measured: list[Path]) -> Figure:
-    """(a) before, (b) after: simulated and measured means with standard deviations, the bonds' laws as lines."""
+def draw(
+    simulations: list[Path], extended: list[Path], measured: list[Path], laws: list[Path], common: list[Path]
+) -> Figure:
+    """(a) before, (b) after: simulated means and those they are held against, with standard deviations.
+
+    laws: the Burgers laws of (a), one for each temperature; common: the law of all temperatures in (b).
+    """
+    burgers = {read_json(path)["temperature_C"]: read_law(path).complex_modulus for path in laws}
+    spectrum = read_spectrum(the_only(common, "common"))
     before, after, data = read_tests(simulations), read_tests(extended), read_measured(measured)
     temperatures = sorted(set(before["temperature_C"]) | set(after["temperature_C"]))
     frequencies = np.unique(np.concatenate([before["frequency_Hz"], after["frequency_Hz"]]))
     figure, panels = style.new_figure(style.SINGLE, 165.0, rows=2, sharex=True, sharey=True)
-    for axes, panel, words, tests in zip(
+    of_all = {t: lambda omega, t=t: spectrum.complex_modulus(omega, t) for t in temperatures}
+    for axes, panel, words, tests, lines in zip(
         panels,
         "ab",
         ("as in the paper", "with facets, extended as diagnosed"),
         (before, after),
+        (burgers, of_all),
         strict=True,
     ):
         _isotherms(axes, temperatures, tests, data)
+        for temperature, (colour, _) in zip(temperatures, style.series(len(temperatures)), strict=True):
+            if temperature in lines:
+                fine = np.geomspace(frequencies[0], frequencies[-1], 200)
+                phase = np.degrees(np.angle(lines[temperature](2.0 * np.pi * fine)))
+                axes.plot(fine, phase, color=colour, lw=0.7, zorder=1)
         style.frequency_axis(axes, frequencies)
         axes.set_ylabel(AXIS[COLUMN])
         style.letter(axes, panel, words)
-    panels[0].set_xlabel("")
+        axes.tick_params(labelbottom=True)
     panels[0].set_ylim(bottom=min(0.0, panels[0].get_ylim()[0]))
     point: dict[str, Any] = {"ls": "", "marker": "o", "color": style.INK}
     keys = [
@@ -49,10 +66,9 @@ def draw(simulations: list[Path], extended: list[Path], measured: list[Path]) ->
 
 
 def _isotherms(axes: Axes, temperatures: list[float], tests: pd.DataFrame, data: pd.DataFrame) -> None:
-    simulated, reference = averages(tests, columns=[COLUMN, OF_THE_LAW]), averages(data)
+    simulated, reference = averages(tests), averages(data)
     for temperature, (colour, marker) in zip(temperatures, style.series(len(temperatures)), strict=True):
         points = simulated[simulated["temperature_C"] == temperature]
         known = reference[reference["temperature_C"] == temperature]
-        axes.plot(points["frequency_Hz"], points[OF_THE_LAW], color=colour, lw=0.7, zorder=1)
         error_bars(axes, COLUMN, known, 1.0 / APART, marker, colour, filled=False)
         error_bars(axes, COLUMN, points, APART, marker, colour, filled=True)

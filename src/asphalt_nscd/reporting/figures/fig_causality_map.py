@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from asphalt_nscd.diagnosis.written import read_causality, read_diagnosis
+from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.reporting.figures import cells, numbers, style
 
 ACROSS = 3  # panels of a row
@@ -55,7 +56,7 @@ def draw(causality: list[Path], diagnosis: list[Path]) -> Figure:
     norm = cells.banded(max(float(tests["difference"].abs().max()), 1.0))
     for axes, name in zip(panels.flat, specimens, strict=False):
         image = _panel(axes, tests[tests["specimen"] == name], tests, norm)
-        axes.set_title(name, fontsize=8.0, pad=3.0)
+        axes.set_title(specimen_named(name), fontsize=8.0, pad=3.0)
     for axes in panels.flat[specimens.size :]:
         axes.remove()
     for axes in panels[:, 0]:
@@ -67,7 +68,7 @@ def draw(causality: list[Path], diagnosis: list[Path]) -> Figure:
         image, ax=list(panels.flat[: specimens.size]), orientation="horizontal", aspect=50, pad=0.02
     )
     limit = norm.boundaries[-1]
-    bar.set_label(f"phase measured \N{MINUS SIGN} phase that |E*| requires (°), scale ±{limit:g}°")
+    bar.set_label(f"phase {content['origin']} \N{MINUS SIGN} phase that |E*| requires (°), scale ±{limit:g}°")
     bar.ax.set_xticks(norm.boundaries, [numbers.minus(f"{edge:g}") for edge in norm.boundaries])
     bar.ax.tick_params(labelsize=6.0, length=1.5)
     keys = [

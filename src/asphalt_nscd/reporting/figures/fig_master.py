@@ -69,7 +69,7 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     for axes, panel, words in zip(
         panels,
         "abcde",
-        ("", "", "measured − simulated", "measured − simulated", "shift factors"),
+        ("", "", *[f"{content['origin']} − simulated"] * 2, "shift factors"),
         strict=True,
     ):
         style.letter(axes, panel, words, pad=3.0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.tables import read_tests
@@ -36,5 +37,12 @@ def draw(packing: list[Path]) -> Figure:
     axes.margins(0.12)
     axes.set_xlabel("solid fraction of the deposit")
     axes.set_ylabel("|E*| simulated / law")
-    axes.legend(title="friction while pouring", title_fontsize=7.0, loc="best")
+    keys, _ = axes.get_legend_handles_labels()
+    if tests["facets"].any():
+        bare = {"ls": "", "marker": "o", "ms": 5.0, "color": style.INK}
+        keys += [
+            Line2D([], [], **bare, label="areas of Eqs. (30)-(33)"),
+            Line2D([], [], **bare, markerfacecolor="white", label="facets"),
+        ]
+    axes.legend(handles=keys, title="friction while pouring", title_fontsize=7.0, loc="best")
     return figure

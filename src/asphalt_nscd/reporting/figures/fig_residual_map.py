@@ -23,8 +23,8 @@ from asphalt_nscd.diagnosis.written import (
 from asphalt_nscd.reporting.figures import cells, numbers, style
 
 ROWS = {
-    "E": ("|E*| measured − simulated (%)", "modulus_percent"),
-    "phase": ("phase measured − simulated (°)", "phase_deg"),
+    "E": ("|E*| {} − simulated (%)", "modulus_percent"),
+    "phase": ("phase {} − simulated (°)", "phase_deg"),
 }
 
 
@@ -47,7 +47,7 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
         bar = figure.colorbar(
             image, ax=list(row), orientation="horizontal", fraction=0.06, aspect=40, pad=0.02
         )
-        bar.set_label(words)
+        bar.set_label(words.format(content["origin"]))
         bar.ax.set_xticks(norm.boundaries, [numbers.minus(f"{edge:g}") for edge in norm.boundaries])
         bar.ax.tick_params(labelsize=6.0, length=1.5)
     for axes in panels[1]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 
 def celsius(temperature: float) -> str:
     """15 -> "15 °C", with a true minus."""
@@ -11,3 +13,9 @@ def celsius(temperature: float) -> str:
 def minus(number: str) -> str:
     """A number in text with a true minus."""
     return number.replace("-", "\N{MINUS SIGN}")
+
+
+def power(value: float, digits: int = 2) -> str:
+    """2.4e7 -> 2.4 times a power of ten, as mathematical text."""
+    exponent = int(np.floor(np.log10(value) + 1e-9))
+    return rf"${value / 10.0**exponent:.{digits}g}\times10^{{{exponent}}}$"

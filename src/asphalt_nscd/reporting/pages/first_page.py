@@ -15,7 +15,7 @@ from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.pages.diagnosis_page import first, in_type, scatter
-from asphalt_nscd.reporting.pages.way import inner_held_out, means, read_ladder
+from asphalt_nscd.reporting.pages.way import held_out, means, read_ladder
 
 ENOUGH = 5000  # spheres
 ELSEWHERE = (
@@ -33,19 +33,20 @@ def first_page(
     simulations: Sequence[Path],
     samples: Sequence[Path],
     diagnosis: list[Path],
-    map: list[Path],
+    pictures: list[Path],
     ladder: Sequence[Path],
 ) -> dict[str, Any]:
     """Sentences of each part, and rows of the gain.
 
     measured, simulations, samples: one CSV table each, as the workflow makes them; diagnosis: diagnosis.json;
-    map: PNG picture of the residuals; ladder: ladder.csv, the errors of each campaign.
+    pictures: PNG, with which the page opens; ladder: ladder.csv, the errors of each campaign.
     """
     content = read_diagnosis(diagnosis)
     told = first(content, ladder)
     way = read_ladder(ladder)
     moduli, tests = _frame(measured, "measured"), _frame(simulations, "simulations")
     return {
+        "data": _heading(content.get("origin", "measured")),
         "measured": [*_measured(moduli), *sentences.origin(content), scatter(content)],
         "simulated": _simulated(tests, _frame(samples, "samples")),
         "wrong": _wrong(way),
@@ -56,8 +57,12 @@ def first_page(
         "notes": _typed(content["notes"]),
         "gained": _gained(way),
         "held_out": _held_out(way),
-        "map": b64encode(the_only(map, "map").read_bytes()).decode(),
+        "pictures": [b64encode(path.read_bytes()).decode() for path in pictures],
     }
+
+
+def _heading(origin: str) -> str:
+    return "What was measured" if origin == "measured" else f"The data: {origin}, not measured"
 
 
 def _typed(value: Any) -> Any:
@@ -90,22 +95,34 @@ def _simulated(tests: pd.DataFrame, samples: pd.DataFrame) -> list[str]:
     return [
         f"{counted(len(samples), 'sample')} of {_range(samples['spheres'])} bonded spheres, {origin}, "
         f"in two-point bending at {counted(len(conditions), 'condition')}: {counted(len(tests), 'test')}.",
-        f"They return the law of their bonds, |E*| times {_range(samples['E_over_law'])} as they are bonded.",
+        f"They return the law of their bonds: the same phase, and |E*| times {_range(samples['E_over_law'])}.",
         *([TOO_FEW] if samples["spheres"].max() < ENOUGH else []),
     ]
 
 
 def _wrong(way: pd.DataFrame) -> list[str]:
-    """What the campaign that the ladder begins with misses, and how much of it is its law's."""
+    """What the campaign that the ladder begins with misses, how much of it is its law's, and what others printed."""
     begin = way[way["rung"] == way["rung"].iloc[0]]
     mean, worst = begin.mean(numeric_only=True), begin.set_index("temperature_C")
     modulus, phase = (worst[f"mre_{name}_percent"] for name in ("E", "phase"))
     return [
-        f"The simulated tests miss averages over specimens (Table 4) of |E*| by {three_digits(modulus.mean())} %, most "
+        f"Our simulated tests miss averages over specimens (Table 4) of |E*| by {three_digits(modulus.mean())} %, most "
         f"at {_number(modulus.idxmax())} °C, and of the phase by {three_digits(phase.mean())} %, most at "
         f"{_number(phase.idxmax())} °C.",
         f"Of this the Burgers laws in their bonds miss {three_digits(mean['mre_E_law_percent'])} % and "
         f"{three_digits(mean['mre_phase_law_percent'])} % themselves.",
+        *_printed(mean),
+    ]
+
+
+def _printed(mean: pd.Series) -> list[str]:
+    """What the paper prints of its own simulation, where that is known."""
+    modulus, phase = (mean.get(f"mre_{name}_published_percent") for name in ("E", "phase"))
+    if modulus is None or phase is None:
+        return []
+    return [
+        f"The paper prints {three_digits(modulus)} % and {three_digits(phase)} % of its own simulation, against "
+        "measurements that we do not have."
     ]
 
 
@@ -122,13 +139,17 @@ def _gained(way: pd.DataFrame) -> list[tuple[str, ...]]:
 
 def _held_out(way: pd.DataFrame) -> str | None:
     """Errors of temperatures that took no part in the fit, where there are enough to leave one out."""
-    held = inner_held_out(way)
-    if not held:
-        return None
-    modulus, phase = (three_digits(held[name]) for name in ("E", "phase"))
-    return (
-        f"Each inner temperature predicted from the rest alone: |E*| to {modulus} %, the phase to {phase} %."
-    )
+    said = []
+    for ends, words in (
+        (False, "Each inner temperature predicted from the rest alone"),
+        (True, "the coldest and the warmest"),
+    ):
+        held = held_out(way, ends)
+        if not held:
+            return None
+        modulus, phase = (three_digits(held[name]) for name in ("E", "phase"))
+        said.append(f"{words}: |E*| to {modulus} %, the phase to {phase} %")
+    return f"{'; '.join(said)}."
 
 
 def _range(values: pd.Series) -> str:

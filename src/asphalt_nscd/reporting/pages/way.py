@@ -21,6 +21,7 @@ def read_ladder(paths: Sequence[Path]) -> pd.DataFrame:
         names += [f"mre_{quantity}{kind}_percent" for kind in ("", "_law", "_held_out")]
         names.append(f"scatter_{quantity}_percent")
     table.require(["rung", *names])
+    names += [name for q in QUANTITIES if (name := f"mre_{q}_published_percent") in table.columns]
     return pd.DataFrame({"rung": table.text("rung")} | {name: table.numbers_or_nan(name) for name in names})
 
 
@@ -35,10 +36,13 @@ def left_by_the_last(ladder: pd.DataFrame) -> dict[str, float]:
     return {quantity: float(last[f"mre_{quantity}_percent"]) for quantity in QUANTITIES}
 
 
-def inner_held_out(ladder: pd.DataFrame) -> dict[str, float]:
-    """Errors of the last rung at temperatures left out of the fit, mean over those between others; may be empty."""
+def held_out(ladder: pd.DataFrame, ends: bool) -> dict[str, float]:
+    """Errors of the last rung at temperatures left out of the fit, mean over both ends or over those between.
+
+    Empty where too few temperatures were tested.
+    """
     last = ladder[ladder["rung"] == ladder["rung"].iloc[-1]]
     at = last["temperature_C"]
-    inner = last[(at > at.min()) & (at < at.max())]
-    held = {quantity: inner[f"mre_{quantity}_held_out_percent"].mean() for quantity in QUANTITIES}
+    chosen = last[at.isin([at.min(), at.max()]) == ends]
+    held = {quantity: chosen[f"mre_{quantity}_held_out_percent"].mean() for quantity in QUANTITIES}
     return {} if any(pd.isna(value) for value in held.values()) else held

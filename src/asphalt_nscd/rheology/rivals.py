@@ -1,0 +1,103 @@
+"""Laws of all temperatures that compete for one table: fitted alike, and asked for what they have not seen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from asphalt_nscd.rheology.fitting import log_residual
+from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum_coordinates import Coordinates
+
+Vector = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+STARTS = 8
+BRANCHES = 4
+
+
+@dataclass(frozen=True)
+class Rival:
+    """A law in coordinates x (p,) of order one, and where its fits start."""
+
+    name: str
+    modulus: Callable[[Vector, Vector, Vector], Complex]  # E* [Pa] of x, omega [rad/s], temperature [degC]
+    starts: NDArray[np.float64]  # (s, p)
+    low: Vector
+    high: Vector
+
+    def fit(
+        self, omega: Vector, temperature: Vector, modulus: Complex, start: Vector | None = None
+    ) -> Vector:
+        """Coordinates of least squares of ln E*, from all starts or from one."""
+        starts = self.starts if start is None else start[None]
+        fits = [
+            least_squares(
+                lambda x: log_residual(modulus, self.modulus(x, omega, temperature)),
+                np.clip(one, self.low + 1e-6, self.high - 1e-6),
+                bounds=(self.low, self.high),
+                max_nfev=400,
+            )
+            for one in starts
+        ]
+        return min(fits, key=lambda fit: fit.cost).x
+
+
+def rivals(omega: Vector, temperature: Vector, modulus: Complex, reference: float) -> Iterator[Rival]:
+    """2S2P1D and a Prony series of as many parameters, nine; Huet-Sayegh, eight. All with a WLF shift.
+
+    omega [rad/s], temperature [degC], modulus [Pa]: vectors (n,) of the tests; reference: of the shift [degC].
+    """
+    largest = float(np.abs(modulus).max())
+    for name, law in (("2S2P1D", "2s2p1d"), ("Huet-Sayegh", "huet-sayegh")):
+        at = Coordinates(law, "wlf", omega, temperature, largest, reference)
+        usual = [group[len(group) // 2 - 2 : len(group) // 2 + 3 : 2] for group in at.usual_starts()]
+        starts = np.concatenate([*usual, at.random_starts(STARTS)])
+        yield Rival(name, _spectrum(at), starts, at.low, at.high)
+    yield _prony(omega, temperature, largest, reference)
+
+
+def _spectrum(at: Coordinates) -> Callable[[Vector, Vector, Vector], Complex]:
+    def modulus(x: Vector, omega: Vector, temperature: Vector) -> Complex:
+        with np.errstate(over="ignore", invalid="ignore"):
+            return at.build(x).complex_modulus(omega, temperature)
+
+    return modulus
+
+
+def _prony(omega: Vector, temperature: Vector, largest: float, reference: float) -> Rival:
+    """Static modulus, BRANCHES Maxwell branches whose times are spaced evenly, place and spacing of these, WLF."""
+    rate = float(np.sqrt(omega.min() * omega.max()))
+
+    def modulus(x: Vector, omega: Vector, temperature: Vector) -> Complex:
+        static, *weights, place, spacing, slope, curvature = x
+        # the curvature as in `Coordinates`: the least c2 that the coldest test allows, over c2
+        c2 = least / curvature
+        shift = WLF(float(np.exp(slope)) * c2, c2, reference).factor(temperature)
+        times = np.exp(place + spacing * np.arange(BRANCHES)) / rate
+        reduced = 1j * (omega * shift)[:, None] * times
+        return largest * (np.exp(static) + (np.exp(weights) * reduced / (1.0 + reduced)).sum(axis=1))
+
+    least = max(0.0, reference - float(temperature.min())) + 5.0
+    low = np.array([-14.0, *[-10.0] * BRANCHES, -15.0, 0.5, -6.0, 1e-3])
+    high = np.array([0.0, *[1.0] * BRANCHES, 10.0, 6.0, 1.0, 0.999])
+    middle = np.array([-5.0, *[-1.5] * BRANCHES, 0.0, 3.0, np.log(0.12), 0.3])
+    starts = [
+        middle + np.array([0.0] * (1 + BRANCHES) + [place, spacing - 3.0, 0.0, 0.0])
+        for place in (-8.0, -6.0, -4.0, -2.0)
+        for spacing in (2.0, 3.0, 4.0)
+    ]
+    return Rival("Prony", modulus, np.array(starts), low, high)
+
+
+def left_out(
+    rival: Rival, omega: Vector, temperature: Vector, modulus: Complex, groups: Vector
+) -> Iterator[tuple[float, Vector]]:
+    """(value, coordinates fitted without it) for each value of `groups` (n,): a temperature or a frequency."""
+    whole = rival.fit(omega, temperature, modulus)
+    for value in np.unique(groups):
+        rest = groups != value
+        yield float(value), rival.fit(omega[rest], temperature[rest], modulus[rest], whole)

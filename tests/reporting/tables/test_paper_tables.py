@@ -1,0 +1,75 @@
+"""Table 1, the reconstruction against Table 4, and the rivals of the law of all temperatures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from asphalt_nscd.files.store import write_table
+from asphalt_nscd.reporting.tables import reconstructions, rivals, table1
+from asphalt_nscd.rheology.rivals import rivals as laws_of
+from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum import TwoS2P1D
+
+PAPER = Path(__file__).parents[3] / "data/paper"
+LAW = TwoS2P1D(30e6, 36e9, k=0.2, h=0.58, delta=2.2, tau=0.06, beta=250.0, shift=WLF(12.0, 90.0, 15.0))
+
+
+def test_spheres_stand_for_what_the_sieves_retain():
+    table = table1.make(grading=[PAPER / "table1_grading.csv"], used=[PAPER / "table2_counts.csv"])
+    assert list(table["passing_percent"]) == sorted(table["passing_percent"], reverse=True)
+    assert table["retained_percent"].iloc[:3].tolist() == [0.0, 10.0, 15.0]
+    shown = table[table["spheres"].notna()]
+    assert shown["spheres"].sum() == 14160 and shown["diameter_mm"].min() == 2.0
+    np.testing.assert_allclose(shown["volume_percent"], shown["retained_shown_percent"], rtol=0.02)
+
+
+def test_table_4_rejects_the_reconstruction_that_it_was_said_to_confirm():
+    table = reconstructions.make(laws=[PAPER / "table3_burgers.csv"], errors=[PAPER / "table4_errors.csv"])
+    by = table.set_index("temperature_C")
+    # of the law and the smooth law alone: no simulation, and yet within a factor of two everywhere
+    assert by["smooth_law_phase_percent"].round(1).tolist() == [23.7, 10.3, 7.2, 8.4, 7.7, 4.7]
+    assert (by["within_phase_percent"] > 98.0).all()
+    above = by["above_phase_percent"]
+    assert above[[10.0, 30.0]].max() < 2.0 and above[[15.0, 20.0]].min() > 98.0
+
+
+@pytest.fixture
+def exact(tmp_path):
+    """Tests of one specimen that lie on a 2S2P1D law."""
+    temperature, frequency = (a.ravel() for a in np.meshgrid([-10.0, 5.0, 15.0, 30.0], [1.0, 5.0, 20.0]))
+    modulus = LAW.complex_modulus(2 * np.pi * frequency, temperature)
+    columns = {
+        "specimen": "1",
+        "temperature_C": temperature,
+        "frequency_Hz": frequency,
+        "E_MPa": np.abs(modulus) / 1e6,
+        "phase_deg": np.degrees(np.angle(modulus)),
+        "origin": "synthetic",
+    }
+    path = tmp_path / "measured.csv"
+    write_table(path, pd.DataFrame(columns))
+    return path
+
+
+@pytest.mark.slow
+def test_a_law_predicts_what_it_has_not_seen_only_where_it_is_the_true_one(exact):
+    table = rivals.make(measured=[exact]).set_index("law")
+    assert list(table["parameters"]) == [9, 8, 9]
+    own, prony = table.loc["2S2P1D"], table.loc["Prony"]
+    assert own["fitted_E_percent"] < 0.01 and own["inner_temperatures_phase_percent"] < 1.0
+    for name in ("inner_temperatures", "end_temperatures", "end_frequencies"):
+        assert prony[f"{name}_phase_percent"] > 5.0 * own[f"{name}_phase_percent"]
+
+
+def test_a_prony_series_is_a_sum_of_maxwell_branches():
+    omega, temperature = np.array([1.0, 10.0]), np.array([15.0, 15.0])
+    *_, prony = laws_of(omega, temperature, np.array([1e9, 2e9], complex), 15.0)
+    x = np.array([np.log(0.1), np.log(0.5), -30.0, -30.0, -30.0, 0.0, 3.0, np.log(0.1), 0.5])
+    rate = np.sqrt(10.0)
+    reduced = 1j * omega / rate
+    expected = 2e9 * (0.1 + 0.5 * reduced / (1.0 + reduced))
+    np.testing.assert_allclose(prony.modulus(x, omega, temperature), expected, rtol=1e-9)
