@@ -15,7 +15,7 @@ from asphalt_nscd.rheology.spectrum_coordinates import Coordinates
 
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-STARTS = 8
+STARTS = 4
 BRANCHES = 4
 
 
@@ -39,7 +39,7 @@ class Rival:
                 lambda x: log_residual(modulus, self.modulus(x, omega, temperature)),
                 np.clip(one, self.low + 1e-6, self.high - 1e-6),
                 bounds=(self.low, self.high),
-                max_nfev=400,
+                max_nfev=200,
             )
             for one in starts
         ]
@@ -87,8 +87,8 @@ def _prony(omega: Vector, temperature: Vector, largest: float, reference: float)
     middle = np.array([-5.0, *[-1.5] * BRANCHES, 0.0, 3.0, np.log(0.12), 0.3])
     starts = [
         middle + np.array([0.0] * (1 + BRANCHES) + [place, spacing - 3.0, 0.0, 0.0])
-        for place in (-8.0, -6.0, -4.0, -2.0)
-        for spacing in (2.0, 3.0, 4.0)
+        for place in (-8.0, -5.0, -2.0)
+        for spacing in (2.5, 3.5)
     ]
     return Rival("Prony", modulus, np.array(starts), low, high)
 
