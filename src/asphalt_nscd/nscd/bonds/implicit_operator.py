@@ -1,4 +1,4 @@
-"""The matrix M + dt/S K of an implicit step, factorised, and kept up to date while bonds break."""
+"""The matrix M + G^T (dt/S w) G of an implicit step, factorised, and kept up to date while bonds break."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def factors(matrix: sparse.csc_matrix) -> SuperLU:
 
 
 class ShiftedOperator:
-    """M + scale K on the free degrees of freedom, solvable while bonds break.
+    """M + G^T (scale w) G on the free degrees of freedom, solvable while bonds break.
 
     Factorised once. Each bond that breaks takes away three rank-one terms, which the Woodbury
     identity accounts for at the cost of three more solves; after many, it is factorised again.
@@ -36,8 +36,9 @@ class ShiftedOperator:
 
     most_updates = 60  # breakages after which a new factorisation is cheaper
 
-    def __init__(self, system: BondedSystem, scale: float) -> None:
-        self._system, self._scale = system, scale
+    def __init__(self, system: BondedSystem, scale: float | np.ndarray) -> None:
+        """scale: dt/S [s/m kg], one for all bonds or for each of their components (3 b,)."""
+        self._system, self._scale = system, np.broadcast_to(scale, system.weight.shape)
         self._broken: list[int] = []
         self._taken: np.ndarray
         self._response: np.ndarray
@@ -62,7 +63,7 @@ class ShiftedOperator:
         taken = self._system.operator[rows][:, self._system.free].toarray().T
         self._taken = np.column_stack([self._taken, taken])
         self._response = np.column_stack([self._response, self._factor.solve(taken)])
-        self._strength = np.append(self._strength, self._scale * self.weight[rows])
+        self._strength = np.append(self._strength, self._scale[rows] * self.weight[rows])
         self.weight[rows] = 0.0
         self._capacitance = np.linalg.inv(np.diag(1.0 / self._strength) - self._taken.T @ self._response)
 
@@ -85,7 +86,7 @@ class ShiftedOperator:
         self.weight = system.weight.copy()
         for bond in self._broken:
             self.weight[3 * bond : 3 * bond + 3] = 0.0
-        matrix = (sparse.diags_array(system.mass) + self._scale * system.stiffness(self.weight)).tocsc()
+        matrix = (sparse.diags_array(system.mass) + system.stiffness(self._scale * self.weight)).tocsc()
         self._matrix = matrix[system.free][:, system.free]
         self._factor, self._factored = factorise(self._matrix, system), len(self._broken)
         self._taken = self._response = np.empty((system.free.size, 0))

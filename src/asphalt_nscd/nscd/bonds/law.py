@@ -1,7 +1,7 @@
 """The bond law: a spring, a dashpot and Kelvin-Voigt elements in series (Burgers: one element).
 
-All bonds share one rheology. Their geometry g [m] (Eqs. 30-33) is divided out: the reaction is
-R = g sigma, and sigma [Pa] obeys for each component
+All bonds share one rheology, or each component of each bond has its own (`BondLaws`). Their geometry
+g [m] (Eqs. 30-33) is divided out: the reaction is R = g sigma, and sigma [Pa] obeys for each component
 
     sigma = -Em dm,   sigma = -eta_m dm',   sigma = -Ek dk - eta_k dk',   U = dm' + dm'' + dk'
 
@@ -15,7 +15,9 @@ with U the opening velocity. Implicit Euler over dt turns this into the affine l
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -56,22 +58,94 @@ class BondLaw:
 
 
 @dataclass(frozen=True)
+class BondLaws:
+    """A law for each component of each bond, from a table of those that differ.
+
+    A film, for example, is squeezed by another law than it is sheared by. Parameters are those of
+    `BondLaw` for each component; a law with fewer Kelvin elements than another has zeros for the rest.
+    """
+
+    table: tuple[BondLaw, ...]
+    kind: np.ndarray  # (3 b,) places in the table
+
+    @classmethod
+    def of_bonds(
+        cls, table: Sequence[BondLaw], normal: np.ndarray, tangential: np.ndarray | None = None
+    ) -> BondLaws:
+        """Each bond (b,) with its normal and its tangential law, by place; one for all three without the latter."""
+        tangential = normal if tangential is None else tangential
+        return cls(tuple(table), np.column_stack([normal, tangential, tangential]).ravel())
+
+    @cached_property
+    def spring(self) -> np.ndarray:
+        """(3 b,) Pa."""
+        return np.array([law.spring for law in self.table])[self.kind]
+
+    @cached_property
+    def dashpot(self) -> np.ndarray:
+        """(3 b,) Pa s."""
+        return np.array([law.dashpot for law in self.table])[self.kind]
+
+    @cached_property
+    def kelvin_springs(self) -> np.ndarray:
+        """(k, 3 b) Pa."""
+        return self._of_elements([law.kelvin_springs for law in self.table])
+
+    @cached_property
+    def kelvin_dashpots(self) -> np.ndarray:
+        """(k, 3 b) Pa s."""
+        return self._of_elements([law.kelvin_dashpots for law in self.table])
+
+    def step(self, dt: float) -> LawStep:
+        """Coefficients of the affine law for the step dt [s], those of components as arrays."""
+        steps = [law.step(dt) for law in self.table]
+        return LawStep(
+            dt=dt,
+            compliance=np.array([step.compliance for step in steps])[self.kind],
+            memory=np.array([step.memory for step in steps])[self.kind],
+            recall=self._of_elements([step.recall for step in steps]),
+            keep=self._of_elements([step.keep for step in steps]),
+            gain=self._of_elements([step.gain for step in steps]),
+        )
+
+    def discrete_modulus(self, omega: float, dt: float) -> np.ndarray:
+        """Complex modulus (3 b,) [Pa] of each component, as of a `BondLaw`."""
+        return np.array([law.discrete_modulus(omega, dt) for law in self.table])[self.kind]
+
+    def _of_elements(self, values: Sequence[np.ndarray]) -> np.ndarray:
+        """(k, 3 b) from one number for each Kelvin element of each law."""
+        most = max(len(of_law) for of_law in values)
+        return np.array([np.pad(of_law, (0, most - len(of_law))) for of_law in values]).T[:, self.kind]
+
+
+AnyLaw = BondLaw | BondLaws
+
+
+@dataclass(frozen=True)
 class LawStep:
-    """Affine law over one step: U+ = b - compliance sigma+."""
+    """Affine law over one step: U+ = b - compliance sigma+; one for all, or a number for each of (3 b,)."""
 
     dt: float
-    compliance: float  # S, 1/(Pa s)
-    memory: float  # factor of sigma- in b
-    recall: np.ndarray  # factors of dk- in b, with minus
+    compliance: float | np.ndarray  # S, 1/(Pa s)
+    memory: float | np.ndarray  # factor of sigma- in b
+    recall: np.ndarray  # (k,) or (k, 3 b) factors of dk- in b, with minus
     keep: np.ndarray  # factors of dk- in dk+
     gain: np.ndarray  # factors of sigma+ in dk+, with minus
 
     def explicit_part(self, sigma: np.ndarray, kelvin: np.ndarray) -> np.ndarray:
         """b [m/s] from sigma (...,) [Pa] and kelvin displacements (k, ...) [m]."""
-        return self.memory * sigma - np.tensordot(self.recall, kelvin, axes=1)
+        return np.asarray(self.memory * sigma - (_beside(self.recall, kelvin) * kelvin).sum(axis=0))
 
     def update(self, explicit: np.ndarray, velocity: np.ndarray, kelvin: np.ndarray) -> tuple:
         """(sigma+, dk+) from the opening velocity U+ (...,) [m/s]."""
         sigma = (explicit - velocity) / self.compliance
-        shape = (-1,) + (1,) * sigma.ndim
-        return sigma, self.keep.reshape(shape) * kelvin - self.gain.reshape(shape) * sigma
+        return sigma, self.stretched(kelvin, sigma)
+
+    def stretched(self, kelvin: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+        """dk+ (k, ...) [m] from dk- and sigma+ (...,) [Pa]."""
+        return np.asarray(_beside(self.keep, kelvin) * kelvin - _beside(self.gain, kelvin) * sigma)
+
+
+def _beside(factor: np.ndarray, kelvin: np.ndarray) -> np.ndarray:
+    """Factors (k,) or (k, 3 b) in a shape that multiplies kelvin (k, ...)."""
+    return factor.reshape(factor.shape + (1,) * (kelvin.ndim - factor.ndim))

@@ -2,7 +2,7 @@
 
 Putting sigma+ = (b - G v+)/S into the equations of motion gives
 
-    (M + dt/S K) v+ = M v- + dt f + dt/S G^T w b
+    (M + dt G^T w/S G) v+ = M v- + dt f + dt G^T w/S b
 
 whose matrix is constant while no bond breaks. Broken bonds whose gap closes are frictional
 contacts, solved by Gauss-Seidel on their Delassus operator.
@@ -17,7 +17,7 @@ import numpy as np
 from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices
 from asphalt_nscd.nscd.bonds.head_kernels import actuator_force, follow_actuator
 from asphalt_nscd.nscd.bonds.implicit_operator import ShiftedOperator
-from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.contacts.friction import solve_contacts
 
@@ -35,10 +35,10 @@ class CondensedState:
     broken: list[int] = field(default_factory=list)  # bonds, in the order in which they broke
 
     @classmethod
-    def at_rest(cls, system: BondedSystem, law: BondLaw) -> CondensedState:
+    def at_rest(cls, system: BondedSystem, law: AnyLaw) -> CondensedState:
         """No motion, no stress."""
         d, rows = system.mass.size, system.weight.size
-        kelvin = np.zeros((np.size(law.kelvin_springs), rows))
+        kelvin = np.zeros((len(law.kelvin_springs), rows))
         return cls(np.zeros(d), np.zeros(d), np.zeros(rows), kelvin)
 
 
@@ -53,7 +53,7 @@ class CondensedStepper:
     def __init__(
         self,
         system: BondedSystem,
-        law: BondLaw,
+        law: AnyLaw,
         dt: float,
         state: CondensedState,
         devices: HeadDevices = RIGID,
@@ -117,9 +117,8 @@ class CondensedStepper:
     def _solve(self, explicit: np.ndarray, driven_velocity: float) -> tuple[np.ndarray, np.ndarray, float]:
         """(velocity, contact forces, force of the slider) of the coming step while no bond breaks."""
         system, state, dt = self.system, self.state, self.dt
-        scale = dt / self.step_law.compliance
         impulse = system.mass * state.velocity + dt * system.load
-        impulse += scale * (system.operator.T @ (self._operator.weight * explicit))
+        impulse += self._impulse_of(explicit)
         if self.devices.clamp_compliance == 0.0:
             slider = self.devices.guide_friction * float(np.sign(driven_velocity))
             return *self._move(impulse, driven_velocity), slider
@@ -135,9 +134,12 @@ class CondensedStepper:
 
     def _coupling(self) -> np.ndarray:
         """Impulse (d,) that a unit velocity of the head alone takes by its bonds."""
-        system, scale = self.system, self.dt / self.step_law.compliance
-        opening = system.operator[:, [system.driven]].toarray()[:, 0]
-        return scale * (system.operator.T @ (self._operator.weight * opening))
+        return self._impulse_of(self.system.operator[:, [self.system.driven]].toarray()[:, 0])
+
+    def _impulse_of(self, opening: np.ndarray) -> np.ndarray:
+        """Impulse (d,) by which bonds close that open at velocities (3 b,) [m/s]."""
+        scale = self.dt / self.step_law.compliance
+        return np.asarray(self.system.operator.T @ (scale * self._operator.weight * opening))
 
     def _follow_head(self) -> np.ndarray:
         """Velocities (d,) for one of the head, all else at rest before; kept until bonds break."""

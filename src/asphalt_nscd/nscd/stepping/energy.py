@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.stepping.scheme import History
 
 Form = Callable[[np.ndarray, np.ndarray], float]
@@ -60,7 +60,7 @@ class Energies:
 class EnergyAccount:
     """Keeps the account of one run; the stepper may be exchanged between steps."""
 
-    def __init__(self, law: BondLaw) -> None:
+    def __init__(self, law: AnyLaw) -> None:
         self.law, self.sums = law, Energies()
         self._broken = 0
 
@@ -85,7 +85,7 @@ class EnergyAccount:
             setattr(sums, name, new[name])
         sums.actuator += scale * force * (after.actuator - base.actuator)
         sigma = after.values["sigma"]
-        sums.dashpots += dt * of.strain(sigma, sigma) / self.law.dashpot
+        sums.dashpots += dt * of.strain(sigma / self.law.dashpot, sigma)
         for viscosity, now, then in zip(
             np.atleast_1d(self.law.kelvin_dashpots),
             after.values["kelvin"],
@@ -93,7 +93,7 @@ class EnergyAccount:
             strict=True,
         ):
             rate = (now - then) / stepper.dt
-            sums.dashpots += dt * viscosity * of.strain(rate, rate)
+            sums.dashpots += dt * of.strain(viscosity * rate, rate)
         sums.friction += dt * stepper.devices.guide_friction * abs(after.values["velocity"][of.head])
         contact = getattr(stepper, "contact", None)
         if contact is not None:
@@ -107,11 +107,11 @@ class EnergyAccount:
         """factor times the bilinear form of each store at x and y; the linear one of the load at y."""
         clamp, spring, _, mass = stepper.devices.of_head
         one, other = x.values, y.values
-        springs = of.strain(one["sigma"], other["sigma"]) / self.law.spring
+        springs = of.strain(one["sigma"] / self.law.spring, other["sigma"])
         for modulus, a, b in zip(
             np.atleast_1d(self.law.kelvin_springs), one["kelvin"], other["kelvin"], strict=True
         ):
-            springs += modulus * of.strain(a, b)
+            springs += of.strain(modulus * a, b)
         places = [(h.values["displacement"][of.head], h.values["velocity"][of.head]) for h in (x, y)]
         (at, speed), (at_other, speed_other) = places
         devices = spring * at * at_other + mass * speed * speed_other

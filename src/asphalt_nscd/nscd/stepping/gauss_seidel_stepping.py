@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from asphalt_nscd.nscd.bonds.gauss_seidel import PackedBonds
-from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.condensed import CondensedState
 
@@ -22,7 +22,7 @@ class SweepingStepper:
     def __init__(
         self,
         system: BondedSystem,
-        law: BondLaw,
+        law: AnyLaw,
         dt: float,
         state: CondensedState,
         tolerance: float,
@@ -59,8 +59,7 @@ class SweepingStepper:
         inertia = system.mass[system.driven] * (driven_velocity - state.velocity[system.driven]) / dt
         drive = inertia - system.load[system.driven] - (self._column.T @ reaction)[0]
         sigma = reaction / system.weight
-        shape = (-1, 1)
-        state.kelvin = self.law.keep.reshape(shape) * state.kelvin - self.law.gain.reshape(shape) * sigma
+        state.kelvin = self.law.stretched(state.kelvin, sigma)
         state.displacement = state.displacement + dt * velocity
         state.velocity, state.sigma = velocity, sigma
         return float(drive)

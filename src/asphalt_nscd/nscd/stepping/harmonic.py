@@ -16,58 +16,67 @@ MOST_ITERATIONS = 100  # a specimen takes a dozen, near its resonance too
 MOST_STARTS = 3  # again from what was found: rounding within one start may leave more than the tolerance
 
 
-def static_factor(system: BondedSystem) -> SuperLU | Multigrid:
-    """What solves K on the free degrees of freedom: for all frequencies and moduli."""
-    free = system.free
-    return factorise(system.stiffness()[free][:, free], system)
+def static_factor(system: BondedSystem, modulus: complex | np.ndarray = 1.0) -> SuperLU | Multigrid:
+    """What solves K on the free degrees of freedom: for all frequencies and moduli.
+
+    With a modulus for each component of the bonds (3 b,): for these alone.
+    """
+    free, size = system.free, np.abs(modulus) / abs(np.mean(modulus))
+    return factorise(system.stiffness(system.weight * size)[free][:, free], system)
 
 
 def driving_force(
     system: BondedSystem,
-    modulus: complex,
+    modulus: complex | np.ndarray,
     omega: float,
     acceleration_factor: complex | None = None,
     static: SuperLU | Multigrid | None = None,
 ) -> complex:
     """Complex force [N] per unit driven amplitude [m] at angular frequency omega [1/s].
 
-    Solves (E* K - omega^2 M) u = 0 with the driven degree of freedom at one, without damping other
-    than that of the complex modulus E* [Pa]. acceleration_factor replaces -omega^2, e.g. by that of
-    a time-stepping scheme. static: the `static_factor`, where it is known already.
+    Solves (G^T E* w G - omega^2 M) u = 0 with the driven degree of freedom at one, without damping other
+    than that of the complex modulus E* [Pa], which is one for all bonds or one for each of their components
+    (3 b,). acceleration_factor replaces -omega^2, e.g. by that of a time-stepping scheme. static: the
+    `static_factor` of these moduli, where it is known already.
     """
     factor = -(omega**2) if acceleration_factor is None else acceleration_factor
-    static = static_factor(system) if static is None else static
-    stiffness, free = system.stiffness(), system.free
-    inertia = factor / modulus * system.mass
+    static = static_factor(system, modulus) if static is None else static
+    mean = complex(np.mean(modulus))
+    inertia = factor / mean * system.mass
+    beyond = sparse.diags_array(inertia)
+    if np.ndim(modulus):
+        relative = modulus / mean
+        whole = system.stiffness(system.weight * relative) + beyond
+        beyond = beyond + system.stiffness(system.weight * (relative - np.abs(relative)))
+    else:
+        whole = system.stiffness() + beyond
     motion = np.zeros(system.mass.size, complex)
     motion[system.driven] = 1.0
-    motion[free] = _follow(stiffness, inertia, system, static)
-    head = stiffness[[system.driven]].dot(motion)[0] + inertia[system.driven]
-    return complex(modulus * head)
+    motion[system.free] = _follow(whole.tocsc(), beyond.tocsc(), system, static)
+    return complex(mean * whole[[system.driven]].dot(motion)[0])
 
 
 def _follow(
-    stiffness: sparse.csc_matrix, inertia: np.ndarray, system: BondedSystem, static: SuperLU | Multigrid
+    whole: sparse.csc_matrix, beyond: sparse.csc_matrix, system: BondedSystem, static: SuperLU | Multigrid
 ) -> np.ndarray:
-    """Motion of the free degrees of freedom that solves (K + diag(inertia)) u = 0, the driven one at one.
+    """Motion of the free degrees of freedom that solves whole u = (P + beyond) u = 0, the driven one at one.
 
-    Inertia is a small part of K below the resonance: the static factors, which are real, then solve it in a few
-    steps. Factors of the whole complex matrix cost several times as much.
+    P, real, is what `static` solves. What is beyond it is a small part below the resonance: inertia, and the loss in
+    which bonds differ. P then takes a few steps. Factors of the whole complex matrix cost several times as much.
     """
     free = system.free
-    coupling = stiffness[free][:, [system.driven]].toarray()[:, 0]
+    coupling = whole[free][:, [system.driven]].toarray()[:, 0]
+    beyond = beyond[free][:, free]
 
-    def lag(motion: np.ndarray) -> np.ndarray:
-        force = inertia[free] * motion
+    def solve(force: np.ndarray) -> np.ndarray:
         parts = static.solve(np.column_stack([force.real, force.imag]))
-        return np.asarray(motion + parts[:, 0] + 1j * parts[:, 1])
+        return np.asarray(parts[:, 0] + 1j * parts[:, 1])
 
-    near = LinearOperator((free.size, free.size), matvec=lag, dtype=complex)
-    at_rest = -static.solve(coupling).astype(complex)
+    near = LinearOperator(beyond.shape, matvec=lambda motion: motion + solve(beyond @ motion), dtype=complex)
+    at_rest = solve(-coupling)
     motion, failed = gmres(near, at_rest, rtol=TOLERANCE, restart=MOST_ITERATIONS, maxiter=MOST_STARTS)
     if failed:
-        whole = (stiffness + sparse.diags_array(inertia)).tocsc()[free][:, free]
-        motion = factors(whole).solve(-coupling.astype(complex))
+        motion = factors(whole[free][:, free]).solve(-coupling)
     return np.asarray(motion)
 
 

@@ -6,7 +6,7 @@ from dataclasses import astuple
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
 from asphalt_nscd.nscd.stepping.energy import Energies, EnergyAccount
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
@@ -18,7 +18,7 @@ Stepper = CondensedStepper | ReducedStepper
 class March:
     """Steps of dt [s] from rest; the stepper is one of step length dt / scheme.a."""
 
-    def __init__(self, stepper: Stepper, scheme: Scheme, law: BondLaw, dt: float) -> None:
+    def __init__(self, stepper: Stepper, scheme: Scheme, law: AnyLaw, dt: float) -> None:
         self.stepper, self.scheme, self.dt = stepper, scheme, dt
         self.now = self.earlier = History.of(stepper.state, 0.0)
         self.account = EnergyAccount(law)

@@ -103,6 +103,10 @@ class ReducedStepper:
         stand_by: StandBy | None = None,
     ) -> None:
         """stand_by: directions for breaks, on the basis of `model`; an excerpt brings its own."""
+        if not isinstance(law, BondLaw):
+            raise TypeError(
+                "the reduced model has one law for all bonds; step bonds of several by CondensedStepper."
+            )
         k = model.size
         elements = np.size(law.kelvin_springs)
         self._part, self.dt, self.tolerance, self.devices = model, dt, tolerance, devices
@@ -246,8 +250,8 @@ class ReducedStepper:
             model.load,
             inverse,
             law.dt,
-            law.compliance,
-            law.memory,
+            float(law.compliance),
+            float(law.memory),
             law.recall,
             law.keep,
             law.gain,

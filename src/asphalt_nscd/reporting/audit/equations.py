@@ -147,7 +147,7 @@ def contact_law(law: Burgers) -> Iterator[Judgement]:
     yield Judgement(
         "step_law",
         printed,
-        _bond(law).step(TIME_STEP).compliance,
+        float(_bond(law).step(TIME_STEP).compliance),
         "1/(Pa s)",
         INCONSISTENT,
         "Eqs. (17)-(24) give +1/(dt Km) + 1/Cm + 1/(Ck + dt Kk). As the text layer has it, the compliance is negative "

@@ -1,0 +1,217 @@
+"""A law for each component of each bond: full stepping and the frequency domain."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from naive.stepping import NaiveState, naive_step
+
+from asphalt_nscd.nscd.bonds.head import HeadDevices
+from asphalt_nscd.nscd.bonds.law import BondLaw, BondLaws
+from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
+from asphalt_nscd.nscd.stepping.harmonic import driving_force
+from asphalt_nscd.nscd.stepping.integrator import March
+from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
+from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
+from asphalt_nscd.nscd.stepping.scheme import Scheme
+from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.verification.specimens import system_of
+
+OMEGA = 80 * np.pi
+RIG = HeadDevices(1e-7, 1e4, 5.0, 0.2)
+STONE = BondLaw(60e9, np.inf, np.array([]), np.array([]))
+MAXWELL = BondLaw(30e9, 0.03e9, np.array([]), np.array([]))
+BURGERS = BondLaw(24.3e9, 0.06e9, np.array([48.4e9]), np.array([0.077e9]))
+SOLID = BondLaw(8e9, np.inf, np.array([3e9, 11e9]), np.array([0.004e9, 0.05e9]))
+TABLE = (STONE, MAXWELL, BURGERS, SOLID)
+
+
+def mixed(system, table=TABLE, seed=3) -> BondLaws:
+    """Laws drawn for each bond, another along it than across."""
+    normal, tangential = np.random.default_rng(seed).integers(len(table), size=(2, system.gap.size))
+    return BondLaws.of_bonds(table, normal, tangential)
+
+
+def march(system, law, name="euler", devices=RIG, steps=100) -> March:
+    dt = 2 * np.pi / OMEGA / steps
+    scheme = Scheme.named(name, OMEGA * dt)
+    state = CondensedState.at_rest(system, law)
+    return March(CondensedStepper(system, law, dt / scheme.a, state, devices), scheme, law, dt)
+
+
+def between(springs=(2e-3, 5e-3), mass=1e-9, series=True, **more):
+    """A head and a wall, joined along one line by two bonds: in series over a body, or side by side.
+
+    A third holds the body where it would be loose.
+    """
+    rows = np.zeros((9, 2))
+    rows[[0, 3, 6]] = [[-1, 1], [0, -1], [0, 0]] if series else [[-1, 0], [-1, 0], [0, 1]]
+    return system_of(rows, np.repeat([*springs, 1e-3], 3), [1.0, mass], driven=0, **more)
+
+
+@pytest.mark.parametrize("name", ["euler", "fitted"])
+@pytest.mark.parametrize(("amplitude", "narrowing"), [(8e-5, 1.0), (3e-5, 1e-3)])
+def test_one_law_in_every_bond_is_the_shared_law(beam_system, quick_law, name, amplitude, narrowing):
+    """Through breaks, closing gaps and a rig: the same breaks, and forces and energies to 1e-12."""
+    system = replace(beam_system, gap=narrowing * beam_system.gap)
+    everywhere = mixed(system, (quick_law, replace(quick_law), replace(quick_law)))
+    runs = [march(system, law, name) for law in (quick_law, everywhere)]
+    sine = np.append(np.zeros(10), amplitude * np.sin(2 * np.pi / 100 * np.arange(1, 61)))
+    shared, own = (np.array([run.move_to(place) for place in sine]) for run in runs)
+    np.testing.assert_allclose(own, shared, rtol=0, atol=1e-12 * np.abs(shared).max())
+    assert (len(runs[0].stepper.state.broken) > 0) == (narrowing == 1.0)
+    assert runs[0].stepper.state.broken == runs[1].stepper.state.broken
+    shared, own = (vars(run.account.sums) for run in runs)
+    assert own == pytest.approx(shared, rel=1e-9, abs=1e-12 * abs(shared["actuator"]))
+
+
+def test_one_law_in_every_bond_by_gauss_seidel_and_in_the_frequency_domain(make_beam, quick_law):
+    system = bending_system(make_beam(shape=(2, 2, 4)), 0.35, 2.7e6, 0.7)
+    everywhere, forces = mixed(system, (quick_law, quick_law)), []
+    for law in (quick_law, everywhere):
+        stepper = SweepingStepper(system, law, 1e-4, CondensedState.at_rest(system, law), 1e-3, 20)
+        forces.append([stepper.advance(1e-4) for _ in range(5)])
+    np.testing.assert_allclose(forces[1], forces[0], rtol=1e-12)
+    one, other = (
+        driving_force(system, law.discrete_modulus(OMEGA, 0.0), OMEGA) for law in (quick_law, everywhere)
+    )
+    assert other == pytest.approx(one, rel=1e-12)
+
+
+def test_creep_of_two_bonds_in_series():
+    """3 N pull at a body that hangs by two bonds: it sinks by the sum of what each creeps, to O(dt)."""
+    rows = np.zeros((6, 3))
+    rows[0], rows[3] = [0, -1, 1], [0, 1, 0]
+    hung = system_of(rows, np.repeat([2e-3, 5e-3], 3), [1.0, 1e-9, 1e-9], driven=0, load=[0.0, 0.0, 3.0])
+    law = BondLaws.of_bonds((MAXWELL, SOLID), np.array([0, 1]))
+    time = 0.01
+
+    def creep(of: BondLaw) -> float:
+        elements = zip(of.kelvin_springs, of.kelvin_dashpots, strict=True)
+        return 1 / of.spring + time / of.dashpot + sum(-np.expm1(-time * e / n) / e for e, n in elements)
+
+    exact, errors = 3.0 * (creep(MAXWELL) / 2e-3 + creep(SOLID) / 5e-3), []
+    for dt in (2e-4, 1e-4, 5e-5):
+        stepper = CondensedStepper(hung, law, dt, CondensedState.at_rest(hung, law))
+        for _ in range(round(time / dt)):
+            stepper.advance(0.0)
+        errors.append(stepper.state.displacement[2] / exact - 1)
+    assert abs(errors[-1]) < 5e-3
+    np.testing.assert_allclose(np.log2(np.abs(np.array(errors[:-1]) / errors[1:])), 1.0, atol=0.05)
+
+
+@pytest.mark.parametrize("series", [True, False])
+def test_oscillation_of_two_bonds(series):
+    """Two laws in series add their compliances, side by side their moduli: by steps and by frequency, to 1e-8."""
+    system, steps = between(series=series), 100
+    law, dt = BondLaws.of_bonds((BURGERS, SOLID), np.array([0, 1, 0])), 2 * np.pi / OMEGA / steps
+    one, other = 2e-3 * BURGERS.discrete_modulus(OMEGA, dt), 5e-3 * SOLID.discrete_modulus(OMEGA, dt)
+    exact = 1 / (1 / one + 1 / other) if series else one + other
+    assert driving_force(system, law.discrete_modulus(OMEGA, dt), OMEGA, 0.0) == pytest.approx(
+        exact, rel=1e-12
+    )
+    stepper = CondensedStepper(
+        replace(system, mass=np.array([1e-30, 1e-14])), law, dt, CondensedState.at_rest(system, law)
+    )
+    sine = 1e-6 * np.sin(2 * np.pi / steps * np.arange(1, 20 * steps + 1))
+    force = np.array([stepper.advance(speed) for speed in np.diff(sine, prepend=0.0) / dt])
+    angle = 2 * np.pi / steps * np.arange(1, steps + 1)
+    assert 2j * (force[-steps:] * np.exp(-1j * angle)).mean() / 1e-6 == pytest.approx(exact, rel=1e-8)
+
+
+@pytest.mark.parametrize("broken", [[], [3, 40, 41]])
+def test_naive_twin(beam_system, broken):
+    """Six steps against dense, uncondensed equations, which add a Kelvin element that is absent as no motion."""
+    dt, law = 5e-5, mixed(beam_system, (MAXWELL, BURGERS, BURGERS))
+    state = CondensedState.at_rest(beam_system, law)
+    state.broken = list(broken)
+    stepper, twin = CondensedStepper(beam_system, law, dt, state), NaiveState.at_rest(beam_system, law)
+    absent = law.kelvin_springs == 0.0
+    naive = replace_absent(law, absent)
+    for n in range(6):
+        driven = 1e-8 * np.cos(250 * dt * n)
+        force = stepper.advance(driven)
+        twin, expected = naive_step(beam_system, naive, dt, twin, driven, broken)
+        assert force == pytest.approx(expected, rel=1e-9)
+        for name in ("sigma", "velocity", "displacement", "kelvin"):
+            one, other = getattr(stepper.state, name), getattr(twin, name)
+            np.testing.assert_allclose(one, other, rtol=0, atol=1e-9 * np.abs(other).max())
+    assert absent.any() and not absent.all()
+
+
+def replace_absent(law: BondLaws, absent: np.ndarray) -> BondLaw:
+    """The same with elements too stiff to move in place of absent ones, as the twin has them everywhere."""
+    return BondLaw(law.spring, law.dashpot, np.where(absent, 1e30, law.kelvin_springs), law.kelvin_dashpots)
+
+
+@pytest.mark.parametrize("name", ["euler", "fitted"])
+def test_stepping_is_the_frequency_domain(beam_system, name):
+    """A specimen whose bonds differ, along and across: forces of the last cycle, to what transients leave."""
+    system, law = replace(beam_system, load=np.zeros_like(beam_system.load)), mixed(beam_system)
+    run = march(system, law, name, HeadDevices())
+    sine = 1e-7 * np.sin(2 * np.pi / 100 * np.arange(1, 1601))
+    force = np.array([run.move_to(place) for place in sine])[-100:]
+    found = 2j * (force * np.exp(-2j * np.pi / 100 * np.arange(1, 101))).mean() / 1e-7
+    dt = run.dt if name == "euler" else 0.0
+    rate = (1 - np.exp(-1j * OMEGA * dt)) / dt if dt else 1j * OMEGA
+    exact = driving_force(system, law.discrete_modulus(OMEGA, dt), OMEGA, rate**2)
+    assert found == pytest.approx(exact, rel=5e-6)
+
+
+def test_frequency_domain_against_dense_equations(beam_system):
+    modulus, omega = mixed(beam_system).discrete_modulus(OMEGA, 0.0), 3e3
+    g = beam_system.operator.toarray()
+    dense = (g.T * (beam_system.weight * modulus)) @ g - omega**2 * np.diag(beam_system.mass)
+    flexibility = np.linalg.inv(dense)[beam_system.driven, beam_system.driven]
+    assert driving_force(beam_system, modulus, omega) == pytest.approx(1 / flexibility, rel=1e-9)
+
+
+def test_the_tangents_have_their_own_law():
+    """A bond pulled along its normal follows one law, along a tangent the other."""
+    laws = BondLaws.of_bonds((STONE, SOLID), np.array([0]), np.array([1]))
+    for row, law in ((0, STONE), (1, SOLID), (2, SOLID)):
+        rows = np.zeros((3, 2))
+        rows[row], rows[row - 1] = [1, 0], [0, 1]
+        head = system_of(rows, 2e-3, [1.0, 1.0], driven=0)
+        stiffness = driving_force(head, laws.discrete_modulus(OMEGA, 0.0), OMEGA, 0.0)
+        assert stiffness == pytest.approx(2e-3 * law.discrete_modulus(OMEGA, 0.0), rel=1e-12)
+
+
+def test_the_stiffer_of_two_bonds_breaks():
+    """Side by side, as strong as each other: the stone breaks first, at its strength, and the soft one goes on."""
+    system = replace(between((1e-3, 1e-3), series=False), strength=np.array([100.0, 100.0, np.inf]))
+    soft, dt, speed = replace(STONE, spring=6e9), 1e-4, 1e-3
+    law = BondLaws.of_bonds((STONE, soft), np.array([1, 0, 0]))
+    stepper = CondensedStepper(system, law, dt, CondensedState.at_rest(system, law))
+    for n in range(1, 41):
+        force = stepper.advance(-speed) - (-system.mass[0] * speed / dt if n == 1 else 0.0)
+        opening = n * dt * speed
+        whole = opening * 60e9 * 1e-3 <= 100.0
+        assert stepper.state.broken == ([] if whole else [1])
+        assert force == pytest.approx(-opening * 1e-3 * (soft.spring + whole * STONE.spring), rel=1e-9)
+    assert stepper.state.broken == [1]
+
+
+@pytest.mark.parametrize("name", ["euler", "fitted"])
+@pytest.mark.parametrize(("amplitude", "narrowing"), [(8e-5, 1.0), (3e-5, 1e-3)])
+def test_energy_account(beam_system, name, amplitude, narrowing):
+    """Closed to 1e-11 of the work while bonds of several laws break, and gaps close."""
+    system = replace(beam_system, gap=narrowing * beam_system.gap)
+    if narrowing < 1.0:
+        system = replace(system, strength=np.full_like(system.strength, np.inf))
+    run = march(system, mixed(system), name)
+    for n in range(100):
+        run.move_to(amplitude * np.sin(OMEGA * run.dt * max(0, n - 9)))
+        sums = run.account.sums
+        assert abs(sums.error) < 1e-11 * max(abs(sums.actuator), 1e-9)
+    assert sums.dashpots > 0.0 and sums.springs > 0.0
+    assert (sums.impact if narrowing < 1.0 else sums.fracture) > 0.0
+
+
+def test_the_reduced_model_refuses(beam_system):
+    model = ReducedModel(beam_system, ritz_basis(beam_system, 2))
+    with pytest.raises(TypeError, match="one law for all bonds"):
+        ReducedStepper(model, mixed(beam_system), 1e-4, 1e-6)
