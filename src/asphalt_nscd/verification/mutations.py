@@ -20,10 +20,10 @@ MUTANTS = [
     # what, theme that must notice, file, right, wrong
     ("dashpot in the compliance of a bond", "law", "nscd/bonds/law.py", "+ 1.0 / self.dashpot +", "- 1.0 / self.dashpot +"),
     ("recall of the Kelvin element", "law", "nscd/bonds/law.py", "recall=springs / damped", "recall=-springs / damped"),
-    ("growth of the Kelvin element", "law", "nscd/bonds/law.py", "* kelvin - self.gain", "* kelvin + self.gain"),
+    ("growth of the Kelvin element", "law", "nscd/bonds/law.py", "* kelvin - _beside", "* kelvin + _beside"),
     ("memory of the spring", "law", "nscd/bonds/law.py", "memory=1.0 / (dt * self.spring)", "memory=-1.0 / (dt * self.spring)"),
     ("lever arm of a bond", "beams", "nscd/bonds/system.py", "arm[k1] * frame[b, c, k2] - arm", "arm[k1] * frame[b, c, k2] + arm"),
-    ("history of the bonds in the condensed equations", "beams", "nscd/stepping/condensed.py", "impulse += scale *", "impulse -= scale *"),
+    ("history of the bonds in the condensed equations", "beams", "nscd/stepping/condensed.py", "impulse += self._impulse_of", "impulse -= self._impulse_of"),
     ("load in the force of the head", "beams", "nscd/stepping/condensed.py", "inertia - system.load", "inertia + system.load"),
     ("guide spring at the head", "beams", "nscd/bonds/head_kernels.py", "/ dt + spring * x)", "/ dt - spring * x)"),
     ("inertia in the frequency domain", "beams", "nscd/stepping/harmonic.py", "-(omega**2)", "+(omega**2)"),
