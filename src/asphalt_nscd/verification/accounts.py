@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices
-from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import AnyLaw, BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.energy import Energies
@@ -18,7 +18,7 @@ from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.verification.methods import beam
 from asphalt_nscd.verification.row import Checks, Row
-from asphalt_nscd.verification.specimens import QUICK_LAW, elastic
+from asphalt_nscd.verification.specimens import QUICK_LAW, elastic, mixed
 
 checks = Checks()
 
@@ -34,12 +34,13 @@ def account(
     name: str,
     devices: HeadDevices = RIGID,
     cycles: float = 1.0,
-    law: BondLaw = QUICK_LAW,
+    law: AnyLaw = QUICK_LAW,
 ) -> tuple[Energies, float]:
     """(energies at the end, largest error of the account in any step over the work at the end)."""
     scheme = Scheme.named(name, OMEGA * DT)
     stepper: Stepper
     if method == "reduced":
+        assert isinstance(law, BondLaw), "the reduced model has one law for all bonds"
         stepper = ReducedStepper(
             ReducedModel(system, ritz_basis(system, 12)), law, DT / scheme.a, 1e-6, devices=devices
         )
@@ -65,6 +66,8 @@ def closure() -> list[Row]:
             for name in ("euler", "fitted"):
                 _, error = account(system, amplitude, method, name, devices)
                 rows.append(Row(f"energy account, {method}, {name}, {what}", 0.0, error, CLOSES, ACCOUNT))
+        _, error = account(system, amplitude, "condensed", "fitted", devices, law=mixed(system))
+        rows.append(Row(f"energy account, bonds of three laws, fitted, {what}", 0.0, error, CLOSES, ACCOUNT))
     return rows
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import BondLaw, BondLaws
+from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.verification.row import Checks, Row, order
+from asphalt_nscd.verification.specimens import system_of
 
 checks = Checks()
 
@@ -128,5 +130,41 @@ def oscillation_rows() -> list[Row]:
             float(np.angle(found[-1])),
             1e-8,
             "the same",
+        ),
+    ]
+
+
+@checks
+def two_bonds_in_series() -> list[Row]:
+    """A Burgers bond's normal and a chain's tangent, in series under 3 N: each creeps by its own law."""
+    time, rows = 0.02, np.zeros((6, 3))
+    rows[0], rows[4] = (
+        [0, -1, 1],
+        [0, 1, 0],
+    )  # body 2 on body 1 along the normal, body 1 on the wall along a tangent
+    mass, load = np.array([1.0, 1e-9, 1e-9]), np.array([0.0, 0.0, 3.0])
+    system = system_of(rows, np.repeat([2e-3, 5e-3], 3), mass, driven=0, load=load)
+    law = BondLaws.of_bonds((LAW, CHAIN), np.array([0, 0]), np.array([0, 1]))
+    found = []
+    for dt in STEPS:
+        stepper = CondensedStepper(system, law, dt, CondensedState.at_rest(system, law))
+        for _ in range(round(time / dt)):
+            stepper.advance(0.0)
+        found.append(float(stepper.state.displacement[2]))
+    exact = 3.0 * (float(BURGERS.creep_compliance(time)) / 2e-3 + chain_creep(time) / 5e-3)
+    return [
+        Row(
+            "bonds of two laws in series, opening after 20 ms",
+            exact,
+            found[-1],
+            2e-3,
+            "sum of both creep compliances",
+        ),
+        Row(
+            "bonds of two laws in series, order in dt",
+            1.0,
+            order([v - exact for v in found]),
+            0.05,
+            "implicit Euler",
         ),
     ]

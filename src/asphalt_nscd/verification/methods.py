@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import AnyLaw, BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
@@ -18,7 +18,7 @@ from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.verification.row import Checks, Row, order
-from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam
+from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam, mixed
 
 checks = Checks()
 
@@ -34,13 +34,14 @@ def beam(*shape: int) -> BondedSystem:
 
 
 def march(
-    method: str, scheme_name: str, system: BondedSystem, law: BondLaw, steps: int, omega: float = OMEGA
+    method: str, scheme_name: str, system: BondedSystem, law: AnyLaw, steps: int, omega: float = OMEGA
 ) -> March:
     """A run from rest with so many steps in a cycle, by the method "condensed" or "reduced"."""
     dt = 2 * np.pi / omega / steps
     scheme = Scheme.named(scheme_name, omega * dt)
     stepper: Stepper
     if method == "reduced":
+        assert isinstance(law, BondLaw), "the reduced model has one law for all bonds"
         stepper = ReducedStepper(ReducedModel(system, ritz_basis(system, 12)), law, dt / scheme.a, 1e-6)
     else:
         stepper = CondensedStepper(system, law, dt / scheme.a, CondensedState.at_rest(system, law))
@@ -180,4 +181,40 @@ def breaking_alike() -> list[Row]:
             "condensed against reduced",
         ),
         Row("fracture, difference of the force", 0.0, difference, 1e-6, "condensed against reduced"),
+    ]
+
+
+@checks
+def a_law_for_each_bond() -> list[Row]:
+    """Drawn from a table; and one law in every place of the table, through breaks."""
+    system, steps = replace(beam(), load=np.zeros(beam().mass.size)), 100
+    dt = 2 * np.pi / OMEGA / steps
+    law, rate = mixed(system), (1 - np.exp(-1j * OMEGA * dt)) / dt
+    modulus, g = law.discrete_modulus(OMEGA, dt), system.operator.toarray()
+    dense = (g.T * (system.weight * modulus)) @ g + rate**2 * np.diag(system.mass)
+    exact = 1.0 / np.linalg.inv(dense)[system.driven, system.driven]
+    run = march("condensed", "euler", system, law, steps)
+    sine = np.sin(2 * np.pi / steps * np.arange(1, 12 * steps + 1))
+    found = stiffness(np.array([run.move_to(1e-7 * place) for place in sine]), steps, 1e-7)
+    force, broken = [], []
+    for shared in (QUICK_LAW, mixed(beam(), (QUICK_LAW, QUICK_LAW))):
+        run = march("condensed", "fitted", beam(), shared, steps)
+        force.append(np.array([run.move_to(8e-5 * place) for place in sine[:steps]]))
+        broken.append(run.stepper.state.broken)
+    difference = np.abs(force[0] - force[1]).max() / np.abs(force[0]).max() if broken[0] else np.nan
+    same = sum(a == b for a, b in zip(*broken, strict=False))
+    by_frequency = abs(driving_force(system, modulus, OMEGA, rate**2) / exact)
+    three, one = "bonds of three laws", "one law in each bond"
+    return [
+        Row(f"{three}, |F/z| in the frequency domain", 1.0, by_frequency, 1e-9, "dense equations"),
+        Row(
+            f"{three}, |F/z| of implicit Euler",
+            1.0,
+            abs(found / exact),
+            1e-5,
+            "dense equations of the scheme",
+        ),
+        Row(f"{three}, phase of implicit Euler (rad)", 0.0, np.angle(found / exact), 1e-5, "the same"),
+        Row(f"{one}, difference of the force", 0.0, difference, 1e-12, "that law shared"),
+        Row(f"{one}, bonds that break alike", len(broken[0]), same, 0.0, "that law shared"),
     ]

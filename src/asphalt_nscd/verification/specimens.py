@@ -6,7 +6,7 @@ import numpy as np
 from scipy import sparse
 
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import BondLaw, BondLaws
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.specimen.network import bond_network, facet_network
 from asphalt_nscd.specimen.trimming import Specimen
@@ -14,6 +14,19 @@ from asphalt_nscd.specimen.trimming import Specimen
 # Moduli of Table 3 at 15 degC, viscosities lowered until transients die within two cycles at 40 Hz
 # (relaxation times below 3 ms), so that a short test reaches its steady state to 1e-9.
 QUICK_LAW = BondLaw(24.3e9, 0.06e9, np.array([48.4e9]), np.array([0.077e9]))
+
+
+QUICK_LAWS = (
+    QUICK_LAW,
+    BondLaw(60e9, np.inf, np.array([]), np.array([])),
+    BondLaw(20e9, np.inf, np.array([30e9, 90e9]), np.array([0.02e9, 0.09e9])),
+)
+
+
+def mixed(system: BondedSystem, table: tuple[BondLaw, ...] = QUICK_LAWS) -> BondLaws:
+    """Laws drawn for each bond, another along it than across."""
+    normal, tangential = np.random.default_rng(3).integers(len(table), size=(2, system.gap.size))
+    return BondLaws.of_bonds(table, normal, tangential)
 
 
 def elastic(modulus: float) -> BondLaw:
