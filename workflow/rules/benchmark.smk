@@ -305,6 +305,32 @@ rule publish_outside:
         "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark --document docs --block outside={input.table}"
 
 
+rule benchmark_films:
+    # Full stepping with a law for each bond, against the frequency domain. Ten minutes: only on request.
+    input:
+        specimen=f"{FACETS}/specimens/{SAMPLES[0]}.h5",
+        code=["benchmarks/films.py", "src/asphalt_nscd/forecast/stepping.py", code("trim"), code("simulate")],
+    output:
+        "results/benchmark/films.csv",
+    log:
+        "results/benchmark/logs/films.log",
+    message:
+        "Bend a specimen whose bonds are films, by time steps and by frequency"
+    shell:
+        MEASURE + "/films.py {input.specimen} --output {output} > {log} 2>&1"
+
+
+rule publish_films:
+    # What is committed of them, and their table in docs. Only on request: snakemake --cores 1 publish_films
+    input:
+        table="results/benchmark/films.csv",
+        code=code("publish"),
+    message:
+        "Copy the tests on films, and fill their table in docs"
+    shell:
+        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark --document docs --block films={input.table}"
+
+
 rule benchmark_provenance:
     input:
         "results/benchmark/benchmark.csv",

@@ -271,6 +271,36 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             figures=3,
         )
     ],
+    "films": [
+        Layout(
+            {
+                "temperature_C": "°C",
+                "frequency_Hz": "Hz",
+                "E_MPa": "E stepped, MPa",
+                "E_frequency_domain_MPa": "by frequency, MPa",
+                "E_difference_percent": "apart, %",
+                "phase_deg": "phase, °",
+                "phase_frequency_domain_deg": "by frequency, °",
+                "phase_difference_deg": "apart, °",
+                "cpu_s": "CPU, s",
+            }
+        ),
+        Layout(
+            {
+                "temperature_C": "°C",
+                "frequency_Hz": "Hz",
+                "least_bond_MPa": "bonds from, MPa",
+                "largest_bond_MPa": "to, MPa",
+                "least_bond_phase_deg": "from, °",
+                "largest_bond_phase_deg": "to, °",
+                "classes": "classes",
+                "elements": "elements",
+                "rms_bond_error_percent": "rms error of a bond, %",
+                "largest_bond_error_percent": "largest, %",
+            },
+            "Moduli and phases of single bonds, and what their chains miss in the band:",
+        ),
+    ],
     "million": [
         Layout(
             {
