@@ -24,7 +24,7 @@ MUTANTS = [
     ("memory of the spring", "law", "nscd/bonds/law.py", "memory=1.0 / (dt * self.spring)", "memory=-1.0 / (dt * self.spring)"),
     ("tangential law of a bond", "law", "nscd/bonds/law.py", "[normal, tangential, tangential]", "[normal, normal, tangential]"),
     ("law of another bond", "methods", "nscd/bonds/law.py", "recall for step in steps]", "keep for step in steps]"),
-    ("bonds of another loss in the frequency domain", "methods", "nscd/stepping/harmonic.py", "(relative - np.abs(relative))", "(relative + np.abs(relative))"),
+    ("loss of a bond in the frequency domain", "methods", "nscd/stepping/harmonic.py", "system.weight * relative)", "system.weight * relative.conj())"),
     ("laws in the energy of the springs", "accounts", "nscd/stepping/energy.py", 'one["sigma"] / self.law.spring', 'one["sigma"] / np.mean(self.law.spring)'),
     ("lever arm of a bond", "beams", "nscd/bonds/system.py", "arm[k1] * frame[b, c, k2] - arm", "arm[k1] * frame[b, c, k2] + arm"),
     ("history of the bonds in the condensed equations", "beams", "nscd/stepping/condensed.py", "impulse += self._impulse_of", "impulse -= self._impulse_of"),
