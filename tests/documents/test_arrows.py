@@ -20,7 +20,6 @@ ARROWS = {
     "rheology": ["files", "measurements"],
     "specimen": ["files", "measurements", "nscd"],
     "packings": ["files", "nscd", "specimen"],
-    "forecast": ["files", "measurements", "nscd", "rheology", "specimen"],
     "bending": ["files", "measurements", "nscd", "rheology", "specimen"],
     "forecast": ["files", "measurements", "nscd", "rheology", "specimen"],
     "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
