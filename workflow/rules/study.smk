@@ -30,6 +30,9 @@ def check(study, source):
             sys.exit("\n".join(f"error: {set_aside(file)}" for file in found))
 
 
+# How large the attack on the diagnosis is: apart from any study. On the command line numbers come as text.
+ATTACK = {name: int(number) for name, number in config.pop("attack", {}).items()}
+
 try:
     for _path in workflow.configfiles:
         refuse_repeated_keys(_path)

@@ -1,0 +1,5 @@
+"""A second program that attacks the diagnosis, written apart from it and from `blind`.
+
+It makes tables as laboratories produce them, with remounting, errors of temperature control and broken isotherms,
+puts faults into them that the catalogue has and has not, and holds the answer of `asphalt-nscd diagnose` against them.
+"""

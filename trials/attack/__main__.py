@@ -1,0 +1,74 @@
+"""Steps of the attack, each a command: `python -m attack STEP` with trials/ on the path."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+File = click.Path(path_type=Path)
+
+
+@click.group()
+def main() -> None:
+    """An independent attack on the diagnosis."""
+
+
+@main.command()
+@click.argument("numbers", nargs=-1, type=int, required=True)
+@click.option("--tables", type=int, help="Campaigns with faults put in.")
+@click.option("--empty", type=int, help="More campaigns without a fault.")
+@click.option("--output", required=True, type=File)
+def part(numbers: tuple[int, ...], tables: int | None, empty: int | None, output: Path) -> None:
+    """Attack the campaigns of these NUMBERS; one JSON line for each diagnosis, whole or not at all."""
+    from asphalt_nscd.files.store import atomic_path
+
+    from .trial import Size, attacked
+
+    size = Size(**{name: n for name, n in (("tables", tables), ("empty", empty)) if n is not None})
+    with atomic_path(output) as temporary, temporary.open("w", encoding="utf-8") as file:
+        for number in numbers:
+            for line in attacked(number, size):
+                file.write(json.dumps(line) + "\n")
+
+
+@main.command()
+@click.argument("lines", nargs=-1, required=True, type=File)
+@click.option("--before", type=File, help="Summary of an earlier commit, to stand beside.")
+@click.option("--folder", required=True, type=File)
+def tables(lines: tuple[Path, ...], before: Path | None, folder: Path) -> None:
+    """Tables of all LINES of `part` into a folder, and what made them."""
+    import pandas as pd
+
+    from asphalt_nscd.files.store import provenance, write_json, write_table
+
+    from . import plan, rates
+
+    read = [json.loads(text) for path in lines for text in path.read_text(encoding="utf-8").splitlines()]
+    rows, names = rates.frames(read)
+    write_table(folder / "cases.csv", rows)
+    write_table(folder / "names.csv", names)
+    write_table(folder / "by_fault.csv", rates.by_fault(rows))
+    write_table(folder / "coverage.csv", rates.coverage(rows[~rows["measured"]]))
+    write_table(folder / "reliability.csv", rates.reliability(names))
+    earlier = None if before is None or not before.is_file() else pd.read_csv(before)
+    write_table(folder / "summary.csv", rates.summary(rows, names, earlier))
+    tried = rows.drop_duplicates("table")
+    write_json(
+        folder / "campaign.json",
+        {
+            **provenance(),
+            "seed": plan.SEED,
+            "invented": int((~tried["measured"]).sum()),
+            "measured": int(tried["measured"].sum()),
+            "diagnoses": len(read),
+            "cpu_s_median": float(rows["cpu_s"].median()),
+            "cpu_s_largest": float(rows["cpu_s"].max()),
+            "failures": sorted({line["failure"] for line in read if line["failure"]}),
+        },
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,180 @@
+"""Tables of the attack: one row for each fault, and the rates that are judged, with Wilson's intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from scipy.stats import binomtest
+
+ONE_SPECIMEN_OR_ISOTHERM = (
+    "offset of one specimen", "delay of one specimen", "offset of one isotherm",
+    "temperature of one specimen on one isotherm",
+)  # fmt: skip
+BINS = (0.0, 0.5, 0.7, 0.9, 0.95, 0.99, 1.0)  # of stated probabilities
+
+
+def rate(hits: Iterable[Any]) -> dict[str, float]:
+    """Number, hits, rate and 95 % interval (Wilson 1927); missing values are left out."""
+    known = pd.Series(list(hits), dtype=object).dropna().astype(bool)
+    n, hits = len(known), int(known.sum())
+    if not n:
+        return {"n": 0, "hits": 0, "rate": np.nan, "low": 0.0, "high": 1.0}
+    interval = binomtest(hits, n).proportion_ci(method="wilson")
+    return {"n": n, "hits": hits, "rate": hits / n, "low": float(interval.low), "high": float(interval.high)}
+
+
+def by_fault(rows: pd.DataFrame) -> pd.DataFrame:
+    """How often a fault was named, told, removed, and what was wrong beside it, by fault and size over limit."""
+    out = []
+    keys = ["measured", "suite", "fault", "ratio"]
+    for key, part in rows.groupby(keys, dropna=False):
+        row = dict(zip(keys, key)) | {"n": len(part)}
+        for name in ("named", "confident", "told", "removed", "covered"):
+            row[name] = (
+                int(part[name].dropna().astype(bool).sum())
+                if name in part and part[name].notna().any()
+                else None
+            )
+        row |= {
+            name: int((part[name] > 0).sum())
+            for name in ("wrong_confident", "wrong_possible", "good_rejected")
+        }
+        out.append(row)
+    return pd.DataFrame(out)
+
+
+def coverage(rows: pd.DataFrame) -> pd.DataFrame:
+    """Whether the true size lies in the 95 % interval of a name, and the error in standard errors, by cause."""
+    named = rows[rows["covered"].notna()]
+    parts = [*named.groupby("fault"), ("all", named)]
+    return pd.DataFrame(
+        [
+            {
+                "cause": cause, **rate(part["covered"]), "bias_sigma": part["error_sigma"].mean(),
+                "std_sigma": part["error_sigma"].std(),
+            }
+            for cause, part in parts
+        ]
+    )  # fmt: skip
+
+
+def reliability(names: pd.DataFrame) -> pd.DataFrame:
+    """How often names are right, by the probability stated for them, and of established and possible ones."""
+    parts = {"established": names[names["established"]], "possible": names[~names["established"]]}
+    known = names[names["probability"].notna()]
+    for low, high in zip(BINS, BINS[1:]):
+        inside = known["probability"].between(low, high, inclusive="right")
+        if inside.any():
+            parts[f"{low:g} - {high:g}"] = known[inside]
+    return pd.DataFrame(
+        [
+            {"stated": label, "mean_stated": part["probability"].mean(), **rate(part["right"])}
+            for label, part in parts.items()
+        ]
+    )
+
+
+def _off(names: pd.DataFrame) -> list[bool]:
+    """Of each bin of stated probabilities with ten names or more, whether its share right is within five points."""
+    table = reliability(names)
+    bins = table[
+        table["mean_stated"].notna() & ~table["stated"].isin(("established", "possible")) & (table["n"] >= 10)
+    ]
+    return [
+        abs(row.rate - row.mean_stated) <= 0.05 or row.low <= row.mean_stated <= row.high
+        for row in bins.itertuples()
+    ]
+
+
+def summary(rows: pd.DataFrame, names: pd.DataFrame, before: pd.DataFrame | None = None) -> pd.DataFrame:
+    """Each criterion with its rate, interval, and whether it is met; before: the summary of an earlier commit."""
+    invented, real = rows[~rows["measured"]], rows[rows["measured"]]
+    put = invented[invented["suite"] == "catalogue"]
+    empty = invented[invented["suite"] == "nothing"]
+    pair = invented[invented["suite"] == "pair"]
+    outside = invented[invented["suite"] == "outside"]
+    slip = {kind: part for kind, part in invented[invented["suite"] == "slip"].groupby("fault")}
+    none = rows.iloc[:0]
+    masked, ten, alone, noted = (
+        slip.get(kind, none)
+        for kind in (
+            "masked pair of bad tests",
+            "slip of ten",
+            "single bad test",
+            "wrong recorded temperature",
+        )
+    )
+    false_bias = noted[["wrong_confident", "wrong_possible"]].sum(axis=1) > 0
+    broken = empty.loc[empty["broken"], "broken_found"]
+    own = outside[outside["fault"].isin(ONE_SPECIMEN_OR_ISOTHERM)]
+    beside = invented.loc[invented["suite"].isin(("catalogue", "pair")), "wrong_confident"] > 0
+    covered = put["covered"].tolist() + pair["covered"].tolist()
+    worst = coverage(invented).query("cause != 'all' and n >= 5")["rate"]
+    real_new = real.loc[real["suite"] != "nothing", "wrong_confident"] > 0
+    real_put, real_outside = (real[real["suite"] == suite] for suite in ("catalogue", "outside"))
+    both = pair.groupby("table")["named"].agg(lambda named: bool(named.astype(bool).all()))
+
+    def at(part: pd.DataFrame, ratio: float, column: str = "named") -> pd.Series:
+        return part.loc[part["ratio"] == ratio, column]
+
+    lines = [
+        _line("causes of the catalogue at 3 limits: named", ">= 98 %", at(put, 3.0), low=0.98),
+        _line("the same with confidence", "reported", at(put, 3.0, "confident")),
+        _line("at 2 limits: named", ">= 95 %", at(put, 2.0), low=0.95),
+        _line("at the stated limit: named", ">= 90 %", at(put, 1.0), low=0.90),
+        _line("beside causes and pairs: a wrong name with confidence", "<= 3 %", beside, high=0.03),
+        _line("pairs at 3 limits: both named", ">= 90 %", both, low=0.90),
+        _line("nothing put in: a name with confidence", "<= 1 %", empty["wrong_confident"] > 0, high=0.01),
+        _line("nothing put in: a possible name", "<= 5 %", empty["wrong_possible"] > 0, high=0.05),
+        _line("nothing put in: unexplained", "<= 15 %", empty["verdict"] == "unexplained_structure", high=0.15),
+        _line("nothing put in: a test left out that is good", "reported", empty["good_rejected"] > 0),
+        _line("outside the catalogue: told", "reported", outside["told"]),
+        _line("of one specimen or one isotherm: told", ">= 90 %", own["told"], low=0.90),
+        _line("outside: a wrong name with confidence", "<= 3 %", outside["wrong_confident"] > 0, high=0.03),
+        _line("outside: a wrong possible name", "reported", outside["wrong_possible"] > 0),
+        _line("single bad tests: left out", "reported", alone.get("removed", [])),
+        _line("masked pairs of bad tests: both left out", ">= 60 %", masked.get("removed", []), low=0.60),
+        _line("masked pairs: a good test left out", "<= 5 %", masked["good_rejected"] > 0, high=0.05),
+        _line("slip of ten: left out", "reported", ten.get("removed", [])),
+        _line("slip of ten: a good test left out", "none", ten["good_rejected"] > 0, high=0.0),
+        _line("wrong recorded temperature: a false name", "none", false_bias, high=0.0),
+        _line("the same: told", "reported", noted["told"]),
+        _line("broken isotherms: found", ">= 90 %", broken, low=0.90),
+        _line("broken isotherms: said where none is", "<= 2 %", empty["broken_false"], high=0.02),
+        _line("size in its 95 % interval", "92 - 98 %", covered, low=0.92, high=0.98),
+        _line("causes whose sizes are in it in 88 % or more", "all", worst >= 0.88, low=1.0),
+        _line("probabilities stated: groups within 5 points", "all", _off(names), low=1.0),
+        _line("measured tables, causes at 2 and 3 limits: named", ">= 90 %", real_put["named"], low=0.90),
+        _line("measured: a wrong name added with confidence", "<= 3 %", real_new, high=0.03),
+        _line("measured, outside: told", "reported", real_outside["told"]),
+        _line("answers with a name whose interval holds zero", "none", rows["hold_zero"] > 0, high=0.0),
+        _line("answers that keep an established cause to themselves", "none", rows["unsaid"], high=0.0),
+        _line("diagnoses that failed", "none", rows["verdict"] == "failed", high=0.0),
+    ]  # fmt: skip
+    table = pd.DataFrame(lines)
+    if before is not None:
+        table.insert(2, "percent_before", table["what"].map(before.set_index("what")["percent"]))
+    return table
+
+
+def _line(what: str, target: str, hits: Iterable[Any], low: float = 0.0, high: float = 1.0) -> dict[str, Any]:
+    found = rate(hits)
+    met = "not tried" if not found["n"] else "yes" if low <= found["rate"] <= high else "no"
+    percent = {name: round(100.0 * found[name], 1) for name in ("rate", "low", "high")}
+    return {
+        "what": what, "target": target, "percent": percent["rate"],
+        "interval_percent": f"{percent['low']} - {percent['high']}" if found["n"] else "", "of": found["n"],
+        "met": "" if target == "reported" else met,
+    }  # fmt: skip
+
+
+def frames(lines: Iterable[Mapping[str, Any]]) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """All rows of faults, and all names, of the lines of the parts."""
+    lines = list(lines)
+    rows = pd.DataFrame([row for line in lines for row in line["rows"]])
+    columns = ["table", "suite", "cause", "established", "probability", "right"]
+    names = pd.DataFrame([row for line in lines for row in line["names"]], columns=columns)
+    return rows, names.astype({"established": bool, "right": bool, "probability": float})

@@ -1,0 +1,64 @@
+# A second program against the diagnosis: tables as laboratories produce them, faults put in, and what is said of them.
+#   make attack
+#   snakemake attack --cores all --configfile config/paper.yaml config/attack.yaml
+# Faults are put into NCAT's measured tables too, and into those of the folder that ASPHALT_NSCD_TABLES names.
+
+sys.path.insert(0, str(CLONE / "trials"))
+from attack.trial import Size
+
+ATTACK_COMMAND = f"env PYTHONPATH={CLONE / 'trials'}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m attack"
+ATTACK_CODE = sorted(os.path.relpath(path) for path in (CLONE / "trials/attack").glob("*.py"))
+ATTACK_PARTS = 16  # jobs, each with every sixteenth campaign: all kinds in each
+ATTACK_TABLES = "cases names by_fault coverage reliability summary".split()
+BEFORE = "results/published/attack/before.csv"
+
+
+rule attack_part:
+    # Some campaigns, as they are and with faults: one line for each diagnosis.
+    input:
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=ATTACK_CODE,
+    output:
+        "results/attack/parts/{number}.jsonl",
+    params:
+        campaigns=lambda wildcards: [*range(int(wildcards.number), Size(**ATTACK).all, ATTACK_PARTS)],
+        size=options(ATTACK),
+    log:
+        "results/attack/logs/parts/{number}.log",
+    benchmark:
+        "results/attack/benchmarks/parts/{number}.tsv"
+    message:
+        "Attack the diagnosis, part {wildcards.number}"
+    shell:
+        ATTACK_COMMAND + " part {params.campaigns} {params.size} --output {output} > {log} 2>&1"
+
+
+rule attack_tables:
+    # Beside the rates of an earlier commit, which are kept.
+    input:
+        lines=expand("results/attack/parts/{number}.jsonl", number=range(min(ATTACK_PARTS, Size(**ATTACK).all))),
+        generator=ATTACK_CODE,
+        before=BEFORE if Path(BEFORE).is_file() else [],
+    output:
+        [f"results/attack/{name}.csv" for name in ATTACK_TABLES],
+        "results/attack/campaign.json",
+    params:
+        before=lambda wildcards, input: f"--before {input.before}" if input.before else "",
+    log:
+        "results/attack/logs/tables.log",
+    message:
+        "Compare what was put in with what was said"
+    shell:
+        ATTACK_COMMAND + " tables {input.lines} {params.before} --folder results/attack > {log} 2>&1"
+
+
+rule attack:
+    # What is committed of the attack, and its table in docs.
+    input:
+        files=rules.attack_tables.output,
+        summary="results/attack/summary.csv",
+        code=code("publish"),
+    message:
+        "Copy what is committed of the attack, and fill its table in docs"
+    shell:
+        "asphalt-nscd publish {input.files} --root results/attack --output results/published/attack --document docs --block attack={input.summary}"
