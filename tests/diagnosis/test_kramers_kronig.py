@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.stats import multivariate_normal
 
-from asphalt_nscd.diagnosis.kramers_kronig import covariances, required_phase
+from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances, required_phase
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D
 
@@ -78,3 +79,24 @@ def test_covariances_are_those_of_modulus_and_phase():
         assert np.linalg.eigvalsh(covariance).min() > -1e-9
         # A rising slope raises phase and the modulus above the middle of the band together.
         assert covariance[5, 11] > 0.0 > covariance[0, 6]
+
+
+def test_standard_error_is_the_width_of_the_mixture():
+    """Density of the phase given the moduli, of all ripples with their weights, on a grid."""
+    f = np.array([0.1, 0.3, 1.0, 3.0, 10.0, 30.0])
+    bent = np.array([0.0, 0.3, 0.62, 0.75, 1.1, 1.4])  # on which no ripple has most of the weight
+    for values in (bent, 0.3 * np.log(f)):
+        found = required_phase(f, values, scatter=0.02)
+        centred = values - values.mean()
+        for test in range(f.size):
+            phase = np.linspace(-2.0, 4.0, 6001)
+            density = np.zeros(phase.size)
+            for covariance, weight in zip(covariances(f), WEIGHTS):
+                kept = [*range(f.size), f.size + test]
+                whole = covariance[np.ix_(kept, kept)] + np.diag([0.02**2] * f.size + [0.0])
+                points = np.column_stack([np.tile(centred, (phase.size, 1)), phase])
+                density += weight * multivariate_normal(cov=whole).pdf(points)
+            density /= density.sum()
+            mean = density @ phase
+            assert found.phase[test] == pytest.approx(mean, abs=1e-4)
+            assert found.std_error[test] == pytest.approx(np.sqrt(density @ (phase - mean) ** 2), rel=1e-3)

@@ -75,3 +75,24 @@ def test_one_temperature_is_not_enough_for_aashtoware_nor_takes_others(tmp_path)
         export_law(read_law_file(tmp_path / "law.json"), Settings(), "mepdg", tmp_path / "E.csv")
     with pytest.raises(InputError, match="leave out --temperatures-c"):
         read_law_file(tmp_path / "law.json", (0.0, 10.0))
+
+
+@pytest.mark.parametrize(
+    ("tested", "extrapolated"),
+    [
+        ((4.0, 21.0, 38.0), {14, 130}),
+        ((-10.0, 21.0, 38.0), {130}),
+        ((4.0, 21.0, 54.4), {14}),
+        ((-10.0, 54.4), set()),
+    ],
+)
+def test_temperatures_of_the_shift_are_told_at_either_end(tmp_path, tested, extrapolated):
+    """14 and 130 degF are -10 and 54.4 degC; the frequencies, so wide, are none of them beyond the tests."""
+    law = SPECTRA["FD"][0]
+    write_spectrum(tmp_path / "law.json", law, source="fitted", rms_log_residual=0.03)
+    read = read_law_file(tmp_path / "law.json", tested, (1e-9, 1e9))
+    export_law(read, Settings(), "mepdg", tmp_path / "E.csv")
+    joined = re.sub(r"\n#\s+", " ", (tmp_path / "E.csv").read_text())
+    beyond = re.findall(r"([\d.]+) degF [\d.]+ Hz \((f?T?)\)", joined)
+    assert {float(t) for t, flag in beyond if "T" in flag} == extrapolated
+    assert not any("f" in flag for _, flag in beyond)

@@ -104,3 +104,19 @@ def test_a_line_of_units_that_contradicts_the_names(tmp_path):
     )
     units[3] = "MPa"
     assert read(tmp_path, [HEADER, units, *ROWS]).table.columns == as_is(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("unit", "pascals"),
+    [
+        ("kgf/cm²", 9.80665 / 1e-4), ("psi", 4.4482216 / 0.0254**2), ("ksi", 4448.2216 / 0.0254**2), ("kPa", 1e3),
+        ("GPa", 1e9),
+    ],
+)  # fmt: skip
+def test_units_of_modulus_are_their_definitions(tmp_path, unit, pascals):
+    """Eight thousand megapascals, given in each unit, are eight thousand megapascals."""
+    given = 8e9 / pascals
+    table = [["specimen", "temperature_C", "frequency_Hz", f"E ({unit})", "phase_deg"]]
+    table += [["A", "20", str(f), f"{given * (1 + 0.01 * f):.10g}", "25"] for f in (1, 3, 10)]
+    columns = read(tmp_path, table).table.columns
+    assert [float(x) for x in columns["E_MPa"]] == pytest.approx([8080.0, 8240.0, 8800.0], rel=1e-6)

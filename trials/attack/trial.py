@@ -48,16 +48,17 @@ class Size:
     def all(self) -> int:
         return self.tables + self.empty + len(measured.paths())
 
-    def campaign(self, number: int) -> Campaign:
+    def campaign(self, number: int) -> tuple[Campaign, int]:
+        """The campaign of a number, and its own number among those of its kind."""
         turn = number - self.tables - self.empty
         if turn < 0:
-            return invented(number, plan.SEED)
-        return measured.campaign(measured.paths()[turn], f"measured {turn + 1}")
+            return invented(number, plan.SEED), number
+        return measured.campaign(measured.paths()[turn], f"measured {turn + 1}"), turn
 
 
 def attacked(number: int, size: Size) -> Iterator[dict[str, Any]]:
     """A line for each case: its rows (`judge.judged`), its names (`judge.stated`), what a failure said."""
-    under = size.campaign(number)
+    under, turn = size.campaign(number)
     bare = plan.Case("nothing")
     content, answer = answered(put(under, ()), under.bench)
     own = (
@@ -66,7 +67,7 @@ def attacked(number: int, size: Size) -> Iterator[dict[str, Any]]:
     yield _line(under, bare, content, answer, own)
     if size.tables <= number < size.tables + size.empty:
         return
-    for case in plan.cases(under, number, content["detection_limits"]):
+    for case in plan.cases(under, turn, content["detection_limits"]):
         content, answer = answered(put(under, case.faults), under.bench)
         yield _line(under, case, content, answer, own)
 

@@ -1,0 +1,119 @@
+"""Score tests and their chance, against dense algebra, simulation and known distributions."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from asphalt_nscd.diagnosis import chance
+from asphalt_nscd.diagnosis.chance import Scores
+
+N, P, K = 15, 6, 4  # tests, parameters of the law, directions
+
+
+@pytest.fixture
+def model():
+    """A linear law with a prior, a fit somewhere beside the best one, and directions of effects."""
+    random = np.random.default_rng(3)
+    jacobian = random.standard_normal((2 * N, P))
+    prior = np.diag(random.uniform(0.2, 3.0, P))
+    directions = random.standard_normal((N, K)) + 1j * random.standard_normal((N, K))
+    joint = SimpleNamespace(noise=SimpleNamespace(whiten=lambda v: np.concatenate([v.real, v.imag])))
+    return joint, jacobian, prior, directions
+
+
+def fitted(jacobian, prior, residual, at):
+    """Where the parameters stand `at`, of a law whose prior is about zero."""
+    precision = jacobian.T @ jacobian + prior
+    left = residual - jacobian @ at
+    return SimpleNamespace(
+        jacobian=jacobian, precision=precision, residual=left, gradient=jacobian.T @ left - prior @ at
+    )
+
+
+def test_the_square_of_a_score_is_what_the_objective_gains(model):
+    """By least squares with one more column: objective of the law alone less that with the effect."""
+    joint, jacobian, prior, directions = model
+    random = np.random.default_rng(4)
+    residual, at = random.standard_normal(2 * N), random.standard_normal(P)
+    found = chance.scores(joint, fitted(jacobian, prior, residual, at), directions, np.zeros(K, bool))
+
+    def objective(columns, penalty):
+        root = np.vstack([columns, np.linalg.cholesky(penalty + 1e-12 * np.eye(len(penalty))).T])
+        data = np.concatenate([residual, np.zeros(len(penalty))])
+        best = np.linalg.lstsq(root, data, rcond=None)[0]
+        return float(np.sum((data - root @ best) ** 2)), best
+
+    alone = objective(jacobian, prior)[0]
+    for k in range(K):
+        d = joint.noise.whiten(directions[:, [k]])
+        penalty = np.zeros((P + 1, P + 1))
+        penalty[:P, :P] = prior
+        with_effect, best = objective(np.hstack([jacobian, d]), penalty)
+        assert found.z[k] ** 2 == pytest.approx(alone - with_effect, rel=1e-6)
+        assert np.sign(found.z[k]) == np.sign(best[-1])
+        assert found.z[k] / np.sqrt(found.information[k]) == pytest.approx(best[-1], rel=1e-5)
+
+
+def test_scores_of_scatter_have_unit_variance_and_the_correlation_stated(model):
+    joint, jacobian, prior, directions = model
+    random = np.random.default_rng(5)
+    draws = []
+    for _ in range(4000):
+        truth = np.linalg.cholesky(np.linalg.inv(prior)) @ random.standard_normal(P)
+        residual = random.standard_normal(2 * N) + jacobian @ truth
+        found = chance.scores(
+            joint, fitted(jacobian, prior, residual, np.zeros(P)), directions, np.zeros(K, bool)
+        )
+        draws.append(found.z)
+    assert np.cov(np.array(draws).T) == pytest.approx(found.correlation, abs=0.07)
+    assert np.diag(found.correlation) == pytest.approx(1.0)
+
+
+def test_what_the_law_follows_is_not_seen_but_of_one_specimen(model):
+    joint, jacobian, prior, directions = model
+    followed = (jacobian[:N, 0] + 1j * jacobian[N:, 0])[:, None] + 1e-4 * directions[:, :1]
+    one = fitted(jacobian, 1e-6 * prior, np.random.default_rng(6).standard_normal(2 * N), np.zeros(P))
+    assert not chance.scores(joint, one, followed, np.array([False])).seen[0]
+    assert chance.scores(joint, one, followed, np.array([True])).seen[0]
+    assert chance.scores(joint, one, followed, np.array([False])).z[0] == 0.0
+
+
+def independent(k, seen=True):
+    return Scores(np.zeros(k), np.ones(k), np.full(k, seen), np.eye(k))
+
+
+@pytest.mark.parametrize(("one_sided", "freedom"), [(False, 9), (True, 9), (False, 10**6)])
+def test_one_direction_alone_is_as_large_as_students_t(one_sided, freedom):
+    drawn = chance.largest_by_chance(
+        independent(1), np.array([one_sided]), freedom, 200_000, np.random.default_rng(7)
+    )
+    for share in (0.9, 0.99):
+        t = stats.t(freedom).ppf(share if one_sided else 0.5 + share / 2)
+        assert np.quantile(drawn, share) == pytest.approx(t, rel=0.02)
+
+
+def test_the_largest_of_many_is_larger_and_of_equal_ones_is_not():
+    random = np.random.default_rng(8)
+    many = chance.largest_by_chance(independent(20), np.zeros(20, bool), 10**6, 100_000, random)
+    wanted = stats.norm.ppf(0.5 + 0.5 * 0.95 ** (1 / 20))  # all of twenty below it
+    assert np.quantile(many, 0.95) == pytest.approx(wanted, rel=0.01)
+    equal = Scores(np.zeros(20), np.ones(20), np.ones(20, bool), np.ones((20, 20)))
+    drawn = chance.largest_by_chance(equal, np.zeros(20, bool), 10**6, 100_000, random)
+    assert np.quantile(drawn, 0.95) == pytest.approx(1.96, rel=0.02)
+
+
+def test_chance_of_a_score_is_the_share_of_draws_and_beyond_them_falls_like_the_normal_tail():
+    drawn = np.abs(np.random.default_rng(9).standard_normal(4000))
+    assert chance.tail(drawn, 1.96) == pytest.approx(0.05, abs=0.012)
+    for z in (3.5, 4.5, 6.0):
+        assert chance.tail(drawn, z) == pytest.approx(2.0 * stats.norm.sf(z), rel=0.6)
+    assert chance.tail(drawn, 0.0) == 1.0
+
+
+def test_the_wrong_sign_of_a_one_sided_effect_is_nothing():
+    found = Scores(np.array([-4.0, -4.0, 3.0]), np.ones(3), np.ones(3, bool), np.eye(3))
+    assert chance.effective(found, np.array([True, False, True])).tolist() == [0.0, 4.0, 3.0]

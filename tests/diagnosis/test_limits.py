@@ -1,0 +1,85 @@
+"""Detection limits: an effect of that size, put in exactly, is seen in 19 of 20 tables."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from test_joint import ACTIVE, CAUSES, fit, table  # noqa: F401  fixtures
+
+from asphalt_nscd.diagnosis import chance, limits
+from asphalt_nscd.diagnosis.chance import Scores
+from asphalt_nscd.diagnosis.joint import Candidate, Joint
+
+CHANCE_LEVEL = 3.5
+THRESHOLD = CHANCE_LEVEL + chance.POWER
+
+
+def limits_of(joint, fitted, candidates):
+    directions = chance.candidate_directions(joint, fitted, candidates)
+    confined = np.array([isinstance(one.place, str) for one in candidates])
+    found = chance.scores(joint, fitted, directions, confined)
+    return limits.detection_limits(joint, fitted, candidates, found, THRESHOLD)
+
+
+@pytest.mark.parametrize("one", ACTIVE[:3], ids=lambda one: one.cause.name)
+def test_power_at_the_limit_is_95_percent(fit, one):  # noqa: F811
+    """Scatter is drawn and a law from its prior; the cause acts by its own formula, in its own unit."""
+    joint, fitted = fit
+    absent = one.with_values(np.zeros(1))
+    size = limits_of(joint, fitted, [absent])[0][one.key]
+    modulus = np.exp(joint.predict(fitted))
+    rows = one.cause.rows(joint.observed, one.place)
+    changed = one.cause.apparent(modulus, np.array([size]), joint.observed)
+    effect = joint.noise.whiten(np.where(rows, np.log(changed / modulus), 0.0))
+    direction = chance.candidate_directions(joint, fitted, [absent])
+    d = joint.noise.whiten(direction)[:, 0]
+    random = np.random.default_rng(1)
+    follows = np.linalg.solve(fitted.precision, fitted.jacobian.T)
+    prior = fitted.precision - fitted.jacobian.T @ fitted.jacobian
+    value, vector = np.linalg.eigh(prior)
+    pulled = vector * np.sqrt(np.maximum(value, 0.0)) @ random.standard_normal((value.size, 4000))
+    drawn = random.standard_normal((d.size, 4000)) + effect[:, None]
+    # A law drawn from its prior moves what is left by as much as the prior pulls it back.
+    left = drawn - fitted.jacobian @ (follows @ drawn) + follows.T @ pulled
+    z = d @ left / np.sqrt(d @ (d - fitted.jacobian @ (follows @ d)))
+    assert np.mean(z > CHANCE_LEVEL) == pytest.approx(0.95, abs=0.015)
+
+
+def test_what_cannot_be_seen_has_no_limit_and_is_told(fit):  # noqa: F811
+    joint, fitted = fit
+    absent = [one.with_values(np.zeros(1)) for one in (ACTIVE[0], ACTIVE[2])]
+    directions = chance.candidate_directions(joint, fitted, absent)
+    found = chance.scores(joint, fitted, directions, np.array([False, True]))
+    blind = replace(found, seen=np.array([True, False]))
+    sizes, unseen = limits.detection_limits(joint, fitted, absent, blind, THRESHOLD)
+    assert [one.key for one in unseen] == [absent[1].key] and set(sizes) == {absent[0].key}
+
+
+def test_twice_the_scatter_doubles_a_limit(table, fit):  # noqa: F811
+    joint, fitted = fit
+    absent = [one.with_values(np.zeros(1)) for one in ACTIVE[:2]]
+    wide = Joint(
+        table,
+        joint.base,
+        replace(joint.noise, within=2.0 * joint.noise.within, scale=2.0 * joint.noise.scale),
+    )
+    once = limits_of(joint, fitted, absent)[0]
+    twice = limits_of(wide, wide.linearise(fitted.law, fitted.scales, ()), absent)[0]
+    for one in absent:
+        # A little less: the prior of the law counts for more.
+        assert 1.7 < twice[one.key] / once[one.key] < 2.01
+
+
+def test_causes_are_alike_if_three_limits_do_not_part_them():
+    """Of two directions with correlation r, that of z leaves z^2 (1 - r^2) to the other."""
+    one, other = (Candidate(CAUSES[name], None, (0.0,)) for name in ("phase_offset", "channel_delay"))
+    strongest = 3.0 * (3.7 + 1.645)
+    for left, alike in ((5.0, True), (7.0, False)):
+        r = np.sqrt(1.0 - left / strongest**2)
+        found = Scores(np.zeros(2), np.ones(2), np.ones(2, bool), np.array([[1.0, r], [r, 1.0]]))
+        assert bool(limits.alike([one, other], found, as_good=6.0)) is alike
+    same = [one, replace(one, values=(1.0,))]
+    everything = Scores(np.zeros(2), np.ones(2), np.ones(2, bool), np.ones((2, 2)))
+    assert limits.alike(same, everything, 6.0) == []

@@ -1,0 +1,128 @@
+"""What an isotherm says of one of its values, against the conditional distributions of a mixture, written out."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.special import logsumexp
+from scipy.stats import multivariate_normal
+from scipy.stats import t as student
+
+from asphalt_nscd.diagnosis import within_isotherm
+from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum import HuetSayegh
+
+FREQUENCY = np.array([0.1, 0.5, 1.0, 5.0, 10.0, 25.0])
+TEMPERATURES = (4.0, 15.0, 27.0, 40.0)
+LAW = HuetSayegh(
+    static_modulus=80e6, glassy_modulus=32e9, k=0.22, h=0.6, delta=2.3, tau=0.3, shift=WLF(18.0, 140.0, 15.0)
+)
+
+
+def table(specimens=3, delay=0.0, scatter=(0.01, 0.005), seed=1, temperatures=TEMPERATURES) -> Observations:
+    random = np.random.default_rng(seed)
+    grid = np.array([(s, t, f) for s in range(specimens) for t in temperatures for f in FREQUENCY])
+    omega = 2.0 * np.pi * grid[:, 2]
+    true = np.log(LAW.complex_modulus(omega, grid[:, 1])) + 1j * omega * delay
+    true = (
+        true
+        + scatter[0] * random.standard_normal(omega.size)
+        + 1j * scatter[1] * random.standard_normal(omega.size)
+    )
+    return Observations(
+        grid[:, 0].astype(int), tuple("ABC"[:specimens]), grid[:, 1], grid[:, 2], np.exp(true),
+        np.full(omega.size, 25e3), np.zeros(omega.size),
+    )  # fmt: skip
+
+
+def changed(observed: Observations, row: int, factor: complex) -> Observations:
+    modulus = observed.modulus.copy()
+    modulus[row] *= factor
+    return Observations(**{**vars(observed), "modulus": modulus})
+
+
+def test_each_value_is_expected_where_the_mixture_given_the_others_has_its_mean():
+    """Every ripple and bend one normal distribution; weights by the density of the other values alone."""
+    observed = table(specimens=1, temperatures=(15.0,))
+    held = within_isotherm._Table(observed).hold()
+    k = FREQUENCY.size
+    log_f = np.log(FREQUENCY)
+    smooth = np.exp(-0.5 * ((log_f[:, None] - log_f) / within_isotherm.BEND_LENGTH) ** 2)
+    scatter = np.repeat(np.square(within_isotherm.SCATTER), k)
+    logarithm = observed.logarithm
+    values = np.concatenate([logarithm.real - logarithm.real.mean(), logarithm.imag])
+    models, weights = [], []
+    for causal, ripple in zip(covariances(FREQUENCY), WEIGHTS):
+        for bend, share in zip(within_isotherm.BENDS, within_isotherm.BEND_WEIGHTS):
+            whole = causal + np.diag(scatter)
+            whole[k:, k:] += within_isotherm.OFFSET**2 + bend**2 * smooth
+            models.append(whole)
+            weights.append(np.log(ripple * share))
+    for place in range(2 * k):
+        others = np.setdiff1d(np.arange(2 * k), place)
+        logs, means, variances = [], [], []
+        for whole, weight in zip(models, weights):
+            part = whole[np.ix_(others, others)]
+            logs.append(weight + multivariate_normal(cov=part).logpdf(values[others]))
+            pull = np.linalg.solve(part, whole[others, place])
+            means.append(pull @ values[others])
+            variances.append(whole[place, place] - pull @ whole[others, place])
+        share = np.exp(np.array(logs) - logsumexp(logs))
+        mean = share @ means
+        error = np.sqrt(share @ (np.array(variances) + (np.array(means) - mean) ** 2))
+        test, column = place % k, place // k
+        shift = logarithm.real.mean() if column == 0 else 0.0
+        assert held.expected[test, column] - shift == pytest.approx(mean, abs=2e-7)
+        assert held.std_error[test, column] == pytest.approx(error, rel=1e-4)
+        z = np.abs(values[place] - np.array(means)) / np.sqrt(variances)
+        assert held.chance[test, column] == pytest.approx(share @ (2.0 * student(10.0).sf(z)), rel=1e-4)
+
+
+def test_the_scatter_of_a_table_is_learnt():
+    for scatter in ((0.006, 0.003), (0.03, 0.012)):
+        found = [
+            within_isotherm.hold(table(scatter=scatter, seed=seed)).scatter.mean(axis=0) for seed in range(6)
+        ]
+        assert np.mean(found, axis=0) == pytest.approx(scatter, rel=0.25)
+
+
+def test_expectations_miss_by_their_standard_errors():
+    """Over tables drawn with scatter alone: of a hundred values some five are beyond two standard errors."""
+    far = []
+    for seed in range(12):
+        observed = table(seed=10 + seed)
+        held = within_isotherm.hold(observed)
+        logarithm = observed.logarithm
+        left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
+        far.append(np.abs(left / held.std_error) > 2.0)
+    assert 0.02 < np.mean(far) < 0.09
+
+
+@pytest.mark.parametrize("delay", [6e-4, -6e-4])
+def test_a_delay_of_all_tests_is_taken_off_and_is_in_what_is_expected(delay):
+    observed = table(delay=delay)
+    held = within_isotherm.hold(observed)
+    assert held.delay == pytest.approx(delay, rel=0.25)
+    left = observed.logarithm.imag - held.expected[:, 1]
+    assert np.sqrt(np.mean(left**2)) < 0.02
+    assert within_isotherm.hold(table()).delay == 0.0
+
+
+@pytest.mark.parametrize(("factor", "column"), [(1.25, 0), (np.exp(0.07j), 1)])
+def test_a_wrong_value_is_the_least_likely_and_expected_where_it_was(factor, column):
+    row = 8  # specimen A, 15 degC, 1 Hz
+    sound = table(seed=4)
+    held = within_isotherm.hold(changed(sound, row, factor))
+    assert np.unravel_index(held.chance[:, :2].argmin(), (sound.size, 2)) == (row, column)
+    assert held.chance[row, column] < 1e-3
+    true = (sound.logarithm.real, sound.logarithm.imag)[column][row]
+    assert held.expected[row, column] == pytest.approx(true, abs=3.0 * held.std_error[row, column])
+
+
+def test_isotherms_of_three_tests_judge_nothing():
+    observed = table()
+    few = observed.subset(observed.frequency < 2.0)
+    held = within_isotherm.hold(few)
+    assert not held.judged.any() and (held.chance == 1.0).all() and np.isnan(held.expected).all()
