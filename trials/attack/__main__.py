@@ -35,7 +35,7 @@ def part(numbers: tuple[int, ...], tables: int | None, empty: int | None, output
 
 @main.command()
 @click.argument("lines", nargs=-1, required=True, type=File)
-@click.option("--before", type=File, help="Summary of an earlier commit, to stand beside.")
+@click.option("--before", type=File, help="Summary of an earlier commit, to stand beside; else that of now.")
 @click.option("--folder", required=True, type=File)
 def tables(lines: tuple[Path, ...], before: Path | None, folder: Path) -> None:
     """Tables of all LINES of `part` into a folder, and what made them."""
@@ -52,7 +52,8 @@ def tables(lines: tuple[Path, ...], before: Path | None, folder: Path) -> None:
     write_table(folder / "by_fault.csv", rates.by_fault(rows))
     write_table(folder / "coverage.csv", rates.coverage(rows[~rows["measured"]]))
     write_table(folder / "reliability.csv", rates.reliability(names))
-    earlier = None if before is None or not before.is_file() else pd.read_csv(before)
+    earlier = rates.summary(rows, names) if before is None else pd.read_csv(before)
+    write_table(folder / "before.csv", earlier)
     write_table(folder / "summary.csv", rates.summary(rows, names, earlier))
     tried = rows.drop_duplicates("table")
     write_json(

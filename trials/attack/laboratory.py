@@ -32,6 +32,7 @@ DESIGNS = {
         ((4.0, 21.0, 37.0), (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)),
     ],
 }
+DESIGNS_AND_BENCHES = 8  # return after so many campaigns
 BROKEN_EVERY, MISSING_EVERY, ORDER_EVERY, AMPLITUDES_EVERY = 4, 3, 4, 8
 AMPLITUDES = (30e-6, 63e-6)  # m at the head
 Response = Callable[[Vector, Vector], Complex]
@@ -121,7 +122,7 @@ def invented(number: int, seed: int) -> Campaign:
             tests.loc[part, "order"] = np.argsort(np.argsort(key)) + 1
     mix = Mix.draw(law, shift, rng)
     campaign = _everyday(f"table {number + 1}", bench, tests, mix, rng)
-    if number % BROKEN_EVERY == 3:
+    if (number + number // DESIGNS_AND_BENCHES) % BROKEN_EVERY == 3:  # in every design
         campaign = _broken(campaign, rng)
     if number % MISSING_EVERY == 1:
         campaign = without(campaign, rng.choice(len(tests), size=int(rng.integers(1, 4)), replace=False))

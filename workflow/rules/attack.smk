@@ -9,7 +9,7 @@ from attack.trial import Size
 ATTACK_COMMAND = f"env PYTHONPATH={CLONE / 'trials'}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m attack"
 ATTACK_CODE = sorted(os.path.relpath(path) for path in (CLONE / "trials/attack").glob("*.py"))
 ATTACK_PARTS = 16  # jobs, each with every sixteenth campaign: all kinds in each
-ATTACK_TABLES = "cases names by_fault coverage reliability summary".split()
+ATTACK_TABLES = "cases names by_fault coverage reliability before summary".split()
 BEFORE = "results/published/attack/before.csv"
 
 

@@ -195,6 +195,12 @@ def test_broken_isotherms_break_causality_beyond_scatter():
     )
 
 
+def test_every_design_is_broken_now_and_then():
+    broken = [c for c in (invented(n, seed=1) for n in range(32)) if c.broken is not None]
+    assert len(broken) == 8
+    assert len({(c.bench, tuple(c.isotherms), c.tests["frequency_Hz"].nunique()) for c in broken}) == 8
+
+
 def test_a_cause_comes_at_multiples_of_its_limit_in_its_place(bending):
     sizes = {"S1": 2e-12, "S2": 1e-12}
     limits = {
