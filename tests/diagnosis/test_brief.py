@@ -1,7 +1,7 @@
 """The answer on one screen: each row says what the content holds, and rows with nothing to say are left out."""
 
 import pytest
-from test_sentences import content
+from test_sentences import content, part_left
 
 from asphalt_nscd.diagnosis.brief import MOST, WIDTH, rows, text
 
@@ -95,9 +95,9 @@ def test_a_certain_fault_comes_with_its_correction():
         ({}, [" law.json is corrected for it all the same."]),
         ({"taken_off": False}, ["", "The master curve in law.json is not corrected for possible faults."]),
         (
-            {"as_good": ["phase_offset @ 50.0", "damage"], "taken_off": False},
+            {"as_good": ["phase_offset @ B", "damage"], "taken_off": False},
             [
-                " Not certain: phase offset at 50 degC fits as well.",
+                " Not certain: phase offset of specimen B fits as well.",
                 "The master curve in law.json is not corrected for possible faults.",
             ],
         ),
@@ -145,9 +145,9 @@ def test_faults_of_a_bench_that_nobody_stated_are_possible_ones():
 
 
 def test_tests_left_out_stand_with_their_reasons_and_many_are_counted():
-    one = "Specimen A, 4 degC, 25 Hz: x."
-    assert answer(out=2)["Leave out"] == [one, one]
-    assert answer(out=MOST + 2)["Leave out"] == [one] * (MOST - 1) + ["3 more: see the reasons."]
+    each = [f"Specimen A, {4 + k} degC, 25 Hz: x." for k in range(MOST + 2)]
+    assert answer(out=2)["Leave out"] == each[:2]
+    assert answer(out=MOST + 2)["Leave out"] == [*each[: MOST - 1], "3 more: see the reasons."]
 
 
 @pytest.mark.parametrize(
@@ -265,7 +265,10 @@ def test_the_law_is_told_with_what_it_was_fitted_to(then, said):
 
 
 def test_what_no_cause_explains_is_told_in_two_parts_at_most():
-    left = {"37 degC, phase": 3.0, "21 degC, modulus": 2.0, "4 degC, phase": 1.0}
+    left = [
+        part_left("isotherm", part, size, temperature_C=t)
+        for t, part, size in ((37.0, "phase", 3.0), (21.0, "modulus", 2.0), (4.0, "phase", 1.0))
+    ]
     scatter = {"phase_deg": 0.5, "modulus_percent": 1.0, "from_replicates": True}
     told = answer(discrepancy=left, scatter=scatter, lack_of_fit_p_value=1e-9, one_sided="All lie above.")
     assert told["Unexplained"] == [
@@ -279,7 +282,7 @@ def test_what_no_cause_explains_is_told_in_two_parts_at_most():
 def test_that_few_specimens_do_not_tell_which_is_odd_is_a_sentence_of_its_own():
     read = {"specimens": ["A", "B"], "isotherms_C": [4.0], "test_type": "bending"}
     scatter = {"phase_deg": 0.5, "modulus_percent": 1.0, "from_replicates": True}
-    left = {"specimen A, modulus": 3.0}
+    left = [part_left("specimen", "modulus", 3.0, specimen="A")]
     told = answer(discrepancy=left, scatter=scatter, lack_of_fit_p_value=1e-9, reading=read)["Unexplained"]
     assert told[1:] == ["2 specimens are too few to tell which one is odd."] and len(told) == 2
 
@@ -365,3 +368,32 @@ def test_what_the_tests_do_not_determine_of_the_law_is_told():
     ]
     (told,) = answer(law_misses=misses, scatter={"from_replicates": True}, notes=notes)["Law"]
     assert told.endswith(" These tests do not determine C1 of law.json.")
+
+
+def test_an_established_effect_of_the_mix_is_told_with_its_size():
+    warm = rung("self_heating", 3.42, "K", established=True, sentence="the specimens warm themselves")
+    misses = {"mre_E_percent": 1.0, "mre_phase_percent": 2.0}
+    told = answer([warm], law_misses=misses, scatter={"from_replicates": True})
+    assert told["Effect"] == [
+        "Self heating in all tests, 3.42 +- 0.20 K. The specimens warm themselves. law.json is free of it."
+    ]
+    assert told["Fault"] == ["None found beside the effect below."]
+    assert told["Law"][0].endswith(" It was fitted to the corrected tests.")
+    perhaps = answer(
+        [warm | {"established": False, "taken_off": False}],
+        law_misses=misses,
+        scatter={"from_replicates": True},
+    )
+    assert "Effect" not in perhaps and perhaps["Fault"] == ["None found."]
+    assert perhaps["Possible effect"] == [
+        "Self heating in all tests, 3.42 +- 0.20 K. If so, the specimens warm themselves."
+    ]
+
+
+def test_tests_of_one_isotherm_with_one_reason_are_one_sentence():
+    copied = [
+        {"specimen": "A", "temperature_C": 21.0, "frequency_Hz": f, "reasons": ["a copy"], "used": False}
+        for f in (25.0, 0.1, 1.0, 10.0)
+    ]
+    told = answer(suspect_tests=copied)["Leave out"]
+    assert told == ["Specimen A, 21 degC, 0.1 to 25 Hz (4 frequencies): a copy."]

@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import approx_fprime
 
 from asphalt_nscd.diagnosis import discrepancy
-from asphalt_nscd.diagnosis.discrepancy import Direction, Processes, Reduced
+from asphalt_nscd.diagnosis.discrepancy import Direction, Process, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Noise
 
 SIZE, PARTS, COLUMNS = 20, 4, 12
@@ -64,7 +64,9 @@ def small(random) -> tuple[Reduced, Direction]:
     y = y + 2.0 * d + u @ random.standard_normal((COLUMNS, 1)) * 0.7
     block = np.repeat(np.arange(PARTS), COLUMNS // PARTS)
     roots = tuple(np.zeros((20, COLUMNS // PARTS), complex) for _ in range(PARTS))
-    found = Processes(tuple("abcd"), roots, u, block, np.array([0.5, 0.1, 0.3, 1.0]))
+    found = Processes(
+        tuple(Process("all", part) for part in "abcd"), roots, u, block, np.array([0.5, 0.1, 0.3, 1.0])
+    )
     model = Reduced(found, u.T @ u, (u.T @ y)[:, 0])
     return model, Direction(u.T @ d, d.T @ d, (d.T @ y)[:, 0])
 

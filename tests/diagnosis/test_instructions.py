@@ -9,11 +9,17 @@ import pytest
 from test_diagnose import SCATTER, table
 
 from asphalt_nscd.diagnosis import fixed_orders, instructions, order_words
+from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.further_tests import possible
+from asphalt_nscd.diagnosis.discrepancy import Process
+from asphalt_nscd.diagnosis.further_tests import Departure, possible
 from asphalt_nscd.diagnosis.information import Knowledge, Question
+from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.sentences import in_words
 from asphalt_nscd.diagnosis.sweeps import METAL, NEW, Costs, Sweep
+
+BIAS = TemperatureBias()
 
 
 @pytest.fixture(scope="module")
@@ -120,14 +126,24 @@ def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
     ],
 )
 def test_a_cause_that_looks_the_same_is_told_where_a_test_would_decide(before, alike, said):
-    asked = order_words.Open("apart", None, "channel delay", "phase offset", alike)
+    asked = order_words.Open("apart", None, "channel delay", "phase offset", alike=alike)
     assert order_words._reason(asked, before, 30.0).endswith(said)
     assert bool(order_words._reason(asked, before, 30.0)) == bool(said)
     assert not said or order_words._reason(asked, before, 13.0).endswith("This test should make it clearer.")
 
 
+def departure(kind, **where):
+    return Departure(kind, np.zeros(1, complex), **where)
+
+
+def repeated(frequency):
+    """Whether a test of specimen a at 4 degC repeats itself."""
+    where = departure("repeat", specimen="a", isotherm=4.0, frequency=frequency)
+    return order_words.Open("repeat", None, f"specimen a at 4 degC, {frequency:g} Hz", departure=where)
+
+
 def test_a_test_at_another_temperature_repeats_nothing():
-    asked = [order_words.Open("repeat", None, "specimen a at 4 degC, 25 Hz")]
+    asked = [repeated(25.0)]
     for temperature, reasons in ((4.0, 1), (-6.0, 0)):
         sweep = Sweep("a", temperature, (10.0, 25.0), False, None, 1.0)
         order = order_words.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
@@ -164,14 +180,19 @@ def test_an_odd_isotherm_is_to_be_tested_again():
 
 def test_half_the_strain_is_asked_for_with_the_size_that_it_should_halve(delayed):
     ladder = replace(
-        delayed.ladder, discrepancy={"20 degC, phase": 3.0, "20 degC, modulus": 2.0, "0 degC, phase": 9.0}
+        delayed.ladder,
+        discrepancy={
+            Process("isotherm", "phase", 20.0): 3.0,
+            Process("isotherm", "modulus", 20.0): 2.0,
+            Process("isotherm", "phase", 0.0): 9.0,
+        },
     )
-    left = instructions._unexplained(replace(delayed, ladder=ladder), "20 degC")
+    left = instructions._unexplained(replace(delayed, ladder=ladder), 20.0)
     modulus, phase = delayed.noise.sigma
     assert left == f"{np.degrees(3.0 * phase):.1f} deg in the phase and {200.0 * modulus:.1f} % in |E*|"
     asked = [
-        order_words.Open("linear", None, "20 degC", left),
-        order_words.Open("linear", None, "0 degC", "other"),
+        order_words.Open("linear", None, "20 degC", left, departure=departure("linear", isotherm=20.0)),
+        order_words.Open("linear", None, "0 degC", "other", departure=departure("linear", isotherm=0.0)),
     ]
     order = order_words.Order(
         Sweep("a", 20.0, (10.0,), True, None, 1.0), ["a"], 1.0, 1.0, {0: (0, 1), 1: (0, 1)}
@@ -255,8 +276,8 @@ def test_what_a_test_would_show_is_said_with_its_chance():
 
 def test_places_of_one_cause_are_told_together():
     cold, warm, hot, nothing = (
-        order_words.Open("reach", None, "a temperature bias of 0.9 K", f"at {t} degC")
-        for t in (4, 20, 50, 35)
+        order_words.Open("reach", None, "a temperature bias of 0.9 K", "0.9 K", Candidate(BIAS, t, (0.0,)))
+        for t in (4.0, 20.0, 50.0, 35.0)
     )
     helped = [(warm, 0.0, 47.0), (cold, 0.0, 25.0), (hot, 9.0, 47.0), (nothing, 9.0, 9.1)]
     assert order_words._within_reach(helped, order_words.Context(later=True)) == [
@@ -366,7 +387,9 @@ def test_no_order_looks_for_a_cause_that_a_discrepancy_hides(empty):
     def sought(diagnosis):
         return [one.about for one in instructions.open_questions(diagnosis, model) if one.kind == "reach"]
 
-    hidden = replace(empty, ladder=replace(empty.ladder, discrepancy={"20 degC, phase": 2.0}))
+    hidden = replace(
+        empty, ladder=replace(empty.ladder, discrepancy={Process("isotherm", "phase", 20.0): 2.0})
+    )
     assert any("second peak of the loss modulus" in about for about in sought(empty))
     assert not any("second peak of the loss modulus" in about for about in sought(hidden)) and sought(hidden)
 
@@ -381,7 +404,7 @@ def test_metal_is_ordered_at_both_ends_of_the_band_where_phases_lie_on_one_side(
 
 
 def test_a_doubtful_test_waits_for_a_check_of_the_gauges():
-    asked = [order_words.Open("repeat", None, "specimen a at 4 degC, 25 Hz")]
+    asked = [repeated(25.0)]
     order = order_words.Order(Sweep("a", 4.0, (25.0,), False, None, 1.0), ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
     typed, machine = (
         order_words.reasons(order, asked, context)[0]
@@ -418,9 +441,24 @@ def test_an_isotherm_off_its_target_is_tested_again_first():
 
 
 def test_the_order_names_the_frequency_that_is_doubtful():
-    asked = [order_words.Open("repeat", None, f"specimen a at 4 degC, {f} Hz") for f in (25, 0.1)]
+    asked = [repeated(25.0), repeated(0.1)]
     sweep = Sweep("a", 4.0, (0.1, 10.0, 25.0), False, None, 1.0)
     order = order_words.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0), 1: (0.0, 1.0)})
     assert order_words.purpose(order, asked) == (
         "because the old result at 0.1 and 25 Hz contradicts the other frequencies"
     )
+
+
+def test_a_specimen_may_be_called_anything(delayed):
+    """Names that look like a temperature, a frequency or a list once ended in a traceback."""
+    observed = delayed.observed
+    names = ("Mix 21 degC", "10 Hz, phase", "21", "specimen at 4 degC")[: len(observed.names)]
+    odd = (observed.specimen == 1) & (observed.isotherm == 0)
+    bent = np.where(observed.isotherm == observed.isotherm[-1], observed.frequency**0.3, 1.0)
+    modulus = observed.modulus * np.where(odd, 1.3, 1.0) * bent
+    found = diagnose(replace(observed, names=names, modulus=modulus), draws=500)
+    assert found.ladder.discrepancy  # whose parts had such names
+    assert {one.specimen for one in found.ladder.discrepancy} == {None, *names}
+    assert instructions.instructions(found)["orders"]
+    assert in_words("loose_clamp @ 21") == "loose clamp of specimen 21"
+    assert in_words("temperature_bias @ 21.0") == "temperature bias at 21 degC"

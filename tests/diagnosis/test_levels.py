@@ -104,7 +104,8 @@ def test_a_degree_and_a_half_of_a_whole_specimen_is_odd_and_told_as_steady(expor
     (one,) = levels.odd_phases(turned(exports, exports.specimen == 2, 1.5))
     assert (one["specimen"], one["temperature_C"]) == ("Mix-C", None)
     assert one["phase_deg"] == pytest.approx(1.5, abs=0.2)
-    found = {"discrepancy": {"specimen Mix-C, phase": 2.0}, "scatter": {"phase_deg": 0.5}}
+    part = {"kind": "specimen", "part": "phase", "temperature_C": None, "specimen": "Mix-C", "size": 2.0}
+    found = {"discrepancy": [part], "scatter": {"phase_deg": 0.5}}
     (steady, _) = left(found | {"odd_phases": [one]})
     (changing,) = left(found)
     assert steady == "1.0 deg in the phase of specimen Mix-C, most of it alike in all its tests"
@@ -130,7 +131,9 @@ def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
         "verdict": "nothing_to_explain",
         "tested": True,
         "odd_phases": [{"specimen": "B", "temperature_C": 20.0, "phase_deg": 4.0}],
-        "discrepancy": {"specimen C, modulus": 2.0},
+        "discrepancy": [
+            {"kind": "specimen", "part": "modulus", "temperature_C": None, "specimen": "C", "size": 2.0}
+        ],
         "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5},
     }
     assert on_simulation(found).endswith(

@@ -15,7 +15,10 @@ from asphalt_nscd.diagnosis.unexplained import left
 
 
 def content(used: int, out: int, **then):
-    tests = [{"specimen": "A", "temperature_C": 4.0, "frequency_Hz": 25.0, "reasons": ["x"]}] * (used + out)
+    tests = [
+        {"specimen": "A", "temperature_C": 4.0 + k, "frequency_Hz": 25.0, "reasons": ["x"]}
+        for k in range(used + out)
+    ]
     suspect = [{**one, "used": k < used} for k, one in enumerate(tests)]
     ladder = [{"cause": "phase_offset", "where": None}]
     return {"suspect_tests": suspect, "ladder": ladder, **then}
@@ -96,7 +99,7 @@ def test_the_same_causes_in_another_order_are_the_same():
         (
             [],
             ["loose_clamp @ B"],
-            "Not certain: loose clamp at B fits as well; these tests do not say which.",
+            "Not certain: loose clamp of specimen B fits as well; these tests do not say which.",
         ),
     ],
 )
@@ -116,11 +119,21 @@ def test_why_a_name_is_only_likely(hangs_on, as_good, sure):
     assert meaning.endswith(f"{sure} To confirm it: a thermometer.")
 
 
+def part_left(kind, part, size, temperature_C=None, specimen=None):
+    """A part of what no cause explains, as in diagnosis.json."""
+    return {"kind": kind, "part": part, "temperature_C": temperature_C, "specimen": specimen, "size": size}
+
+
 def test_a_specimen_called_specimen_is_not_called_so_twice():
     rung = {"cause": "loose_clamp", "where": "Specimen 1"}
     assert cause_words(rung) == "loose clamp of Specimen 1"
     assert cause_words(rung | {"where": "S1"}) == "loose clamp of specimen S1"
-    found = {"specimen Specimen 1, spectrum": 2.0, "specimen S2, modulus": 1.5, "37 degC, phase": 1.0}
+    hot = part_left("isotherm", "phase", 1.0, temperature_C=37.0)
+    found = [
+        part_left("spectrum", "both", 2.0, specimen="Specimen 1"),
+        part_left("specimen", "modulus", 1.5, specimen="S2"),
+        hot,
+    ]
     scatter = {"modulus_percent": 1.0, "phase_deg": 0.5}
     assert left({"discrepancy": found, "scatter": scatter}) == [
         "2.0 % in |E*| of Specimen 1: its master curve has another shape than the common one",
@@ -131,7 +144,7 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
         {"reading": {"specimens": [*"ABCDE"][:n]}, "discrepancy": found, "scatter": scatter} for n in (3, 5)
     )
     assert left(few)[3:] == ["3 specimens are too few to tell which one is odd"]
-    assert left(many)[3:] == left(few | {"discrepancy": {"37 degC, phase": 1.0}})[1:] == []
+    assert left(many)[3:] == left(few | {"discrepancy": [hot]})[1:] == []
     assert [named(names) for names in (["Specimen 1", "Specimen 2"], ["A", "B"], ["A"], ["Specimen 1"])] == [
         "Specimen 1 and Specimen 2",
         "specimens A and B",
@@ -225,10 +238,6 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
     }
     near, far = ({"ladder": [rung], "estimates_spread": spread} for spread in (1.0, 2.0))
     assert sentences.size(rung, near) == "1.50 +- 0.98 deg" and sentences.size(rung, far) == "1.5 +- 2.0 deg"
-    assert (
-        "includes zero" not in causes(near)[0][1]
-        and "Its 95 % interval, as widened, includes zero. To" in causes(far)[0][1]
-    )
     worse = rung | {"gain": {"in_sample": {"rms_over_scatter": {"before": 2.2, "after": 3.1}}}}
     hidden = (
         " It is not in the answer above: if all tests count alike, they fit worse with it than without it. To"

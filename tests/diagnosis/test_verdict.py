@@ -1,7 +1,7 @@
 """Sentences of what the law misses, and where it must not be used."""
 
 import pytest
-from test_sentences import content
+from test_sentences import content, part_left
 
 from asphalt_nscd.diagnosis import verdict
 from asphalt_nscd.diagnosis.unexplained import left
@@ -117,7 +117,7 @@ def test_two_laws_are_told_by_two_names_with_their_weights():
 
 
 def test_what_all_tests_share_is_not_at_a_place():
-    found = {"discrepancy": {"all tests, phase": 1.0}, "scatter": {"phase_deg": 0.5}}
+    found = {"discrepancy": [part_left("all", "phase", 1.0)], "scatter": {"phase_deg": 0.5}}
     assert left(found) == ["0.5 deg in the phase of all tests"]
 
 

@@ -107,6 +107,20 @@ def climb(
     return taken, state, surveyed
 
 
+def again(
+    state: State, kept: Sequence[Found], catalogue: Sequence[Cause]
+) -> tuple[list[Found], State, Survey]:
+    """The ascent with these causes alone, in their order; state: without any cause."""
+    taken: list[Found] = []
+    for one in kept:
+        candidate = one.after.fitted.active[-1]
+        active = (*state.fitted.active, candidate)
+        after = _settle(state.plain, state.model.processes, state.fitted, active, one.after.variances)
+        taken.append(replace(one, before=state, after=after))
+        state = _smoothed(after)
+    return taken, state, survey(state, catalogue)
+
+
 def _settle(
     plain: Joint, found: Processes, at: Fitted, active: tuple[Candidate, ...], variances: Vector
 ) -> State:
@@ -127,7 +141,7 @@ def _likeliest(model: Reduced, variances: Vector, cause: Direction | None = None
     """The likeliest of several answers: which of three specimens is odd, or a phase that is off at every
     frequency for a modulus that is, may be told in two ways."""
     uncommon = np.where(
-        [name.startswith("all") for name in model.processes.names], discrepancy.LEAST, variances
+        [one.kind == "all" for one in model.processes.described], discrepancy.LEAST, variances
     )
     tried = [discrepancy.estimate(model, cause, start) for start in (variances, None, uncommon)]
     return min(tried, key=lambda estimate: estimate.misfit)
@@ -266,8 +280,8 @@ def _of_rows(found: Processes, plain: Joint, rows: NDArray, variances: Vector) -
     roots = tuple(found.roots[k][rows] for k in kept)
     factor = np.hstack([plain.noise.whiten(root) for root in roots])
     block = np.repeat(np.arange(len(kept)), [root.shape[1] for root in roots])
-    names = tuple(found.names[k] for k in kept)
-    return Processes(names, roots, factor, block, found.usual[kept]), variances[kept]
+    described = tuple(found.described[k] for k in kept)
+    return Processes(described, roots, factor, block, found.usual[kept]), variances[kept]
 
 
 def hangs_on(state: State, candidate: Candidate) -> list[str]:

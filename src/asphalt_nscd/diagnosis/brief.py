@@ -14,7 +14,8 @@ from typing import Any
 
 from asphalt_nscd.diagnosis import levels, quality, sentences, unexplained, verdict
 from asphalt_nscd.diagnosis.chance import LEAST_ISOTHERMS
-from asphalt_nscd.diagnosis.sentences import cause_words, doubtful, not_used, odd, place_of_test
+from asphalt_nscd.diagnosis.fixed_orders import band
+from asphalt_nscd.diagnosis.sentences import cause_words, doubtful, not_used, odd
 from asphalt_nscd.diagnosis.written import UNDETERMINED
 from asphalt_nscd.files.words import counted, joined, specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET
@@ -24,6 +25,7 @@ Rows = list[tuple[str, list[str]]]
 
 WIDTH, LABEL = 100, 16  # columns of a terminal, and those of them for labels
 MOST = 4  # sentences of a row; a reader finds the others in the reasons
+PARTS = 2  # of what stays unexplained
 FEW = 6  # specimens that are named one by one
 MORE = "{} more: see the reasons."
 
@@ -34,21 +36,17 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
     left: as in `verdict.on_simulation`.
     """
     simulated = left is not None or verdict.bonded(content)
-    certain, possible = (
-        [
-            _fault(rung, content)
-            for rung in verdict.faults(content)
-            if _certain(rung, content) == wanted and (wanted or not sentences.worsens(rung))
-        ]
-        for wanted in (True, False)
-    )
+    certain, possible = (_told(verdict.faults(content), content, wanted) for wanted in (True, False))
+    effects, likely = (_told(verdict.effects(content), content, wanted) for wanted in (True, False))
     found: Rows = [
         ("Tests", _tests(content)),
         ("Note", _notes(content)),
         ("Data", _data(content)),
-        ("Fault", certain or _no_fault(content, bool(possible))),
+        ("Fault", certain or _no_fault(content, bool(possible), bool(effects))),
         ("Possible fault", [*possible, *_not_taken_off(content, bool(possible))]),
-        ("Leave out", [*_few([_out(one) for one in not_used(content)]), *_if_kept(content)]),
+        ("Effect", effects),
+        ("Possible effect", likely),
+        ("Leave out", [*_few(_out(not_used(content))), *_if_kept(content)]),
         ("Check first", [*_few(_check(content)), *_what_clears(content)]),
         ("Next tests", _next(content)),
         ("Not visible", unexplained.unseen(content)),
@@ -87,6 +85,15 @@ def sure(rung: Content) -> bool:
 def _certain(rung: Content, content: Content) -> bool:
     """Whether a cause is named for certain, and not only if a bench that nobody stated was used."""
     return sure(rung) and not sentences.if_bending(rung, content)
+
+
+def _told(rungs: list[Content], content: Content, certain: bool) -> list[str]:
+    """Named causes that are certain, or those that are not and improve the fit."""
+    return [
+        _fault(rung, content)
+        for rung in rungs
+        if _certain(rung, content) == certain and (certain or not sentences.worsens(rung))
+    ]
 
 
 def _sentence(words: str) -> str:
@@ -153,9 +160,11 @@ def _data(content: Content) -> list[str]:
     return [" ".join([f"{', '.join(parts)}.", *phases])]
 
 
-def _no_fault(content: Content, possible: bool) -> list[str]:
-    """That none is certain, and how many temperatures certainty lacks."""
-    said = "None is certain" if possible else "None found"
+def _no_fault(content: Content, possible: bool, effects: bool) -> list[str]:
+    """That none is certain, and how many temperatures certainty lacks; effects: whether any of the mix is certain."""
+    said = (
+        "None is certain" if possible else "None found beside the effect below" if effects else "None found"
+    )
     at = len(content.get("reading", {}).get("isotherms_C", []))
     if 0 < at < LEAST_ISOTHERMS:
         there = "is" if at == 1 else "are"
@@ -166,10 +175,11 @@ def _no_fault(content: Content, possible: bool) -> list[str]:
 
 
 def _fault(rung: Content, content: Content) -> str:
-    """A named cause: its size, where it is, what its sign means, what to do about it."""
+    """A named cause: its size, where it is, what it or its sign means, what to do about it."""
     size = sentences.size(rung, content)
     everywhere = " in all tests" * (rung["where"] is None)
-    meaning = sentences.meaning(rung).strip()
+    of_the_mix = rung["cause"] in verdict.OF_THE_MIX
+    meaning = _sentence(rung["sentence"]) if of_the_mix else sentences.meaning(rung).strip()
     bench = sentences.if_bending(rung, content)
     said = _sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}{bench}")
     if not sure(rung):
@@ -182,6 +192,8 @@ def _fault(rung: Content, content: Content) -> str:
         return f"{said} law.json is corrected for it all the same." if _taken_off(rung, content) else said
     if bench:
         return f"{said} Say first what was tested."
+    if of_the_mix:
+        return f"{said} law.json is free of it." if _taken_off(rung, content) else said
     correction = verdict.correction(rung)
     return f"{said} Correction: {correction}." if correction else said
 
@@ -209,8 +221,18 @@ def _if_kept(content: Content) -> list[str]:
     return [f"{changed.rstrip('.')}, but they cannot be trusted."] if changed else []
 
 
-def _out(one: Content) -> str:
-    return _sentence(f"{place_of_test(one)}: {'; '.join(one['reasons'])}")
+def _out(tests: list[Content]) -> list[str]:
+    """Why tests are doubtful, those of one isotherm with the same reasons in one sentence."""
+    alike: dict[tuple, list[Content]] = {}
+    for one in tests:
+        alike.setdefault((one["specimen"], one["temperature_C"], tuple(one["reasons"])), []).append(one)
+    return [
+        _sentence(
+            f"{specimen_named(specimen)}, {t:g} degC, {band(sorted({one['frequency_Hz'] for one in here}))}: "
+            f"{'; '.join(reasons)}"
+        )
+        for (specimen, t, reasons), here in alike.items()
+    ]
 
 
 def _check(content: Content) -> list[str]:
@@ -237,7 +259,7 @@ def _check(content: Content) -> list[str]:
             )
     said += [_sentence(one) for one in levels.sentences(*odd(content))]
     said += [_sentence(one) for one in levels.of_temperatures(content.get("odd_temperatures", []))]
-    return said + [_out(one) for one in doubtful(content)]
+    return said + _out(doubtful(content))
 
 
 def _what_clears(content: Content) -> list[str]:
@@ -338,7 +360,8 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     ]
     if verdict.alone(content):
         said.append("Without replicates nobody knows how much of that is scatter.")
-    corrected = any(rung.get("taken_off", True) for rung in verdict.faults(content))
+    named = [*verdict.faults(content), *verdict.effects(content)]
+    corrected = any(rung.get("taken_off", True) for rung in named)
     out = levels.places(*odd(content))
     doubtful = content.get("trust", {}).get("check", 0) and not out
     but = " but those left out" * bool(not_used(content))
@@ -353,8 +376,8 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
 
 
 def _unexplained(content: Content) -> list[str]:
-    parts = unexplained.left(content)[:2] if sentences.more_than_scatter(content) else []
-    remark = unexplained.which_departs(content, parts)
+    parts = unexplained.left(content)[:PARTS] if sentences.more_than_scatter(content) else []
+    remark = unexplained.which_departs(content, PARTS) if parts else []
     off = "the common master curve is off by " if content.get("discrepancy") else ""
     said = [f"Beyond scatter, {off}{part}" for part in parts if part not in remark]
     return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, [*said, *remark])]

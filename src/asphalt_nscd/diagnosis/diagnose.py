@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtrc, fdtrc
 
-from asphalt_nscd.diagnosis import causality, chance, scatter, start, suspects, within_isotherm
+from asphalt_nscd.diagnosis import causality, chance, copies, scatter, start, suspects, within_isotherm
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import CHANCE
@@ -17,7 +17,7 @@ from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.suspects import Suspect
-from asphalt_nscd.diagnosis.written import CONFIDENCE, shown
+from asphalt_nscd.diagnosis.written import shown
 from asphalt_nscd.measurements.reduction import require_enough
 
 DRAWS = 4000
@@ -74,7 +74,7 @@ def diagnose(
     use_suspects: whether tests that contradict their own isotherm are used all the same.
     """
     require_enough(observed.size, observed.frequencies.size)
-    scatter.refuse_copies(observed)
+    copies.refuse_copies(observed)
     notes: list[str] = []
     whole = observed
     held = within_isotherm.hold(whole)
@@ -165,11 +165,7 @@ def _doubts(ladder: Ladder, noise: Noise) -> dict[Key, list[str]]:
     """Of the names on the ladder, beside its discrepancy."""
     plain = Joint(ladder.joint.observed, ladder.joint.base, noise)
     named = [rung.candidate for rung in ladder.rungs]
-    found = find_doubts(plain, ladder.fitted, named, tuple(ladder.discrepancy.values()))
-    for one in ladder.fitted.active:
-        if abs(one.values[0]) < CONFIDENCE * ladder.estimates.get(one.key, (0.0, 0.0))[1]:
-            found.setdefault(one.key, []).append("Its 95 % interval includes zero")
-    return found
+    return find_doubts(plain, ladder.fitted, named, tuple(ladder.discrepancy.values()))
 
 
 def _at_bounds(ladder: Ladder) -> list[str]:

@@ -47,6 +47,20 @@ LEAST, MOST = 1e-4, 1e7  # variance that is as good as none, and that no table h
 
 
 @dataclass(frozen=True)
+class Process:
+    """What a process of the discrepancy describes.
+
+    kind: of USUAL; part: "modulus", "phase", or "both" where causality ties them; isotherm [degC], specimen: what alone
+    it reaches, None where it reaches all.
+    """
+
+    kind: str
+    part: str
+    isotherm: float | None = None
+    specimen: str | None = None
+
+
+@dataclass(frozen=True)
 class Processes:
     """The m processes of a table, of unit variance in units of the scatter of one test.
 
@@ -54,7 +68,7 @@ class Processes:
     factor (2n, q): all of them whitened; block (q,): process of each column; usual (m,): usual sizes.
     """
 
-    names: tuple[str, ...]
+    described: tuple[Process, ...]
     roots: tuple[NDArray[np.complex128], ...]
     factor: NDArray
     block: NDArray[np.int64]
@@ -74,22 +88,21 @@ class Processes:
 def processes(joint: Joint, fitted: Fitted) -> Processes:
     """The processes that a table may hold; what a specimen's own spectrum does is linearised at the fit."""
     observed, noise = joint.observed, joint.noise
-    names, roots, usual = [], [], []
+    described, roots = list[Process](), []
     if len(observed.names) > 1:
         spectra = noise.sigma[0] * _of_spectrum(joint, fitted)
         for k, name in enumerate(observed.names):
-            names.append(f"specimen {name}, spectrum")
+            described.append(Process("spectrum", "both", specimen=name))
             roots.append(spectra * (observed.specimen == k)[:, None])
-            usual.append(USUAL["spectrum"])
-    for kind, name, points, kernel in _kernels(observed):
-        root = factor_of(points, kernel, LEFT_OUT[kind])
+    for process, points, kernel in _kernels(observed):
+        root = factor_of(points, kernel, LEFT_OUT[process.kind])
         for part, unit in (("modulus", noise.sigma[0]), ("phase", 1j * noise.sigma[1])):
-            names.append(f"{name}, {part}")
+            described.append(replace(process, part=part))
             roots.append(unit * root)
-            usual.append(USUAL[kind])
+    usual = [USUAL[process.kind] for process in described]
     factor = np.hstack([noise.whiten(root) for root in roots])
     block = np.repeat(np.arange(len(roots)), [root.shape[1] for root in roots])
-    return Processes(tuple(names), tuple(roots), factor, block, np.array(usual))
+    return Processes(tuple(described), tuple(roots), factor, block, np.array(usual))
 
 
 def _of_spectrum(joint: Joint, fitted: Fitted) -> NDArray[np.complex128]:
@@ -101,8 +114,8 @@ def _of_spectrum(joint: Joint, fitted: Fitted) -> NDArray[np.complex128]:
     )
 
 
-def _kernels(observed: Observations) -> Iterator[tuple[str, str, NDArray, Kernel]]:
-    """Kind, name, points (n, d) of the tests that it reaches (else NaN) and correlation of each process."""
+def _kernels(observed: Observations) -> Iterator[tuple[Process, NDArray, Kernel]]:
+    """Each process, of either part, with points (n, d) of the tests that it reaches (else NaN) and its correlation."""
     log_f = np.log(observed.frequency)[:, None]
 
     def along(apart: NDArray) -> NDArray:
@@ -110,15 +123,15 @@ def _kernels(observed: Observations) -> Iterator[tuple[str, str, NDArray, Kernel
 
     for t in observed.held_isotherms:
         at = np.where(observed.isotherm == t, 0.0, np.nan)[:, None]
-        yield "isotherm", f"{t:g} degC", log_f + at, lambda apart: LEVEL + along(apart)
+        yield Process("isotherm", "either", isotherm=float(t)), log_f + at, lambda apart: LEVEL + along(apart)
     if observed.isotherms.size > 1:
-        yield "all", "all tests", log_f, along
+        yield Process("all", "either"), log_f, along
     if len(observed.names) > 1:
         span = ACROSS * max(float(np.ptp(observed.isotherms)), 1.0)
         both = np.hstack([log_f / SPECIMEN_LENGTH, observed.temperature[:, None] / span])
         for k, name in enumerate(observed.names):
             at = np.where(observed.specimen == k, 0.0, np.nan)[:, None]
-            yield "specimen", f"specimen {name}", both + at, _of_specimen
+            yield Process("specimen", "either", specimen=name), both + at, _of_specimen
 
 
 def _of_specimen(apart: NDArray) -> NDArray:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import discrepancy, hidden_bias
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
-from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
+from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Process, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 
@@ -31,6 +31,7 @@ BETTER = (
 )
 FIRST = 0.05  # size at which the search for the size of a rival begins, in its own units
 MOST_SPECIMENS = 0.5  # share of the specimens at which a fault of one specimen may be named
+RIVAL = Process("rival", "both")
 MANY_ISOTHERMS = 3  # at which one and the same cause speaks for a law of another form
 
 
@@ -48,7 +49,7 @@ def find_doubts(
         return found
     linear = plain.linearise(fitted.law, fitted.scales, fitted.active)
     processes = discrepancy.processes(plain, linear)
-    variances = np.square(sizes) if len(sizes) else np.zeros(len(processes.names))
+    variances = np.square(sizes) if len(sizes) else np.zeros(len(processes.described))
     table = _Table(plain, linear, processes, variances)
     for candidate in named:
         taken = active[candidate.key]
@@ -117,7 +118,7 @@ class _Table:
         count = [*np.bincount(found.block), *(root.shape[1] for root in roots)]
         factor = np.hstack([found.factor, *(self.plain.noise.whiten(root) for root in roots)])
         every = Processes(
-            (*found.names, *("rival" for _ in roots)),
+            (*found.described, *(RIVAL for _ in roots)),
             (*found.roots, *roots),
             factor,
             np.repeat(np.arange(len(count)), count),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,6 +14,7 @@ from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
+from asphalt_nscd.diagnosis.discrepancy import Process
 from asphalt_nscd.diagnosis.information import Knowledge, Linear, Tested, parts
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -31,20 +32,33 @@ from asphalt_nscd.diagnosis.sweeps import (
     temperatures,
     with_strain,
 )
-from asphalt_nscd.files.words import specimen_named
 
 METAL_LEVEL = 0.03  # how well the modulus of a metal specimen and its form factor are known
+
+
+@dataclass(frozen=True)
+class Departure:
+    """By how much tests depart from the model, ln E* (N,), and what that is about.
+
+    kind: "linear", what changes at half the strain at an isotherm if the departure is proportional to the strain;
+    "repeat", a test that cannot be used; "level", an isotherm or specimen that is odd. specimen, isotherm [degC],
+    frequency [Hz]: where; None where it is everywhere. odd: of a level, the entry of `levels.odd` or `odd_phases`.
+    """
+
+    kind: str
+    effect: NDArray[np.complex128]
+    specimen: str | None = None
+    isotherm: float | None = None
+    frequency: float | None = None
+    odd: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True)
 class Possible:
     """The model at the tests done and at all that could follow.
 
-    candidates: causes, in the order of the effects. departures: what effects come next, each with what it is about:
-    "linear" and an isotherm (what changes at half the strain if the departure is proportional to the strain), "repeat"
-    and a test that cannot be used, or "level" and an isotherm or specimen that is odd (by how much they depart).
-    expected: what new tests of an odd isotherm or specimen show if it is sound, in words, by what is odd.
-    metal_frequencies: of the rows that follow those of the table [Hz].
+    candidates: causes, in the order of the effects. departures: what effects come next. metal_frequencies: of the rows
+    that follow those of the table [Hz].
     """
 
     table: Observations
@@ -52,8 +66,7 @@ class Possible:
     old: Tested
     sweeps: tuple[Sweep, ...]
     candidates: tuple[Candidate, ...]
-    departures: tuple[tuple[str, str], ...]
-    expected: dict[str, str]
+    departures: tuple[Departure, ...]
     metal_frequencies: NDArray[np.float64]
 
 
@@ -71,7 +84,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     nuisance, precision = _of_law(joint, at)
     keys = tuple(c.key for c in fitted.active)
     effects = np.column_stack([_effect(joint, at, candidate, keys) for candidate in candidates])
-    names, roots, variances = _discrepancy(diagnosis, joint, at)
+    processes, roots, variances = _discrepancy(diagnosis, joint, at)
     of_law = nuisance.shape[1]
     nuisance = np.hstack([nuisance, *roots])
     sizes = np.concatenate(
@@ -79,7 +92,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     )
     precision = _block(precision, 1.0 / sizes)
     metal = on_metal(observed)
-    rows = _metal_rows(metal, table, names, roots, nuisance.shape[1])
+    rows = _metal_rows(metal, table, processes, roots, nuisance.shape[1])
     effects = np.vstack([effects, _metal_effects(metal, candidates)])
     level = np.zeros((rows.shape[0] + table.size, 1), complex)
     level[table.size :] = 1.0
@@ -94,24 +107,21 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     # The law stands at its best already, so that only the discrepancy moves.
     left = parts(observed.logarithm - fitted.modelled)
     moved = known.expected(parts(linear.nuisance[old.rows]).T @ np.linalg.solve(old.scatter, left))
-    departures = {
-        ("linear", f"{t:g} degC"): _halved(table, t, departure, linear)
-        for t, departure in _departures(linear, moved, names, roots, of_law, _doubtful(diagnosis)).items()
-    }
-    odd = _odd(diagnosis)
-    departures |= {("level", levels.described(one)[0]): _again(diagnosis, table, linear, one) for one in odd}
-    departures |= _repeats(diagnosis, table, at.modelled + (linear.nuisance @ moved)[: table.size], linear)
-    linear = replace(linear, effects=np.column_stack([linear.effects, *departures.values()]))
-    expected = {levels.described(one)[0]: levels.if_sound(one) for one in odd}
-    return Possible(table, linear, old, sweeps, candidates, tuple(departures), expected, metal.frequency)
+    departing = _departures(linear, moved, processes, roots, of_law, _doubtful(diagnosis))
+    departures = [
+        *(Departure("linear", _halved(table, t, one, linear), isotherm=t) for t, one in departing.items()),
+        *(_again(diagnosis, table, linear, one) for one in _odd(diagnosis)),
+        *_repeats(diagnosis, table, at.modelled + (linear.nuisance @ moved)[: table.size], linear),
+    ]
+    linear = replace(linear, effects=np.column_stack([linear.effects, *(one.effect for one in departures)]))
+    return Possible(table, linear, old, sweeps, candidates, tuple(departures), metal.frequency)
 
 
 def _repeats(
     diagnosis: Diagnosis, table: Observations, expected: NDArray[np.complex128], linear: Linear
-) -> dict[tuple[str, str], NDArray[np.complex128]]:
+) -> Iterator[Departure]:
     """By how much each test that cannot be used departs from what the others say of it, at the row that repeats it."""
     whole = diagnosis.whole or diagnosis.observed
-    found = {}
     for one in diagnosis.suspects:
         if one.used:
             continue
@@ -126,8 +136,7 @@ def _repeats(
             row = int(np.flatnonzero(again)[-1])
             effect = np.zeros(linear.effects.shape[0], complex)
             effect[row] = whole.logarithm[one.row] - expected[row]
-            found["repeat", f"{specimen_named(name)} at {t:g} degC, {f:g} Hz"] = effect
-    return found
+            yield Departure("repeat", effect, name, float(t), float(f))
 
 
 def _odd(diagnosis: Diagnosis) -> list[dict[str, Any]]:
@@ -136,10 +145,8 @@ def _odd(diagnosis: Diagnosis) -> list[dict[str, Any]]:
     return [*levels.odd(done), *levels.odd_phases(done)]
 
 
-def _again(
-    diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mapping[str, Any]
-) -> NDArray[np.complex128]:
-    """By how much an isotherm or specimen is odd, at the rows that repeat it: ln E* (N,)."""
+def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mapping[str, Any]) -> Departure:
+    """By how much an isotherm or specimen is odd, at the rows that repeat it."""
     again = (table.specimen == table.names.index(one["specimen"])) & ~at_half_strain(table)
     again[: diagnosis.observed.size] = False
     if one["temperature_C"] is not None:
@@ -147,23 +154,22 @@ def _again(
     size = np.log(one["factor"]) if "factor" in one else 1j * np.radians(one["phase_deg"])
     effect = np.zeros(linear.effects.shape[0], complex)
     effect[: table.size][again] = size
-    return effect
+    return Departure("level", effect, one["specimen"], one["temperature_C"], odd=one)
 
 
 def _departures(
     linear: Linear,
     moved: NDArray,
-    names: Sequence[str],
+    processes: Sequence[Process],
     roots: Sequence[NDArray],
     first: int,
     doubtful: Sequence[float],
 ) -> dict[float, NDArray[np.complex128]]:
     """By isotherm [degC], ln E* (N,) that its own discrepancy takes up."""
     found: dict[float, NDArray[np.complex128]] = {}
-    for name, root in zip(names, roots, strict=True):
-        place = name.rsplit(", ", 1)[0]
-        t = float(place.removesuffix(" degC")) if place.endswith(" degC") else np.nan
-        if t in doubtful:
+    for process, root in zip(processes, roots, strict=True):
+        t = process.isotherm
+        if t is not None and t in doubtful:
             at = slice(first, first + root.shape[1])
             found[t] = found.get(t, 0.0) + linear.nuisance[:, at] @ moved[at]
         first += root.shape[1]
@@ -172,8 +178,8 @@ def _departures(
 
 def _doubtful(diagnosis: Diagnosis) -> list[float]:
     """Isotherms [degC] whose own discrepancy is larger than the scatter of a test."""
-    large = [name.rsplit(", ", 1)[0] for name, size in diagnosis.ladder.discrepancy.items() if size > 1.0]
-    return [float(t) for t in diagnosis.observed.isotherms if f"{t:g} degC" in large]
+    large = [one.isotherm for one, size in diagnosis.ladder.discrepancy.items() if size > 1.0]
+    return [float(t) for t in diagnosis.observed.isotherms if t in large]
 
 
 def _halved(
@@ -227,30 +233,25 @@ def _block(matrix: NDArray, diagonal: NDArray) -> NDArray[np.float64]:
 
 def _discrepancy(
     diagnosis: Diagnosis, joint: Joint, at: Fitted
-) -> tuple[list[str], list[NDArray[np.complex128]], list[float]]:
-    """Names, roots (N, rank) and variances of the processes; a new isotherm between those tested, a usual specimen."""
+) -> tuple[list[Process], list[NDArray[np.complex128]], list[float]]:
+    """Processes, roots (N, rank) and variances; a new isotherm between those tested, a usual specimen."""
     sizes = diagnosis.ladder.discrepancy
     if not sizes:
         return [], [], []
     found = discrepancy.processes(joint, at)
     tested = diagnosis.observed.isotherms
-    variances = [_variance(name, sizes, tested) for name in found.names]
+    variances = [_variance(process, sizes, tested) for process in found.described]
     kept = [k for k, variance in enumerate(variances) if variance > discrepancy.LEAST]
-    return [found.names[k] for k in kept], [found.roots[k] for k in kept], [variances[k] for k in kept]
+    return [found.described[k] for k in kept], [found.roots[k] for k in kept], [variances[k] for k in kept]
 
 
-def _variance(name: str, sizes: dict[str, float], tested: NDArray[np.float64]) -> float:
-    if name in sizes:
-        return sizes[name] ** 2
-    place, part = name.rsplit(", ", 1)
-    if place.endswith(" degC"):
-        known = [sizes.get(f"{t:g} degC, {part}", 0.0) for t in tested]
-        return float(np.interp(float(place.removesuffix(" degC")), tested, known)) ** 2
-    alike = [
-        size**2
-        for other, size in sizes.items()
-        if other.startswith("specimen ") and other.endswith(f", {part}")
-    ]
+def _variance(process: Process, sizes: Mapping[Process, float], tested: NDArray[np.float64]) -> float:
+    if process in sizes:
+        return sizes[process] ** 2
+    if process.isotherm is not None:
+        known = [sizes.get(replace(process, isotherm=float(t)), 0.0) for t in tested]
+        return float(np.interp(process.isotherm, tested, known)) ** 2
+    alike = [size**2 for one, size in sizes.items() if (one.kind, one.part) == (process.kind, process.part)]
     return float(np.mean(alike)) if alike else 0.0
 
 
@@ -271,7 +272,7 @@ def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> NDAr
 def _metal_rows(
     metal: Observations,
     table: Observations,
-    names: Sequence[str],
+    processes: Sequence[Process],
     roots: Sequence[NDArray[np.complex128]],
     columns: int,
 ) -> NDArray[np.complex128]:
@@ -279,8 +280,8 @@ def _metal_rows(
     rows = np.zeros((metal.size, columns), complex)
     first = columns - sum(root.shape[1] for root in roots)
     at = [int(np.flatnonzero(table.frequency == f)[0]) for f in metal.frequency]
-    for name, root in zip(names, roots, strict=True):
-        if name.startswith("all tests"):
+    for process, root in zip(processes, roots, strict=True):
+        if process.kind == "all":
             rows[:, first : first + root.shape[1]] = root[at]
         first += root.shape[1]
     return rows

@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import fixed_orders, rungs
+from asphalt_nscd.diagnosis import fixed_orders, levels, rungs
 from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
-from asphalt_nscd.diagnosis.further_tests import Possible, possible
+from asphalt_nscd.diagnosis.further_tests import Departure, Possible, possible
 from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
@@ -149,13 +149,14 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
         for j in range(len(active), len(model.candidates)):
             question = Question(k, _amplitude(model.candidates[k]), (*active, j), TOLD_APART)
             if question.strength(known) < TOLD_APART:
-                words = words_of(model.candidates[k]), words_of(model.candidates[j])
-                as_good = model.candidates[j].key in rivals[model.candidates[k].key]
-                found.append(Open("apart", Asked(question, everything), *words, as_good))
-    for n, (kind, about) in enumerate(model.departures):
+                both = model.candidates[k], model.candidates[j]
+                as_good = both[1].key in rivals[both[0].key]
+                words = words_of(both[0]), words_of(both[1])
+                found.append(Open("apart", Asked(question, everything), *words, *both, alike=as_good))
+    for n, departure in enumerate(model.departures):
         question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART)
-        size = _unexplained(diagnosis, about) if kind == "linear" else model.expected.get(about, "")
-        found.append(Open(kind, Asked(question, everything), about, size))
+        words = _of_departure(diagnosis, departure)
+        found.append(Open(departure.kind, Asked(question, everything), *words, departure=departure))
     names = [candidate.cause.name for candidate in model.candidates]
     spread = diagnosis.ladder.estimates_spread  # by which an effect is harder to find
     for j in range(len(active), len(model.candidates)):
@@ -163,20 +164,28 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
             continue  # a cause with a shape of its own gets no name beside a discrepancy
         question = Question(j, REACH / spread, active, FOUND, PRESENT / names.count(names[j]))
         hidden = max(float(question.strength(known)) - _by_limit(diagnosis, model.candidates[j]), 0.0)
-        sized = _sized(model.candidates[j], REACH)
-        where = words_of(model.candidates[j]).removeprefix(names[j].replace("_", " ")).strip()
-        found.append(Open("reach", Asked(question, everything), sized, where, hidden=hidden))
+        words = _sized(model.candidates[j], REACH)
+        found.append(
+            Open("reach", Asked(question, everything), *words, candidate=model.candidates[j], hidden=hidden)
+        )
     return found
 
 
-def _unexplained(diagnosis: Diagnosis, isotherm: str) -> str:
-    """What the causes leave at an isotherm, in words."""
+def _of_departure(diagnosis: Diagnosis, one: Departure) -> tuple[str, str]:
+    """What a departure is, and what speaks of its size or of what new tests show if they are sound, in words."""
+    if one.odd is not None:
+        return levels.described(one.odd)[0], levels.if_sound(one.odd)
+    if one.specimen is None:
+        return f"{one.isotherm:g} degC", _unexplained(diagnosis, one.isotherm)
+    return f"{specimen_named(one.specimen)} at {one.isotherm:g} degC, {one.frequency:g} Hz", ""
+
+
+def _unexplained(diagnosis: Diagnosis, isotherm: float | None) -> str:
+    """What the causes leave at an isotherm [degC], in words."""
     of_modulus, of_phase = diagnosis.noise.sigma
     scatter = {"modulus_percent": 100.0 * of_modulus, "phase_deg": float(np.degrees(of_phase))}
     sizes = diagnosis.ladder.noticed.items()
-    return joined(
-        [size_left(name, size, scatter) for name, size in sizes if name.startswith(f"{isotherm}, ")]
-    )
+    return joined([size_left(one.part, size, scatter) for one, size in sizes if one.isotherm == isotherm])
 
 
 def _by_limit(diagnosis: Diagnosis, candidate: Candidate) -> float:
@@ -196,13 +205,14 @@ def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, 
     for label, kept in _parts(model.table, rows):
         if label in hangs_on:
             question = Question(k, amplitude, active, KEPT)
-            found.append(Open("kept", Asked(question, kept), words, label))
+            found.append(Open("kept", Asked(question, kept), words, label, candidate))
     metal = np.arange(rows) >= model.table.size
     if np.abs(model.linear.effects[metal, k]).max(initial=0.0) > 0.0:
         question = Question(k, amplitude, active, FOUND)
         value, error = rungs.amplitude(diagnosis, candidate)
         share = widening(diagnosis.ladder.estimates_spread) * CONFIDENCE * error / abs(value)
-        found.append(Open("metal", Asked(question, metal), words, _on_metal(model, k, amplitude, share)))
+        shows = _on_metal(model, k, amplitude, share)
+        found.append(Open("metal", Asked(question, metal), words, shows, candidate))
     return found
 
 
@@ -244,9 +254,11 @@ def words_of(candidate: Candidate) -> str:
     return f"{words} of {place}" if isinstance(place, str) else f"{words} at {place:g} degC"
 
 
-def _sized(candidate: Candidate, typical: float) -> str:
+def _sized(candidate: Candidate, typical: float) -> tuple[str, str]:
+    """A cause of so many typical sizes in words, and that size."""
     first = candidate.cause.parameters[0]
     value, unit = shown(typical * first.typical, first.unit)
     unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
     words = candidate.cause.name.replace("_", " ")
-    return PLAIN.get(candidate.cause.name, f"{an(words)} of {{}}").format(f"{three_digits(value)} {unit}")
+    size = f"{three_digits(value)} {unit}"
+    return PLAIN.get(candidate.cause.name, f"{an(words)} of {{}}").format(size), size

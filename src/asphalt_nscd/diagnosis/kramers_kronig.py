@@ -51,10 +51,10 @@ class Required:
     std_error: Vector
 
 
-def required_phase(frequency: ArrayLike, log_modulus: ArrayLike, scatter: float = ROUNDING) -> Required:
+def required_phase(frequency: ArrayLike, log_modulus: ArrayLike, scatter: ArrayLike = ROUNDING) -> Required:
     """Phase [rad] required by ln|E*| (n,) at the frequencies (n,) [Hz] of one isotherm of one specimen.
 
-    scatter: standard deviation of ln|E*| of one test. Bode's relation, see the module.
+    scatter: standard deviation of ln|E*| of one test, or of each (n,). Bode's relation, see the module.
 
     >>> power_law = required_phase([0.1, 1.0, 10.0], [0.0, 0.3 * np.log(10.0), 0.3 * np.log(100.0)])
     >>> float(np.degrees(power_law.phase[1]).round())  # 0.3 * 90 degrees
@@ -65,7 +65,7 @@ def required_phase(frequency: ArrayLike, log_modulus: ArrayLike, scatter: float 
     centred = log_modulus - log_modulus.mean()
     evidence, means, variances = [], [], []
     for covariance, weight in zip(covariances(frequency), WEIGHTS, strict=True):
-        own = covariance[:n, :n] + max(scatter, ROUNDING) ** 2 * np.eye(n)
+        own = covariance[:n, :n] + np.maximum(scatter, ROUNDING) ** 2 * np.eye(n)
         gain = np.linalg.solve(own, covariance[:n, n:])
         evidence.append(
             np.log(weight) - 0.5 * (centred @ np.linalg.solve(own, centred) + np.linalg.slogdet(own)[1])

@@ -13,8 +13,10 @@ from asphalt_nscd.diagnosis import beside, chance, hidden_bias, limits
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import CHANCE, Scores
+from asphalt_nscd.diagnosis.discrepancy import Process
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.start import fit_spectrum, marginal_likelihood
+from asphalt_nscd.diagnosis.written import CONFIDENCE, widening
 
 RUNGS = 4
 SHORTLIST = 0.4  # candidates whose score gain is above this share of the best are refitted
@@ -24,6 +26,7 @@ AS_GOOD = 6.0  # gains of the objective closer than this are a likelihood ratio 
 USUAL = 7.0  # typical amplitudes, standard deviation of errors in laboratories: 2 K, say
 AS_MUCH = 0.97  # of the gain of the best nameless pattern, which may be the cause's own
 EXCESS = 4.0  # standard deviations of the misfit above which it is structure
+NEEDED = 12.0  # of the objective, that a cause gains beside the others named
 MOSTLY = 0.75  # share of the structure that named causes must explain, else no name is given
 NOTICED = 0.1  # size of a process over the scatter of one test, below which it is none
 
@@ -70,7 +73,7 @@ class Ladder:
     limits: dict[tuple, float] = field(default_factory=dict)
     unseen: list[Candidate] = field(default_factory=list)
     alike: list[tuple[Candidate, Candidate]] = field(default_factory=list)
-    discrepancy: dict[str, float] = field(default_factory=dict)
+    discrepancy: dict[Process, float] = field(default_factory=dict)
     hangs_on: dict[tuple, list[str]] = field(default_factory=dict)
     estimates: dict[tuple, tuple[float, float]] = field(default_factory=dict)
 
@@ -78,6 +81,30 @@ class Ladder:
     def fitted(self) -> Fitted:
         """The fit with all causes named."""
         return self.rungs[-1].after if self.rungs else self.start
+
+    def std_errors(self, candidate: Candidate) -> NDArray[np.float64]:
+        """Of each parameter of a named cause in the last fit, that of the amplitude with the discrepancy's sizes."""
+        fitted = self.fitted
+        first = fitted.jacobian.shape[1] - sum(len(one.values) for one in fitted.active)
+        for active in fitted.active:
+            if active.key == candidate.key:
+                break
+            first += len(active.values)
+        at = slice(first, first + len(candidate.values))
+        errors = np.sqrt(np.diag(fitted.covariance))[at] * candidate.typical
+        errors[0] = max(errors[0], self.estimates.get(candidate.key, (0.0, 0.0))[1])
+        return errors
+
+    @property
+    def unsure(self) -> Candidate | None:
+        """The named cause whose 95 % interval, as it is told, holds zero by most; None where none does."""
+        wide = widening(self.estimates_spread) * CONFIDENCE
+        reach = [
+            (abs(one.values[0]) / max(wide * float(self.std_errors(one)[0]), 1e-300), one)
+            for one in self.fitted.active
+        ]
+        least, one = min(reach, key=lambda pair: pair[0], default=(np.inf, None))
+        return one if least <= 1.0 else None
 
     @property
     def estimates_spread(self) -> float:
@@ -95,9 +122,9 @@ class Ladder:
         return max(1.0, float(np.sqrt(np.mean(each)))) if each else 1.0
 
     @property
-    def noticed(self) -> dict[str, float]:
+    def noticed(self) -> dict[Process, float]:
         """The discrepancy without processes of no size."""
-        return {name: size for name, size in self.discrepancy.items() if size > NOTICED}
+        return {process: size for process, size in self.discrepancy.items() if size > NOTICED}
 
 
 def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, seed: int) -> Ladder:
@@ -169,21 +196,32 @@ def _climb_beside(
     """The ladder again, beside a discrepancy; every cause with what it hangs on."""
     begun = beside.begin(joint, start)
     found, end, survey = beside.climb(begun, catalogue, draws, random)
-    ladder.joint, ladder.start = end.wide, begun.fitted
+    ladder.withdrawn = list(ladder.rungs)
+    _take(ladder, begun, found, end)
+    ladder.estimates = beside.estimates(end, survey)
+    while (one := ladder.unsure) is not None:
+        found = [other for other in found if other.candidate.key != one.key]
+        found, end, survey = beside.again(begun, found, catalogue)
+        _take(ladder, begun, found, end)
+        ladder.estimates = beside.estimates(end, survey)
     named = {one.candidate.key for one in found}
-    ladder.withdrawn = [rung for rung in ladder.rungs if rung.candidate.key not in named]
+    ladder.withdrawn = [rung for rung in ladder.withdrawn if rung.candidate.key not in named]
+    ladder.hangs_on = {c.key: beside.hangs_on(end, c) for c in end.fitted.active}
+    ladder.limits, ladder.unseen, ladder.alike = beside.detection_limits(end, survey, draws, random)
+    sizes = np.sqrt(end.variances)
+    ladder.discrepancy = dict(zip(end.model.processes.described, sizes.tolist(), strict=True))
+    ladder.remaining = _remaining(end.plain, end.linear, draws, random)
+
+
+def _take(ladder: Ladder, begun: beside.State, found: Sequence[beside.Found], end: beside.State) -> None:
+    """Rungs and fits of an ascent beside a discrepancy."""
+    ladder.joint, ladder.start = end.wide, begun.fitted
     ladder.rungs = [
         Rung(one.candidate, one.p_value, one.before.fitted, one.after.fitted, one.rivals) for one in found
     ]
     # A rung ends where the next begins, with the roughness of the law chosen anew.
     ends = [*(rung.before for rung in ladder.rungs[1:]), end.fitted]
     ladder.rungs = [replace(rung, after=after) for rung, after in zip(ladder.rungs, ends, strict=False)]
-    ladder.hangs_on = {c.key: beside.hangs_on(end, c) for c in end.fitted.active}
-    ladder.limits, ladder.unseen, ladder.alike = beside.detection_limits(end, survey, draws, random)
-    ladder.estimates = beside.estimates(end, survey)
-    sizes = np.sqrt(end.variances)
-    ladder.discrepancy = dict(zip(end.model.processes.names, sizes.tolist(), strict=True))
-    ladder.remaining = _remaining(end.plain, end.linear, draws, random)
 
 
 def _stands_out(rung: Rung, remaining: Remaining) -> bool:
@@ -308,18 +346,21 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
 
 
 def _drop_needless(ladder: Ladder, draws: int, random: np.random.Generator) -> None:
-    """Take back a cause that those taken after it made superfluous."""
-    while len(ladder.rungs) > 1:
-        fitted = ladder.rungs[-1].after
-        joint = ladder.joint
-        losses = []
+    """Take back a cause that those taken after it made superfluous, or whose size may be zero."""
+    while ladder.rungs:
+        fitted, joint = ladder.fitted, ladder.joint
+        losses = {}
         for rung in ladder.rungs:
             rest = tuple(c for c in fitted.active if c.key != rung.candidate.key)
-            losses.append(joint.fit(fitted.law, fitted.scales, rest).objective - fitted.objective)
-        least = int(np.argmin(losses))
-        if losses[least] > 12.0:
+            losses[rung.candidate.key] = (
+                joint.fit(fitted.law, fitted.scales, rest).objective - fitted.objective
+            )
+        needless = [key for key in losses if len(losses) > 1 and losses[key] <= NEEDED]
+        unsure = [] if ladder.unsure is None else [ladder.unsure.key]
+        if not needless + unsure:
             return
-        kept = [rung.candidate.key for k, rung in enumerate(ladder.rungs) if k != least]
+        least = min(needless + unsure, key=lambda key: losses[key])
+        kept = [rung.candidate.key for rung in ladder.rungs if rung.candidate.key != least]
         p_values = {rung.candidate.key: rung.p_value for rung in ladder.rungs}
         rivals = {rung.candidate.key: rung.rivals for rung in ladder.rungs}
         ladder.rungs.clear()

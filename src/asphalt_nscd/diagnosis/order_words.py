@@ -2,41 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import ndtr
 
+from asphalt_nscd.diagnosis.causes._cause import Place
+from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
 from asphalt_nscd.diagnosis.chance import USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.fixed_orders import band, named
+from asphalt_nscd.diagnosis.further_tests import Departure
 from asphalt_nscd.diagnosis.information import Asked
+from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.sentences import an
 from asphalt_nscd.diagnosis.sweeps import METAL, Sweep
-from asphalt_nscd.files.words import joined, specimen_named
+from asphalt_nscd.files.words import joined
 
 REASONS = 3
 NOTICEABLE = 15.0  # percent of cases
-BIAS = "temperature bias"
 CLEARER = 0.3  # standard errors
 CLEAR = 2.0 * float(np.log(1000.0))  # strength from which two causes are told apart: 1000 to 1
 
 
 @dataclass(frozen=True)
 class Open:
-    """An open question: what it is about, and how a reader is told what the tests would do for it.
+    """An open question, and how a reader is told what the tests would do for it.
 
-    alike: whether the two causes that it tells apart fitted the tests equally well. hidden: strength that the tests
-    done have less than the linear model says, for the law follows a large effect further than a small one.
+    about: what it is about, in words; other: what that is held against, in words. candidate, rival: the causes that
+    are meant, None where it is about a departure. alike: whether the two causes fitted the tests equally well. hidden:
+    strength that the tests done have less than the linear model says, for the law follows a large effect further than a
+    small one.
     """
 
     kind: str  # kept, metal, apart, repeat, level, linear or reach
     asked: Asked
     about: str
     other: str = ""
+    candidate: Candidate | None = None
+    rival: Candidate | None = None
+    departure: Departure | None = None
     alike: bool = False
     hidden: float = 0.0
+
+    def at(self, order: Order) -> bool:
+        """Whether an order tests the specimen, isotherm and frequency of the departure that it is about."""
+        one, sweep = self.departure, order.sweep
+        return (
+            one is not None
+            and (one.specimen is None or one.specimen in order.specimens)
+            and (one.isotherm is None or one.isotherm == sweep.temperature)
+            and (one.frequency is None or one.frequency in sweep.frequencies)
+        )
+
+    @property
+    def place(self) -> Place:
+        """Where the cause sits that it is about."""
+        return None if self.candidate is None else self.candidate.place
 
 
 @dataclass
@@ -71,13 +94,12 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
     }
     helped = [questions[k] for k in order.helps]
     here = f"{order.sweep.temperature:g} degC"
-    names = [specimen_named(name) for name in order.specimens]
-    repeated = {f"{name} at {here}, {f:g} Hz" for name in names for f in order.sweep.frequencies}
-    again = sorted(repeated & {one.about for one in helped if one.kind == "repeat"})
+    again = sorted(one.about for one in helped if one.kind == "repeat" and one.at(order))
     found = []
     if again:
         several = len(again) > 1
-        whole = len(again) == len(repeated)  # the order itself has named them
+        # The order itself has named them.
+        whole = len(again) == len(order.specimens) * len(order.sweep.frequencies)
         old = f"test{'s' * several}" if whole else f"reading{'s' * several} of {joined(again)}"
         look = "Look for a typing error in the record first: the" if context.typed else "The"
         found.append(
@@ -85,18 +107,17 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
             + " Check gauges and mounting before." * context.checked
             + " If the new test agrees with the other frequencies, use the new test."
         )
-    odd = {f"{specimen_named(name)}{at}: " for name in order.specimens for at in ("", f" at {here}")}
     found += [
         f"{one.about[:1].upper()}{one.about[1:]}. If the new {one.other}, the machine, the temperature, the "
         "dimensions or the mounting was at fault: use the new tests."
         for one in helped
-        if one.kind == "level" and one.about.startswith(tuple(odd))
+        if one.kind == "level" and one.at(order)
     ]
     found += [
         f"What stays unexplained at {here} ({one.other}) should fall to about half if the mix is not linear. If the "
         "machine is at fault, it should stay or grow."
         for one in helped
-        if one.kind == "linear" and one.about == here and order.sweep.half_strain
+        if one.kind == "linear" and one.at(order) and order.sweep.half_strain
     ]
     found += [_reason(questions[k], *told[k]) for k in told if questions[k].kind != "reach"]
     found += _within_reach([(questions[k], *told[k]) for k in told if questions[k].kind == "reach"], context)
@@ -107,32 +128,28 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
     """What an order is for, in a few words, without its first reason's numbers."""
     helped = [questions[k] for k in order.helps]
     here = f"{order.sweep.temperature:g} degC"
-    again = [one.about for one in helped if one.kind == "repeat"]
+    again = [one.departure.frequency for one in helped if one.kind == "repeat" and one.departure]
     for kind, words in (
         ("repeat", f"because the old result at {_frequencies(again)} contradicts the other frequencies"),
         ("level", "to see whether the odd result repeats itself"),
         ("linear", f"to see whether the mix is linear at {here}"),
         ("metal", "to confirm the {about}: metal must then show {other}, and 0 deg if there is none"),
         ("kept", "to confirm the {about}"),
-        ("apart", "to confirm the {about}: {a} {other} would look much the same"),
+        ("apart", "to confirm the {about}: {other} would look much the same"),
         ("reach", "to see whether there is {about}"),
     ):
         for one in helped:
-            if one.kind != kind or (kind == "linear" and not (order.sweep.half_strain and one.about == here)):
+            if one.kind != kind or (kind == "linear" and not (order.sweep.half_strain and one.at(order))):
                 continue
-            article, _, rest = an(one.other).partition(" ") if one.other else ("", "", "")
-            if kind == "apart" and one.about.startswith(BIAS) and one.other.startswith(BIAS):
-                at = [
-                    words.removeprefix(f"{BIAS} at ").removesuffix(" degC")
-                    for words in (one.about, one.other)
-                ]
-                return f"to decide whether the temperature was wrong at {at[0]} or at {at[1]} degC"
-            places = [other.other for other in helped if (other.kind, other.about) == (kind, one.about)]
-            if kind == "reach" and one.about.startswith(an(BIAS)):
-                size = one.about.removeprefix(f"{an(BIAS)} of ")
-                return f"to see an error of {size} in the temperature of any isotherm"
-            return words.format(about=one.about.split(" (")[0], a=article, other=rest or one.other) + (
-                _places(places) if kind == "reach" else ""
+            at = [c.place for c in (one.candidate, one.rival) if c and c.cause.name == TemperatureBias.name]
+            if kind == "apart" and len(at) == 2:
+                return f"to decide whether the temperature was wrong at {at[0]:g} or at {at[1]:g} degC"
+            if kind == "reach" and at:
+                return f"to see an error of {one.other} in the temperature of any isotherm"
+            alike = [other.place for other in helped if (other.kind, other.about) == (kind, one.about)]
+            other = an(one.other) if kind == "apart" else one.other
+            return words.format(about=one.about.split(" (")[0], other=other) + (
+                _places(alike) if kind == "reach" else ""
             )
     return ""
 
@@ -142,22 +159,21 @@ def _upper(words: str) -> str:
     return f"{words[:1].upper()}{words[1:]}"
 
 
-def _frequencies(tests: Sequence[str]) -> str:
-    """`10 and 25 Hz`, of tests in words."""
-    found = {one.rpartition(", ")[2].removesuffix(" Hz") for one in tests}
-    return f"{joined(sorted(found, key=float))} Hz"
+def _frequencies(tested: Iterable[float | None]) -> str:
+    """`10 and 25 Hz`."""
+    return f"{joined([f'{f:g}' for f in sorted({f for f in tested if f is not None})])} Hz"
 
 
 def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context) -> list[str]:
     """A sentence for each cause that the tests bring within reach, its isotherms or specimens together."""
-    causes: dict[str, list[tuple[str, float, float]]] = {}
+    causes: dict[str, list[tuple[Place, float, float]]] = {}
     for one, *strengths in helped:
         before, after = (
             100.0 * float(ndtr(np.sqrt(max(strength - one.hidden, 0.0)) - USUAL_THRESHOLD))
             for strength in strengths
         )
         if after - before >= NOTICEABLE:
-            causes.setdefault(one.about, []).append((one.other, before, after))
+            causes.setdefault(one.about, []).append((one.place, before, after))
     without = "with only the steps above" if context.later else "without it"
     return [
         f"If there is {about}{_places([place for place, _, _ in found])}, this test finds it with a chance of "
@@ -167,21 +183,20 @@ def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context)
     ]
 
 
-def _depending(places: Sequence[str]) -> str:
+def _depending(places: Sequence[Place]) -> str:
     """On what a range of chances depends; nothing for a cause at one place or none."""
     if len(places) < 2:
         return ""
-    return f", depending on the {'temperature' if places[0].startswith('at ') else 'specimen'}"
+    return f", depending on the {'specimen' if isinstance(places[0], str) else 'temperature'}"
 
 
-def _places(places: Sequence[str]) -> str:
-    """` at 4, 20 or 50 degC`, ` of A or B`; nothing for a cause of all tests."""
-    if not places[0]:
-        return ""
-    joint, *_ = places[0].split()
-    names = [place.removeprefix(f"{joint} ").removesuffix(" degC") for place in places]
-    together = joined(sorted(names, key=lambda name: (len(name), name)), "or")
-    return f" {joint} {together}{' degC' if joint == 'at' else ''}"
+def _places(places: Sequence[Place]) -> str:
+    """` at 4, 20 or 50 degC`, ` of specimen A or B`; nothing for a cause of all tests."""
+    temperatures = sorted(place for place in places if isinstance(place, float))
+    if temperatures:
+        return f" at {joined([f'{t:g}' for t in temperatures], 'or')} degC"
+    names = [place for place in places if isinstance(place, str)]
+    return f" of {joined(names, 'or')}" if names else ""
 
 
 def _chances(values: Sequence[float]) -> str:

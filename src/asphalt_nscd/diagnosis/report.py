@@ -55,7 +55,16 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         "detection_limits": _limits(diagnosis),
         "estimates": _estimates(diagnosis),
         "estimates_spread": spread,
-        "discrepancy": diagnosis.ladder.noticed,
+        "discrepancy": [
+            {
+                "kind": one.kind,
+                "part": one.part,
+                "temperature_C": one.isotherm,
+                "specimen": one.specimen,
+                "size": size,
+            }
+            for one, size in diagnosis.ladder.noticed.items()
+        ],
         "lack_of_fit_p_value": diagnosis.law_p,
         "largest_pattern_left": None
         if remaining is None

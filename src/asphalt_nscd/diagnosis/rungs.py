@@ -63,15 +63,7 @@ def amplitude(diagnosis: Diagnosis, candidate: Candidate) -> tuple[float, float]
 
 
 def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[str, Any]]:
-    fitted = diagnosis.ladder.rungs[-1].after
-    first = fitted.jacobian.shape[1] - sum(len(c.values) for c in fitted.active)
-    for active in fitted.active:
-        if active.key == candidate.key:
-            break
-        first += len(active.values)
-    errors = np.sqrt(np.diag(fitted.covariance))[first : first + len(candidate.values)] * candidate.typical
-    if candidate.key in diagnosis.ladder.estimates:
-        errors[0] = max(errors[0], diagnosis.ladder.estimates[candidate.key][1])
+    errors = diagnosis.ladder.std_errors(candidate)
     return {
         parameter.name: {
             "value": value,

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from itertools import combinations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtrc, fdtrc
 
 from asphalt_nscd.diagnosis.joint import Noise
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.files.errors import InputError
 
 Vector = NDArray[np.float64]
 STATED = 10**6  # degrees of freedom of a scatter that is known
@@ -114,23 +111,6 @@ def _scale(scales: Vector) -> float:
     robust = 1.4826 * float(np.median(spread)) if scales.size > 2 else 0.0
     freedom = max(scales.size - 1, 0)
     return float(np.sqrt((known + freedom * robust**2) / (SCALE_FREEDOM + freedom)))
-
-
-def refuse_copies(observed: Observations) -> None:
-    """Refuse two specimens that agree in every digit wherever both were tested: copies have no scatter."""
-    tests = {
-        name: {
-            int(observed.cell[row]): observed.modulus[row] for row in np.flatnonzero(observed.specimen == k)
-        }
-        for k, name in enumerate(observed.names)
-    }
-    for one, other in combinations(observed.names, 2):
-        common = tests[one].keys() & tests[other].keys()
-        if len(common) > 2 and all(np.isclose(tests[one][c], tests[other][c], 1e-9, 0.0) for c in common):
-            raise InputError(
-                f"specimens {one} and {other} have the same modulus at all {len(common)} conditions they share: "
-                "copies are not replicates and give no scatter; keep one of them."
-            )
 
 
 def median_by(values: Vector, label: NDArray[np.int64]) -> Vector:

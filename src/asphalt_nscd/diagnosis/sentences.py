@@ -11,7 +11,15 @@ from typing import Any
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import CHANCE, LEAST_ISOTHERMS
-from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at, shown, three_digits, widening, with_interval
+from asphalt_nscd.diagnosis.written import (
+    CONFIDENCE,
+    CONFINED_TO,
+    name_at,
+    shown,
+    three_digits,
+    widening,
+    with_interval,
+)
 from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Content = Mapping[str, Any]
@@ -230,10 +238,6 @@ def _doubts(rung: Content, content: Content) -> list[str]:
         left_out = f"{joined(rung['hangs_on'], 'or')} is left out"
         doubts.append(f"It is no longer found if {left_out}")
     doubts += rung.get("doubts", [])
-    first = next(iter(rung["parameters"].values()))
-    half = widened(content) * CONFIDENCE * (first["std_error"] or 0.0)
-    if doubts and abs(first["value"]) < half and not any("includes zero" in doubt for doubt in doubts):
-        doubts.append(f"Its 95 % interval{', as widened,' * (widened(content) > 1.0)} includes zero")
     isotherms = content.get("reading", {}).get("isotherms_C", [])
     if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):
         doubts.append(f"Besides, {lacking(content)}")
@@ -265,13 +269,10 @@ def lacking(content: Content) -> str:
 
 def in_words(name: str) -> str:
     """`temperature_bias @ 21.0` in words."""
-    words, _, place = name.replace("_", " ").partition(" @ ")
-    if not place:
-        return words
-    try:
-        return f"{words} at {float(place):g} degC"
-    except ValueError:
-        return f"{words} at {place}"
+    cause, _, place = name.partition(" @ ")
+    if CONFINED_TO.get(cause) == "temperature_C":
+        return cause_words({"cause": cause, "where": float(place) if place else None})
+    return cause_words({"cause": cause, "where": place or None})
 
 
 def more_than_scatter(content: Content) -> bool:

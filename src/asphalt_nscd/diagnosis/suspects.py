@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from scipy.special import logsumexp, stdtr
 
 from asphalt_nscd.diagnosis import quality, within_isotherm
+from asphalt_nscd.diagnosis.copies import copied
 from asphalt_nscd.diagnosis.exchanged import Exchange
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.within_isotherm import BEND_WEIGHTS, BENDS, Held
@@ -32,6 +33,7 @@ ALONE = 0.03  # the same for a flagged test of one specimen alone, whose scatter
 SLIP, NEAR_POWER = np.log(3.0), 0.02  # of ln|E*|, told as a factor; of log10 of that, near a power of ten
 FAR = 5e-3  # chance, times the number of values, below which replicates are a witness
 LEANING, VERY_FAR = 0.1, 1e-5  # both limits where replicates say more: at the ends causality knows little
+PHASES = 0.0, 90.0  # deg, that a passive linear material can have
 BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1.5 deg or more
 BREAKS = BENDS > np.radians(1.0)
 LEAST_FREEDOM = 4  # of the replicates of an isotherm
@@ -94,19 +96,23 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
     left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
     strong = worst < STRONG * limit
     shared = _shared(observed, held, strong, left)
-    out = (strong & ~shared) | (against.any(axis=1) & flagged) | ~held.in_place
+    copied_blocks = list(copied(observed))
+    copies = np.isin(np.arange(observed.size), [row for one in copied_blocks for row in one.rows])
+    out = (strong & ~shared) | (against.any(axis=1) & flagged) | ~held.in_place | copies
     # What is already out is no replicate of the others.
     apart, chance = _from_replicates(observed, ~out)
     far = chance * values < FAR
     agree = (np.sign(apart) == np.sign(left)) & ~broken[:, None]
     supported = agree & ((doubtful & far) | ((single < LEANING) & (chance * values < VERY_FAR)))
     out |= supported.any(axis=1)
-    listed = (out & held.in_place) | (worst < NOTABLE * limit)
+    listed = (out & held.in_place & ~copies) | (worst < NOTABLE * limit)
     # Beside a wrong phase the modulus seems wrong too: the less likely of the two is named, or the one with a witness.
     wrong = np.where(supported | ~supported.any(axis=1, keepdims=True), single, 1.0).argmin(axis=1)
     found = []
     for row in np.flatnonzero(out | listed | flagged | far.any(axis=1)):
-        reasons = [_exchange_reason(observed, one) for one in held.exchanged if row in one.rows]
+        block = observed.names[observed.specimen[row]], float(observed.isotherm[row])
+        reasons = [one.reason(*block) for one in copied_blocks if row in one.rows]
+        reasons += [_exchange_reason(observed, one) for one in held.exchanged if row in one.rows]
         reasons += [_causal_reason(observed, held, int(row), int(wrong[row]))] if listed[row] else []
         reasons += flags[row] + [ONE_WITNESS] * bool(flagged[row] and held.judged[row] and not listed[row])
         reasons += [
@@ -268,6 +274,9 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
             f"{'; look for a misplaced decimal point' * bool(slip)}"
         )
     phase, required = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
+    causal = required - np.degrees(held.delay * observed.omega[row])
+    if not PHASES[0] <= causal <= PHASES[1]:  # nothing to expect where the others make no curve
+        return f"phase {phase:.1f} deg does not fit its |E*| and the other frequencies"
     delay = "; both phases as recorded, with the delay" if held.delay else ""
     return (
         f"phase {phase:.1f} deg, expected {required:.1f} deg from its |E*| and the other frequencies "

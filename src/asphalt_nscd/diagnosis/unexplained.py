@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from asphalt_nscd.diagnosis import levels
 from asphalt_nscd.diagnosis.sentences import Content, more_than_scatter, odd, typed, widened
@@ -63,13 +63,13 @@ def _size(value: float, unit: str, content: Content) -> str:
 
 def left(content: Content) -> list[str]:
     """What no cause explains, largest first, in percent of |E*| or degrees of phase."""
-    parts = sorted(content.get("discrepancy", {}).items(), key=lambda item: -item[1])[:LARGEST]
+    parts = sorted(content.get("discrepancy", []), key=lambda one: -one["size"])[:LARGEST]
     if parts:
         places = levels.places(*odd(content))
         return [
-            *(_part_left(name, value, content) for name, value in parts),
+            *(_part_left(one, content) for one in parts),
             *([f"These sizes include what is odd: {joined(places)}"] if places else []),
-            *which_departs(content, [name for name, _ in parts]),
+            *which_departs(content),
         ]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None and more_than_scatter(content):
@@ -79,10 +79,11 @@ def left(content: Content) -> list[str]:
     return []
 
 
-def which_departs(content: Content, parts: Sequence[str]) -> list[str]:
-    """Of few specimens each has a large part in the common curve that it is compared with. parts: what departs."""
+def which_departs(content: Content, most: int = LARGEST) -> list[str]:
+    """Of few specimens each has a large part in the common curve that it is compared with."""
     specimens = len(content.get("reading", {}).get("specimens", []))
-    if 1 < specimens < MANY_SPECIMENS and any("specimen " in part for part in parts):
+    largest = sorted(content.get("discrepancy", []), key=lambda one: -one["size"])[:most]
+    if 1 < specimens < MANY_SPECIMENS and any(one["specimen"] is not None for one in largest):
         return [f"{specimens} specimens are too few to tell which one is odd"]
     return []
 
@@ -101,24 +102,24 @@ def _largest(content: Content) -> list[str]:
     ]
 
 
-def _part_left(name: str, value: float, content: Content) -> str:
-    """`specimen A, spectrum` or `37 degC, phase`, its size first."""
-    place, part = name.removeprefix("specimen ").rsplit(", ", 1)
-    if not name.startswith("specimen "):
-        at = f"{'at' if place.endswith(' degC') else 'of'} {place}"
-        return f"{size_left(name, value, content['scatter'])} {at}"
-    size = f"{size_left(name, value, content['scatter'])} of {specimen_named(place)}"
-    if part == "spectrum":
+def _part_left(one: Content, content: Content) -> str:
+    """One part of the discrepancy, its size first."""
+    size = size_left(one["part"], one["size"], content["scatter"])
+    if one["specimen"] is None:
+        t = one["temperature_C"]
+        return f"{size} of all tests" if t is None else f"{size} at {t:g} degC"
+    size = f"{size} of {specimen_named(one['specimen'])}"
+    if one["kind"] == "spectrum":
         return f"{size}: its master curve has another shape than the common one"
-    whole = [one["specimen"] for one in content.get("odd_phases", []) if one["temperature_C"] is None]
-    if part == "phase" and place in whole:
+    whole = [odd["specimen"] for odd in content.get("odd_phases", []) if odd["temperature_C"] is None]
+    if one["part"] == "phase" and one["specimen"] in whole:
         return f"{size}, most of it alike in all its tests"
     return f"{size}, changing with frequency and temperature"
 
 
-def size_left(name: str, value: float, scatter: Mapping[str, float]) -> str:
-    """Size of a part of the discrepancy, whose value is in units of the scatter."""
-    if name.endswith(", phase"):
+def size_left(part: str, value: float, scatter: Mapping[str, float]) -> str:
+    """Size of a part of the discrepancy, "modulus", "phase" or "both"; value: in units of the scatter."""
+    if part == "phase":
         return f"{_one_digit(value * scatter['phase_deg'])} deg in the phase"
     return f"{_one_digit(value * scatter['modulus_percent'])} % in |E*|"
 

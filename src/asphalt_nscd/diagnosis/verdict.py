@@ -56,6 +56,15 @@ def faults(content: Content) -> list[Content]:
     return [rung for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
 
 
+def effects(content: Content) -> list[Content]:
+    """Named effects of the mix itself beside its relaxation: what it does while it is tested."""
+    return [
+        rung
+        for rung in content["ladder"]
+        if rung["cause"] in OF_THE_MIX - {"relaxation_spectrum", BOND_MAPPING}
+    ]
+
+
 def correction(rung: Content) -> str:
     """What to do to the tests to be rid of a fault, where it is one number."""
     value = next(iter(rung["parameters"].values()))["value"]
@@ -123,7 +132,7 @@ def two_laws(content: Content) -> list[str]:
     spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in content["ladder"])
     if misses is None or not spectrum or bonded(content):
         return []
-    kept = [_noun(rung) for rung in faults(content) if not rung.get("taken_off", True)]
+    kept = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung.get("taken_off", True)]
     them = "is not certain, so law.json is not corrected for it" if len(kept) == 1 else ""
     them = them or "are not certain, so law.json is not corrected for them"
     doubtful = f" {joined(kept).capitalize()} {them}." if kept else ""

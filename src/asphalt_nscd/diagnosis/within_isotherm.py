@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc, logsumexp, stdtr
 
-from asphalt_nscd.diagnosis import exchanged
+from asphalt_nscd.diagnosis import exchanged, wrong_values
 from asphalt_nscd.diagnosis.exchanged import Exchange
 from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances, required_phase
 from asphalt_nscd.diagnosis.observations import Observations
@@ -43,6 +43,7 @@ DOUBTFUL = 1e-2  # chance below which a value does not judge its neighbours
 LEAST_DELAYED = 4  # isotherms that must tell of a delay, at two temperatures at least
 SURE = 3.0  # standard errors of a delay that is taken off
 MOST_DOUBTFUL = 3  # one of so many tests of an isotherm at most
+GROSS = 3.0  # times the first guess of the scatter, that no table's scatter exceeds
 ASIDE = 100.0  # variance that takes a value out
 
 
@@ -193,7 +194,7 @@ class _Table:
         """Delay of each isotherm and its standard error (2, b) [s]."""
         rows, k = group.rows, group.rows.shape[1]
         values = _side_by_side(self.values - np.array([self.values[self.judged, 0].mean(), 0.0]), rows)
-        variance = _side_by_side(self.scatter**2, rows)
+        variance = _side_by_side(self.scatter**2 + ASIDE * self.aside, rows)
         precision = np.linalg.inv(group.covariance + variance[:, None, :, None] * np.eye(2 * k))
         pull = np.einsum("bmij,bj->bmi", precision, np.hstack([np.zeros(rows.shape), omega[rows]]))
         information = np.einsum("bmi,bi->bm", pull[:, :, k:], omega[rows])
@@ -324,17 +325,39 @@ class _Table:
             gain = exchanged.gains(precision, pull, weighed, self.readings[group.rows])
             yield from zip(group.rows, gain, exchanged.one_wrong(precision, pull, weighed), strict=True)
 
+    def set_gross_aside(self) -> None:
+        """Take out what is wrong whatever the scatter, lest it make all others seem so."""
+        self._set_wrong_aside(GROSS * self.scatter)
+
     def set_doubtful_aside(self) -> None:
-        """Take out the most doubtful value of each isotherm, again and again, lest it accuse its neighbours."""
+        """Take out the most doubtful values of each isotherm, again and again, lest they accuse their neighbours."""
+        self.aside[:] = False
+        self._set_wrong_aside(self.scatter)
         changed = True
         while changed:
             changed, held = False, self.hold()
             for rows in (rows for group in self.groups for rows in group.rows):
                 chance = np.where(self.aside[rows], 1.0, held.chance[rows, :2])
                 test, column = np.unravel_index(int(chance.argmin()), chance.shape)
-                room = self.aside[rows].any(axis=1).sum() < max(1, rows.size // MOST_DOUBTFUL)
+                room = self.aside[rows].any(axis=1).sum() < most_doubtful(rows.size)
                 if chance[test, column] < DOUBTFUL and room:
                     self.aside[rows[test], column] = changed = True
+
+    def _set_wrong_aside(self, scatter: NDArray) -> None:
+        """Take out the likeliest set of wrong values of each isotherm where it is sure; scatter (n, 2)."""
+        for group in self.groups:
+            precision, pull, evidence = self._evidence(group, _side_by_side(scatter**2, group.rows))
+            weighed = evidence + self.weights[group.first].reshape(evidence.shape)
+            k = group.rows.shape[1]
+            found = wrong_values.likeliest(precision, pull, weighed, most_doubtful(k))
+            for rows, (odds, values) in zip(group.rows, found, strict=True):
+                if odds > wrong_values.SURE:
+                    self.aside[rows[values % k], values // k] = True
+
+
+def most_doubtful(tests: int) -> int:
+    """Of the tests of an isotherm how many may be doubtful."""
+    return max(1, tests // MOST_DOUBTFUL)
 
 
 def hold(observed: Observations) -> Held:
@@ -342,11 +365,13 @@ def hold(observed: Observations) -> Held:
     table = _Table(observed)
     if not table.groups:
         return table.hold()
+    table.set_gross_aside()
     table.learn(ROUNDS[0])
     delay = table.common_delay(observed.omega)
     if delay:
         table = _Table(observed)
         table.values[:, 1] -= delay * observed.omega
+        table.set_gross_aside()
         table.learn(ROUNDS[0])
     in_each_others_place = table.put_right()
     table.set_doubtful_aside()
@@ -355,9 +380,8 @@ def hold(observed: Observations) -> Held:
     held.delay, held.exchanged = delay, in_each_others_place
     held.expected[:, 1] += delay * observed.omega
     for rows in (rows for group in table.groups for rows in group.rows):
-        required = required_phase(
-            observed.frequency[rows], table.values[rows, 0], float(table.scatter[rows[0], 0])
-        )
+        scatter = np.sqrt(table.scatter[rows, 0] ** 2 + ASIDE * table.aside[rows, 0])
+        required = required_phase(observed.frequency[rows], table.values[rows, 0], scatter)
         held.required[rows], held.required_error[rows] = required.phase, required.std_error
     return held
 

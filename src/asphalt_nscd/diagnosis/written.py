@@ -20,7 +20,7 @@ from asphalt_nscd.files.store import read_json
 from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.measurements.tables import averages, the_only
 
-SCHEMA_VERSION = 2
+SCHEMA_VERSION = 3
 DIAGNOSIS_SCHEMA = Path(__file__).with_name("diagnosis.schema.yaml")
 NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
 WIDE_SPREAD = 1.2  # of the estimates of causes without a name, from which limits are multiplied by it

@@ -181,7 +181,7 @@ def test_damaged_diagnosis_is_refused(results):
 
 
 def test_diagnosis_of_another_version_is_refused(results):
-    with pytest.raises(InputError, match="not a diagnosis of version 2; make it with `diagnose`"):
+    with pytest.raises(InputError, match="not a diagnosis of version 3; make it with `diagnose`"):
         fig_limits.draw(diagnosis=results.diagnosis(schema_version=1)["diagnosis"])
 
 

@@ -192,7 +192,7 @@ class Results:
         errors = {"0": 1.0, "20": 2.0}
         parameters = {"Em_Pa": 2e10, "eta_m_Pa_s": 1e9, "Ek_Pa": 3e10, "eta_k_Pa_s": 1e8}
         content = {
-            "schema_version": 2, "verdict": "explained", "tests": 12, "tested": True, "origin": "reconstructed",
+            "schema_version": 3, "verdict": "explained", "tests": 12, "tested": True, "origin": "reconstructed",
             "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": True},
             "numerics": {
                 "specimen": "s1", "modulus_over_law": 1.002, "largest_modulus_percent": 0.1, "largest_phase_deg": 0.02,

@@ -1,0 +1,59 @@
+"""Copied files: told where every digit agrees, for as many tests as are no chance."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from test_suspects import campaign, out
+
+from asphalt_nscd.diagnosis import copies, suspects
+from asphalt_nscd.files.errors import InputError
+
+
+def copied(observed, to, of):
+    """The tests of one specimen and isotherm in the place of another's."""
+    rows = [
+        np.flatnonzero((observed.specimen == specimen) & (observed.isotherm == t)) for specimen, t in (to, of)
+    ]
+    modulus = observed.modulus.copy()
+    modulus[rows[0]] = modulus[rows[1]]
+    return replace(observed, modulus=modulus), {*rows[0].tolist(), *rows[1].tolist()}
+
+
+@pytest.mark.parametrize("to,of", [((1, 21.0), (0, 21.0)), ((2, 21.0), (2, 37.0))])
+def test_a_copied_sweep_and_its_source_are_left_out(to, of):
+    observed, rows = copied(campaign(), to, of)
+    assert not out(campaign())
+    assert set(out(observed)) == rows
+    (reason, *_) = next(one for one in suspects.find(observed) if one.row == min(rows)).reasons
+    assert reason.startswith(f"equal in every digit to specimen {'ABC'[to[0]]} at {to[1]:g} degC") or (
+        reason.startswith(f"equal in every digit to specimen {'ABC'[of[0]]} at {of[1]:g} degC")
+    )
+    assert "look in the record" in reason
+
+
+def test_two_tests_alike_are_chance():
+    observed, _ = copied(campaign(), (1, 21.0), (0, 21.0))
+    few = (observed.isotherm != 21.0) | (observed.specimen != 1) | (observed.frequency < 1.0)
+    assert not list(copies.copied(observed.subset(np.flatnonzero(few))))
+    assert list(copies.copied(observed))
+
+
+def test_a_last_digit_makes_them_apart():
+    observed, rows = copied(campaign(), (1, 21.0), (0, 21.0))
+    modulus = observed.modulus.copy()
+    modulus[min(rows)] *= 1.0 + 1e-4
+    assert not list(copies.copied(replace(observed, modulus=modulus)))
+
+
+def test_a_table_of_copies_alone_is_refused():
+    observed = campaign()
+    same = observed.subset(np.flatnonzero(observed.specimen == 0))
+    twice = replace(
+        observed.subset(np.flatnonzero(observed.specimen < 2)),
+        modulus=np.tile(same.modulus, 2),
+    )
+    with pytest.raises(InputError, match="copies are not replicates"):
+        copies.refuse_copies(twice)

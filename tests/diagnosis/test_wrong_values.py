@@ -1,0 +1,73 @@
+"""Wrong values that bend their neighbours or hide each other; the algebra against dense matrices."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.special import logsumexp
+from test_suspects import FREQUENCIES, altered, campaign, out, row_of
+
+from asphalt_nscd.diagnosis import suspects, within_isotherm, wrong_values
+
+
+@pytest.mark.parametrize("factor", [10.0, 0.1, 0.145])
+@pytest.mark.parametrize("frequency", FREQUENCIES)
+@pytest.mark.parametrize("temperature", [4.0, 37.0])
+def test_a_slip_condemns_itself_alone(factor, frequency, temperature):
+    observed = campaign()
+    row = row_of(observed, 1, temperature, frequency)
+    slipped = altered(observed, [row], modulus=np.log(factor))
+    assert out(slipped) == [row]
+    reasons = [reason for one in suspects.find(slipped) for reason in one.reasons]
+    assert all(0.0 <= phase <= 90.0 for phase in map(_expected, reasons) if phase is not None)
+
+
+def _expected(reason):
+    """The phase [deg] that a sentence expects."""
+    _, found, rest = reason.partition(" deg, expected ")
+    return float(rest.split()[0]) if found else None
+
+
+def test_no_impossible_phase_is_expected():
+    """Even where a test is judged by neighbours that make no curve."""
+    observed = campaign()
+    held = within_isotherm.hold(observed)
+    for phase in (-7.4, 255.2):
+        told = suspects._causal_reason(
+            observed, replace(held, expected=held.expected * 0 + np.radians(phase)), 3, 1
+        )
+        assert "expected" not in told and "does not fit" in told
+
+
+def test_two_wrong_tests_of_one_sweep_no_longer_hide_each_other():
+    observed = campaign()
+    rows = [row_of(observed, 1, 21.0, f) for f in (1.0, 10.0)]
+    assert out(altered(observed, rows, modulus=0.2, phase_deg=4.0)) == sorted(rows)
+
+
+def test_odds_are_those_of_dense_matrices():
+    random = np.random.default_rng(3)
+    tests, mixtures = 5, 3
+    roots = random.standard_normal((mixtures, 2 * tests, 2 * tests))
+    covariance = roots @ roots.transpose(0, 2, 1) + 0.1 * np.eye(2 * tests)
+    values = random.standard_normal(2 * tests)
+    values[[2, 7]] += 60.0
+    precision = np.linalg.inv(covariance)
+    pull = precision @ values
+    weights = np.log([0.5, 0.3, 0.2])
+
+    def evidence(kept):
+        own = covariance[:, kept][:, :, kept]
+        square = np.einsum("i,mij,j->m", values[kept], np.linalg.inv(own), values[kept])
+        whole = -0.5 * (square + np.linalg.slogdet(own)[1] + kept.size * np.log(2.0 * np.pi))
+        return logsumexp(weights + whole)
+
+    every = np.arange(2 * tests)
+    weighed = weights + 0.5 * np.linalg.slogdet(precision)[1] - 0.5 * pull @ values
+    ((odds, found),) = wrong_values.likeliest(precision[None], pull[None], weighed[None], 2)
+    assert found.tolist() == [2, 7]
+    density = -sum(np.log(np.sqrt(2.0 * np.pi) * width) for width in wrong_values.WIDE)
+    before = wrong_values.RARE + wrong_values.WITH_IT  # modulus and phase of one test
+    assert odds == pytest.approx(evidence(np.setdiff1d(every, found)) + density - evidence(every) + before)
