@@ -121,7 +121,7 @@ def test_rivals_and_text_from_the_table_are_shown_as_text(page):
         in html
     )
     assert (
-        "Not certain: loose clamp at &lt;i&gt; or temperature bias at −10 °C fits as well; these "
+        "Not certain: loose clamp of specimen &lt;i&gt; or temperature bias at −10 °C fits as well; these "
         "tests do not say which." in html
     )
     assert "loose clamp (specimen &lt;b&gt;)" in html and "<td>0.004</td>" in html
