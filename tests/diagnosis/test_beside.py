@@ -124,7 +124,7 @@ def test_the_reduced_likelihood_is_that_of_the_whole_covariance():
     j, law = fitted.jacobian, fitted.precision - fitted.jacobian.T @ fitted.jacobian
     u = found.factor
     differences = []
-    for v in (np.full(len(found.names), 0.3), np.linspace(0.1, 2.0, len(found.names))):
+    for v in (np.full(len(found.described), 0.3), np.linspace(0.1, 2.0, len(found.described))):
         s = np.sqrt(v)[found.block]
         reduced = discrepancy._point(model, None, np.log(v)).misfit - 2.0 * np.log1p(v / found.usual**2).sum()
         covariance = np.eye(u.shape[0]) + (u * s) @ (u * s).T
