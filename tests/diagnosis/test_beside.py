@@ -98,9 +98,13 @@ def test_what_breaks_the_hot_isotherms_is_sized_there_and_nowhere_else():
     observed = table()
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
     state = beside.begin(*start.fit_spectrum(observed, noise))
-    size = dict(zip(state.model.processes.names, np.sqrt(state.variances), strict=True))
-    assert min(size["54 degC, modulus"], size["54 degC, phase"]) > 2.0
-    assert max(size["-10 degC, modulus"], size["-10 degC, phase"], size["4 degC, modulus"]) < 1.0
+    sizes = dict(zip(state.model.processes.described, np.sqrt(state.variances), strict=True))
+
+    def size(part, isotherm):
+        return sizes[discrepancy.Process("isotherm", part, isotherm)]
+
+    assert min(size("modulus", 54.0), size("phase", 54.0)) > 2.0
+    assert max(size("modulus", -10.0), size("phase", -10.0), size("modulus", 4.0)) < 1.0
 
 
 def test_limits_grow_with_the_discrepancy():
@@ -143,6 +147,6 @@ def test_a_size_that_rounding_cannot_bear_ends_the_estimate_and_no_more():
     observed = table()
     joint, fitted = start.fit_spectrum(observed, scatter.stated(observed, 0.01, np.radians(0.3), 0.03))
     model = discrepancy.reduce(discrepancy.processes(joint, fitted), fitted)
-    absurd = np.full(len(model.processes.names), 1e40)
+    absurd = np.full(len(model.processes.described), 1e40)
     assert not np.isfinite(discrepancy._point(model, None, np.log(absurd)).objective)
     assert np.isfinite(discrepancy.estimate(model, start=absurd).misfit)
