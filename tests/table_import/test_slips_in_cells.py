@@ -131,14 +131,6 @@ def test_grouped_digits_are_named_as_such(tmp_path):
     )
 
 
-def test_parts_of_the_modulus_and_tangents_are_answered(tmp_path):
-    parts = [*HEADER[:3], "E' (MPa)", "E'' (MPa)"]
-    assert "give |E*| = sqrt(E'^2 + E''^2) and the phase atan(E''/E')" in refusal(tmp_path, [parts, *ROWS])
-    assert "give the phase itself in place of its tangent" in refusal(
-        tmp_path, [[*HEADER[:4], "tan delta"], *ROWS]
-    )
-
-
 def test_a_table_repeated_under_its_names_is_no_export(tmp_path):
     """Names of columns are no header of a machine, even if one of them is `specimen`."""
     campaign = read(tmp_path, [HEADER, *ROWS[:4], HEADER, *ROWS[4:]])

@@ -52,8 +52,10 @@ def test_degrees_under_a_heading_of_radians(tmp_path):
         ("Température d'essai (°C)", "temperature_C", "C"), ("Temperature (deg. C)", "temperature_C", "C"),
         ("TEMPERATURE (DEG F)", "temperature_C", "F"), ("Temperature (degrees Celsius)", "temperature_C", "C"),
         ("Pruefkoerper-Nr.", "specimen", ""), ("N° éprouvette", "specimen", ""), ("Sample #", "specimen", ""),
-        ("tan delta (deg)", None, None), ("Storage modulus (MPa)", None, None), ("Loss modulus E'' (MPa)", None, None),
-        ("Resilient modulus (MPa)", None, None), ("E1 (MPa)", None, None), ("Sample diameter (mm)", None, None),
+        ("tan delta", "tan_delta", ""), ("tan(φ) [-]", "tan_delta", "-"), ("Storage modulus (MPa)", "E1_MPa", "MPa"),
+        ("Loss modulus E'' (MPa)", "E2_MPa", "MPa"), ("E1 (MPa)", "E1_MPa", "MPa"), ("E_2 [GPa]", "E2_MPa", "GPa"),
+        ("E″ (MPa)", "E2_MPa", "MPa"), ("T° (°C)", "temperature_C", "C"), ("Storage modulus E'' (MPa)", None, None),
+        ("Resilient modulus (MPa)", None, None), ("Sample diameter (mm)", None, None),
     ],
 )  # fmt: skip
 def test_labels_are_taken_liberally_and_meant_strictly(name, quantity, unit):

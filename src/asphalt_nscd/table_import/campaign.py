@@ -14,10 +14,11 @@ from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
-from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, as_cells, read_sheets
+from asphalt_nscd.table_import.cells import Cells, NotTests, Row, Sheet, read_sheets
 from asphalt_nscd.table_import.contested import refuse_mislabelled
 from asphalt_nscd.table_import.exports import blocks
-from asphalt_nscd.table_import.headings import headed, require_rows, with_units
+from asphalt_nscd.table_import.headings import require_rows, sections, tabulated, with_units
+from asphalt_nscd.table_import.matrices import matrix_cells
 from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
 from asphalt_nscd.table_import.passed_over import PassedOver, common_mend, listed, refused
 from asphalt_nscd.table_import.quantities import QUALITY
@@ -108,7 +109,7 @@ def _require_unit(paths: Sequence[Path], parts: Sequence[Part], table: Table) ->
     """Refuse moduli in another unit than MPa that are impossible in it and fit in MPa."""
     units = {part.read.modulus_unit for part in parts}
     unit = units.pop() if len(units) == 1 else ""
-    if unit not in FACTORS:
+    if unit not in FACTORS or "phase_deg" not in table.columns:
         return
     names = ("temperature_C", "frequency_Hz", "E_MPa", "phase_deg")
     tests = pd.DataFrame({name: table.numbers(name) for name in names}).assign(
@@ -137,6 +138,9 @@ def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, 
     """Tests of a file; of several sheets each that holds tests, the others named in the notes."""
     require_readable(path, "check the path")
     sheets = read_sheets(path, sheet)
+    notes_of_file = list(sheets[0].notes) if len(sheets) == 1 else []
+    if (cells := matrix_cells(path, sheets, notes_of_file)) is not None:
+        return [Part(path, understand(cells, chosen), False)]
     if len(sheets) == 1:
         return _sheet(path, sheets[0], chosen)
     parts: list[Part] = []
@@ -178,15 +182,29 @@ def _sheet(path: Path, sheet: Sheet, chosen: Mapping[str, str] | None, alone: bo
             )
             for one in exported
         ]
-    cells = as_cells(path, headed(sheet.rows, notes), notes)
-    if not alone:
-        if of_other_sheets(str(sheet.name), cells):
-            raise NotTests(
-                f"{path}: its name says that it was computed of others; give it with --sheet if it holds tests."
-            )
-        # Units first: a column that the name of the sheet fills would be a number in their line.
-        cells = told_by_sheet(with_units(cells), str(sheet.name), chosen or {})
-    return [Part(path, understand(cells, chosen), False)]
+    return [
+        Part(
+            path,
+            understand(_table(path, rows, notes, None if alone else str(sheet.name), chosen or {}), chosen),
+            False,
+        )
+        for rows in sections(sheet.rows)
+    ]
+
+
+def _table(
+    path: Path, rows: list[Row], notes: list[str], name: str | None, chosen: Mapping[str, str]
+) -> Cells:
+    """A table, with what the name of its sheet says of it; None where that is not looked at."""
+    cells = tabulated(path, rows, notes)
+    if name is None:
+        return cells
+    if of_other_sheets(name, cells):
+        raise NotTests(
+            f"{path}: its name says that it was computed of others; give it with --sheet if it holds tests."
+        )
+    # Units first: a column that the name of the sheet fills would be a number in their line.
+    return told_by_sheet(with_units(cells), name, chosen)
 
 
 def _folder(

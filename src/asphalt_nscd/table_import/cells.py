@@ -39,12 +39,16 @@ class Sheet:
 
 @dataclass(frozen=True)
 class Cells:
-    """A header, and below it rows as long as it, with their line in the file; `notes` say how it was read."""
+    """A header, and below it rows as long as it, with their line in the file; `notes` say how it was read.
+
+    at: for each column the conditions that lines above its name give it, as in `Heading.at`.
+    """
 
     path: Path
     header: list[str]
     rows: list[Row]
     notes: list[str] = field(default_factory=list)
+    at: list[dict[str, str]] | None = None
 
 
 def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
@@ -127,9 +131,13 @@ def _fitted(path: Path, header: list[str], rows: list[Row]) -> list[Row]:
     """Rows filled up to the length of the header, which none may exceed."""
     for line, cells in rows:
         if len(cells) > len(header):
+            mend = (
+                f"write a name above {cells[len(header)]!r}, or clear what is no result"
+                if ".xls" in path.name.casefold()
+                else "if decimals are written with a comma, separate the columns with semicolons"
+            )
             raise InputError(
-                f"{path}, line {line}: {len(cells)} fields under {len(header)} column names; if decimals are "
-                "written with a comma, separate the columns with semicolons."
+                f"{path}, line {line}: {len(cells)} fields under {len(header)} column names; {mend}."
             )
     return [(line, cells + [""] * (len(header) - len(cells))) for line, cells in rows]
 
@@ -152,6 +160,7 @@ def _text(path: Path) -> tuple[list[Row], list[str]]:
             and (
                 mark in unquoted[0]
                 or any(mark in line for line in told)
+                or sum(mark in line for line in unquoted) > len(unquoted) / 2
                 or all(mark in line for line in unquoted[1:])
             )
         ),
@@ -230,4 +239,6 @@ def _sheet_rows(sheet: object) -> list[Row]:
 def _cell(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.12g}"  # 4.2, where the file holds 4.2000000000000002
-    return "" if value is None else str(value)
+    text = "" if value is None else str(value).strip()
+    # A number kept as text; `9,100` may group its digits.
+    return text.replace(",", ".") if re.fullmatch(r"[-−+]?\d+,(?!\d{3}$)\d+", text) else text

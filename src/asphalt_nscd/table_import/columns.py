@@ -10,8 +10,8 @@ import numpy as np
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.decimals import number
+from asphalt_nscd.table_import.heading import without_condition
 from asphalt_nscd.table_import.quantities import MEASURED, Column, recognise, unit_in
-from asphalt_nscd.table_import.wide import without_condition
 
 Place = tuple[int, Column]  # of a column, and what it holds
 _ANGULAR = re.compile(r"omega|ω|angular|kreis|pulsation", re.IGNORECASE)

@@ -33,6 +33,8 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
                 first.setdefault(mark, (line, text))
     if len(first) == 2:
         (comma_line, comma), (point_line, point) = first[","], first["."]
+        if ".xls" in where.casefold():
+            raise InputError(f"{where}, line {comma_line}: {comma!r} is text; enter it as a number.")
         raise InputError(
             f"{where}: {comma!r} (line {comma_line}) and {point!r} (line {point_line}) have different decimal "
             f"marks{_or_groups(comma, point)}; write all numbers with the same{_ungrouped(comma, point)}."

@@ -12,7 +12,7 @@ from asphalt_nscd.table_import.cells import Cells, Row
 from asphalt_nscd.table_import.decimals import decimal_mark, like_below
 from asphalt_nscd.table_import.names import celsius, of_file, specimen_of
 from asphalt_nscd.table_import.quantities import ABSENT, Column, recognise, unit_in
-from asphalt_nscd.table_import.targets import Header, decided, median_reading
+from asphalt_nscd.table_import.targets import FAR, Header, decided, median_reading
 
 _HERTZ = re.compile(r"(\d+(?:[.,]\d+)?)\s*(Hz|rad/s)?", re.IGNORECASE)
 _IDENTIFICATION = (
@@ -97,7 +97,11 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
             table = _turned(path, line, cells, taken, said)
             found.append(_as_block(path, header, table, said, called, several))
             at += 1 + len(taken)
-        elif _names_columns(cells) and header.first((*_IDENTIFICATION, *_TARGET)):
+        elif (
+            _names_columns(cells)
+            and header.first((*_IDENTIFICATION, *_TARGET))
+            and _one_target(cells, rows[at:])
+        ):
             table = _listed(path, cells, rows[at + 1 :])
             found.append(_as_block(path, header, table, notes, called, several))
             at += 1 + len(table.rows)
@@ -160,6 +164,14 @@ def _recognised(label: str) -> Column | None:
 def _names_columns(cells: list[str]) -> bool:
     held = {column.quantity for cell in cells if (column := _recognised(cell))}
     return {"frequency_Hz", "E_MPa"} <= held
+
+
+def _one_target(names: list[str], rows: list[Row]) -> bool:
+    """Whether the rows below names of columns are at one temperature, as in an export; a table has several."""
+    place = next((n for n, name in enumerate(names) if _holds(name, "temperature_C")), None)
+    texts = [row[place] for _, row in rows[1:] if place is not None and place < len(row)]
+    read = [float(text.replace(",", ".")) for text in texts if re.fullmatch(r"-?\d+(?:[.,]\d+)?", text)]
+    return not read or max(read) - min(read) <= FAR
 
 
 def _results(path: Path, rows: list[Row], count: int) -> list[Row]:

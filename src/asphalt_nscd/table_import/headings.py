@@ -1,62 +1,142 @@
-"""Names of columns where they stand: below a preface, in two lines with merged cells, units below them or in cells."""
+"""Where the names of columns stand: below a preface, in several lines with merged cells, units below or in cells."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.table_import.cells import Cells, NotTests, Row
-from asphalt_nscd.table_import.quantities import MEASURED, Column, is_unit, recognise, unit_in
-from asphalt_nscd.table_import.wide import without_condition
+from asphalt_nscd.table_import.cells import Cells, NotTests, Row, as_cells
+from asphalt_nscd.table_import.heading import (
+    CELSIUS,
+    FAHRENHEIT,
+    HERTZ,
+    KEYS,
+    SPECIMEN,
+    condition,
+    known,
+    read_heading,
+    without_condition,
+)
+from asphalt_nscd.table_import.quantities import MEASURED, is_unit, unit_in
 
 MOST_ABOVE = 100  # lines in which the names are sought
+MOST_LINES = 3  # of names, above or below the first
+LONGEST_LABEL = 24  # characters of what tells specimens
 _ONE_TEMPERATURE = 3.0  # K between readings of one target, in any unit
-_CONDITION = re.compile(
-    r"(?:[A-Za-zéü.]+\s*[=:]?\s*)?([-−]?\d+(?:[.,]\d+)?)\s*((?:[°º]\s*|deg\.?\s*)?C|Hz)", re.IGNORECASE
-)
-_NUMBER = re.compile(r"[-+]?\d+(?:[.,]\d+)?")
+NUMBER = re.compile(r"[-+]?\d+(?:[.,]\d+)?")
 _WITH_UNIT = re.compile(r"([-−+]?\d*[.,]?\d+(?:[eE][-+]?\d+)?)\s*([^\d\s.,].*)")
 _NO_UNIT = ("", "-", "–", "—", "1", "[-]", "(-)", "[ ]", "[1]")
+_AXES = {"C": CELSIUS, "F": FAHRENHEIT, "Hz": HERTZ}  # by the unit of the label in front of bare numbers
 
 
-def headed(rows: list[Row], notes: list[str]) -> list[Row]:
-    """Rows from the line of names on, which is one line even where the user's is two; the notes say what was done.
+@dataclass(frozen=True)
+class _Stack:
+    """Lines from first up to last that name columns: their names, and the conditions of each."""
 
-    Rows in whose lines no quantities are named stay as they are.
-    """
-    at = next((n for n, (_, cells) in enumerate(rows[:MOST_ABOVE]) if _names(cells)), None)
-    if at is None:
-        return rows
-    line, names = rows[at]
-    below = rows[at + 1][1] if at + 1 < len(rows) else []
-    above = rows[at - 1][1] if at else []
-    if below and all(_CONDITION.fullmatch(cell) for cell in below if cell):
-        notes.append(f"names of columns from lines {line} and {rows[at + 1][0]}")
-        joined, first, last = _joined(_filled(names, len(below)), below), at, at + 2
-    elif conditions := _conditions(above, names):
-        notes.append(f"names of columns from lines {rows[at - 1][0]} and {line}")
-        # A name that goes over both lines stands in the upper one.
-        both = [low or (above[n] if n < len(above) else "") for n, low in enumerate(names)]
-        joined, first, last = _joined(both, conditions), at - 1, at + 1
+    first: int
+    last: int
+    names: list[str]
+    at: list[dict[str, str]]
+
+
+def tabulated(path: Path, rows: list[Row], notes: list[str]) -> Cells:
+    """The table in rows of a sheet, its names of columns one line even where the user's are several."""
+    notes = list(notes)
+    stack = _stack(rows)
+    if stack is None:
+        return as_cells(path, rows, notes)
+    first, names_line = stack.first, rows[stack.last - 1][0]
+    lines = [line for line, _ in rows[first : stack.last]]
+    if len(lines) > 1:
+        notes.append(f"names of columns from lines {', '.join(map(str, lines[:-1]))} and {lines[-1]}")
+    told, used = told_above(rows[:first])
+    passed = [row for n, row in enumerate(rows[:first]) if n not in used]
+    body = rows[stack.last :]
+    kept: list[Row] = []
+    if len(passed) > 1 or (passed and (len(passed[0][1]) > 1 or used)):  # one cell alone is a title
+        quoted = ", ".join(repr(next(filter(None, cells))) for _, cells in passed[:3])
+        more = ", ..." if len(passed) > 3 else ""
+        notes.append(f"{'lines' if len(passed) > 1 else 'line'} above the names passed over: {quoted}{more}")
     else:
-        joined, first, last = names, at, at + 1
-    if first > 1 or (first and len(rows[0][1]) > 1):  # one cell alone is a title
-        quoted = ", ".join(repr(cells[0] or next(filter(None, cells))) for _, cells in rows[: min(first, 3)])
-        more = ", ..." if first > 3 else ""
-        notes.append(f"{'lines' if first > 1 else 'line'} above the names passed over: {quoted}{more}")
-        return [(line, joined), *rows[last:]]
-    return [*rows[:first], (line, joined), *rows[last:]]
+        kept = passed
+    cells = as_cells(path, [*kept, (names_line, stack.names), *body], notes)
+    at = stack.at + [{}] * (len(cells.header) - len(stack.at))
+    return with_constants(replace(cells, at=at if any(at) else None), told, "the lines above the names")
+
+
+def with_constants(cells: Cells, told: dict[str, str], whence: str) -> Cells:
+    """The table with a column for each thing that is said of all its tests, and that no column gives."""
+    from asphalt_nscd.table_import.melt import held
+
+    has = held(cells)
+    new = {
+        name: text for name, text in told.items() if (column := known(name)) and column.quantity not in has
+    }
+    if not new:
+        return cells
+    said = " and ".join("temperature" if name.startswith("T ") else name for name in new)
+    return replace(
+        cells,
+        header=[*new, *cells.header],
+        rows=[(line, [*new.values(), *row]) for line, row in cells.rows],
+        notes=[*cells.notes, f"{said} from {whence}"],
+        at=None if cells.at is None else [*({} for _ in new), *cells.at],
+    )
+
+
+def told_above(rows: Sequence[Row]) -> tuple[dict[str, str], set[int]]:
+    """What lines above a table say of all tests in it, `Specimen | Core 1`, `T = 4 °C`, and which lines say it."""
+    told: dict[str, str] = {}
+    used: set[int] = set()
+    for n, (_, cells) in enumerate(rows):
+        filled = [cell for cell in cells if cell]
+        found = condition(filled[0]) if len(filled) == 1 else {}
+        pairs = list(zip(filled[::2], filled[1::2], strict=False))
+        if len(filled) == 1 and (split := re.fullmatch(r"([^:=]+?)\s*[:=]\s*(\S.*)", filled[0])):
+            pairs = [(split[1], split[2])]
+        for label, value in pairs:
+            column = known(label.rstrip(" :="))
+            if column is None:
+                continue
+            if column.quantity in (SPECIMEN, "mix"):
+                found[column.quantity] = value
+            elif column.quantity in KEYS and NUMBER.fullmatch(value):
+                found |= {_AXES.get(column.unit or "", label.rstrip(" :=")): value}
+            elif column.quantity in KEYS:
+                found |= condition(value)
+        if found:
+            told |= {name: text for name, text in found.items() if name not in told}
+            used.add(n)
+    return told, used
+
+
+def sections(rows: list[Row]) -> list[list[Row]]:
+    """Rows of a sheet, parted where names of columns come again below lines that say of what."""
+    starts = [0]
+    named = [n for n, (_, cells) in enumerate(rows) if _names(cells)]
+    for n in named[1:]:
+        above = n
+        while above > starts[-1] and told_above([rows[above - 1]])[1]:
+            above -= 1
+        if above < n and (above - 1) not in named:
+            starts.append(above)
+    if len(starts) > 1 and named and not told_above(rows[: named[0]])[0]:
+        return [rows]
+    return [rows[a:b] for a, b in zip(starts, [*starts[1:], len(rows)], strict=True)]
 
 
 def require_rows(path: Path, rows: list[Row]) -> None:
     """Refuse a table with a column for each test; a machine's export has such columns, but one temperature in all."""
-    held = {column.quantity: cells[1:] for _, cells in rows if (column := _known(cells[0]))}
-    sizes = {len(held.get(name, [])) for name in ("temperature_C", "frequency_Hz", "E_MPa")}
+    cells_of = {
+        column.quantity: cells[1:] for _, cells in rows if (column := known(without_condition(cells[0])))
+    }
+    sizes = {len(cells_of.get(name, [])) for name in ("temperature_C", "frequency_Hz", "E_MPa")}
     if len(sizes) > 1 or max(sizes) < 2:
         return
-    read = [float(cell.replace(",", ".")) for cell in held["temperature_C"] if _NUMBER.fullmatch(cell)]
+    read = [float(cell.replace(",", ".")) for cell in cells_of["temperature_C"] if NUMBER.fullmatch(cell)]
     if read and max(read) - min(read) > _ONE_TEMPERATURE:
         raise InputError(
             f"{path}: each test has a column; turn the table so that each test has a row (copy, paste transposed)."
@@ -65,37 +145,121 @@ def require_rows(path: Path, rows: list[Row]) -> None:
 
 def _names(cells: list[str]) -> bool:
     """Whether a line names two measured quantities, and holds no number."""
-    held = {column.quantity for cell in cells if (column := _known(cell)) and MEASURED[column.quantity][1]}
-    return len(held) > 1 and not any(_NUMBER.fullmatch(cell) for cell in cells)
+    found = {
+        column.quantity
+        for cell in cells
+        if (column := read_heading(cell).column) and MEASURED[column.quantity][1]
+    }
+    return len(found) > 1 and not any(NUMBER.fullmatch(cell) for cell in cells)
 
 
-def _known(cell: str) -> Column | None:
-    try:
-        return recognise(without_condition(cell)) if cell else None
-    except InputError:  # a unit of another quantity: `understand` refuses it
+def _stack(rows: list[Row]) -> _Stack | None:
+    """The lines that name columns; None where no line names quantities."""
+    at = next((n for n, (_, cells) in enumerate(rows[:MOST_ABOVE]) if _names(cells)), None)
+    if at is None:
         return None
+    names = rows[at][1]
+    first, last = at, at + 1
+    below: list[list[str]] = []
+    while last < len(rows) and len(below) < MOST_LINES and _labels_below(rows[last][1], names):
+        below.append(rows[last][1])
+        last += 1
+    size = max(map(len, [names, *below]))
+    filled = _filled(names, size) if below else [*names]
+    said: list[dict[str, str]] = [{} for _ in filled]
+    for cells in below:
+        row = cells if cells is below[-1] else _filled(cells, size)
+        for n, text in enumerate([*row, *[""] * (size - len(row))]):
+            said[n] |= (
+                (condition(text) or {SPECIMEN: text}) if text and not _is_unit_of(text, filled[n]) else {}
+            )
+    while first and at - first < MOST_LINES:
+        above = rows[first - 1][1]
+        conditions = _labels_above(above, filled)
+        if conditions is None:
+            break
+        # A name that goes over both lines stands in the upper one.
+        filled = [name or (above[n] if n < len(above) else "") for n, name in enumerate(filled)]
+        for n, more in enumerate(conditions[: len(filled)]):
+            said[n] = more | said[n]
+        first -= 1
+    return _Stack(first, last, filled, [_alone(one, said) for one in said])
 
 
-def _conditions(cells: list[str], names: list[str]) -> list[str]:
-    """Temperatures or frequencies that merged cells hold above names; none if more than these stands there."""
-    unit = ""
-    out: list[str] = []
+def _alone(one: dict[str, str], said: list[dict[str, str]]) -> dict[str, str]:
+    """Conditions without a text that stands above every column and therefore tells no specimens apart."""
+    texts = {other[SPECIMEN] for other in said if SPECIMEN in other}
+    named = len(texts) > 1 or any(SPECIMEN in condition(text) for text in texts)
+    return one if named else {key: text for key, text in one.items() if key != SPECIMEN}
+
+
+def _labels_below(cells: list[str], names: list[str]) -> bool:
+    """Whether a line below names says for which condition or specimen each column is."""
+    held_by = [read_heading(name) for name in names]
+    keys = {
+        n for n, one in enumerate(held_by) if (column := one.column) and column.quantity in (*KEYS, SPECIMEN)
+    }
+    has_axis = any(held_by[n].column.quantity in KEYS for n in keys)  # type: ignore[union-attr]
+    first = next((n for n, one in enumerate(held_by) if one.is_result), 0)
+    filled = [(n, cell) for n, cell in enumerate(cells) if cell]
+    carried = _filled(names, len(cells))
+    if len(filled) < 2 or all(_is_unit_of(cell, carried[n]) for n, cell in filled):
+        return False
+    if any(n in keys and not is_unit(cell) for n, cell in filled):
+        return False
+    return all(
+        _is_unit_of(cell, carried[n])
+        or condition(cell)
+        or (
+            n >= first and len(cell) <= LONGEST_LABEL and (has_axis if NUMBER.fullmatch(cell) else bool(keys))
+        )
+        for n, cell in filled
+    )
+
+
+def _is_unit_of(cell: str, name: str) -> bool:
+    """Whether a cell is a unit of the quantity above it: below |E*|, C is a specimen."""
+    column = read_heading(name).column
+    return is_unit(cell) and (
+        column is None or unit_in(f"x ({cell.strip('()[]{} ')})") in MEASURED[column.quantity][1]
+    )
+
+
+def _labels_above(cells: list[str], names: list[str]) -> list[dict[str, str]] | None:
+    """Conditions or specimens that merged cells hold above names; None if more than these stands there."""
+    results = [
+        column.quantity
+        for name in names
+        if (column := read_heading(name).column) and read_heading(name).is_result
+    ]
+    several = len(results) > len(set(results))
+    axis = ""
+    out: list[dict[str, str]] = []
     for place, cell in enumerate(cells):
-        found = _CONDITION.fullmatch(cell)
-        column = None if found or not cell else _known(cell)
-        if found:
-            out.append(f"{found[1]} {found[2]}")
-        elif column and not unit and column.unit in ("C", "Hz"):
-            unit = column.unit  # `Temperature (°C)` in front of 4, 20, 37
-            out.append("")
-        elif unit and _NUMBER.fullmatch(cell):
-            out.append(f"{cell} {unit}")
-        elif cell and place < len(names) and names[place]:
-            return []
+        below = names[place] if place < len(names) else ""
+        column = known(cell)
+        if not cell:
+            out.append(out[-1] if out else {})
+        elif found := condition(cell):
+            out.append(found)
+        elif column and not axis and column.unit in _AXES:
+            axis = _AXES[column.unit]  # `Temperature (°C)` in front of 4, 20, 37
+            out.append({})
+        elif axis and NUMBER.fullmatch(cell):
+            out.append({axis: cell})
+        elif not below:
+            out.append({})  # a name that goes over both lines
+        elif (
+            several
+            and read_heading(below).is_result
+            and len(cell) <= LONGEST_LABEL
+            and len(list(filter(None, cells))) > 1
+        ):
+            out.append({SPECIMEN: cell})
         else:
-            out.append(out[-1] if out and not cell else "")
+            return None
     if not any(out):
-        return []
+        return None
     return [*out, *[out[-1]] * (len(names) - len(out))]
 
 
@@ -104,19 +268,6 @@ def _filled(names: list[str], size: int) -> list[str]:
     out: list[str] = []
     for name in [*names, *[""] * (size - len(names))]:
         out.append(name or (out[-1] if out else ""))
-    return out
-
-
-def _joined(names: list[str], conditions: list[str]) -> list[str]:
-    """`E (MPa)` and `4 °C` are `E (MPa) at 4 °C`."""
-    size = max(len(names), len(conditions))
-    pairs = zip(
-        [*names, *[""] * (size - len(names))], [*conditions, *[""] * (size - len(conditions))], strict=True
-    )
-    out = []
-    for name, condition in pairs:
-        found = _CONDITION.fullmatch(condition)
-        out.append(f"{name} at {found[1]} {found[2]}" if name and found else name)
     return out
 
 
@@ -151,7 +302,7 @@ def _with_units_of_cells(cells: Cells) -> Cells:
     """`4 °C`, `10 Hz`: the unit goes to the name of the column, if every number of the column has the same."""
     header, rows, notes = list(cells.header), [list(row) for _, row in cells.rows], list(cells.notes)
     for place, name in enumerate(cells.header):
-        column = _known(name)
+        column = read_heading(name).column
         if column is None or not MEASURED[column.quantity][1]:
             continue
         found = {
@@ -160,7 +311,7 @@ def _with_units_of_cells(cells: Cells) -> Cells:
         if not found:
             continue
         units = {unit_in(f"x ({match[2]})") for match in found.values()}
-        bare = any(_NUMBER.fullmatch(row[place]) for row in rows)
+        bare = any(NUMBER.fullmatch(row[place]) for row in rows)
         own = unit_in(without_condition(name))
         if len(units) > 1 or (own is not None and units != {own}) or (own is None and bare):
             n = next(iter(found))
@@ -174,4 +325,4 @@ def _with_units_of_cells(cells: Cells) -> Cells:
             header[place] = f"{name} ({next(iter(found.values()))[2]})"
         notes.append(f"unit of {name!r} taken from its cells")
     numbered = [(line, row) for (line, _), row in zip(cells.rows, rows, strict=True)]
-    return Cells(cells.path, header, numbered, notes)
+    return replace(cells, header=header, rows=numbered, notes=notes)

@@ -66,6 +66,18 @@ MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
         "módulocomplejo rigidez modulocomplesso modulodinamico rigidezza stijfheid",
         _MEGAPASCAL,
     ),
+    "E1_MPa": (
+        "storagemodulus realpart partieréelle speichermodul realteil módulodealmacenamiento",
+        _MEGAPASCAL,
+    ),
+    "E2_MPa": (
+        "lossmodulus imaginarypart partieimaginaire verlustmodul imaginärteil módulodepérdida",
+        _MEGAPASCAL,
+    ),
+    "tan_delta": (
+        "tandelta tanδ tanphi tanφ tanϕ losstangent lossfactor verlustfaktor tangentedelta",
+        dict.fromkeys(("", "-", "1"), (1.0, 0.0)),
+    ),
     "phase_deg": (
         "phi φ ϕ delta δ phase phaseangle phaselag phaseshift phangle lossangle anglephase déphasage phasenwinkel "
         "phasenverschiebung verlustwinkel ángulofase angolofase",
@@ -126,6 +138,8 @@ _BESIDE = frozenset(
     "of the du de des d la le l der di del test testing tested sollicitation essai mesuré measured "
     "gemessen no nr n # id name nom number nummer num label code".split()
 )
+_PRIMES = str.maketrans({**dict.fromkeys("’′´", "'"), **dict.fromkeys("”″", '"')})
+_PART = re.compile(r"E[\s_]*(1|2|'|''|\")")  # of E*, in French and in English
 _UNITS = {name for _, units in (MEASURED | SIEVES).values() for name in units}
 
 
@@ -147,6 +161,7 @@ def recognise(header: str, known: dict = MEASURED) -> Column | None:
     if header in known:  # one of ours
         units = known[header][1]
         return Column(header, header.rpartition("_")[2] if units and units is not _NUMBER else "")
+    header = re.sub(r"\btan\s*[(\[]([^)\]]*)[)\]]", r"tan \1", header)  # no unit stands in these brackets
     foreign = None
     for stem, unit in _splits(header):
         quantity = _quantity(stem, known, qualified=unit in _CELSIUS)
@@ -256,6 +271,10 @@ def _quantity(stem: str, known: dict, qualified: bool) -> str | None:
 
 
 def _named(stem: str, known: dict, qualified: bool) -> str | None:
+    if known is MEASURED and (part := _PART.fullmatch(stem.translate(_PRIMES))):
+        return "E1_MPa" if part[1] in ("1", "'") else "E2_MPa"
+    if qualified:
+        stem = stem.rstrip(" °º") or stem  # `T° (°C)`
     plain = re.sub(r"[|*.\s_()\[\]-]", "", stem)
     words = [_folded(word) if len(word) > 1 else word for word in re.split(r"[\s_.-]+", stem)]
     for quantity, (names, _) in known.items():

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import replace
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.decimals import number
+from asphalt_nscd.table_import.headings import with_constants
+from asphalt_nscd.table_import.melt import held
 from asphalt_nscd.table_import.names import specimen_of
 from asphalt_nscd.table_import.quantities import recognise
-from asphalt_nscd.table_import.wide import held_by_names
 
 _TEMPERATURE = re.compile(r"(?:T\s*=?\s*)?([-−+]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\.?\s*)?C", re.IGNORECASE)
 _OF_OTHERS = re.compile(
@@ -22,44 +21,23 @@ _OF_OTHERS = re.compile(
 
 def of_other_sheets(name: str, cells: Cells) -> bool:
     """Whether a sheet holds what was computed of others: its name says so, and no column names specimens."""
-    return bool(_OF_OTHERS.match(name)) and "specimen" not in _held(cells)
+    return bool(_OF_OTHERS.match(name)) and "specimen" not in held(cells)
 
 
 def told_by_sheet(cells: Cells, name: str, chosen: Mapping[str, str]) -> Cells:
     """The table with columns for specimen and temperature from the name of its sheet, if it has none."""
-    held = _held(cells) | {column.quantity for wanted in chosen if (column := recognise(wanted))}
+    has = held(cells) | {column.quantity for wanted in chosen if (column := recognise(wanted))}
     bare, known = _TEMPERATURE.fullmatch(name), specimen_of(name, None)
     temperature = bare[1] if bare else known.temperature
     told: dict[str, str] = {}
-    if held.isdisjoint({"temperature_C", "nominal_temperature_C"}):
+    if has.isdisjoint({"temperature_C", "nominal_temperature_C"}):
         if temperature:
             told["T (°C)"] = temperature
     elif temperature and not bare and not _all_at(cells, temperature):
         temperature = None  # a part of the specimen's own name
-    if "specimen" not in held and not bare:
+    if "specimen" not in has and not bare:
         told["specimen"] = known.specimen if temperature else name
-    if not told:
-        return cells
-    said = " and ".join("temperature" if column != "specimen" else column for column in told)
-    return replace(
-        cells,
-        header=[*told, *cells.header],
-        rows=[(line, [*told.values(), *row]) for line, row in cells.rows],
-        notes=[*cells.notes, f"{said} from the name of the sheet"],
-    )
-
-
-def _held(cells: Cells) -> set[str]:
-    held = set()
-    for name in cells.header:
-        try:
-            column = recognise(name)
-        except InputError:  # `understand` refuses it
-            continue
-        if column is not None:
-            held.add(column.quantity)
-        held |= held_by_names(name)
-    return held
+    return with_constants(cells, told, "the name of the sheet")
 
 
 def _all_at(cells: Cells, temperature: str) -> bool:

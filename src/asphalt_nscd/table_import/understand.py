@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
 
@@ -13,10 +13,12 @@ from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, REDUCED_COLUMNS
 from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.columns import Place, as_written, chosen_columns, one_of
 from asphalt_nscd.table_import.decimals import decimal_mark, number, with_point
+from asphalt_nscd.table_import.heading import read_heading
 from asphalt_nscd.table_import.headings import with_units
+from asphalt_nscd.table_import.melt import melted
+from asphalt_nscd.table_import.parts_of_modulus import WAYS, with_whole_modulus
 from asphalt_nscd.table_import.quantities import ABSENT, QUALITY, Column, recognise
 from asphalt_nscd.table_import.rows import CARRIED, tests_in
-from asphalt_nscd.table_import.wide import melted, without_condition
 
 TEXTS = ("specimen", "replicate", "origin")
 KEYS = ("temperature_C", "frequency_Hz")
@@ -61,21 +63,22 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
     """
     if not chosen and (ours := _own(cells)):
         return ours
-    cells, notes = melted(with_units(cells))
+    cells = melted(with_units(cells))
     columns = _columns(cells, chosen or {})
-    form = _form(cells, columns)
-    places = {name: columns[name][0][0] for name in (*CARRIED, *KEYS, *FORMS[form]) if name in columns}
-    cells = tests_in(cells, places, FORMS[form])
-    notes = [*cells.notes, *notes]
+    form, results = _form(cells, columns)
+    places = {name: columns[name][0][0] for name in (*CARRIED, *KEYS, *results) if name in columns}
+    cells = tests_in(cells, places, results)
+    notes = list(cells.notes)
     kept, copies = {}, set()
     for name, several in columns.items():
-        if name in (*TEXTS, "mix", *KEYS, *FORMS[form]):
+        if name in (*TEXTS, "mix", *KEYS, *results):
             kept[name], said, same = one_of(cells, name, several)
             notes += said
             copies |= same
     kept |= _further(columns, form)
     mix = _the_mix(cells, kept)
     values, mark = _values(cells, kept)
+    notes += with_whole_modulus(values)
     notes.append("decimals written with a " + ("comma" if mark == "," else "point"))
     note = _specimens(cells, values)
     sources = {
@@ -87,10 +90,18 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
     read = {place for place, _ in kept.values()} | copies
     if ignored := [name for place, name in enumerate(cells.header) if place not in read]:
         notes.append(f"ignored: {', '.join(map(repr, ignored))}")
-    order = ["specimen", "replicate", *KEYS, *FORMS[form], "origin", *FURTHER, *MAY_BE_ABSENT]
+    order = [
+        "specimen",
+        "replicate",
+        *KEYS,
+        *FORMS["moduli" if form == "modulus" else form],
+        "origin",
+        *FURTHER,
+        *MAY_BE_ABSENT,
+    ]
     wanted = [name for name in order if name in values]
     table = Table(cells.path, {name: values[name] for name in wanted}, [line for line, _ in cells.rows])
-    modulus = kept.get("E_MPa", (0, Column("E_MPa", None)))[1]
+    modulus = next((kept[name][1] for name in ("E_MPa", "E1_MPa") if name in kept), Column("E_MPa", None))
     return Understood(table, form, notes, sources, mix, (modulus.unit or "") if _converts(modulus) else "")
 
 
@@ -145,7 +156,7 @@ def _columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
 def names_force_or_modulus(cell: str) -> bool:
     """Whether a cell is the name of a column with moduli or forces and says their unit, also of a wide table."""
     try:
-        column = recognise(without_condition(cell))
+        column = recognise(read_heading(cell).name)
     except InputError:  # a unit that the quantity does not have
         return True
     return column is not None and column.quantity in ("E_MPa", "F0_N") and column.unit is not None
@@ -167,14 +178,16 @@ def _the_mix(cells: Cells, kept: Mapping[str, Place]) -> str:
     return mixes[0]
 
 
-def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> str:
-    """Moduli where they are complete, else peaks."""
-    missing = {
-        form: [name for name in (*KEYS, *FORMS[form]) if name not in columns] for form in ("moduli", "peaks")
-    }
-    for form, names in missing.items():
+def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequence[str]]:
+    """Moduli where they are complete, in any of WAYS, else peaks; and the columns with the results."""
+    ways = [*(("moduli", way) for way in WAYS), ("peaks", FORMS["peaks"])]
+    lacking = [(form, way, [name for name in (*KEYS, *way) if name not in columns]) for form, way in ways]
+    for form, way, names in lacking:
         if not names:
-            return form
+            return form, way
+    missing = {form: next(names for one, _, names in lacking if one == form) for form in ("moduli", "peaks")}
+    if missing["moduli"] == ["phase_deg"] and "psi_deg" not in columns and _all_known(cells, columns):
+        return "modulus", ("E_MPa",)
     for form, wanted, angle, of in _ANGLES:
         if missing[form] == [wanted] and angle in columns:
             place, column = columns[angle][0]
@@ -187,19 +200,18 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> str:
     *words, last = (_WORDS[name] for name in missing[form])
     wanted = f"columns for {', '.join(words)} and {last}" if words else f"column for {last}"
     raise (NotTests if nothing else InputError)(
-        f"{cells.path}: no {wanted} (found: {', '.join(cells.header)}); "
-        + (_instead_of_parts(cells) or "write names with units")
-        + f', or name a column of yours with --column {missing[form][0]}="its name".'
+        f"{cells.path}: no {wanted} (found: {', '.join(cells.header)}); write names with units, or name a column of "
+        f'yours with --column {missing[form][0]}="its name".'
     )
 
 
-def _instead_of_parts(cells: Cells) -> str:
-    """What to give in place of the parts of E* or of a tangent."""
-    if any(re.match(r"\W*(?:E(?:['′’\"]|[12]\b)|storage|loss mod)", name, re.I) for name in cells.header):
-        return "give |E*| = sqrt(E'^2 + E''^2) and the phase atan(E''/E') in place of E' and E''"
-    if any(re.match(r"\W*tan\b", name, re.I) for name in cells.header):
-        return "give the phase itself in place of its tangent"
-    return ""
+def _all_known(cells: Cells, columns: Mapping[str, list[Place]]) -> bool:
+    """Whether no column is left that could hold the phase: numbers under a name that is not known."""
+    read = {place for places in columns.values() for place, _ in places}
+    left = set(range(len(cells.header))) - read
+    return not any(
+        number(row[place].replace(",", "."), ".") is not None for _, row in cells.rows for place in left
+    )
 
 
 def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[str, list[str]], str]:

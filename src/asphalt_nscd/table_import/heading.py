@@ -1,0 +1,138 @@
+"""What one heading says: quantity, unit, and the temperature, frequency or specimen that its column is for.
+
+`|E*| (MPa) at 4 °C`, `E* 2 (MPa)`, `phi (deg) 10 Hz`, `Spec. 1`, `T = 21 °C`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.quantities import Column, recognise
+
+SPECIMEN, CELSIUS, FAHRENHEIT, HERTZ = "specimen", "T (°C)", "T (°F)", "f (Hz)"
+MEAN = "Mean"  # in place of a specimen
+KEYS = ("temperature_C", "nominal_temperature_C", "frequency_Hz")
+LABELS = ("specimen", "replicate", "mix", "origin")
+_BEFORE = (
+    r"(?:(?:\b(?:at|à|bei|for|für|temperature|température|temperatur|temp|frequency|fréquence|frequenz|freq|[Tfθ])\b\.?"
+    r"|@|,|;|[=:])\s*)*"
+)
+_TEMPERATURE = re.compile(
+    _BEFORE
+    + r"(?<![\d.,])(?P<at>[-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg(?:rees?)?\.?\s?)?(?P<unit>[CF])(?![\w*'°])"
+)
+_FREQUENCY = re.compile(_BEFORE + r"(?<![\d.,])(?P<at>\d+(?:[.,]\d+)?)\s*(?P<unit>Hz)\b", re.IGNORECASE)
+_SPECIMEN_WORD = (
+    r"(?:specimens?|spec|samples?|cores?|beams?|replicates?|reps?|éprouvettes?|ép|ep|éch|prüfkörper|probekörper|proben?|pk|"
+    r"carottes?|bohrkerne?|muestras?|probetas?|provin[oi])"
+)
+_SPECIMEN = re.compile(
+    rf"(?:\b(?:for|of|de|von)\s+)?(?P<at>\b{_SPECIMEN_WORD}\b\.?\s*(?:no\b\.?|nr\b\.?|n[°º]|#)?\s*[:.]?[\s_-]*"
+    r"(?:[A-Za-z]{0,3}[-_]?\d+[A-Za-z]?|[A-Z]))(?!\w)",
+    re.IGNORECASE,
+)
+_TRAILING = re.compile(r"(?P<name>.*\S)(?:[\s_.#-]*(?P<at>\d{1,3})|[\s_-]+(?P<letter>[A-Z]\d{0,3}))")
+_MEAN = re.compile(
+    r"(?<!\w)(?:mean|average|avg|moyenne|moy|mittelwert|mittel|media|promedio)\b\.?", re.IGNORECASE
+)
+_SPREAD = re.compile(
+    r"(?<!\w)(?:std|s\.?d|st\.?\s?dev|standard deviation|c\.?o\.?v|cv|coefficient of variation|[ée]cart[- ]type|"
+    r"standardabweichung|variationskoeffizient)\b",
+    re.IGNORECASE,
+)
+_UNIT_AT_END = re.compile(r"(?P<stem>.*?)\s*(?P<unit>[(\[{][^()\[\]{}]*[)\]}])\s*")
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A heading without its conditions, `|E*| (MPa)`, and these as text, by the column that each becomes.
+
+    left_out: it stands above deviations of other columns.
+    """
+
+    name: str
+    at: Mapping[str, str] = field(default_factory=dict)
+    left_out: bool = False
+
+    @property
+    def column(self) -> Column | None:
+        """The quantity it names; None if none is known, or with a unit of another."""
+        return known(self.name)
+
+    @property
+    def is_result(self) -> bool:
+        """Whether it names what a test gives, and no temperature, frequency or label."""
+        column = self.column
+        return column is not None and column.quantity not in (*KEYS, *LABELS)
+
+
+def known(name: str) -> Column | None:
+    """The column that a name stands for; None also where it has a unit of another quantity."""
+    try:
+        return recognise(name) if name else None
+    except InputError:  # `understand` refuses it
+        return None
+
+
+def read_heading(text: str) -> Heading:
+    """The heading of one cell."""
+    if known(text) is not None:
+        return Heading(text)
+    if _SPREAD.search(text):
+        stem = _SPREAD.sub(" ", text)
+        of_result = any(Heading(_tidy(part)).is_result for part in (stem, re.sub(r"[(\[].*", "", stem)))
+        return Heading(text, left_out=of_result)
+    at: dict[str, str] = {}
+    bracketed = _UNIT_AT_END.fullmatch(text)
+    stem, unit = (bracketed["stem"], f" {bracketed['unit']}") if bracketed else (text, "")
+    if bracketed and not known(_tidy(stem) + unit) and condition(bracketed["unit"].strip("()[]{}")):
+        stem, unit = text, ""  # `E* (4 °C)`
+    stem = _taken(stem, at)
+    for name in (_tidy(stem) + unit, _tidy(stem + unit)):
+        if at and Heading(name).is_result:
+            return Heading(name, at)
+    if trailing := _TRAILING.fullmatch(_tidy(stem)):
+        heading = Heading(_tidy(trailing["name"]) + unit)
+        if heading.is_result and SPECIMEN not in at:
+            return Heading(heading.name, at | {SPECIMEN: trailing["at"] or trailing["letter"]})
+    return Heading(text)
+
+
+def condition(text: str) -> dict[str, str]:
+    """What a cell says that holds nothing but conditions, `T = 4 °C`, `10 Hz`, `Spec. 1`; else empty."""
+    at: dict[str, str] = {}
+    return at if not _tidy(_taken(text, at)) else {}
+
+
+def without_condition(name: str) -> str:
+    """Name of a column without what it is for."""
+    return read_heading(name).name
+
+
+def _taken(text: str, at: dict[str, str]) -> str:
+    """The text without its conditions, which go into `at`."""
+    for pattern in (_TEMPERATURE, _FREQUENCY, _SPECIMEN):
+        found = pattern.search(text)
+        if found is None:
+            continue
+        unit = found.groupdict().get("unit", "")
+        key = {"C": CELSIUS, "F": FAHRENHEIT, "": SPECIMEN}.get(unit, HERTZ)
+        at[key] = found["at"].strip().replace("−", "-")
+        text = f"{text[: found.start()]} {text[found.end() :]}"
+    if SPECIMEN not in at and (found := _MEAN.search(text)):
+        at[SPECIMEN] = MEAN
+        text = f"{text[: found.start()]} {text[found.end() :]}"
+    return text
+
+
+def _tidy(text: str) -> str:
+    """Without the marks and empty brackets that a condition leaves behind."""
+    return re.sub(r"[(\[]\s*[,;]?\s*[)\]]", " ", text).strip(" ,;:@_-–")
+
+
+def is_spread(label: str) -> bool:
+    """Whether what stands in place of a specimen says that a column holds deviations of others."""
+    return bool(_SPREAD.match(label))

@@ -1,0 +1,144 @@
+"""Wide tables: one row for each test, where headings say temperatures, frequencies or specimens."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.cells import Cells
+from asphalt_nscd.table_import.decimals import like_below
+from asphalt_nscd.table_import.heading import (
+    CELSIUS,
+    FAHRENHEIT,
+    HERTZ,
+    MEAN,
+    SPECIMEN,
+    Heading,
+    is_spread,
+    known,
+    read_heading,
+)
+
+_PLURALS = {CELSIUS: "temperatures", FAHRENHEIT: "temperatures", HERTZ: "frequencies", SPECIMEN: "specimens"}
+
+
+def headings_of(cells: Cells) -> list[Heading]:
+    """The headings of a table, with what its lines above them say."""
+    read = _replicates([read_heading(name) for name in cells.header])
+    return [
+        replace(one, at={**one.at, **at}) if one.is_result else one
+        for one, at in zip(read, cells.at or [{}] * len(read), strict=True)
+    ]
+
+
+def _replicates(headings: list[Heading]) -> list[Heading]:
+    """Headings in which E1 and E2 are |E*| of two specimens, where another is numbered too: E3, or phi1."""
+    if not any(SPECIMEN in one.at for one in headings):
+        return headings
+    return [
+        Heading(re.sub(r"^E[\s_]*[12]", "E", one.name), {SPECIMEN: found[1]})
+        if (found := re.match(r"E[\s_]*([12])(?!\d)", one.name))
+        else one
+        for one in headings
+    ]
+
+
+def held(cells: Cells) -> set[str]:
+    """Quantities that the columns and their headings give."""
+    found = set()
+    for heading in headings_of(cells):
+        found |= {column.quantity for name in (heading.name, *heading.at) if (column := known(name))}
+    return found
+
+
+def melted(cells: Cells) -> Cells:
+    """One row for each test, where headings hold conditions; other tables as they are."""
+    headings, notes = headings_of(cells), list(cells.notes)
+    means = [n for n, one in enumerate(headings) if one.at.get(SPECIMEN) == MEAN]
+    others = [one for one in headings if one.is_result and one.at.get(SPECIMEN) != MEAN]
+    of_others = [n for n in means if headings[n].column in [one.column for one in others]]
+    if means and not of_others and all(len(headings[n].at) == 1 for n in means):
+        for n in means:  # means alone are the tests
+            headings[n] = Heading(headings[n].name)
+    spreads = [n for n, one in enumerate(headings) if one.left_out or is_spread(one.at.get(SPECIMEN, ""))]
+    left_out = sorted({*spreads, *of_others})
+    if left_out:
+        called = (f"{cells.header[n]} {headings[n].at.get(SPECIMEN, '')}".strip() for n in left_out[:6])
+        named = ", ".join(map(repr, called))
+        notes.append(f"left out, means and deviations of other columns: {named}")
+    shared = [n for n, one in enumerate(headings) if n not in left_out and not one.at]
+    spread = _grouped(cells, headings, left_out)
+    if not spread:
+        rows = [(line, [row[n] for n in shared]) for line, row in cells.rows]
+        return Cells(cells.path, [headings[n].name for n in shared], rows, notes)
+    _require_alike(cells, headings, shared, spread)
+    keys = list(next(iter(spread)))
+    names = {quantity: headings[n].name for quantity, n in next(iter(spread.values())).items()}
+    conditions = [key for key, _ in keys]
+    below = [row[n] for _, row in cells.rows for group in spread.values() for n in group.values()]
+    rows = []
+    for columns in spread.values():
+        said = [headings[next(iter(columns.values()))].at.get(key, "") for key in conditions]
+        texts = [
+            text if key == SPECIMEN else like_below(text, below)
+            for key, text in zip(conditions, said, strict=True)
+        ]
+        for line, row in cells.rows:
+            measured = [row[columns[name]] for name in names]
+            if any(measured):  # what was not tested there is left empty
+                rows.append((line, [*(row[n] for n in shared), *texts, *measured]))
+    header = [*(headings[n].name for n in shared), *conditions, *names.values()]
+    notes += [f"{_PLURALS[key]} taken from the names of the columns" for key in conditions]
+    return Cells(cells.path, header, rows, notes)
+
+
+_Groups = dict[tuple[tuple[str, object], ...], dict[str, int]]
+
+
+def _grouped(cells: Cells, headings: list[Heading], left_out: list[int]) -> _Groups:
+    """Columns by their conditions, and among these by their quantity."""
+    spread: _Groups = {}
+    for n, heading in enumerate(headings):
+        column = heading.column
+        if not heading.at or column is None or n in left_out:
+            continue
+        group = spread.setdefault(_key(heading), {})
+        other = group.setdefault(column.quantity, n)
+        if other != n:
+            raise InputError(
+                f"{cells.path}: columns {cells.header[other]!r} and {cells.header[n]!r} hold one quantity at one "
+                "condition; keep one of the two, or write the other into rows of another specimen."
+            )
+    return spread
+
+
+def _key(heading: Heading) -> tuple[tuple[str, object], ...]:
+    order = (CELSIUS, FAHRENHEIT, HERTZ, SPECIMEN)
+    return tuple(
+        (name, text if name == SPECIMEN else float(text.replace(",", ".")))  # 10 and 10.0 are one
+        for name in order
+        if (text := heading.at.get(name))
+    )
+
+
+def _require_alike(cells: Cells, headings: list[Heading], shared: list[int], spread: _Groups) -> None:
+    """Refuse headings whose conditions are not the same for all quantities."""
+    first_key, first = next(iter(spread.items()))
+    conditions = [name for name, _ in first_key]
+    quantities = {column.quantity for name in conditions if (column := known(name))}
+    plain = {column.quantity for n in shared if (column := headings[n].column)}
+    results = any(headings[n].is_result and headings[n].column.quantity in _RESULTS for n in shared)  # type: ignore[union-attr]
+    same = all(
+        set(group) == set(first) and [name for name, _ in key] == conditions for key, group in spread.items()
+    )
+    if same and quantities.isdisjoint(plain) and not results:
+        return
+    name = cells.header[next(iter(first.values()))]
+    raise InputError(
+        f"{cells.path}: {_PLURALS[conditions[0]]} stand in names of columns such as {name!r}, but "
+        f"not the same for all quantities; give one row for each test, with a column {conditions[0]}."
+    )
+
+
+_RESULTS = ("E_MPa", "phase_deg", "E1_MPa", "E2_MPa", "tan_delta", "F0_N", "psi_deg")

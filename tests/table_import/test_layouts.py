@@ -1,0 +1,223 @@
+"""Workbooks as laboratories lay them out: what each holds, by value, unit and specimen."""
+
+from __future__ import annotations
+
+import math
+from itertools import product
+
+import pytest
+from table_import.slips import read, refusal, said
+
+from asphalt_nscd.files.errors import InputError
+
+SPECIMENS, TEMPERATURES, FREQUENCIES = ("A", "B"), (4.0, 21.0, 37.0), (10.0, 1.0, 0.1)
+
+
+def modulus(s, t, f):
+    return round(16000 - 380 * t + 900 * math.log10(f) + 111 * "AB".index(s))
+
+
+def phase(s, t, f):
+    return round(9 + 0.6 * t - 3 * math.log10(f) + 0.1 * "AB".index(s), 1)
+
+
+TESTS = {
+    (s, t, f): (modulus(s, t, f), phase(s, t, f)) for s, t, f in product(SPECIMENS, TEMPERATURES, FREQUENCIES)
+}
+OF_A = {key: both for key, both in TESTS.items() if key[0] == "A"}
+KEYS = ["T (°C)", "f (Hz)"]
+
+
+def conditions():
+    return product(TEMPERATURES, FREQUENCIES)
+
+
+def replicates(label, *, merged=False):
+    head = [*KEYS, "|E*| (MPa)", None, "Phase angle (°)", None]
+    rows = []
+    for t, f in conditions():
+        shown = None if merged and f != FREQUENCIES[0] else t
+        rows.append([shown, f, *(modulus(s, t, f) for s in "AB"), *(phase(s, t, f) for s in "AB")])
+    return [head, [None, None, *(label.format(s) for s in "AB"), *(label.format(s) for s in "AB")], *rows]
+
+
+def by_specimen():
+    above = [None, None, "Core A", None, "Core B", None]
+    names = [*KEYS, *["E* (MPa)", "phi (°)"] * 2]
+    rows = [[t, f, *(x for s in "AB" for x in (modulus(s, t, f), phase(s, t, f)))] for t, f in conditions()]
+    return [above, names, *rows]
+
+
+def flat(modulus_name, phase_name):
+    names = [*KEYS, *(modulus_name.format(n) for n in (1, 2)), *(phase_name.format(n) for n in (1, 2))]
+    rows = [
+        [t, f, *(modulus(s, t, f) for s in "AB"), *(phase(s, t, f) for s in "AB")] for t, f in conditions()
+    ]
+    return [names, *rows]
+
+
+def with_means():
+    head = [*KEYS, "|E*| (MPa)", None, None, None, "Phase (°)", None]
+    below = [None, None, "1", "2", "Mean", "CV (%)", "1", "2"]
+    rows = []
+    for t, f in conditions():
+        e = [modulus(s, t, f) for s in "AB"]
+        rows.append([t, f, *e, sum(e) / 2, 1.0, *(phase(s, t, f) for s in "AB")])
+    return [head, below, *rows]
+
+
+def matrix(show, *, corner=None, across=False, s="A"):
+    if across:
+        return [[corner, *TEMPERATURES], *([f, *(show(s, t, f) for t in TEMPERATURES)] for f in FREQUENCIES)]
+    return [[corner, *FREQUENCIES], *([t, *(show(s, t, f) for f in FREQUENCIES)] for t in TEMPERATURES)]
+
+
+def at_temperatures(name, phase_name):
+    names = ["Specimen", "f (Hz)"]
+    names += [name.format(t) for t in TEMPERATURES] + [phase_name.format(t) for t in TEMPERATURES]
+    rows = [
+        [s, f, *(modulus(s, t, f) for t in TEMPERATURES), *(phase(s, t, f) for t in TEMPERATURES)]
+        for s in "AB"
+        for f in FREQUENCIES
+    ]
+    return [names, *rows]
+
+
+def long(names, convert=lambda e, p: (e, p)):
+    return [["Core", *names], *([s, t, f, *convert(e, p)] for (s, t, f), (e, p) in TESTS.items())]
+
+
+def parts(e, p):
+    return e * math.cos(math.radians(p)), e * math.sin(math.radians(p))
+
+
+def beside():
+    """Frequency down; the temperatures of |E*| across, and then those of the phase."""
+    head = [None, "|E*| (MPa)", None, None, "phi (deg)"]
+    below = ["f (Hz)", *(f"{t:g} °C" for t in TEMPERATURES), *(f"{t:g} °C" for t in TEMPERATURES)]
+    rows = [
+        [f, *(modulus("A", t, f) for t in TEMPERATURES), *(phase("A", t, f) for t in TEMPERATURES)]
+        for f in FREQUENCIES
+    ]
+    return [head, below, *rows]
+
+
+def under(s, *lines):
+    return [*lines, ["T° (°C)", "Freq. (Hz)", "E* (MPa)", "δ (°)"]] + [
+        [t, f, modulus(s, t, f), phase(s, t, f)] for t, f in conditions()
+    ]
+
+
+FILES = {
+    "Spec. 1": (replicates("Spec. {}"), TESTS),
+    "Specimen 1, temperatures merged": (replicates("Specimen {}", merged=True), TESTS),
+    "letters": (replicates("{}"), TESTS),
+    "letters that are units": (
+        [replicates("{}")[0], [None, None, "C", "F", "C", "F"], *replicates("{}")[2:]], TESTS),
+    "below a title": ([["Dynamic modulus, AASHTO T 378"], ["Mix", "A 13"], *replicates("Sample {}")], TESTS),
+    "by specimen": (by_specimen(), TESTS),
+    "E* 1 (MPa)": (flat("E* {} (MPa)", "Phase {} (°)"), TESTS),
+    "|E*|_1 [MPa]": (flat("|E*|_{} [MPa]", "phi{} [deg]"), TESTS),
+    "E1, E2 as specimens": (flat("E{} (MPa)", "phi {} (°)"), TESTS),
+    "means beside": (with_means(), TESTS),
+    "E* at 4C (MPa)": (at_temperatures("E* at {:g}C (MPa)", "phase at {:g}C (deg)"), TESTS),
+    "E* (4 °C)": (at_temperatures("E* (MPa) (T={:g} °C)", "phi (°) (T={:g} °C)"), TESTS),
+    "matrices": (
+        [["|E*| (MPa)"], *matrix(modulus, corner="T (°C) \\ f (Hz)"), [],
+         ["Phase (°)"], *matrix(phase, corner="T (°C) \\ f (Hz)")], OF_A),
+    "matrices, temperature across": (
+        [["E* (MPa)"], [None, "Temperature (°C)"], *matrix(modulus, corner="f (Hz)", across=True),
+         ["phi (°)"], [None, "Temperature (°C)"], *matrix(phase, corner="f (Hz)", across=True)], OF_A),
+    "two sheets": (
+        {"Modulus": [["E* (MPa)"], [None, "f (Hz)"], *matrix(modulus, corner="T (°C)")],
+         "Phase": [["Phase (°)"], [None, "f (Hz)"], *matrix(phase, corner="T (°C)")]}, OF_A),
+    "matrices beside": (beside(), OF_A),
+    "matrices of two specimens": (
+        [line for s in "AB" for line in (
+            ["Specimen", s], ["E* (MPa)"], [None, "f (Hz)"], *matrix(modulus, corner="T (°C)", s=s),
+            ["phi (°)"], [None, "f (Hz)"], *matrix(phase, corner="T (°C)", s=s))], TESTS),
+    "specimen above": ({f"Sheet{s}": under(s, ["Specimen", f"Core {s}"], ["Air voids (%)", 5.1]) for s in "AB"}, TESTS),
+    "sections": ([*under("A", ["Specimen", "Core A"]), [], *under("B", ["Specimen", "Core B"])], TESTS),
+    "E1 and E2": (long([*KEYS, "E1 (MPa)", "E2 (MPa)"], parts), TESTS),
+    "E' and E''": (long([*KEYS, "E′ (MPa)", "E″ (MPa)"], parts), TESTS),
+    "tan delta": (long([*KEYS, "|E*| (MPa)", "tan δ"], lambda e, p: (e, math.tan(math.radians(p)))), TESTS),
+    "storage modulus and tangent": (
+        long([*KEYS, "Storage modulus (MPa)", "tan(phi)"],
+             lambda e, p: (parts(e, p)[0], math.tan(math.radians(p)))), TESTS),
+}  # fmt: skip
+
+
+def held(campaign, specimens):
+    """Tests by specimen, temperature and frequency; the specimens are told by their order."""
+    columns = campaign.table.columns
+    names = list(dict.fromkeys(columns["specimen"]))
+    assert len(names) == specimens
+    read_as = [
+        ("AB"[names.index(s)], *(float(text) for text in rest))
+        for s, *rest in zip(
+            *(columns[n] for n in ("specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"))
+        )
+    ]
+    return {(s, t, f): (e, p) for s, t, f, e, p in read_as}
+
+
+@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("ending", ["xlsx", "csv"])
+def test_what_laboratories_have_is_read(tmp_path, name, ending):
+    rows, tests = FILES[name]
+    if ending == "csv" and isinstance(rows, dict):
+        pytest.skip("several sheets")
+    found = held(read(tmp_path, rows, f"t.{ending}"), len({s for s, _, _ in tests}))
+    assert found.keys() == tests.keys()
+    for key, (e, p) in tests.items():
+        assert found[key] == (pytest.approx(e, rel=1e-9), pytest.approx(p, abs=1e-6))
+
+
+def test_what_was_converted_is_said(tmp_path):
+    campaign = read(tmp_path, FILES["E1 and E2"][0])
+    assert said(campaign, "|E*| and phase computed from E' (real part) and E'' (imaginary part)")
+    assert said(read(tmp_path, FILES["tan delta"][0]), "computed from tan(phase) and |E*|")
+    assert said(read(tmp_path, FILES["means beside"][0]), "left out, means and deviations of other columns")
+
+
+def test_degrees_fahrenheit_by_hertz_without_phase(tmp_path):
+    head = ["T (°F)", *FREQUENCIES]
+    rows = [[1.8 * t + 32, *(modulus("A", t, f) / 6.894757293 for f in FREQUENCIES)] for t in TEMPERATURES]
+    campaign = read(tmp_path, [["Dynamic modulus, ksi"], [None, "Frequency (Hz)"], head, *rows], "t.xlsx")
+    columns = campaign.table.columns
+    assert "phase_deg" not in columns
+    for t, f, e in zip(columns["temperature_C"], columns["frequency_Hz"], columns["E_MPa"]):
+        assert float(e) == pytest.approx(modulus("A", round(float(t), 2), float(f)), rel=1e-6)
+
+
+def test_title_lines_of_a_text_file(tmp_path):
+    lines = ["Essai de module complexe NF EN 12697-26", "Enrobé : EME 2 0/14, liant 20/30", ""]
+    lines += ["Éprouvette;Température (°C);Fréquence (Hz);Module (MPa);Angle de phase (°)"]
+    lines += [f"{s};{t:g};{f:g};{e};{p}".replace(".", ",") for (s, t, f), (e, p) in TESTS.items()]
+    (tmp_path / "t.csv").write_bytes("\r\n".join(lines).encode("cp1252"))
+    from asphalt_nscd.table_import.campaign import read_campaign
+
+    assert held(read_campaign([tmp_path / "t.csv"])[0], 2) == TESTS
+
+
+def test_matrices_that_contradict_each_other_are_refused(tmp_path):
+    again = [["E* (MPa)"], *matrix(modulus, corner="T (°C) \\ f (Hz)"), [], ["E* (MPa)"],
+             *matrix(lambda s, t, f: modulus("B", t, f), corner="T (°C) \\ f (Hz)")]  # fmt: skip
+    assert "name the specimens above their matrices" in refusal(tmp_path, again)
+
+
+def test_a_phase_of_the_mean_is_not_given_to_each_specimen(tmp_path):
+    names, *rows = flat("E* {} (MPa)", "Phase {} (°)")
+    mean = [[*names[:4], "Phase (°)"], *(row[:5] for row in rows)]
+    assert "not the same for all quantities" in refusal(tmp_path, mean)
+
+
+@pytest.mark.parametrize("cell", ["12,5", "9,100"])
+def test_no_word_of_decimal_commas_in_a_workbook(tmp_path, cell):
+    rows = long([*KEYS, "E* (MPa)", "phi (°)"])
+    rows[3][4] = cell
+    try:
+        read(tmp_path, rows, "t.xlsx")
+    except InputError as error:
+        said_of = str(error).partition("t.xlsx")[2]
+        assert not any(word in said_of for word in ("comma", "decimal", "semicolon"))
