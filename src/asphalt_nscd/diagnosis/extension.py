@@ -64,7 +64,7 @@ def material_law(diagnosis: Diagnosis, used: NDArray[np.bool_] | None = None) ->
     form exceeds the scatter of the tests, which is therefore no measure of what to trust.
     """
     observed = diagnosis.observed
-    modulus = observed.modulus / _effect_taken_off(diagnosis)
+    modulus = observed.modulus / effect_taken_off(diagnosis)
     rows = np.ones(observed.size, bool) if used is None else used
     reference = float(observed.isotherms[observed.isotherms.size // 2])
     shift = "wlf" if observed.isotherms.size > 2 and observed.size > LEAST_TESTS else "arrhenius"
@@ -102,7 +102,7 @@ def law_misses(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_]) -> 
     used (n,): these tests.
     """
     observed = diagnosis.observed
-    shown = _effect_taken_off(diagnosis) * law.complex_modulus(observed.omega, observed.temperature)
+    shown = effect_taken_off(diagnosis) * law.complex_modulus(observed.omega, observed.temperature)
     found = errors(diagnosis, np.where(used, np.log(np.abs(shown)) + 1j * np.angle(shown), np.nan))
     return {name: float(np.mean(list(by_temperature.values()))) for name, by_temperature in found.items()}
 
@@ -123,7 +123,7 @@ def prior_notes(fit: Fit) -> list[str]:
     ]
 
 
-def _effect_taken_off(diagnosis: Diagnosis) -> Complex:
+def effect_taken_off(diagnosis: Diagnosis) -> Complex:
     """E* with the causes that are taken off over that of the mix alone (n,), by the last fit."""
     ladder = diagnosis.ladder
     off = {rung.candidate.key for rung in ladder.rungs if diagnosis.taken_off(rung)}

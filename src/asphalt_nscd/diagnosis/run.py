@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from itertools import chain
 from pathlib import Path
@@ -21,6 +21,7 @@ from asphalt_nscd.diagnosis import (
     measured_limits,
     repeatability,
     report,
+    reported,
     suspects,
     within_isotherm,
 )
@@ -71,6 +72,9 @@ class Outcome:
     law: dict[str, Any] | None  # content of law.json; None for one isotherm
     diagnosis: Diagnosis | None = None  # that gave them; None if they were read from files
     limits: pd.DataFrame | None = None  # of limits.csv, where limits were verified
+    to_report: Mapping[str, pd.DataFrame] = field(
+        default_factory=dict
+    )  # of further tables, by the stem of their file
 
     def with_limits(self, table: pd.DataFrame) -> Outcome:
         """The same with limits that were verified."""
@@ -86,6 +90,8 @@ class Outcome:
             write_json(folder / "law.json", self.law)
         if self.limits is not None:
             write_table(folder / "limits.csv", self.limits)
+        for name, table in self.to_report.items():
+            write_table(folder / f"{name}.csv", table)
         write_json(folder / "diagnosis.json", self.content)
         return [
             "diagnosis.json",
@@ -93,6 +99,7 @@ class Outcome:
             "causality.csv",
             *([] if self.law is None else ["law.json"]),
             *([] if self.limits is None else ["limits.csv"]),
+            *(f"{name}.csv" for name in self.to_report),
         ]
 
     def written(self, folder: str | Path) -> str:
@@ -203,6 +210,8 @@ def conclude(
         for worst in [int(np.argmax(np.abs(one.difference)))]
     ]
     content["trust"] = trust(observed, diagnosis, levels.rows(observed, chain(*odd)), broken)
+    standard = reported.standard_values(diagnosis)
+    content["reported"] = standard.iloc[0].to_dict()
     content["provenance"] = {
         **provenance(),
         "measurements": given.name,
@@ -230,6 +239,11 @@ def conclude(
         suspects.table(observed, list(diagnosis.suspects), held),
         law,
         diagnosis,
+        to_report={
+            "corrected": reported.corrected(diagnosis),
+            "reported": standard,
+            "master_curve": reported.master_curve(diagnosis),
+        },
     )
 
 

@@ -1,0 +1,132 @@
+"""What a laboratory reports: tests after the named corrections, and E* of the mix where standards ask for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.diagnose import Diagnosis
+from asphalt_nscd.diagnosis.extension import effect_taken_off
+from asphalt_nscd.diagnosis.written import CONFIDENCE
+
+EN_12697_26 = (15.0, 10.0)  # degC, Hz
+# AASHTO R 84, the input of MEPDG programs.
+R_84_CELSIUS = (-10.0, 4.4, 21.1, 37.8, 54.4)
+R_84_HERTZ = (25.0, 10.0, 5.0, 1.0, 0.5, 0.1)
+NEAR = 2.0  # K beyond the tests, and the factor of their reduced frequencies, that is no extrapolation
+IN_A_DECADE = 8  # points of the master curve
+LEFT_OUT = "left out"
+
+
+@dataclass(frozen=True)
+class Reported:
+    """|E*| and phase of the mix at some conditions: estimates and standard errors of ln |E*| and the phase [rad]."""
+
+    temperature: NDArray[np.float64]
+    frequency: NDArray[np.float64]
+    logarithm: NDArray[np.complex128]
+    std_error: NDArray[np.complex128]
+    tested: NDArray[np.bool_]  # whether the tests reach there
+
+    def table(self) -> pd.DataFrame:
+        """One row for each condition, with the 95 % intervals."""
+        e, p = np.exp(self.logarithm.real) * 1e-6, np.degrees(self.logarithm.imag)
+        spread = np.exp(CONFIDENCE * self.std_error.real)
+        off = CONFIDENCE * np.degrees(self.std_error.imag)
+        return pd.DataFrame(
+            {
+                "temperature_C": self.temperature,
+                "frequency_Hz": self.frequency,
+                "E_MPa": e,
+                "E_low_MPa": e / spread,
+                "E_high_MPa": e * spread,
+                "phase_deg": p,
+                "phase_low_deg": p - off,
+                "phase_high_deg": p + off,
+                "within_the_tests": self.tested,
+            }
+        )
+
+
+def mix_modulus(
+    diagnosis: Diagnosis, temperature: NDArray[np.float64], frequency: NDArray[np.float64]
+) -> Reported:
+    """E* of the mix without the named causes, by the last fit of the free curve.
+
+    Its covariance holds the scatter of single tests, that between specimens, and what the causes leave open; errors
+    by propagation of first order. temperature [degC], frequency [Hz]: vectors (n,).
+    """
+    ladder, observed = diagnosis.ladder, diagnosis.observed
+    base, law = ladder.joint.spectrum, ladder.fitted.law
+    modulus, slope = base.modulus(law, 2.0 * np.pi * frequency, temperature)
+    along = slope / modulus[:, None]
+    covariance = ladder.fitted.covariance[: law.size, : law.size]
+    variance = [np.einsum("ij,jk,ik->i", part, covariance, part) for part in (along.real, along.imag)]
+    within = (temperature >= observed.temperature.min() - NEAR) & (
+        temperature <= observed.temperature.max() + NEAR
+    )
+    reduced = frequency * np.exp(base.log_shift(law, temperature)[0])
+    tested = observed.frequency * np.exp(base.log_shift(law, observed.temperature)[0])
+    within &= (reduced >= tested.min() / NEAR) & (reduced <= tested.max() * NEAR)
+    return Reported(
+        temperature,
+        frequency,
+        np.log(np.abs(modulus)) + 1j * np.angle(modulus),
+        np.sqrt(variance[0]) + 1j * np.sqrt(variance[1]),
+        within,
+    )
+
+
+def standard_values(diagnosis: Diagnosis) -> pd.DataFrame:
+    """E* of the mix at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84."""
+    conditions = [EN_12697_26, *((t, f) for t in R_84_CELSIUS for f in R_84_HERTZ)]
+    temperature, frequency = np.array(conditions).T
+    return mix_modulus(diagnosis, temperature, frequency).table()
+
+
+def master_curve(diagnosis: Diagnosis) -> pd.DataFrame:
+    """E* of the mix with its intervals over the band of the tests, at the reference temperature of the free curve."""
+    base, law, observed = diagnosis.ladder.joint.spectrum, diagnosis.ladder.fitted.law, diagnosis.observed
+    reduced = observed.frequency * np.exp(base.log_shift(law, observed.temperature)[0])
+    decades = float(np.log10(reduced.max() / reduced.min()))
+    frequency = np.geomspace(reduced.min(), reduced.max(), round(IN_A_DECADE * decades) + 2)
+    there = np.full(frequency.size, base.reference_temperature)
+    return mix_modulus(diagnosis, there, frequency).table().drop(columns="within_the_tests")
+
+
+def corrected(diagnosis: Diagnosis) -> pd.DataFrame:
+    """Each test of the table as recorded and after the corrections that were made, and why any was left out.
+
+    A test that was left out has no corrected values.
+    """
+    whole = diagnosis.observed if diagnosis.whole is None else diagnosis.whole
+    doubts = {one.row: one for one in diagnosis.suspects} if diagnosis.whole is not None else {}
+    aside = {row for row, one in doubts.items() if not one.used}
+    used = np.array([row not in aside for row in range(whole.size)])
+    after = np.full(whole.size, np.nan + 0j)
+    after[used] = diagnosis.observed.modulus / effect_taken_off(diagnosis)
+    named = [rung.candidate for rung in diagnosis.ladder.rungs if diagnosis.taken_off(rung)]
+    applied = [
+        "; ".join(one.cause.name for one in named if used[row] and one.cause.rows(whole, one.place)[row])
+        for row in range(whole.size)
+    ]
+    reasons = ["; ".join(doubts[row].reasons) if row in doubts else "" for row in range(whole.size)]
+    shift = diagnosis.ladder.joint.spectrum.log_shift(diagnosis.ladder.fitted.law, whole.temperature)[0]
+    return pd.DataFrame(
+        {
+            "specimen": np.array(whole.names)[whole.specimen],
+            "temperature_C": whole.temperature,
+            "frequency_Hz": whole.frequency,
+            "E_MPa": np.abs(after) * 1e-6,
+            "phase_deg": np.degrees(np.angle(after)),
+            "recorded_E_MPa": np.abs(whole.modulus) * 1e-6,
+            "recorded_phase_deg": np.degrees(np.angle(whole.modulus)),
+            "reduced_frequency_Hz": whole.frequency * np.exp(shift),
+            "corrected_for": applied,
+            "status": np.where(used, "used", LEFT_OUT),
+            "doubts": reasons,
+        }
+    )

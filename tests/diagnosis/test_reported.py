@@ -1,0 +1,70 @@
+"""What goes into a laboratory's report: E* of the mix with its interval, and tests after the corrections."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import asphalt_nscd as an
+from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum import HuetSayegh
+
+MIX = HuetSayegh(60e6, 33e9, k=0.21, h=0.6, delta=2.3, tau=0.15, shift=WLF(18.0, 150.0, 15.0))
+DELAY = 2e-3  # s
+
+
+@pytest.fixture(scope="module")
+def diagnosis():
+    random = np.random.default_rng(5)
+    rows = []
+    for specimen in "ABC":
+        level = random.normal(0.0, 0.03)
+        for t, f in product((4.0, 12.0, 20.0, 30.0, 40.0), (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)):
+            star = complex(MIX.complex_modulus(2 * np.pi * f, t))
+            modulus = abs(star) * 1e-6 * np.exp(level + random.normal(0.0, 0.01))
+            phase = np.degrees(np.angle(star)) + 360.0 * f * DELAY + random.normal(0.0, 0.2)
+            rows.append((specimen, t, f, modulus, phase))
+    names = ["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
+    return an.diagnose(
+        pd.DataFrame(rows, columns=names), measured_in="tension-compression", draws=an.Draws(500)
+    )
+
+
+def test_the_mix_at_15_degrees_and_10_hertz(diagnosis):
+    said = diagnosis.content["reported"]
+    star = complex(MIX.complex_modulus(2 * np.pi * 10.0, 15.0))
+    assert said["E_low_MPa"] < abs(star) * 1e-6 < said["E_high_MPa"]
+    assert said["phase_low_deg"] < np.degrees(np.angle(star)) < said["phase_high_deg"]
+    # Three specimens that differ by 3 %: no better than 2 %, no worse than 10 %.
+    assert 1.02 < said["E_high_MPa"] / said["E_MPa"] < 1.10
+    assert said["within_the_tests"]
+    table = diagnosis.outcome.to_report["reported"]
+    assert table.iloc[0].to_dict() == said
+    far = table[(table["temperature_C"] == -10.0) & (table["frequency_Hz"] == 25.0)].iloc[0]
+    assert (
+        not far["within_the_tests"] and far["E_high_MPa"] / far["E_MPa"] > said["E_high_MPa"] / said["E_MPa"]
+    )
+
+
+def test_the_master_curve_is_that_of_the_mix(diagnosis):
+    curve = diagnosis.outcome.to_report["master_curve"]
+    omega = 2.0 * np.pi * curve["frequency_Hz"].to_numpy()
+    star = MIX.complex_modulus(omega, curve["temperature_C"].to_numpy())
+    assert np.abs(np.log(curve["E_MPa"] * 1e6 / np.abs(star))).max() < 0.12
+    assert ((curve["E_low_MPa"] < curve["E_MPa"]) & (curve["E_MPa"] < curve["E_high_MPa"])).all()
+
+
+def test_corrected_tests_are_those_without_the_delay_and_name_nothing_new(diagnosis, tmp_path):
+    assert list(diagnosis.ladder["cause"]) == ["relaxation_spectrum", "channel_delay"]
+    diagnosis.write(tmp_path)
+    table = pd.read_csv(tmp_path / "corrected.csv")
+    used = table[table["status"] == "used"]
+    taken = used["recorded_phase_deg"] - used["phase_deg"]
+    assert taken.to_numpy() == pytest.approx(360.0 * used["frequency_Hz"].to_numpy() * DELAY, rel=0.05)
+    assert set(used["corrected_for"]) == {"channel_delay"}
+    again = an.diagnose(tmp_path / "corrected.csv", measured_in="tension-compression", draws=an.Draws(500))
+    assert set(again.ladder["cause"]) <= {"relaxation_spectrum"}
+    assert again.content["tests"] == len(used)
