@@ -16,6 +16,7 @@ __version__ = "0.1.0"
 # and type checkers read.
 _NAMES = {
     "Bonds": "bending.condensing",
+    "Comparison": "api.comparison",
     "Diagnosis": "api.diagnosis",
     "Draws": "diagnosis.run",
     "ExportSettings": "api.exporting",
@@ -31,6 +32,7 @@ _NAMES = {
     "Test": "api.bending",
     "Vibration": "specimen.preparation",
     "bend": "api.bending",
+    "compare": "api.comparison",
     "diagnose": "api.diagnosis",
     "export": "api.exporting",
     "fit": "api.laws",

@@ -1,5 +1,7 @@
 from asphalt_nscd.api.bending import Test as Test
 from asphalt_nscd.api.bending import bend as bend
+from asphalt_nscd.api.comparison import Comparison as Comparison
+from asphalt_nscd.api.comparison import compare as compare
 from asphalt_nscd.api.contacts import solve_contacts as solve_contacts
 from asphalt_nscd.api.diagnosis import Diagnosis as Diagnosis
 from asphalt_nscd.api.diagnosis import Known as Known

@@ -35,9 +35,10 @@ ARROWS = {
         "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
         "table_import", "packings",
     ],
+    "web": ["files", "diagnosis", "exports", "reporting", "table_import", "api"],
     "cli": [
         "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "study", "table_import", "verification", "nscd", "api", "contact_problems", "forecast",
+        "study", "table_import", "verification", "nscd", "api", "contact_problems", "forecast", "web",
     ],
 }  # fmt: skip
 

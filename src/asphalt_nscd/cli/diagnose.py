@@ -62,7 +62,11 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
     help="Put each cause into these tests at 1, 2 and 3 times its limit; minutes.",
 )
 @click.option("--jobs", type=click.IntRange(1), help="Processes of --verify-limits; else one for each core.")
-@click.option("--page/--no-page", default=True, help="Whether to write diagnosis.html and report.pdf too.")
+@click.option(
+    "--page/--no-page",
+    default=True,
+    help="Whether to write diagnosis.html, report.pdf and corrected.xlsx too.",
+)
 @click.option("--details", is_flag=True, help="Print the reasons too; diagnosis.html holds them anyway.")
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 @click.option("--seed", default=0, type=click.IntRange(0), help="Of the draws.")
@@ -115,6 +119,7 @@ def command(
     if written["page"]:
         # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
         title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
+        names.append(_data.part("exports", "workbook").corrected_workbook(output).name)
         names.append(_data.part("reporting.pages", "handout").write_handout(output, title).name)
         names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
     click.echo(

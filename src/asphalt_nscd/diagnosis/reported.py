@@ -87,14 +87,22 @@ def standard_values(diagnosis: Diagnosis) -> pd.DataFrame:
     return mix_modulus(diagnosis, temperature, frequency).table()
 
 
-def master_curve(diagnosis: Diagnosis) -> pd.DataFrame:
-    """E* of the mix with its intervals over the band of the tests, at the reference temperature of the free curve."""
+def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:
+    """E* of the mix with its intervals over the band of the tests, at one temperature.
+
+    at [degC]: else the reference temperature of the free curve.
+    """
     base, law, observed = diagnosis.ladder.joint.spectrum, diagnosis.ladder.fitted.law, diagnosis.observed
+    at = base.reference_temperature if at is None else at
     reduced = observed.frequency * np.exp(base.log_shift(law, observed.temperature)[0])
+    reduced /= float(np.exp(base.log_shift(law, np.array([at]))[0][0]))
     decades = float(np.log10(reduced.max() / reduced.min()))
     frequency = np.geomspace(reduced.min(), reduced.max(), round(IN_A_DECADE * decades) + 2)
-    there = np.full(frequency.size, base.reference_temperature)
-    return mix_modulus(diagnosis, there, frequency).table().drop(columns="within_the_tests")
+    return (
+        mix_modulus(diagnosis, np.full(frequency.size, at), frequency)
+        .table()
+        .drop(columns="within_the_tests")
+    )
 
 
 def corrected(diagnosis: Diagnosis) -> pd.DataFrame:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
 from asphalt_nscd.exports.card import Card
 from asphalt_nscd.files.paths import is_file
+from asphalt_nscd.files.store import atomic_path
 
 IN_A_DECADE = 8  # frequencies of the master curve
 STEP = 5.0  # K, of the shift factors
@@ -62,6 +64,30 @@ def write(card: Card, path: Path) -> None:
         if is_file(folder / "diagnosis.json"):
             _diagnosis(book, read_diagnosis([folder / "diagnosis.json"]))
     _save(book, path)
+
+
+def write_sheets(path: Path, sheets: Mapping[str, pd.DataFrame]) -> None:
+    """Write tables into the sheets of one workbook, equal whenever it is written."""
+    book = Workbook()
+    book.remove(book.worksheets[0])
+    for title, frame in sheets.items():
+        _fill(book, title, frame)
+    with atomic_path(path) as temporary:
+        _save(book, temporary)
+
+
+def corrected_workbook(folder: Path) -> Path:
+    """Write corrected.xlsx from the tables that a diagnosis left in a folder: tests, what was left out, the mix."""
+    tests = pd.read_csv(folder / "corrected.csv", dtype={"specimen": str})
+    used = tests["status"] == "used"
+    sheets = {
+        "Corrected": tests[used].drop(columns="status"),
+        "Left out": tests[~used].drop(columns=["E_MPa", "phase_deg", "corrected_for"]),
+        "Mix": pd.read_csv(folder / "reported.csv"),
+        "Master curve": pd.read_csv(folder / "master_curve.csv"),
+    }
+    write_sheets(folder / "corrected.xlsx", {name: table for name, table in sheets.items() if len(table)})
+    return folder / "corrected.xlsx"
 
 
 def _law(card: Card) -> pd.DataFrame:

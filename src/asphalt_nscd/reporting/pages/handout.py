@@ -52,9 +52,10 @@ def _answer(content: dict[str, Any], title: str) -> Figure:
     if len(lines) > LINES:
         lines = [*lines[: LINES - 2], "", "More in diagnosis.html."]
     made = content["provenance"]
+    commit = made["git_commit"][:10]
     lines += [
         "",
-        f"asphalt-nscd, commit {made['git_commit']}, tests from {made['measurements']}; +- is the 95 % interval.",
+        f"asphalt-nscd, commit {commit}, tests from {made['measurements']}; +- is the 95 % interval.",
     ]
     for n, line in enumerate(lines):
         figure.text(

@@ -1,0 +1,114 @@
+"""Several mixes beside each other: one diagnosis each, their curves at one temperature, and who is stiffer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.api.arguments import checked
+from asphalt_nscd.api.diagnosis import Diagnosis, diagnose
+from asphalt_nscd.diagnosis.reported import EN_12697_26, master_curve
+from asphalt_nscd.diagnosis.run import Draws
+from asphalt_nscd.files.errors import InputError
+
+DRAWS = 20_000  # of the moduli, for the ranks
+Progress = Callable[[str, float, float], None]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One diagnosis for each mix, by its name."""
+
+    diagnoses: Mapping[str, Diagnosis]
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """One row for each mix, the stiffest first: |E*| and phase at 15 degC and 10 Hz with 95 % intervals.
+
+        rank_low, rank_high: 95 % interval of the rank, from what the moduli leave open.
+        """
+        rows = []
+        for name, diagnosis in self.diagnoses.items():
+            content = diagnosis.content
+            named = [rung["cause"] for rung in content["ladder"] if rung["cause"] != "relaxation_spectrum"]
+            rows.append(
+                {
+                    "mix": name,
+                    **content["reported"],
+                    "verdict": diagnosis.verdict,
+                    "causes": ", ".join(named),
+                    "tests": content["tests"],
+                    "left_out": int((~diagnosis.suspects["used"].astype(bool)).sum()),
+                }
+            )
+        table = pd.DataFrame(rows).sort_values("E_MPa", ascending=False, ignore_index=True)
+        low, high = _ranks(table)
+        table.insert(1, "rank_low", low)
+        table.insert(2, "rank_high", high)
+        return table
+
+    @property
+    def curves(self) -> pd.DataFrame:
+        """E* of each mix over its tested band at 15 degC, with 95 % intervals."""
+        made = {name: one.outcome.diagnosis for name, one in self.diagnoses.items()}
+        parts = [
+            master_curve(one, EN_12697_26[0]).assign(mix=name)
+            for name, one in made.items()
+            if one is not None
+        ]
+        whole = pd.concat(parts, ignore_index=True)
+        return whole[["mix", *(column for column in whole if column != "mix")]]
+
+
+def _ranks(table: pd.DataFrame) -> tuple[list[int], list[int]]:
+    """95 % interval of the rank of each row, 1 for the stiffest."""
+    size = np.log(table["E_high_MPa"] / table["E_low_MPa"]).to_numpy() / (2.0 * 1.96)
+    random = np.random.default_rng(0)
+    drawn = np.log(table["E_MPa"].to_numpy()) + size * random.standard_normal((DRAWS, len(table)))
+    ranks = 1 + np.argsort(np.argsort(-drawn, axis=1), axis=1)
+    low, high = np.quantile(ranks, [0.025, 0.975], axis=0, method="nearest")
+    return low.astype(int).tolist(), high.astype(int).tolist()
+
+
+@checked
+def compare(
+    mixes: Mapping[str, str | Path] | Sequence[str | Path],
+    *,
+    measured_in: str | None = None,
+    draws: Draws = Draws(),  # noqa: B008  frozen
+    progress: Progress = lambda *_: None,
+) -> Comparison:
+    """Diagnose several mixes, each a file or a folder, and set them beside each other.
+
+    mixes: paths by the name of the mix; of a list the names are those of files and folders. measured_in, draws: as
+    in `diagnose`. Raises InputError, with the name of the mix, where one cannot be diagnosed.
+
+    >>> both = compare(["data/tutorial/measured.csv", "data/tutorial/exports"], draws=Draws(500))  # doctest: +SKIP
+    """
+    paths = _named(mixes)
+    found: dict[str, Diagnosis] = {}
+    for n, (name, path) in enumerate(paths.items()):
+        try:
+            found[name] = diagnose(path, measured_in=measured_in, draws=draws)
+        except InputError as error:
+            raise InputError(f"mix {name}: {error}") from None
+        progress("Compare", n + 1, len(paths))
+    return Comparison(found)
+
+
+def _named(mixes: Mapping[str, str | Path] | Sequence[str | Path]) -> dict[str, Path]:
+    if isinstance(mixes, Mapping):
+        paths = {name: Path(path) for name, path in mixes.items()}
+    else:
+        paths = {}
+        for path in map(Path, mixes):
+            if path.stem in paths:
+                raise InputError(f"{path}: two mixes are called {path.stem}; rename one.")
+            paths[path.stem] = path
+    if len(paths) < 2:
+        raise InputError("one mix is no comparison; give the files or folders of two or more.")
+    return paths

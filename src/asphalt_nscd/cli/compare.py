@@ -1,0 +1,44 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from asphalt_nscd.cli import _data, _options
+from asphalt_nscd.cli._progress import bars
+
+
+@click.command()
+@click.argument("mixes", type=_options.File, nargs=-1, required=True)
+@click.option("--output", required=True, type=_options.File, help="Folder for comparison.html and the rest.")
+@click.option(
+    "--measured-in",
+    type=click.Choice(["bending", "tension-compression"]),
+    help="Test that gave the moduli; else tension-compression for machine exports, bending for tables.",
+)
+@click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
+def command(mixes: tuple[Path, ...], output: Path, measured_in: str | None, draws: int) -> None:
+    """Diagnose several mixes and rank them: one workbook, one page, and a folder for each.
+
+    MIXES: a file or a folder for each mix, two or more.
+    """
+    from asphalt_nscd.api.comparison import compare
+    from asphalt_nscd.api.diagnosis import Draws
+
+    with bars("mix", on_terminal=True) as progress:
+        made = compare(mixes, measured_in=measured_in, draws=Draws(draws), progress=progress)
+    table, curves = made.table, made.curves
+    for name, diagnosis in made.diagnoses.items():
+        diagnosis.outcome.write(output / name)
+        _data.part("reporting.pages", "laboratory").write_page(output / name, f"Diagnosis of {name}")
+    _data.part("exports", "workbook").write_sheets(
+        output / "comparison.xlsx", {"Ranking": table, "Curves at 15 degC": curves}
+    )
+    _data.part("reporting.pages", "comparison").write_page(output / "comparison.html", table, curves)
+    for row in table.itertuples():
+        place = f"{row.rank_low}" if row.rank_low == row.rank_high else f"{row.rank_low}-{row.rank_high}"
+        click.echo(
+            f"{place:>6}  {row.mix}: |E*|(15 degC, 10 Hz) = {row.E_MPa:.0f} MPa "
+            f"({row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}); {row.causes.replace('_', ' ') or 'no cause named'}"
+        )
+    click.echo(f"\nWritten to {output}: comparison.html, comparison.xlsx, and a folder for each mix.")

@@ -1,0 +1,32 @@
+from __future__ import annotations
+
+import click
+
+
+@click.command()
+@click.option("--port", default=0, type=click.IntRange(0, 65535), help="Port; 0 takes a free one.")
+@click.option("--browser/--no-browser", default=True, help="Whether to open the page.")
+def command(port: int, browser: bool) -> None:
+    """Open a page on this machine to drop measurements on; nothing leaves the machine."""
+    import webbrowser
+
+    try:
+        from werkzeug.serving import make_server
+
+        from asphalt_nscd.web.app import create_app
+    except ModuleNotFoundError as error:
+        if error.name not in ("flask", "werkzeug"):
+            raise
+        raise click.ClickException(
+            f"this command needs {error.name}; pip install 'asphalt-nscd[web]'."
+        ) from None
+    app = create_app()
+    server = make_server("127.0.0.1", port, app, threaded=True)
+    address = f"http://127.0.0.1:{server.server_port}/{app.config['TOKEN']}/"
+    click.echo(f"Drop measurements on {address}\nCtrl-C ends it and removes what was dropped.")
+    if browser:
+        webbrowser.open(address)
+    try:
+        server.serve_forever()
+    finally:
+        app.config["DESK"].close()

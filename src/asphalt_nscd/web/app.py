@@ -1,0 +1,186 @@
+"""The pages of `asphalt-nscd serve`: for one user on this machine, behind a token in the address."""
+
+from __future__ import annotations
+
+import re
+import secrets
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from flask import Flask, Response, abort, jsonify, render_template, request, send_from_directory
+from werkzeug.exceptions import HTTPException
+
+from asphalt_nscd.table_import.campaign import TABLES
+from asphalt_nscd.table_import.quantities import MEASURED
+from asphalt_nscd.web.work import SECONDS_TO_DIAGNOSE, SECONDS_TO_READ, Choices, Job
+
+MOST_BYTES = 40_000_000  # of all files of one drop
+MOST_FILES = 100
+TEST_TYPES = ("bending", "tension-compression")
+# What a page may load: nothing from elsewhere.
+POLICY = (
+    "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
+    "connect-src 'self'; frame-src 'self'; form-action 'none'; base-uri 'none'"
+)
+
+
+class Desk:
+    """The files of the one user, and the one piece of work that may be under way."""
+
+    def __init__(self) -> None:
+        self.folder = Path(tempfile.mkdtemp(prefix="asphalt-nscd-"))
+        self.files: list[Path] = []
+        self.choices = Choices()
+        self.job: Job | None = None
+
+    @property
+    def output(self) -> Path:
+        return self.folder / "results"
+
+    def busy(self) -> bool:
+        return self.job is not None and self.job.look() == "running"
+
+    def clear(self) -> None:
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(mode=0o700)
+        self.files, self.job = [], None
+
+    def close(self) -> None:
+        if self.job is not None:
+            self.job.stop()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def create_app(token: str | None = None) -> Flask:
+    """The application; `app.config["TOKEN"]` stands in every address."""
+    app = Flask(__name__, static_folder=None)
+    token = secrets.token_urlsafe(24) if token is None else token
+    desk = Desk()
+    app.config.update(TOKEN=token, DESK=desk, MAX_CONTENT_LENGTH=MOST_BYTES, MAX_FORM_PARTS=MOST_FILES + 10)
+
+    @app.before_request
+    def only_the_user() -> None:
+        """No other machine, no other page in the browser, and nobody without the token."""
+        host = request.host.rpartition(":")[0] or request.host
+        if host not in ("127.0.0.1", "localhost"):
+            abort(403, "ask for 127.0.0.1")
+        given = (request.view_args or {}).get("token", "")
+        if not secrets.compare_digest(str(given).encode(), token.encode()):
+            abort(403, "the address lacks its token; take the address that the terminal shows")
+        origin = request.headers.get("Origin")
+        if request.method != "GET" and origin is not None and origin != f"http://{request.host}":
+            abort(403, "another page asked")
+
+    @app.after_request
+    def guarded(response: Response) -> Response:
+        response.headers.update(
+            {
+                "Content-Security-Policy": POLICY,
+                "X-Content-Type-Options": "nosniff",
+                "Referrer-Policy": "no-referrer",
+                "Cache-Control": "no-store",
+            }
+        )
+        return response
+
+    @app.errorhandler(HTTPException)
+    def in_one_sentence(error: HTTPException) -> tuple[Response, int]:
+        said = str(error.description)
+        if error.code == 413:
+            said = f"more than {MOST_BYTES // 10**6} MB; give the tables of results alone"
+        return jsonify(error=f"{said}."), error.code or 500
+
+    @app.get("/<token>/")
+    def page(token: str) -> str:
+        units = {name: list(of) for name, (_, of) in MEASURED.items()}
+        return render_template("page.html", units=units, endings=", ".join(TABLES))
+
+    @app.post("/<token>/files")
+    def drop(token: str) -> Response:
+        """Take the files, and say how they were read."""
+        if desk.busy():
+            abort(409, "a diagnosis is under way; wait for it or cancel it")
+        given = [one for one in request.files.getlist("files") if one.filename]
+        if not given or len(given) > MOST_FILES:
+            abort(400, f"give between one and {MOST_FILES} files")
+        desk.clear()
+        for one in given:
+            path = desk.folder / "files" / safe_name(one.filename or "")
+            path.parent.mkdir(exist_ok=True)
+            if path.suffix.lower() not in TABLES:
+                abort(400, f"{path.name}: give files that end in {', '.join(TABLES)}")
+            if path.exists():
+                abort(400, f"{path.name}: two files have this name")
+            one.save(path)
+            desk.files.append(path)
+        desk.choices = Choices()
+        return _read(desk)
+
+    @app.post("/<token>/read")
+    def again(token: str) -> Response:
+        """Read the files again with what the user chose from the menus."""
+        if not desk.files or desk.busy():
+            abort(409, "drop files first, or wait for the diagnosis")
+        desk.choices = _choices(request.get_json(silent=True))
+        return _read(desk)
+
+    @app.post("/<token>/diagnose")
+    def start(token: str) -> Response:
+        if not desk.files:
+            abort(409, "drop files first")
+        if desk.busy():
+            abort(409, "a diagnosis is under way; wait for it or cancel it")
+        desk.choices = _choices(request.get_json(silent=True))
+        shutil.rmtree(desk.output, ignore_errors=True)
+        desk.output.mkdir()
+        desk.job = Job("diagnose", desk.files, desk.choices, desk.output, SECONDS_TO_DIAGNOSE)
+        return jsonify(state="running")
+
+    @app.get("/<token>/job")
+    def job(token: str) -> Response:
+        if desk.job is None:
+            abort(404, "nothing was started")
+        state = desk.job.look()
+        return jsonify(state=state, stage=desk.job.stage, share=desk.job.share, **desk.job.result)
+
+    @app.post("/<token>/cancel")
+    def cancel(token: str) -> Response:
+        if desk.job is not None:
+            desk.job.stop()
+        return jsonify(state="cancelled")
+
+    @app.get("/<token>/results/<name>")
+    def result(token: str, name: str) -> Response:
+        if desk.job is None or desk.job.state != "done" or name not in desk.job.result["files"]:
+            abort(404, "no such file")
+        return send_from_directory(desk.output, name, as_attachment="download" in request.args)
+
+    return app
+
+
+def _read(desk: Desk) -> Response:
+    job = Job("read", desk.files, desk.choices, None, SECONDS_TO_READ)
+    job.finish()
+    return jsonify(state=job.state, files=[path.name for path in desk.files], **job.result)
+
+
+def _choices(content: Any) -> Choices:
+    """What came from the menus, no more than these hold."""
+    if not isinstance(content, dict):
+        return Choices()
+    kind = content.get("measured_in") or None
+    columns = content.get("columns") or {}
+    if kind not in (None, *TEST_TYPES) or not isinstance(columns, dict):
+        abort(400, "an unknown choice")
+    if not all(isinstance(text, str) and len(text) < 200 for pair in columns.items() for text in pair):
+        abort(400, "an unknown choice")
+    return Choices(kind, columns)
+
+
+def safe_name(name: str) -> str:
+    """The last part of a file's name, with letters, digits and harmless marks alone."""
+    last = re.split(r"[\\/]", name)[-1]
+    last = re.sub(r"[^\w .()+-]", "_", last).lstrip(". ")[-120:]
+    return last or "file"

@@ -1,0 +1,192 @@
+"""What is done for the page, each piece in a process of its own that can be stopped: files read, tests diagnosed."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import sys
+import time
+import traceback
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+from asphalt_nscd.files.errors import InputError
+
+MOST_MEMORY = 4 * 2**30  # bytes of addresses
+SECONDS_TO_READ = 60.0
+SECONDS_TO_DIAGNOSE = 900.0
+ROWS_SHOWN = 6
+TOO_LONG = "this took too long; give the table of results of one campaign alone."
+BROKEN = "this could not be done, and the fault is ours; the terminal of `asphalt-nscd serve` says where."
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What the user said beside the files: the kind of test, and columns of theirs by what they hold."""
+
+    measured_in: str | None = None
+    columns: Mapping[str, str] | None = None
+
+
+class Job:
+    """One piece of work in a process of its own; `state` is running, done, failed or cancelled."""
+
+    def __init__(
+        self, task: str, paths: Sequence[Path], choices: Choices, output: Path | None, seconds: float
+    ) -> None:
+        here, there = multiprocessing.get_context("spawn").Pipe(duplex=False)
+        self._pipe = here
+        self._process = multiprocessing.get_context("spawn").Process(
+            target=_run, args=(there, task, list(paths), choices, output), daemon=True
+        )
+        self._until = time.monotonic() + seconds
+        self.state, self.stage, self.share = "running", "start", 0.0
+        self.result: dict[str, Any] = {}
+        self._process.start()
+        there.close()
+
+    def look(self, wait: float = 0.0) -> str:
+        """Take what the process said meanwhile; the state. wait [s]: for the next word of it."""
+        while self.state == "running":
+            if time.monotonic() > self._until:
+                self.stop("failed", TOO_LONG)
+                break
+            if not self._pipe.poll(wait):
+                if not self._process.is_alive() and not self._pipe.poll(0.0):
+                    self.stop("failed", "the process ended without a word, perhaps for want of memory.")
+                break
+            try:
+                kind, content = self._pipe.recv()
+            except EOFError:
+                self.stop("failed", "the process ended without a word, perhaps for want of memory.")
+                break
+            if kind == "progress":
+                self.stage, self.share = content
+            else:
+                self.state, self.result = kind, content
+                self._process.join(5.0)
+        return self.state
+
+    def finish(self) -> None:
+        """Wait for the end."""
+        while self.look(0.2) == "running":
+            pass
+
+    def stop(self, state: str = "cancelled", why: str = "") -> None:
+        if self.state == "running":
+            self._process.kill()
+            self._process.join(5.0)
+            self.state, self.result = state, {"error": why}
+
+
+def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, output: Path | None) -> None:
+    """In the new process: the task, and its result or one sentence through the pipe."""
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ[name] = "1"
+    if sys.platform == "linux":
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+    try:
+        if output is None:
+            content = read_tables(paths, choices)
+        else:
+            content = _diagnosed(paths, choices, output, lambda *said: pipe.send(("progress", said)))
+        pipe.send(("done", content))
+    except InputError as error:
+        pipe.send(("failed", {"error": _without_folder(str(error), paths), "columns": _columns(paths)}))
+    except MemoryError:
+        pipe.send(("failed", {"error": "the file needs too much memory; give the table of results alone."}))
+    except Exception:
+        traceback.print_exc()
+        pipe.send(("failed", {"error": BROKEN}))
+
+
+def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
+    """How the files were read: sentences, the first tests, and for each column of the user's what it is taken for."""
+    from asphalt_nscd.table_import.campaign import read_campaign
+
+    campaign, form = read_campaign(paths, None, choices.columns, choices.measured_in)
+    table = campaign.table.columns
+    shown = [name for name in table if any(table[name])]
+    return {
+        "form": form,
+        "test_type": campaign.test_type,
+        "notes": [_without_folder(note, paths) for note in campaign.notes],
+        "tests": len(campaign.table.lines),
+        "header": shown,
+        "rows": [
+            [table[name][row] for name in shown] for row in range(min(ROWS_SHOWN, len(campaign.table.lines)))
+        ],
+        "columns": _columns(paths),
+    }
+
+
+def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
+    """Each column of the files, by its name, with the quantity and the unit it is taken for and its first cells."""
+    from asphalt_nscd.table_import.cells import read_sheets
+    from asphalt_nscd.table_import.headings import tabulated
+    from asphalt_nscd.table_import.melt import headings_of
+
+    found: dict[str, dict[str, str]] = {}
+    for path in paths:
+        try:
+            tables = [tabulated(path, sheet.rows, []) for sheet in read_sheets(path)]
+        except InputError:
+            continue
+        for cells in tables:
+            for n, heading in enumerate(headings_of(cells)):
+                column = heading.column
+                sample = [row[n] for _, row in cells.rows[:3] if n < len(row)]
+                if column is None and not any(sample):
+                    continue
+                found.setdefault(
+                    cells.header[n],
+                    {
+                        "name": cells.header[n],
+                        "quantity": "" if column is None else column.quantity,
+                        "unit": "" if column is None else column.unit or "not said",
+                        "condition": ", ".join(heading.at.values()),
+                        "cells": ", ".join(sample),
+                    },
+                )
+    return list(found.values())[:60]
+
+
+def _without_folder(text: str, paths: Sequence[Path]) -> str:
+    """A sentence with the names of the files alone."""
+    for path in paths:
+        text = text.replace(str(path), path.name)
+        text = text.replace(f"{path.parent}{os.sep}", "")
+    return text
+
+
+def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: Any) -> dict[str, Any]:
+    """Diagnose, and write everything into the folder: what the first screen says, and the names of the files."""
+    from asphalt_nscd.api.diagnosis import diagnose
+    from asphalt_nscd.api.tables import campaign_in
+    from asphalt_nscd.diagnosis.brief import rows
+    from asphalt_nscd.exports.workbook import corrected_workbook
+    from asphalt_nscd.reporting.pages.handout import write_handout
+    from asphalt_nscd.reporting.pages.laboratory import write_page
+
+    campaign = campaign_in(list(paths), None, choices.columns, choices.measured_in)
+    diagnosis = diagnose(
+        campaign,
+        measured_in=choices.measured_in,
+        progress=lambda stage, done, total: progress(stage, 0.9 * done / total),
+    )
+    title = f"Diagnosis of {', '.join(path.name for path in paths)}"
+    diagnosis.outcome.write(output)
+    progress("Write", 0.95)
+    corrected_workbook(output)
+    write_handout(output, title)
+    write_page(output, title)
+    return {
+        "answer": [[label, list(said)] for label, said in rows(diagnosis.content)],
+        "reported": diagnosis.content["reported"],
+        "files": sorted(path.name for path in output.iterdir() if path.is_file()),
+    }
