@@ -190,6 +190,14 @@ def test_degrees_fahrenheit_by_hertz_without_phase(tmp_path):
         assert float(e) == pytest.approx(modulus("A", round(float(t), 2), float(f)), rel=1e-6)
 
 
+def test_rows_of_single_tests_are_no_matrix(tmp_path):
+    """A specimen called 1B is no corner, and what stands behind it no axis."""
+    rows = [
+        [f"1{s}", t, f, e, p] for (s, t, f), (e, p) in sorted(TESTS.items(), key=lambda item: item[0][1:])
+    ]
+    assert held(read(tmp_path, [["specimen", *KEYS, "E (MPa)", "phi (°)"], *rows]), 2) == TESTS
+
+
 def test_title_lines_of_a_text_file(tmp_path):
     lines = ["Essai de module complexe NF EN 12697-26", "Enrobé : EME 2 0/14, liant 20/30", ""]
     lines += ["Éprouvette;Température (°C);Fréquence (Hz);Module (MPa);Angle de phase (°)"]

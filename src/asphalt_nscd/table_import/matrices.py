@@ -145,7 +145,9 @@ def _height(rows: list[Row], at: int) -> int:
     values = head[place:]
     if place == 0 or sum(map(bool, values)) < 2 or not all(_is_value(cell) for cell in values if cell):
         return 0
-    size = 0
+    if not _repeats_one_order(values) or any(_names_each_test(row) for _, row in rows[:at]):
+        return 0
+    down: list[float] = []
     for _, row in rows[at + 1 :]:
         body = row[place:]
         if any(row[: place - 1]) and not (place == 2 and _names_specimens(head[0])):
@@ -154,13 +156,31 @@ def _height(rows: list[Row], at: int) -> int:
             break
         if not body or not all(NUMBER.fullmatch(cell) or cell.casefold() in _ABSENT for cell in body):
             break
-        size += 1
-    # Rows of a long table below one with merged cells begin with numbers too, but are in no order.
-    known_above = [read_heading(cell).column for _, row in rows[max(0, at - 1) : at] for cell in row]
-    named = {column.quantity for column in known_above if column}
-    if {"frequency_Hz", "temperature_C"} <= named or size < 2:
-        return 0
-    return size
+        down.append(_number(_bare(row[place - 1])))
+    return len(down) if len(down) > 1 and (place == 2 or len(set(down)) == len(down)) else 0
+
+
+def _repeats_one_order(values: list[str]) -> bool:
+    """Whether values rise or fall, once or again and again: the frequencies of |E*|, then those of the phase."""
+    read = [_number(_bare(cell)) for cell in values if cell]
+    size = next((n for n in range(1, len(read)) if read[n] == read[0]), len(read))
+    first = read[:size]
+    ordered = first in (sorted(set(first)), sorted(set(first), reverse=True))
+    return size > 1 and ordered and len(read) % size == 0 and read == first * (len(read) // size)
+
+
+def _names_each_test(row: list[str]) -> bool:
+    """Whether a line names temperature, frequency and a result, as that above rows of single tests does."""
+    named = [one.column.quantity for cell in row if (one := read_heading(cell)).column]
+    return {"temperature_C", "frequency_Hz"} <= set(named) and any(
+        name not in (*KEYS, SPECIMEN) for name in named
+    )
+
+
+def _bare(cell: str) -> str:
+    """A number without its unit."""
+    found = _AXIS_UNIT.fullmatch(cell)
+    return found[1] if found else cell
 
 
 def _names_specimens(cell: str) -> bool:
