@@ -1,0 +1,125 @@
+"""From drop to download in a real browser, at the width of a desk and of a phone, in the light and in the dark."""
+
+from __future__ import annotations
+
+import base64
+import cmath
+import math
+import os
+import threading
+import time
+import urllib.request
+from pathlib import Path
+
+import openpyxl
+import pytest
+from browser.chromium import Page, find
+
+pytest.importorskip("flask")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(find() is None, reason="no Chromium on this machine")]
+
+EVIL = "<img src=x onerror=\"document.title='owned'\">"
+SECONDS = 300.0
+
+
+@pytest.fixture
+def address():
+    from werkzeug.serving import make_server
+
+    from asphalt_nscd.web.app import create_app
+
+    app = create_app()
+    server = make_server("127.0.0.1", 0, app, threaded=True)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}/{app.config['TOKEN']}/"
+    server.shutdown()
+    app.config["DESK"].close()
+
+
+@pytest.fixture
+def page():
+    with Page(find()) as opened:
+        whole = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
+        opened.call("Network.emulateNetworkConditions", offline=False, **whole)
+        yield opened
+
+
+def workbook(path):
+    """A row for each test; the name of the column with moduli says nothing of them, and cells hold HTML."""
+    book = openpyxl.Workbook()
+    sheet = book.active
+    sheet.append([EVIL])
+    sheet.append(["Specimen", "Temp. (°C)", "Freq. (Hz)", "Result [GPa]", "Phase (°)", EVIL])
+    for name, scale in (("A", 1.0), ("B", 1.03), ("C", 0.98)):
+        for t in (4.0, 12.0, 20.0, 35.0):
+            for f in (0.1, 1.0, 5.0, 10.0, 25.0):
+                reduced = 1j * 6.28 * f * 0.15 * 10 ** (-9.0 * (t - 15.0) / (110.0 + t - 15.0))
+                star = scale * (0.06 + 33.0 / (1.0 + 2.2 * reduced**-0.21 + reduced**-0.6))
+                phase = math.degrees(cmath.phase(star)) + 5.0 * (scale - 1.0)
+                sheet.append([name, t, f, round(abs(star), 4), round(phase, 2), EVIL])
+    book.save(path)
+    return path
+
+
+def until(page, condition):
+    end = time.monotonic() + SECONDS
+    while not page.evaluate(condition):
+        assert time.monotonic() < end, (
+            f"never: {condition}; {page.evaluate('document.body.innerText')[:1500]}"
+        )
+        time.sleep(0.3)
+
+
+def drop(page, *paths):
+    page.call("DOM.enable")
+    root = page.call("DOM.getDocument")["root"]["nodeId"]
+    node = page.call("DOM.querySelector", nodeId=root, selector="#files")["nodeId"]
+    page.call("DOM.setFileInputFiles", nodeId=node, files=[str(path) for path in paths])
+
+
+def look(page, name, width, dark):
+    """No part wider than the window; a picture where SCREENSHOTS names a folder."""
+    page.call(
+        "Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600
+    )
+    scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
+    page.call("Emulation.setEmulatedMedia", features=scheme)
+    time.sleep(0.5)
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    if folder := os.environ.get("SCREENSHOTS"):
+        taken = page.call("Page.captureScreenshot", format="png")["data"]
+        (Path(folder) / f"{name}-{width}-{'dark' if dark else 'light'}.png").write_bytes(
+            base64.b64decode(taken)
+        )
+
+
+def choose(page, selector, value):
+    page.evaluate(f"(m => {{ m.value = {value!r}; m.dispatchEvent(new Event('change')); }})({selector})")
+
+
+def test_from_drop_to_download(page, address, tmp_path):
+    page.open(address, 1280)
+    drop(page, workbook(tmp_path / "t.xlsx"))
+    until(page, "!document.getElementById('error').hidden")
+    assert "no column for |E*|" in page.evaluate("document.getElementById('error').textContent")
+    row = "[...document.querySelectorAll('#columns tr')].find(r => r.textContent.startsWith('Result [GPa]'))"
+    choose(page, f"{row}.querySelector('select')", "E_GPa")
+    until(page, "!document.getElementById('go').hidden && document.getElementById('error').hidden")
+    assert page.evaluate("document.getElementById('what').textContent") == "60 tests in t.xlsx"
+    choose(page, "document.getElementById('kind')", "tension-compression")
+    until(page, "document.getElementById('notes').textContent.length > 0")
+    for width in (1280, 390):
+        look(page, "read", width, dark=width == 390)
+    page.evaluate("document.getElementById('go').click()")
+    until(page, "!document.getElementById('result').hidden")
+    files = page.evaluate("[...document.querySelectorAll('#take a')].map(a => a.href)")
+    names = {one.rpartition("/")[2].partition("?")[0] for one in files}
+    assert {"report.pdf", "corrected.xlsx", "corrected.csv", "diagnosis.html", "law.json"} <= names
+    (pdf,) = (one for one in files if "report.pdf" in one)
+    with urllib.request.urlopen(pdf) as answer:
+        assert answer.read(5) == b"%PDF-"
+    for width in (1280, 390):
+        for dark in (False, True):
+            look(page, "result", width, dark)
+    assert page.evaluate("document.title") == "asphalt-nscd"  # HTML in cells stayed text
+    assert "MPa" in page.evaluate("document.getElementById('value').textContent")
