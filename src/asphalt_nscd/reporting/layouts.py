@@ -245,6 +245,41 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         ),
         Notes(["stage"], "remark"),
     ],
+    "forecast": [
+        Layout(
+            {
+                "forecast": "forecast",
+                "parameters": "fitted",
+                "factor_all": "factor of modulus",
+                "phase_all_deg": "phase, °",
+            },
+            figures=3,
+        ),
+        Layout(
+            {
+                "forecast": "factor of modulus",
+                "factor_H0": "H0",
+                "factor_H3": "H3",
+                "factor_H9": "H9",
+                "factor_W0": "W0",
+                "factor_W3": "W3",
+                "factor_W6": "W6",
+            },
+            figures=3,
+        ),
+    ],
+    "voids": [
+        Layout(
+            {
+                "temperature_C": "°C",
+                "frequency_Hz": "Hz",
+                "E_MPa": "mean modulus, MPa",
+                "measured_percent": "measured, % for 1 % of air",
+                "standard_error_percent": "standard error",
+                "forecast_percent": "forecast",
+            },
+        )
+    ],
     "threads": [
         Layout(
             {

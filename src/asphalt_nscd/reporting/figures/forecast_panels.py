@@ -75,7 +75,7 @@ def cut_through(axes: Axes, found: Forecast, result: LevelResult) -> None:
     axes.set_xticks([])
     axes.set_yticks([])
     unit = 1e3 * level.largest / LARGEST * 2.0 * half
-    axes.set_xlabel(f"{unit:.2g} mm wide, {100 * level.fraction:.0f} % grains")
+    axes.set_xlabel(f"{unit:.2g} mm wide,\n{100 * level.fraction:.0f} % grains")
 
 
 def _contacts(packing: LevelPacking, met: np.ndarray, centre: np.ndarray) -> list[np.ndarray]:

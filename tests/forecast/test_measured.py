@@ -1,0 +1,104 @@
+"""The forecast held against measurements: mixes drawn from the forecast itself are met, and one fault is found."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.forecast.forecast import Networks, Settings, modulus_of
+from asphalt_nscd.forecast.mixes import best_map, binder_shift, read_pairs
+from asphalt_nscd.forecast.recipe import read_recipe
+from asphalt_nscd.forecast.voids import compare_voids
+
+
+@pytest.fixture(scope="module")
+def networks(packing):
+    return Networks(lambda level, seed: packing)
+
+
+@pytest.fixture(scope="module")
+def pairs():
+    return read_pairs("data/forecast/binder_mix.csv", read_recipe("data/forecast/recipe.yaml"))
+
+
+def test_pairs_are_read_with_their_laws(pairs):
+    assert [pair.name for pair in pairs] == ["H0", "H3", "H9", "W0", "W3", "W6"]
+    # 2S2P1D by hand at 1 rad/s, H0 of the table
+    z = 1j * 0.834764484
+    by_hand = 86.3470095 + (26000 - 86.3470095) / (
+        1 + 2.52254414 * z**-0.22 + z**-0.65 + 1 / (43.3031679 * z)
+    )
+    found = pairs[0].mix.complex_modulus(1.0, 15.0)
+    assert found == pytest.approx(1e6 * by_hand, rel=1e-9)
+
+
+def test_no_map_fits_warm_and_hot_mixes(pairs):
+    """At equal modulus of the binder the mixes differ: the best map of the hot ones misses the warm ones."""
+
+    def worst(of, on):
+        from asphalt_nscd.forecast.mixes import _any_map
+
+        weights = best_map([pair for pair in pairs if pair.name[0] == of])
+        return max(
+            np.sqrt((np.abs(np.log(_any_map(pair.binder()) @ weights / pair.measured)) ** 2).mean())
+            for pair in pairs
+            if pair.name[0] == on
+        )
+
+    assert worst("H", "H") < 0.06
+    assert worst("H", "W") > 0.5
+
+
+@pytest.mark.parametrize("decades", [-0.7, 0.4])
+def test_a_binder_of_another_temperature_is_found(pairs, networks, decades):
+    """A mix drawn from the forecast with a binder that is shifted."""
+    pair = pairs[0]
+    levels = networks.chain(pair.recipe, Settings(), 1)
+
+    class Drawn(type(pair)):
+        measured = modulus_of(levels, pair.recipe.aggregate, pair.binder(decades))
+
+    drawn = Drawn(pair.name, pair.recipe, pair.mix)
+    assert binder_shift(drawn, levels, pair.recipe) == pytest.approx(decades, abs=1e-3)
+
+
+def campaign(folder, slope):
+    """Four mixes of three specimens whose |E*| loses `slope` percent with each percent of air."""
+    rows = []
+    for number in range(4):
+        name = f"M{number}_RH"
+        tests = []
+        for specimen, air in zip("ABC", (6.0, 7.0, 8.0), strict=True):
+            rows.append({"mix": name.replace("_", " "), "specimen_id": specimen, "Va_pct": air})
+            modulus = 4000 * (1 + number) * np.exp(slope / 100 * air)
+            tests.append(
+                {
+                    "specimen": specimen,
+                    "temperature_C": 20,
+                    "frequency_Hz": 1,
+                    "E_MPa": modulus,
+                    "phase_deg": 25,
+                }
+            )
+        pd.DataFrame(tests).to_csv(folder / f"{name}.csv", index=False)
+    pd.DataFrame(rows).to_csv(folder / "volumetrics.csv", index=False)
+
+
+def test_cost_of_air_is_measured_within_mixes(tmp_path, networks, recipe):
+    campaign(tmp_path, -6.0)
+    (row,) = compare_voids(tmp_path, replace(recipe, voids=0.07), networks, lambda *_: None).itertuples()
+    assert row.measured_percent == pytest.approx(-6.0, abs=1e-9)
+    assert row.standard_error_percent == pytest.approx(0.0, abs=1e-6)
+    assert -30.0 < row.forecast_percent < 0.0
+
+
+def test_a_specimen_without_air_voids_is_named(tmp_path, networks, recipe):
+    campaign(tmp_path, -6.0)
+    table = pd.read_csv(tmp_path / "volumetrics.csv")
+    table[~((table["mix"] == "M1 RH") & (table["specimen_id"] == "B"))].to_csv(
+        tmp_path / "volumetrics.csv", index=False
+    )
+    with pytest.raises(InputError, match="no row for specimen B of M1_RH"):
+        compare_voids(tmp_path, recipe, networks, lambda *_: None)

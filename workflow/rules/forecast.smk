@@ -1,0 +1,128 @@
+# The forecast: a mix from its binder and recipe, with no measurement of the mix; held against mixes that were measured.
+#   snakemake forecast --cores all --configfile config/paper.yaml
+# Publish with: snakemake publish_forecast --cores 1 --configfile config/paper.yaml
+
+RECIPE = "data/forecast/recipe.yaml"
+FORECAST_FILES = ["forecast.csv", "rivals.csv", "law.json", "forecast.json", "forecast.html"]
+
+
+rule forecast_packings:
+    # Filler, sand and stones, each poured from its own part of the grading.
+    input:
+        recipe=RECIPE,
+        code=code("forecast_packings"),
+    output:
+        directory("results/forecast/packings"),
+    log:
+        "results/forecast/logs/packings.log",
+    message:
+        "Pour the levels of the recipe"
+    shell:
+        "asphalt-nscd forecast-packings {input.recipe} --output {output} > {log} 2>&1"
+
+
+rule forecast_recipe:
+    # One recipe: modulus and phase with their doubts, law and page.
+    input:
+        recipe=RECIPE,
+        packings="results/forecast/packings",
+        code=code("forecast", "reporting.pages.forecast_page"),
+    output:
+        expand("results/forecast/recipe/{file}", file=FORECAST_FILES),
+    params:
+        folder="results/forecast/recipe",
+    log:
+        "results/forecast/logs/recipe.log",
+    message:
+        "Forecast the mix of the recipe"
+    shell:
+        "asphalt-nscd forecast {input.recipe} --packings {input.packings} --output {params.folder} > {log} 2>&1"
+
+
+rule forecast_mixes:
+    # Six mixes whose binder was measured too: what each part of the physics is worth, and who else does as well.
+    input:
+        recipe=RECIPE,
+        mixes="data/forecast/binder_mix.csv",
+        packings="results/forecast/packings",
+        code=code("forecast_mixes"),
+    output:
+        expand("results/forecast/mixes/{table}.csv", table=["errors", "points", "overall"]),
+    params:
+        folder="results/forecast/mixes",
+    log:
+        "results/forecast/logs/mixes.log",
+    message:
+        "Hold the forecast against six measured mixes"
+    shell:
+        "asphalt-nscd forecast-mixes {input.recipe} --mixes {input.mixes} --packings {input.packings} --output {params.folder} > {log} 2>&1"
+
+
+rule forecast_voids:
+    # What a percent of air costs, beside specimens that differ in it.
+    input:
+        recipe=RECIPE,
+        campaign=[f"data/ncat/{table}" for table in sorted(os.listdir(CLONE / "data/ncat")) if table.endswith(".csv")],
+        packings="results/forecast/packings",
+        code=code("forecast_voids"),
+    output:
+        "results/forecast/voids.csv",
+    log:
+        "results/forecast/logs/voids.log",
+    message:
+        "Hold the cost of air voids against the NCAT specimens"
+    shell:
+        "asphalt-nscd forecast-voids {input.recipe} --campaign data/ncat --packings {input.packings} --output {output} > {log} 2>&1"
+
+
+rule forecast_figure:
+    input:
+        points="results/forecast/mixes/points.csv",
+        code=code("figure", "reporting.figures.fig_forecast"),
+    output:
+        multiext("results/forecast/figures/fig_forecast", ".pdf", ".png", ".svg"),
+    log:
+        "results/forecast/logs/figure.log",
+    message:
+        "Draw the forecasts beside the measurements"
+    shell:
+        "asphalt-nscd figure fig_forecast points={input.points} --output-stem results/forecast/figures/fig_forecast > {log} 2>&1"
+
+
+rule forecast_provenance:
+    input:
+        "results/forecast/mixes/overall.csv",
+        code=code("provenance"),
+    output:
+        "results/forecast/provenance.json",
+    log:
+        "results/forecast/logs/provenance.log",
+    message:
+        "Write down what was forecast"
+    shell:
+        "asphalt-nscd provenance --output {output} > {log} 2>&1"
+
+
+rule forecast:
+    # All of it.
+    input:
+        rules.forecast_recipe.output,
+        rules.forecast_mixes.output,
+        rules.forecast_figure.output,
+        rules.forecast_voids.output,
+        rules.forecast_provenance.output,
+
+
+rule publish_forecast:
+    # What is committed of it. Only on request.
+    input:
+        overall="results/forecast/mixes/overall.csv",
+        errors="results/forecast/mixes/errors.csv",
+        voids="results/forecast/voids.csv",
+        figure="results/forecast/figures/fig_forecast.png",
+        provenance="results/forecast/provenance.json",
+        code=code("publish"),
+    message:
+        "Copy the table of forecasts and its figure, and fill the table of docs/forecast.md"
+    shell:
+        "asphalt-nscd publish {input.overall} {input.errors} {input.voids} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block voids={input.voids}"
