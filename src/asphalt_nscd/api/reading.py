@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
-from asphalt_nscd.api.bending import Test
 from asphalt_nscd.api.diagnosis import Diagnosis
 from asphalt_nscd.api.laws import Law
-from asphalt_nscd.api.specimens import Packing, Specimen
 from asphalt_nscd.api.tables import Measurements, campaign_in
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import kind_of, read_json
 from asphalt_nscd.table_import.frames import frame_of
+
+if TYPE_CHECKING:  # they need the compiler of the core, which a reader of tables need not have
+    from asphalt_nscd.api.bending import Test
+    from asphalt_nscd.api.specimens import Packing, Specimen
 
 
 @checked
@@ -53,6 +55,9 @@ def read(
         if path.is_dir() and (path / "diagnosis.json").is_file():
             return Diagnosis.read(path)
         if path.suffix.lower() in (".h5", ".hdf5"):
+            from asphalt_nscd.api.bending import Test
+            from asphalt_nscd.api.specimens import Packing, Specimen
+
             kinds = {one.kind: one for one in (Packing, Specimen, Test)}
             kind = kind_of(path)
             if kind not in kinds:

@@ -36,7 +36,9 @@ _MENDS = {
     errno.ENOTDIR: "check the path",
     errno.EISDIR: "give a file, not a folder",
 }
-_OF_THE_WORKFLOW = ("docutils", "rocrate", "snakemake")  # modules of that extra in pyproject.toml
+# Modules of the extras in pyproject.toml.
+_OF_EXTRAS = dict.fromkeys(("docutils", "rocrate", "snakemake"), "workflow")
+_OF_EXTRAS |= dict.fromkeys(("llvmlite", "numba", "pyamg"), "simulation")
 _NO_MEMORY = "the memory is used up; end other programs, or run fewer jobs at a time (--cores 1)."
 
 
@@ -108,8 +110,10 @@ def _status(step: Callable[[], object]) -> int:
             raise
         return _say(_NO_MEMORY, 2)
     except ImportError as error:
-        if error.name in _OF_THE_WORKFLOW:
-            return _say(f"this step needs {error.name}; pip install 'asphalt-nscd[workflow]'.", 2)
+        if error.name in _OF_EXTRAS:
+            return _say(
+                f"this step needs {error.name}; pip install 'asphalt-nscd[{_OF_EXTRAS[error.name]}]'.", 2
+            )
         if "failed to map segment" not in str(error):
             raise
         return _say(_NO_MEMORY, 2)

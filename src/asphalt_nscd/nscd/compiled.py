@@ -6,7 +6,11 @@ another file (numba issue 1833). The cache folder is therefore named by a hash o
 
 from __future__ import annotations
 
-from numba import config, njit
+try:
+    from numba import config, njit
+except ModuleNotFoundError as missing:
+    missing.add_note("Simulated specimens need the extra: pip install 'asphalt-nscd[simulation]'")
+    raise
 
 from asphalt_nscd.nscd.core_cache import core_folder
 
