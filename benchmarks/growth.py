@@ -34,7 +34,7 @@ from asphalt_nscd.nscd.bonds.implicit_operator import LARGEST_FACTORED
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.rheology.laws_io import read_bond_law
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.preparation import Pouring, Vibration, deposit, trim_deposit
+from asphalt_nscd.specimen.preparation import Cutting, Pouring, Vibration, deposit, trim_deposit
 
 BOX = (0.25, 0.025, 0.64)  # m; the paper's 1.6 m high lattice is mostly empty, and its fall long
 GEOMETRY = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250}
@@ -72,7 +72,7 @@ def prepare(spheres: int, counts_table: str, specimen: str) -> list[Row]:
         pouring = Pouring(box, seed=1, vibration=Vibration(duration=VIBRATION))
         deposit(folder / "counts.csv", pouring, folder / "deposit.h5", progress)
         deposited, clock = clock.row(), Clock()
-        trim_deposit(folder / "deposit.h5", geometry, 0.1, 2e-3, specimen)
+        trim_deposit(folder / "deposit.h5", geometry, Cutting(), specimen)
     vibrating = left["vibrating"] - left["settling"]
     scaled_up = vibrating * WHOLE_VIBRATION / VIBRATION
     memory = {"memory_MB": deposited["memory_MB"]}

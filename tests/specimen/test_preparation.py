@@ -9,6 +9,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
 from asphalt_nscd.specimen import preparation
 from asphalt_nscd.specimen.preparation import (
+    Cutting,
     Pouring,
     Vibration,
     deposit,
@@ -92,7 +93,7 @@ def test_a_seed_stands_for_one_deposit(folder, poured):
 
 
 def test_specimen_from_deposit(folder, poured):
-    trim_deposit(folder / "deposit.h5", GEOMETRY, 0.1, 2e-3, folder / "specimen.h5")
+    trim_deposit(folder / "deposit.h5", GEOMETRY, Cutting(), folder / "specimen.h5")
     specimen, record = read_specimen(folder / "specimen.h5"), load(folder / "specimen.h5", "specimen")
     assert specimen.geometry.h == pytest.approx(0.06) and specimen.geometry.mobile_mass == 0.005
     assert specimen.density * (4 / 3 * np.pi * specimen.radius**3).sum() == pytest.approx(0.014, rel=1e-13)
@@ -112,14 +113,14 @@ def test_specimen_from_deposit(folder, poured):
 
 def test_a_layer_too_low_for_the_geometry(folder, poured):
     with pytest.raises(InputError, match=r"mm high, less than the foot of the specimen \(30.0 mm\)"):
-        trim_deposit(folder / "deposit.h5", GEOMETRY | {"B_mm": 30}, 0.1, 2e-3, folder / "none.h5")
+        trim_deposit(folder / "deposit.h5", GEOMETRY | {"B_mm": 30}, Cutting(), folder / "none.h5")
     assert not (folder / "none.h5").exists()
 
 
 @pytest.mark.parametrize("change", [{"h_mm": 61}, {"e_mm": 10.1}])
 def test_a_specimen_larger_than_the_box(folder, poured, change):
     with pytest.raises(InputError, match=r"the specimen is .* mm (high|thick), but the box only (60|10) mm"):
-        trim_deposit(folder / "deposit.h5", GEOMETRY | change, 0.1, 2e-3, folder / "none.h5")
+        trim_deposit(folder / "deposit.h5", GEOMETRY | change, Cutting(), folder / "none.h5")
     assert not (folder / "none.h5").exists()
 
 

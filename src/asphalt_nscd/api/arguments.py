@@ -14,6 +14,7 @@ from types import NoneType
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from asphalt_nscd.files.errors import InputError
 
@@ -33,6 +34,8 @@ _ROWS = (tuple, list, np.ndarray)
 def checked(function: Callable[P, R]) -> Callable[P, R]:
     """The same function; an argument that is not what its annotation says raises InputError.
 
+    BLAS has one thread while it runs: its many small products take several times as long on more.
+
     Looked at are numbers, texts, paths, mappings, tuples of them, and classes with such fields; not other annotations.
 
     >>> @checked
@@ -49,7 +52,8 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
         for name, value in signature.bind(*arguments, **options).arguments.items():
             said = signature.parameters[name].annotation
             _require(f"{function.__name__}: {name}", value, said, inspect.unwrap(function).__globals__)
-        return function(*arguments, **options)
+        with threadpool_limits(1, user_api="blas"):
+            return function(*arguments, **options)
 
     return entry
 

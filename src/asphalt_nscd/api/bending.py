@@ -19,10 +19,8 @@ from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told
 from asphalt_nscd.bending.case import Load, Numerics, RunOptions
 from asphalt_nscd.bending.condensing import Bonds, condensed
 from asphalt_nscd.bending.model import Model, model_of
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.files.words import counted
-from asphalt_nscd.specimen.system import HEADS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -130,8 +128,6 @@ def bend(
     """
     given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
     law = law if isinstance(law, Law) else Law.read(law)
-    if bonds.head not in HEADS:
-        raise InputError(f"head {bonds.head!r} is not known; give one of {', '.join(HEADS)}.")
     case, options = load.at(frequency_Hz, given.geometry), RunOptions(frames=load.frames)
     followed = law.of_bonds(frequency_Hz, temperature_C).bonds
     test = Test(

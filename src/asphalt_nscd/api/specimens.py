@@ -22,8 +22,15 @@ from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.packings.incoming import as_deposit
 from asphalt_nscd.packings.incoming import read_packing as read_spheres
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
-from asphalt_nscd.specimen.network import AREAS
-from asphalt_nscd.specimen.preparation import DEPOSIT, SPECIMEN, Pouring, Vibration, bonded, specimen_of
+from asphalt_nscd.specimen.preparation import (
+    DEPOSIT,
+    SPECIMEN,
+    Cutting,
+    Pouring,
+    Vibration,
+    bonded,
+    specimen_of,
+)
 from asphalt_nscd.specimen.preparation import pour as pour_spheres
 from asphalt_nscd.specimen.trimming import Specimen as BondedSpheres
 
@@ -183,10 +190,8 @@ def pour(
     >>> packing.radius_m.size, 0.4 < packing.attributes["solid_fraction"] < 0.7
     (40, True)
     """
-    if len(box_m) != 3 or not all(np.isfinite(box_m)) or min(box_m) <= 0.0:
-        raise InputError(f"box_m = {box_m}: give length, width and height in m, greater than zero.")
-    spheres = _counts(counts)
-    return Packing(*pour_spheres(spheres, Pouring(box_m, seed, friction, vibration, time_step_s, threads)))
+    pouring = Pouring(box_m, seed, friction, vibration, time_step_s, threads)
+    return Packing(*pour_spheres(_counts(counts), pouring))
 
 
 @checked
@@ -257,13 +262,7 @@ def specimen(
     >>> specimen(packing, g, area="facets").bonded.area
     'facets'
     """
-    if area not in AREAS:
-        raise InputError(f"area {area!r} is not known; give one of {', '.join(AREAS)}.")
-    if not 0.0 <= volume_reduction < 1.0:
-        raise InputError(f"volume_reduction = {volume_reduction:g}: give a part of the volume, 0 to below 1.")
+    cutting = Cutting(volume_reduction, gap_max_mm, area)
     given = packing if isinstance(packing, Packing) else Packing.read(packing)
     shape = read_geometry(geometry, ["specimen"])["specimen"]
-    content = bonded(
-        (dict(given.arrays), dict(given.attributes)), shape, volume_reduction, 1e-3 * gap_max_mm, area
-    )
-    return Specimen(*content, given.name)
+    return Specimen(*bonded((dict(given.arrays), dict(given.attributes)), shape, cutting), given.name)

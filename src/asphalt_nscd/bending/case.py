@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from asphalt_nscd.bending.checkpoint import Checkpoint
 from asphalt_nscd.bending.rig import Rig
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.ranges import Range, Ranged, one_of, within
 from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.nscd.stepping.scheme import SCHEMES
 
 Vector = NDArray[np.float64]
 Progress = Callable[[int, int], None]
@@ -19,6 +21,7 @@ Progress = Callable[[int, int], None]
 
 PAPER_AMPLITUDE = 63e-6  # m, of a head 250 mm above a foot 56 mm wide
 METHODS = ("reduced", "condensed", "sweeps", "harmonic")
+MOST_STEPS = 5_000_000  # of a test, which keeps some 200 bytes of each
 
 
 @dataclass(frozen=True)
@@ -46,7 +49,7 @@ class LoadCase:
 
 
 @dataclass(frozen=True)
-class Numerics:
+class Numerics(Ranged):
     """How a test is computed.
 
     method: one of METHODS; "harmonic" gives the steady oscillation of the unbroken system, without gravity or
@@ -57,17 +60,20 @@ class Numerics:
     [0.001, 0.002, 0.003]
     """
 
-    time_step: float = 5e-5  # s
-    rest_steps: int = 1000  # under gravity, before the head moves
-    method: str = "reduced"
-    scheme: str = "euler"
-    tolerance: float = 1e-4  # relative change in a sweep
-    most_sweeps: int = 50  # in a step
+    time_step: float = within(5e-5, "time_step_s", above=0.0)  # s
+    rest_steps: int = within(1000, low=0, high=MOST_STEPS)  # under gravity, before the head moves
+    method: str = one_of("reduced", METHODS)
+    scheme: str = one_of("euler", SCHEMES)
+    tolerance: float = within(1e-4, low=0.0)  # relative change in a sweep
+    most_sweeps: int = within(50, low=1)  # in a step
+
+    def steps(self, case: LoadCase) -> int:
+        """How many while the head moves."""
+        return round(min(case.cycles / case.frequency / self.time_step, 1e18))
 
     def times(self, case: LoadCase) -> Vector:
         """Ends of the steps (s,) [s] while the head moves."""
-        steps = round(case.cycles / case.frequency / self.time_step)
-        return self.time_step * np.arange(1.0, steps + 1.0)
+        return self.time_step * np.arange(1.0, self.steps(case) + 1.0)
 
     def framed(self, case: LoadCase, count: int) -> NDArray[np.int64]:
         """`count` (f,) of the steps of `times`, evenly over the last cycle, its end included."""
@@ -96,7 +102,7 @@ class RunOptions:
 
 
 @dataclass(frozen=True)
-class Load:
+class Load(Ranged):
     """What the actuator does, what stands between it, the head and the record, and what is kept of it.
 
     amplitude_m: without it the strain is that of the paper's 63 um on its own specimen. rig: devices at the head,
@@ -108,26 +114,27 @@ class Load:
     6.3e-05 m
     """
 
-    amplitude_m: float | None = None
-    cycles: float = 5.0
+    amplitude_m: float | None = within(None, above=0.0)
+    cycles: float = within(5.0, low=1.0)
     rig: Rig = Rig()
-    frames: int = 0
+    frames: int = within(0, low=0)
 
     def at(self, frequency_Hz: float, geometry: Geometry) -> LoadCase:
         """The case of one frequency [Hz] on specimens of a geometry."""
         amplitude_m = usual_amplitude(geometry) if self.amplitude_m is None else self.amplitude_m
-        if not frequency_Hz > 0.0:
+        if not Range(above=0.0).holds(frequency_Hz):
             raise InputError(f"frequency_Hz = {frequency_Hz:g}: give a frequency greater than zero.")
-        if not amplitude_m > 0.0:
-            raise InputError(f"amplitude_m = {amplitude_m:g}: give an amplitude greater than zero.")
-        if self.frames < 0:
-            raise InputError(f"frames = {self.frames}: give how many instants to keep, zero or more.")
         return LoadCase(frequency_Hz, amplitude_m, self.cycles, self.rig)
 
 
 def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) -> None:
     """InputError where a method cannot do what is asked of it."""
-    method, scheme = numerics.method, numerics.scheme
+    method, scheme, count = numerics.method, numerics.scheme, numerics.steps(case) + numerics.rest_steps
+    if count > MOST_STEPS:
+        raise InputError(
+            f"{count:.3g} steps of {numerics.time_step:g} s; a test takes at most {MOST_STEPS:g}: raise the time step "
+            "or give fewer cycles."
+        )
     steps = method in ("reduced", "condensed")
     if method == "harmonic" and case.rig.guide_friction:
         raise InputError(

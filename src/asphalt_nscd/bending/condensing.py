@@ -9,20 +9,21 @@ import numpy as np
 
 from asphalt_nscd.bending.excerpt import write_excerpt
 from asphalt_nscd.bending.model import SHAPE, model_of
+from asphalt_nscd.files.ranges import Ranged, one_of, within
 from asphalt_nscd.files.store import Record, save
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.stepping.break_modes import BONDS, StandBy
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
 from asphalt_nscd.specimen.preparation import Content, read_specimen
-from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.specimen.system import HEADS, bending_system
 from asphalt_nscd.specimen.trimming import Specimen
 
 KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
 
 
 @dataclass(frozen=True)
-class Bonds:
+class Bonds(Ranged):
     """What bonds are beside their law, and whether the head rotates.
 
     head: "free" or "blocked". poisson: nu of Eqs. (8)-(11), for bonds by area "paper"; kt_over_kn: tangential over
@@ -32,11 +33,11 @@ class Bonds:
     1.0
     """
 
-    head: str = "free"
-    poisson: float = 0.35
-    kt_over_kn: float = 1.0
-    yield_Pa: float = 2.7e6
-    friction: float = 0.7
+    head: str = one_of("free", HEADS)
+    poisson: float = within(0.35, above=-1.0, high=0.5)
+    kt_over_kn: float = within(1.0, above=0.0, high=10.0)
+    yield_Pa: float = within(2.7e6, above=0.0)
+    friction: float = within(0.7, low=0.0, high=100.0)
 
 
 def condense(

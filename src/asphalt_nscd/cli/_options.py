@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from functools import wraps
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import click
+
+from asphalt_nscd.files.ranges import Range
 
 GEOMETRY_KEYS = ("b_mm", "B_mm", "e_mm", "h_mm", "mass_kg", "mobile_mass_kg")
 
@@ -55,34 +57,43 @@ geometry = click.option("--geometry", required=True, type=Geometry(), help="Trap
 
 
 class Number(click.ParamType):
-    """A finite number within limits; `above` and `below` are excluded themselves."""
+    """A finite number within limits, those of a `Range`."""
 
     name = "number"
 
-    def __init__(
-        self,
-        above: float | None = None,
-        low: float | None = None,
-        below: float | None = None,
-        high: float | None = None,
-    ) -> None:
-        self.limits = [
-            (above, "greater than", lambda x, limit: x > limit),
-            (low, "at least", lambda x, limit: x >= limit),
-            (below, "less than", lambda x, limit: x < limit),
-            (high, "at most", lambda x, limit: x <= limit),
-        ]
+    def __init__(self, **limits: float) -> None:
+        self.limits = limits
+
+    @property
+    def range(self) -> Range:
+        """What is taken."""
+        return Range(**self.limits)
 
     def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> float:
         try:
             number = float(value)
         except (TypeError, ValueError):
-            number = math.nan
-        limits = [(words, limit, holds) for limit, words, holds in self.limits if limit is not None]
-        if not math.isfinite(number) or not all(holds(number, limit) for _, limit, holds in limits):
-            wanted = " and ".join(f"{words} {limit:g}" for words, limit, _ in limits) or "finite"
-            self.fail(f"{value!r} must be a number {wanted}.", param, context)
+            number = float("nan")
+        if not self.range.holds(number):
+            self.fail(f"{value!r} must be a number {self.range}.", param, context)
         return number
+
+
+class Of(Number):
+    """What a field of a dataclass takes: `Of("bending.condensing.Bonds.friction")`.
+
+    unit: of the option, in that of the field. The class is imported when a value is judged.
+    """
+
+    def __init__(self, field: str, unit: float = 1.0) -> None:
+        self.field, self.unit = field, unit
+
+    @property
+    def range(self) -> Range:
+        module, name, field = self.field.rsplit(".", 2)
+        fields = getattr(import_module(f"asphalt_nscd.{module}"), name).__dataclass_fields__
+        limits = vars(fields[field].metadata["range"])
+        return Range(**{limit: value / self.unit for limit, value in limits.items()})
 
 
 POSITIVE = Number(above=0.0)

@@ -7,6 +7,8 @@ import click
 
 from asphalt_nscd.cli import _options
 
+_BONDS = "bending.condensing.Bonds"
+
 
 @click.command()
 @click.argument("specimen", type=_options.File)
@@ -14,20 +16,26 @@ from asphalt_nscd.cli import _options
 @click.option(
     "--poisson",
     default=0.35,
-    type=_options.Number(above=-1.0, high=0.5),
+    type=_options.Of(f"{_BONDS}.poisson"),
     help="Ratio nu of Eqs. (8)-(11); for bonds by --area paper.",
 )
 @click.option(
     "--kt-over-kn",
     default=1.0,
-    type=_options.Number(above=0.0, high=10.0),
+    type=_options.Of(f"{_BONDS}.kt_over_kn"),
     help="Tangential over normal stiffness; for bonds by --area facets.",
 )
 @click.option(
-    "--yield-pa", default=2.7e6, type=_options.POSITIVE, help="Yield stress of bonds between spheres, Pa."
+    "--yield-pa",
+    default=2.7e6,
+    type=_options.Of(f"{_BONDS}.yield_Pa"),
+    help="Yield stress of bonds between spheres, Pa.",
 )
 @click.option(
-    "--friction", default=0.7, type=_options.NOT_NEGATIVE, help="Coefficient of friction where a gap closes."
+    "--friction",
+    default=0.7,
+    type=_options.Of(f"{_BONDS}.friction"),
+    help="Coefficient of friction where a gap closes.",
 )
 @click.option(
     "--stand-by",

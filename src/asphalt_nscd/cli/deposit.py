@@ -7,6 +7,8 @@ import click
 
 from asphalt_nscd.cli import _options, _progress
 
+_POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.preparation.Vibration"
+
 
 @click.command()
 @click.option("--counts", required=True, type=_options.File, help="Table diameter_mm,count.")
@@ -15,20 +17,28 @@ from asphalt_nscd.cli import _options, _progress
 @click.option(
     "--friction",
     default=0.2,
-    type=_options.NOT_NEGATIVE,
+    type=_options.Of(f"{_POURING}.friction"),
     help="Coefficient of friction between spheres and with walls.",
 )
 @click.option(
     "--stroke-mm",
     default=6.0,
-    type=_options.NOT_NEGATIVE,
+    type=_options.Of(f"{_VIBRATION}.stroke", unit=1e-3),
     help="Stroke of the top wall from crest to crest, mm.",
 )
-@click.option("--vibration-hz", default=30.0, type=_options.POSITIVE, help="Frequency of the top wall, Hz.")
 @click.option(
-    "--vibration-s", default=1.0, type=_options.NOT_NEGATIVE, help="Duration of the vibration, s; 0 for none."
+    "--vibration-hz",
+    default=30.0,
+    type=_options.Of(f"{_VIBRATION}.frequency"),
+    help="Frequency of the top wall, Hz.",
 )
-@click.option("--time-step-s", default=4e-4, type=_options.Number(above=0.0, high=1e-3), help="Time step, s.")
+@click.option(
+    "--vibration-s",
+    default=1.0,
+    type=_options.Of(f"{_VIBRATION}.duration"),
+    help="Duration of the vibration, s; 0 for none.",
+)
+@click.option("--time-step-s", default=4e-4, type=_options.Of(f"{_POURING}.time_step"), help="Time step, s.")
 @click.option(
     "--threads",
     default=1,

@@ -7,6 +7,8 @@ import click
 
 from asphalt_nscd.cli import _options, _progress
 
+_NUMERICS = "bending.case.Numerics"
+
 
 @click.command()
 @click.argument("model", type=_options.File)
@@ -42,11 +44,11 @@ from asphalt_nscd.cli import _options, _progress
 @click.option(
     "--amplitude-m",
     default=None,
-    type=_options.POSITIVE,
+    type=_options.Of("bending.case.Load.amplitude_m"),
     help="Amplitude of the head, m; else the strain of the paper, whose specimen is moved by 63 um.",
 )
-@click.option("--cycles", default=5.0, type=_options.Number(low=1.0), help="Number of cycles.")
-@click.option("--time-step-s", default=5e-5, type=_options.POSITIVE, help="Time step, s.")
+@click.option("--cycles", default=5.0, type=_options.Of("bending.case.Load.cycles"), help="Number of cycles.")
+@click.option("--time-step-s", default=5e-5, type=_options.Of(f"{_NUMERICS}.time_step"), help="Time step, s.")
 @click.option(
     "--rest-steps", default=1000, type=click.IntRange(0), help="Steps under gravity before the head moves."
 )
@@ -59,7 +61,7 @@ from asphalt_nscd.cli import _options, _progress
 @click.option(
     "--tolerance",
     default=1e-4,
-    type=_options.NOT_NEGATIVE,
+    type=_options.Of(f"{_NUMERICS}.tolerance"),
     help="Relative change per sweep that stops Gauss-Seidel.",
 )
 @click.option(

@@ -7,6 +7,8 @@ import click
 
 from asphalt_nscd.cli import _options
 
+_CUTTING = "specimen.preparation.Cutting"
+
 
 @click.command()
 @click.argument("deposit", type=_options.File)
@@ -14,7 +16,7 @@ from asphalt_nscd.cli import _options
 @click.option(
     "--volume-reduction",
     default=0.1,
-    type=_options.Number(low=0.0, below=1.0),
+    type=_options.Of(f"{_CUTTING}.volume_reduction"),
     help="Fraction of each sphere's volume that is removed.",
 )
 @click.option(
@@ -26,18 +28,17 @@ from asphalt_nscd.cli import _options
 @click.option(
     "--gap-max-mm",
     default=2.0,
-    type=_options.POSITIVE,
+    type=_options.Of(f"{_CUTTING}.gap_max_mm"),
     help="Pairs with a smaller gap are bonded, mm; with --area paper.",
 )
 @_options.output
-def command(
-    deposit: Path, geometry: Any, volume_reduction: float, area: str, gap_max_mm: float, output: Path
-) -> None:
+@_options.gather("cutting", volume_reduction="volume_reduction", gap_max_mm="gap_max_mm", area="area")
+def command(deposit: Path, geometry: Any, cutting: dict[str, Any], output: Path) -> None:
     """Cut the specimen from a deposit, turn it upright, shrink its spheres and bond them."""
     from asphalt_nscd.files.words import counted
-    from asphalt_nscd.specimen.preparation import trim_deposit
+    from asphalt_nscd.specimen.preparation import Cutting, trim_deposit
 
-    said = trim_deposit(deposit, geometry, volume_reduction, gap_max_mm * 1e-3, output, area)
+    said = trim_deposit(deposit, geometry, Cutting(**cutting), output)
     click.echo(
-        f"{output}: {counted(int(said['spheres']), 'sphere')}, {counted(int(said['bonds']), 'bond')} by {area}"
+        f"{output}: {counted(int(said['spheres']), 'sphere')}, {counted(int(said['bonds']), 'bond')} by {said['area']}"
     )

@@ -6,7 +6,6 @@ it may sit. The table keeps its own scatter, its own discrepancy and its own cau
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
@@ -24,6 +23,7 @@ from asphalt_nscd.diagnosis.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.written import CONFIDENCE
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.nscd.cores import cores
 
 TIMES = (1.0, 2.0, 3.0)
 DRAWS = 1000  # of the chance level in each of many diagnoses
@@ -49,7 +49,7 @@ class Trials:
 
     @property
     def workers(self) -> int:
-        return self.processes or len(os.sched_getaffinity(0))
+        return self.processes or cores()
 
 
 def verify(diagnosis: Diagnosis, trials: Trials, progress: Progress = lambda *_: None) -> pd.DataFrame:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.ranges import Range, Ranged, one_of, within
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.measurements.geometry import read_geometry, require_within
 from asphalt_nscd.measurements.twopoint import Geometry
@@ -20,7 +21,7 @@ from asphalt_nscd.specimen.counts import read_counts
 from asphalt_nscd.specimen.deposit import REST_SPEED, Course, Progress, Shaking, balance, settle, vibrate
 from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
-from asphalt_nscd.specimen.network import Network
+from asphalt_nscd.specimen.network import AREAS, Network
 from asphalt_nscd.specimen.trimming import Specimen, layer_height, trim
 
 DEPOSIT, SPECIMEN = "deposit", "specimen"  # kinds of files
@@ -41,28 +42,53 @@ TOUCHING = 1e-6  # m, gap below which two spheres count as touching
 
 
 @dataclass(frozen=True)
-class Vibration:
+class Vibration(Ranged):
     """Of the top wall, after pouring.
 
     >>> Vibration(duration=0.0).stroke  # pour without; the stroke of the paper
     0.006
     """
 
-    stroke: float = 6e-3  # m, crest to crest
-    frequency: float = 30.0  # Hz
-    duration: float = 1.0  # s; zero for none
+    stroke: float = within(6e-3, "stroke_m", low=0.0, high=1.0)  # m, crest to crest
+    frequency: float = within(30.0, "frequency_Hz", above=0.0, high=1e3)  # Hz
+    duration: float = within(1.0, "duration_s", low=0.0, high=60.0)  # s; zero for none
 
 
 @dataclass(frozen=True)
-class Pouring:
+class Pouring(Ranged):
     """Where spheres fall, and how."""
 
     box: tuple[float, float, float]  # length, width, height, m
-    seed: int = 0  # of the random lattice
-    friction: float = 0.2  # of spheres and walls
+    seed: int = within(0, low=0)  # of the random lattice
+    friction: float = within(0.2, low=0.0, high=100.0)  # of spheres and walls
     vibration: Vibration = Vibration()
-    time_step: float = 4e-4  # s
+    time_step: float = within(4e-4, "time_step_s", low=1e-6, high=1e-3)  # s
     threads: int = 1  # changes no number
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        box = self.box
+        if len(box) != 3 or not all(Range(above=0.0).holds(side) for side in box):
+            raise InputError(f"box_m = {box}: give length, width and height in m, greater than zero.")
+        if max(box) > LARGEST_BOX:
+            raise InputError(
+                f"a box of {box[0]:g} x {box[1]:g} x {box[2]:g} m is longer than {LARGEST_BOX:g} m; give its sides in "
+                "m, not in mm."
+            )
+        if not 1 <= self.threads <= cores():
+            raise InputError(
+                f"threads = {self.threads}: give a whole number from 1 to {cores()}, the cores that this machine "
+                "grants."
+            )
+
+
+@dataclass(frozen=True)
+class Cutting(Ranged):
+    """What becomes of the spheres that are cut out: shrunk, and bonded."""
+
+    volume_reduction: float = within(0.1, low=0.0, below=1.0)  # part of each volume, where mastic goes
+    gap_max_mm: float = within(2.0, above=0.0)  # pairs with a smaller gap are bonded, by area "paper"
+    area: str = one_of("paper", AREAS)  # of a bond
 
 
 def deposit(
@@ -86,15 +112,6 @@ def pour(
     """
     began = time.process_time()
     box, seed, friction, time_step = pouring.box, pouring.seed, pouring.friction, pouring.time_step
-    if max(box) > LARGEST_BOX:
-        raise InputError(
-            f"a box of {box[0]:g} x {box[1]:g} x {box[2]:g} m is longer than {LARGEST_BOX:g} m; give its sides in m, "
-            "not in mm."
-        )
-    if not 1 <= pouring.threads <= cores():
-        raise InputError(
-            f"threads = {pouring.threads}: give a whole number from 1 to {cores()}, the cores that this machine grants."
-        )
     vibration = pouring.vibration
     stroke, vibration_frequency, vibration_time = vibration.stroke, vibration.frequency, vibration.duration
     diameters, counts = spheres
@@ -186,25 +203,22 @@ def layer_statistics(
 def trim_deposit(
     deposit_file: str | Path,
     geometry: Mapping[str, float] | str | Path,
-    volume_reduction: float,
-    gap_max: float,
+    cutting: Cutting,
     output: str | Path,
-    area: str = "paper",
 ) -> Mapping[str, float | int | str]:
-    """Cut a specimen from a deposit, bond its spheres (`trim`; gap_max [m] is its reach), and save; what it holds."""
+    """Cut a specimen from a deposit, bond its spheres (`trim`), and save; what it holds."""
     record = load(deposit_file, DEPOSIT)
     shape = read_geometry(geometry, ["specimen"])["specimen"]
-    arrays, said = bonded((record.arrays, record.attributes), shape, volume_reduction, gap_max, area)
+    arrays, said = bonded((record.arrays, record.attributes), shape, cutting)
     save(output, SPECIMEN, arrays, said)
     return said
 
 
-def bonded(
-    deposited: Content, shape: Geometry, volume_reduction: float, gap_max: float, area: str
-) -> Content:
+def bonded(deposited: Content, shape: Geometry, cutting: Cutting) -> Content:
     """Arrays and attributes of a specimen file, cut from the content of a deposit file. See `trim_deposit`."""
     arrays, attributes = deposited
     require_within(shape, arrays["box"].tolist())
+    volume_reduction, gap_max, area = cutting.volume_reduction, 1e-3 * cutting.gap_max_mm, cutting.area
     specimen = trim(arrays["position"], arrays["radius"], shape, volume_reduction, gap_max, area)
     network = specimen.network
     said: dict[str, float | int | str] = {

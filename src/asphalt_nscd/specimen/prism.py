@@ -63,7 +63,7 @@ def pulled_system(prism: Specimen, weight: np.ndarray) -> BondedSystem:
         mass=1e-9 * ones,
         load=0.0 * ones,
         driven=6 * n,
-        gap=network.gap,
+        gap=np.maximum(network.gap, 0.0),  # which statics do not use
         strength=np.full(network.first.size, np.inf),
         friction=0.0,
         position=position,

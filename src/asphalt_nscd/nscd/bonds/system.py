@@ -35,6 +35,14 @@ class BondedSystem:
     friction: float
     position: np.ndarray | None = None  # (n, 3) m of the bodies, which systems of many need
 
+    def __post_init__(self) -> None:
+        if not (self.strength > 0.0).all():
+            raise ValueError("strength: each bond's must be greater than zero; leave weaker bonds out.")
+        if not (self.gap >= 0.0).all():
+            raise ValueError("gap: none may be negative; bonded bodies must not overlap.")
+        if not self.friction >= 0.0:
+            raise ValueError(f"friction = {self.friction:g} must not be negative.")
+
     @cached_property
     def free(self) -> np.ndarray:
         """Indices of the degrees of freedom that are not driven."""

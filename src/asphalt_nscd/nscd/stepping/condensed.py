@@ -88,6 +88,8 @@ class CondensedStepper:
         explicit = law.explicit_part(state.sigma, state.kelvin)
         while True:
             velocity, contact_force, friction = self._solve(explicit, driven_velocity)
+            if not np.isfinite(velocity).all():
+                raise ArithmeticError("the motion of a step is not finite")
             sigma, kelvin = law.update(explicit, system.operator @ velocity, state.kelvin)
             utilisation = system.utilisation(self._operator.weight * sigma)
             worst = int(np.argmax(utilisation))
