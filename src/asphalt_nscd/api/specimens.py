@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -30,6 +31,7 @@ from asphalt_nscd.specimen.preparation import (
     Vibration,
     bonded,
     specimen_of,
+    unrest,
 )
 from asphalt_nscd.specimen.preparation import pour as pour_spheres
 from asphalt_nscd.specimen.trimming import Specimen as BondedSpheres
@@ -184,14 +186,17 @@ def pour(
     counts: number of spheres by diameter in mm, {6.0: 120, 10.0: 30}, or a table diameter_mm,count. box_m: length,
     width and height [m]. friction: of spheres and walls. vibration: Vibration(stroke [m], frequency [Hz],
     duration [s]); a duration of 0 is none. threads: to compute on, at most as many as the cores granted; they change
-    no number. Raises InputError where the box cannot hold the spheres.
+    no number. Raises InputError where the box cannot hold the spheres. If the layer is not at rest, a warning says so.
 
     >>> packing = pour({8.0: 40}, (0.04, 0.03, 0.12), vibration=Vibration(duration=0.0))
     >>> packing.radius_m.size, 0.4 < packing.attributes["solid_fraction"] < 0.7
     (40, True)
     """
     pouring = Pouring(box_m, seed, friction, vibration, time_step_s, threads)
-    return Packing(*pour_spheres(_counts(counts), pouring))
+    arrays, attributes = pour_spheres(_counts(counts), pouring)
+    if doubt := unrest(attributes):
+        warnings.warn(doubt, stacklevel=3)
+    return Packing(arrays, attributes)
 
 
 @checked

@@ -52,8 +52,10 @@ _POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.preparation.Vib
 )
 def command(counts: Path, pouring: dict[str, Any], vibration: dict[str, float], output: Path) -> None:
     """Pour spheres from a random lattice by gravity, then vibrate the layer with the top wall."""
-    from asphalt_nscd.specimen.preparation import Pouring, Vibration, deposit
+    from asphalt_nscd.specimen.preparation import Pouring, Vibration, deposit, unrest
 
     vibration["stroke"] *= 1e-3
     with _progress.bars("s") as progress:
-        deposit(counts, Pouring(vibration=Vibration(**vibration), **pouring), output, progress)
+        attributes = deposit(counts, Pouring(vibration=Vibration(**vibration), **pouring), output, progress)
+    if doubt := unrest(attributes):
+        click.echo(f"warning: {doubt}", err=True)

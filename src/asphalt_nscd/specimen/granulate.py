@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.spheres import granular, neighbours
 from asphalt_nscd.nscd.spheres.blocks import in_blocks
 from asphalt_nscd.nscd.spheres.slabs import Room, Slabs, room_for, slabs_of
@@ -22,6 +23,7 @@ MOST_SWEEPS = 300
 TOLERANCE = 2e-3
 PENETRATION, FALLING_PENETRATION = 0.02, 0.1  # of the smallest radius
 ALLOWED_OVERLAP = 0.005  # of the smallest radius
+LARGEST_RATIO = 10.0  # of diameters: a heavier sphere sinks into light ones, which the sweeps do not notice
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,13 @@ class PouringNumerics:
         need few: they end when the impulses hardly change and no step deepens an overlap by PENETRATION. A
         falling grain may enter another for a moment, which changes nothing of the layer.
         """
-        smallest = float(radius.min())
+        smallest, largest = float(radius.min()), float(radius.max())
+        if largest > LARGEST_RATIO * smallest * (1.0 + 1e-9):
+            raise InputError(
+                f"spheres of {2e3 * smallest:.3g} and {2e3 * largest:.3g} mm: diameters differ by more than "
+                f"{LARGEST_RATIO:g} times, and masses by more than the sweeps over contacts can settle; leave out the "
+                "smallest."
+            )
         return cls(
             time_step=time_step,
             tolerance=TOLERANCE,

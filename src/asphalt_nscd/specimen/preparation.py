@@ -38,6 +38,8 @@ KEPT = (
 DENSITY = 2600.0  # kg/m3 while pouring, section 3.2.1
 LONGEST_POURING = 3.0  # s
 LONGEST_REST = 0.3  # s
+OUT_OF_BALANCE = 0.01  # of the weight, and of the mean contact force: a layer at rest has a twentieth of it
+DEEP = 0.05  # of the smallest radius: an overlap that a layer at rest does not have
 TOUCHING = 1e-6  # m, gap below which two spheres count as touching
 
 
@@ -96,9 +98,11 @@ def deposit(
     pouring: Pouring,
     output: str | Path,
     progress: Progress = lambda stage, done, total: None,
-) -> None:
-    """Pour the spheres of counts_table, vibrate them, and save."""
-    save(output, DEPOSIT, *pour(read_counts(counts_table), pouring, progress))
+) -> Mapping[str, Any]:
+    """Pour the spheres of counts_table, vibrate them, and save; the attributes of the file."""
+    arrays, attributes = pour(read_counts(counts_table), pouring, progress)
+    save(output, DEPOSIT, arrays, attributes)
+    return attributes
 
 
 def pour(
@@ -132,6 +136,11 @@ def pour(
             stages["vibrated"] = _stage(granulate, numerics, course, progress, "coming to rest")
             course.note(granulate)
     last = stages["vibrated" if vibration_time > 0.0 else "poured"]
+    if last["largest_overlap_m"] > DEEP * radius.min():
+        raise InputError(
+            f"grains overlap by {1e3 * last['largest_overlap_m']:.2g} mm at rest, which rigid ones cannot; lower the "
+            "time step, or leave out the smallest spheres."
+        )
     attributes = {
         "seed": seed,
         "friction": friction,
@@ -158,6 +167,17 @@ def pour(
         **course.arrays(),
     }
     return arrays, attributes
+
+
+def unrest(attributes: Mapping[str, Any]) -> str:
+    """What to make of a layer whose forces are not in equilibrium; nothing of one at rest."""
+    carried, unbalanced = attributes["weight_balance"], attributes["unbalanced_force"]
+    if max(carried, unbalanced) <= OUT_OF_BALANCE:
+        return ""
+    return (
+        f"the layer is not at rest: the force on the walls differs by {carried:.1%} from its weight, and grains bear "
+        f"{unbalanced:.1%} of a contact force too much; pour with more friction, or into a wider box."
+    )
 
 
 def _stage(

@@ -30,6 +30,10 @@ def normal_and_gap(i, j, position, radius, plane_point, plane_normal):
         y = position[j, 1] - position[i, 1]
         z = position[j, 2] - position[i, 2]
         distance = np.sqrt(x * x + y * y + z * z)
+        if (
+            distance == 0.0
+        ):  # any normal parts two spheres in one place; not none, which would leave them there
+            return 0.0, 0.0, 1.0, -radius[i] - radius[j]
         return x / distance, y / distance, z / distance, distance - radius[i] - radius[j]
     x, y, z = plane_normal[j - n]
     gap = -radius[i]
@@ -133,12 +137,14 @@ def pack_slab(s, slabs, room, dt, recovery_speed, allowed_overlap, margin):
         i, j = gather(room.place, slabs.blocks, block, 1), gather(room.place, slabs.blocks, block, 2)
         x, y, z = j[0] - i[0], j[1] - i[1], j[2] - i[2]
         square = x * x + y * y + z * z
-        distance = where_above(square, zero, root(square), spread(OUT_OF_REACH))  # in lanes left over
-        to_plane = zero - (x * j[4] + y * j[5] + z * j[6])
-        x = where_above(j[7], half, zero - j[4], x / distance)
-        y = where_above(j[7], half, zero - j[5], y / distance)
-        z = where_above(j[7], half, zero - j[6], z / distance)
+        distance, to_plane = root(square), zero - (x * j[4] + y * j[5] + z * j[6])
+        length = where_above(square, zero, distance, one)
+        x = where_above(j[7], half, zero - j[4], x / length)
+        y = where_above(j[7], half, zero - j[5], y / length)
+        z = where_above(square, zero, z / length, one)  # of two spheres in one place, see normal_and_gap
+        z = where_above(j[7], half, zero - j[6], z)
         gap = where_above(j[7], half, to_plane, distance) - i[3] - j[3]
+        gap = where_above(i[3] + j[3], zero, gap, spread(OUT_OF_REACH))  # in lanes left over
         i, j = gather(room.motion, slabs.blocks, block, 1), gather(room.motion, slabs.blocks, block, 2)
         opening = (j[0] - i[0]) * x + (j[1] - i[1]) * y + (j[2] - i[2]) * z
         least = gap + spread(dt) * where_above(opening, zero, zero, opening)
