@@ -85,14 +85,16 @@ def test_plane_between_unequal_spheres():
 
 
 def test_against_half_spaces(packing):
-    """Areas of all facets of some cells, at faces, edges and corners too."""
+    """Volumes of some cells and areas of all their facets, at faces, edges and corners too."""
     position, radius = packing
     region = trapezoid(GEOMETRY)
     facets, n = power_diagram(position, radius, region), radius.size
     distance = region.offset - position @ region.normal.T
+    cells = facets.cells(position)
     edges = np.argsort(np.sort(distance, axis=1)[:, :3].sum(axis=1))[:12]
     for i in (*edges.tolist(), *range(0, n, 40)):
         volume, area = cell(i, position, radius, region.normal, region.offset)
+        assert cells[i] == pytest.approx(volume, rel=1e-5)  # without facets that were left out
         mine = (facets.first == i) | (facets.second == i)
         other = np.where(facets.first == i, facets.second, facets.first)[mine].tolist()
         for j, found in zip(other, facets.area[mine].tolist()):

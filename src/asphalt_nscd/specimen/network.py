@@ -19,7 +19,7 @@ AREAS = ("paper", "facets")
 
 @dataclass(frozen=True)
 class Network:
-    """Bonds between bodies; one row each."""
+    """Bonds between bodies, one row each, and the volumes that they leave to the spheres."""
 
     first: np.ndarray  # (b,) body
     second: np.ndarray  # (b,) body
@@ -28,6 +28,7 @@ class Network:
     gap: np.ndarray  # (b,) m
     length: np.ndarray  # (b,) m, l0 between the barycentres
     area: np.ndarray  # (b,) m2, pi rmin^2, or the facet
+    cell: np.ndarray  # (n,) m3, the cells of the spheres; (0,) of bonds without
 
     @property
     def form(self) -> np.ndarray:
@@ -70,7 +71,7 @@ def bond_network(position: np.ndarray, radius: np.ndarray, height: float, reach:
     first, second, normal, point, gap, length, rmin = (
         np.concatenate(column) for column in zip(*parts, strict=True)
     )
-    return Network(first, second, frames(normal), point, gap, length, np.pi * rmin**2)
+    return Network(first, second, frames(normal), point, gap, length, np.pi * rmin**2, np.empty(0))
 
 
 def facet_network(position: np.ndarray, radius: np.ndarray, geometry: Geometry) -> Network:
@@ -86,7 +87,8 @@ def facet_network(position: np.ndarray, radius: np.ndarray, geometry: Geometry) 
     i, j = facets.first[bonded], facets.second[bonded]
     length = facets.length[bonded]
     gap = length - radius[i] - np.where(j < n, radius[np.minimum(j, n - 1)], 0.0)
-    return Network(i, j, facets.frame[bonded], facets.centroid[bonded], gap, length, facets.area[bonded])
+    frame, centroid, area = facets.frame[bonded], facets.centroid[bonded], facets.area[bonded]
+    return Network(i, j, frame, centroid, gap, length, area, facets.cells(position))
 
 
 def trapezoid(geometry: Geometry) -> Region:

@@ -57,6 +57,13 @@ class Facets:
         """Sum of A l / 3 [m3]: pyramids over the facets with their tips in the centres."""
         return float((self.area * self.length).sum() / 3.0)
 
+    def cells(self, position: np.ndarray) -> np.ndarray:
+        """Volume (n,) [m3] of the cell of each sphere, from its centre (n, 3): pyramids over the facets of the cell."""
+        n, own = len(position), self.second < len(position)
+        height = ((self.centroid - position[self.first]) * self.frame[:, 0]).sum(axis=1)
+        volume = np.bincount(self.first, self.area * height / 3.0, n)
+        return volume + np.bincount(self.second[own], (self.area * (self.length - height) / 3.0)[own], n)
+
 
 def power_diagram(position: np.ndarray, radius: np.ndarray, region: Region) -> Facets:
     """Facets of spheres with centres position (n, 3) [m] in the region and radius (n,) [m].

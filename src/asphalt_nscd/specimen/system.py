@@ -31,6 +31,17 @@ def facet_share(geometry: Geometry, kt_over_kn: float) -> np.ndarray:
     return np.array([1.0, kt_over_kn, kt_over_kn]) / modulus
 
 
+def _inertia(specimen: Specimen) -> tuple[np.ndarray, np.ndarray]:
+    """Mass (n,) [kg] that moves with each sphere, and radius (n,) [m] of a ball of its moment of inertia.
+
+    Cells that fill the specimen bear its mass as evenly as its stiffness; spheres of one density do not.
+    """
+    cell = specimen.network.cell
+    if not cell.size:
+        return specimen.density * 4.0 / 3.0 * np.pi * specimen.radius**3, specimen.radius
+    return specimen.geometry.mass * cell / cell.sum(), np.cbrt(0.75 * cell / np.pi)
+
+
 def bending_system(
     specimen: Specimen,
     poisson: float,
@@ -47,10 +58,10 @@ def bending_system(
     poisson is that of Eqs. (8)-(11) for bonds of area "paper", kt_over_kn that of "facets".
     """
     n, geometry, network = specimen.radius.size, specimen.geometry, specimen.network
-    ball = specimen.density * 4.0 / 3.0 * np.pi * specimen.radius**3
+    share, size = _inertia(specimen)
     mass = np.empty((n + 1, 6))
-    mass[:n, :3] = ball[:, None]
-    mass[:n, 3:] = (0.4 * ball * specimen.radius**2)[:, None]
+    mass[:n, :3] = share[:, None]
+    mass[:n, 3:] = (0.4 * share * size**2)[:, None]
     b2, e2 = geometry.b**2, geometry.e**2
     mass[n, :3] = geometry.mobile_mass
     mass[n, 3:] = geometry.mobile_mass / 12.0 * np.array([e2, b2, b2 + e2])
@@ -63,14 +74,14 @@ def bending_system(
     if head == "blocked":
         kept = kept[:-3]
     if specimen.area == "facets":
-        share = facet_share(geometry, kt_over_kn)
+        stiffness = facet_share(geometry, kt_over_kn)
     else:
-        share = np.array([1.0, 0.5 / (1.0 + poisson), 0.5 / (1.0 + poisson)])
+        stiffness = np.array([1.0, 0.5 / (1.0 + poisson), 0.5 / (1.0 + poisson)])
     strength = yield_stress * network.area
     strength[np.maximum(network.first, network.second) >= n] = np.inf
     return BondedSystem(
         operator=operator[:, kept],
-        weight=(network.form[:, None] * share).ravel(),
+        weight=(network.form[:, None] * stiffness).ravel(),
         mass=mass.ravel()[kept],
         load=load.ravel()[kept],
         driven=6 * n,

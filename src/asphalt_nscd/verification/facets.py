@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+from scipy.optimize import brentq
 
 from asphalt_nscd.measurements.twopoint import bending_share
 from asphalt_nscd.nscd.bonds.system import opening_operator
+from asphalt_nscd.nscd.stepping.harmonic import driving_force
 from asphalt_nscd.specimen.network import trapezoid
 from asphalt_nscd.specimen.power_diagram import power_diagram
 from asphalt_nscd.specimen.prism import pull, static_ratio
@@ -125,3 +129,30 @@ def bending() -> list[Row]:
         name = f"cantilever of {count} facets over its width, Eq. (3) over the law"
         rows.append(Row(name, expected, found, 0.006, "Timoshenko, k = 5/6, nu = 0"))
     return rows
+
+
+@checks
+def resonance() -> Row:
+    """A bar held at its foot, its head without mass: the first resonance in tension is that of a quarter wave."""
+    beam, modulus = jittered_beam(seed=6, shape=(3, 3, 40), area="facets"), 1e10
+    geometry, system = beam.geometry, bending_system(beam, 0.35, np.inf, 0.7)
+    head = 6 * beam.radius.size
+    mass = system.mass.copy()
+    mass[head:] = 1e-9 * geometry.mass
+    along = replace(system, mass=mass, driven=head + 2)
+    share = bending_share(geometry, 0.0)  # of the stiffness of bonds, which Eq. (3) has in bending
+    speed = np.sqrt(modulus / share * geometry.b * geometry.e * geometry.h / geometry.mass)
+    quarter = np.pi / 2.0 * speed / geometry.h
+    found = brentq(
+        lambda omega: driving_force(along, complex(modulus), omega).real,
+        0.9 * quarter,
+        1.1 * quarter,
+        rtol=1e-7,
+    )
+    return Row(
+        "bar of facets, first resonance in tension (rad/s)",
+        quarter,
+        found,
+        1e-3,
+        "c = sqrt(E/rho), pi c/(2 h)",
+    )

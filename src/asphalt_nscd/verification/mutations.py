@@ -44,6 +44,7 @@ MUTANTS = [
     ("grain under a spot", "films", "forecast/film.py", "gain * shed + 1.0 / lame", "-gain * shed + 1.0 / lame"),
     ("shear across a facet", "films", "forecast/film.py", "+ g / length)", "- g / length)"),
     ("Young's modulus of a network of films", "films", "forecast/film.py", "(3.0 * bulk + shear) * (4.0", "(3.0 * bulk - shear) * (4.0"),
+    ("mass of a cell", "facets", "specimen/system.py", "geometry.mass * cell / cell.sum()", "geometry.mass * specimen.radius**3 / (specimen.radius**3).sum()"),
     ("stress of the reduced model", "methods", "nscd/stepping/reduced_kernel.py", "(explicit[a] - new_v[a])", "(explicit[a] + new_v[a])"),
     ("opening in a sweep over bonds", "methods", "nscd/bonds/gauss_seidel.py", "mx = load(packed, block, 0) - ux", "mx = load(packed, block, 0) + ux"),
     ("extrapolation of the two-step scheme", "methods", "nscd/stepping/scheme.py", "v + share * (v - earlier", "v - share * (v - earlier"),
@@ -61,6 +62,12 @@ MUTANTS = [
     ("moment of a contact on a sphere", "spheres", "nscd/spheres/gauss_seidel.py", "j[2] + w * z, w, j[4] - u * tx", "j[2] + w * z, w, j[4] + u * tx"),
     ("spin in the slip of two spheres", "spheres", "nscd/spheres/gauss_seidel.py", "(vx - (sy * nz - sz * ny))", "(vx + (sy * nz - sz * ny))"),
     ("width of the slabs that threads share out", "spheres", "nscd/spheres/slabs.py", "* (1.0 + 1e-9)", "* 0.3"),
+    ("strength that a bond must have", "edges", "nscd/bonds/system.py", "self.strength > 0.0", "self.strength > -1.0"),
+    ("gap that a bond must have", "edges", "nscd/bonds/system.py", "self.gap >= 0.0", "self.gap >= -1.0"),
+    ("end of an open range", "edges", "files/ranges.py", "self.above < number", "self.above <= number"),
+    ("normal of spheres in one place", "edges", "nscd/spheres/granular.py", "where_above(square, zero, z / length, one)", "z / length"),
+    ("largest ratio of diameters", "edges", "specimen/granulate.py", "LARGEST_RATIO * smallest", "1e9 * smallest"),
+    ("balance of a layer at rest", "edges", "specimen/preparation.py", "max(carried, unbalanced) <=", "min(carried, unbalanced) <="),
     ("restitution of an impact", "spheres", "nscd/spheres/granular.py", "= -restitution * opening", "= restitution * opening"),
 ]  # fmt: skip
 

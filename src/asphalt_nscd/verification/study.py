@@ -13,6 +13,7 @@ from asphalt_nscd.verification.row import FAILED, PASSED, Row
 
 THEMES = (
     "spheres",
+    "edges",
     "contacts",
     "coupled",
     "law",
