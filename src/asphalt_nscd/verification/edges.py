@@ -52,7 +52,7 @@ def spheres_in_one_place() -> Row:
     numerics = PouringNumerics.of(pair.radius, 4e-4)
     while pair.time < 3.5 * R / numerics.recovery_speed:
         pair.advance(numerics)
-    apart = np.linalg.norm(pair.position[1] - pair.position[0]) / (3 * R)
+    apart = float(np.linalg.norm(pair.position[1] - pair.position[0])) / (3 * R)
     return Row("spheres in one place, distance over the sum of radii", 1.1, apart, 0.1, "parted, at 0.02 m/s")
 
 
