@@ -166,7 +166,9 @@ def moments(network: Network, specimen: Specimen) -> Network:
     within = np.einsum("pk,bk,buk->bpu", circle, np.sqrt(np.maximum(values, 0.0)), axes)
     point = network.point[:, None] + np.einsum("bpu,bua->bpa", within, network.frame[:, 1:])
     thrice = {name: np.repeat(value, 3, axis=0) for name, value in network.arrays().items()}
-    return Network(**thrice | {"point": point.reshape(-1, 3), "area": thrice["area"] / 3.0})
+    return Network(
+        **thrice | {"point": point.reshape(-1, 3), "area": thrice["area"] / 3.0, "cell": network.cell}
+    )
 
 
 def collect(rows: Sequence[str]) -> pd.DataFrame:
