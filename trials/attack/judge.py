@@ -20,8 +20,11 @@ Content = Mapping[str, Any]
 LAW = ("relaxation_spectrum", "bond_mapping")
 NEAR = 2.5  # K: an isotherm may be given by its mean
 HALF = 0.5  # of the tests that a fault hits must be flagged for it to be told by its tests
-# Names of causes under which a fault outside the first catalogue counts as told, where it sits in all tests.
+# Names of causes under which a fault outside the first catalogue counts as told, in its own place.
 SAME = {
+    "offset of one specimen": ("phase_offset", "specimen_offset"),
+    "delay of one specimen": ("channel_delay", "specimen_delay"),
+    "offset of one isotherm": ("phase_offset", "isotherm_offset"),
     "low-pass filter": ("channel_delay", "low_pass_filter"),  # a delay to first order
     "resonance": ("resonance", "rig_resonance"),
     "zero drift": ("zero_drift",),

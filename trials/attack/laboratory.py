@@ -122,7 +122,8 @@ def invented(number: int, seed: int) -> Campaign:
             tests.loc[part, "order"] = np.argsort(np.argsort(key)) + 1
     mix = Mix.draw(law, shift, rng)
     campaign = _everyday(f"table {number + 1}", bench, tests, mix, rng)
-    if (number + number // DESIGNS_AND_BENCHES) % BROKEN_EVERY == 3:  # in every design
+    turn = max(0, number // DESIGNS_AND_BENCHES - 2)  # from the 25th on in other designs
+    if (number + turn) % BROKEN_EVERY == 3:
         campaign = _broken(campaign, rng)
     if number % MISSING_EVERY == 1:
         campaign = without(campaign, rng.choice(len(tests), size=int(rng.integers(1, 4)), replace=False))

@@ -82,6 +82,10 @@ def test_faults_outside_the_catalogue_are_told_by_what_the_answer_lists():
     assert row(own, "outside", odd_phases=[phase])["told"]
     assert not row(own, "outside", odd_phases=[phase | {"specimen": "S1"}])["told"]
     assert not row(own, "outside", odd_phases=[phase | {"temperature_C": 20.0}])["told"]
+    named = row(own, "outside", ladder=[entry("phase_offset", where="S3")])
+    assert named["told"] and not named["wrong_confident"]
+    common = row(own, "outside", ladder=[entry("phase_offset")])
+    assert not common["told"] and common["wrong_confident"] == 1
     warm = Fault("temperature of one specimen on one isotherm", 2.0, "S3", 20.0)
     assert row(warm, "outside", odd_temperatures=[{"specimen": "S3", "temperature_C": 20.0}])["told"]
     assert not row(warm, "outside", odd_temperatures=[{"specimen": "S3", "temperature_C": 35.0}])["told"]
