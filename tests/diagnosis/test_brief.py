@@ -129,21 +129,6 @@ def test_a_fault_that_is_no_one_number_has_no_correction():
     assert "Correction" not in sure
 
 
-def test_faults_of_a_bench_that_nobody_stated_are_possible_ones():
-    mass = rung("moving_mass", -0.227, "kg", established=True)
-    assert faults(mass)[0] != ["None is certain."]
-    read = {"specimens": ["A"], "isotherms_C": [4.0, 10.0, 20.0, 30.0], "test_type": "bending"}
-    read["bench_assumed"] = True
-    sure, possible, data = faults(mass, reading=read)
-    assert sure == ["None is certain."] and data == ["All 72 tests can be used."]
-    assert possible == [
-        "Moving mass in all tests, -230 +- 200 g, if this was two-point bending. The mass entered for the parts that "
-        "move is too large. Say first what was tested."
-    ]
-    unsure = mass | {"established": False}
-    assert faults(unsure, reading=read)[1][0].endswith("law.json is corrected for it all the same.")
-
-
 def test_tests_left_out_stand_with_their_reasons_and_many_are_counted():
     each = [f"Specimen A, {4 + k} degC, 25 Hz: x." for k in range(MOST + 2)]
     assert answer(out=2)["Leave out"] == each[:2]
@@ -230,8 +215,10 @@ def test_what_the_files_lack_is_noted():
         "Not tested: specimen B at 4 degC.",
     ]
     assert "Note" not in answer(reading=read | {"quality_columns": ["x"], "not_tested": []})
-    told = answer(reading=read | {"bench_assumed": True})
-    assert "--measured-in" in told["Note"][0] and " (assumed): specimens A and B" in told["Tests"][0]
+    told = answer(reading=read | {"test_type": "unknown"})
+    assert "--measured-in" in told["Note"][0] and told["Tests"][0].startswith(
+        "Tests of a kind that was not said"
+    )
 
 
 @pytest.mark.parametrize(

@@ -414,21 +414,6 @@ def test_a_doubtful_test_waits_for_a_check_of_the_gauges():
     assert "typing error" not in machine and "Check gauges and mounting before." in machine
 
 
-def test_which_test_it_was_is_asked_where_a_cause_hangs_on_it():
-    mass, delay = ({"cause": name} for name in ("moving_mass", "channel_delay"))
-    assert fixed_orders.which_test([delay]) == []
-    (order,) = fixed_orders.which_test([delay, mass])
-    assert (
-        order["why"]
-        == [
-            "A moving mass is possible in two-point bending only. Bending was assumed, because nobody said what was "
-            "tested."
-        ]
-        and order["hours"] == 0.0
-    )
-    assert order["purpose"] == "because a moving mass is possible in two-point bending only"
-
-
 def test_an_isotherm_off_its_target_is_tested_again_first():
     off = [{"specimen": name, "temperature_C": 20.0, "measured_C": 20.7} for name in "ac"]
     (order,) = fixed_orders.off_target(table(3), Costs(), off)

@@ -208,11 +208,12 @@ def test_one_mapping_alone_makes_no_rung(campaigns):
 
 
 @pytest.mark.parametrize("stated", [None, "bending"])
-def test_a_table_of_an_unknown_bench_says_so(stated):
-    """`conclude` knows it by the words of the import."""
+def test_faults_of_one_bench_are_looked_for_only_where_the_bench_is_known(stated):
     campaign, _ = read_campaign([EXPORTS.parent / "campaign.csv"], test_type=stated)
     content = run.conclude(campaign, PAPER_GEOMETRY, draws=FEW).content
-    assert content["reading"].get("bench_assumed") == (True if stated is None else None)
+    assert content["reading"]["test_type"] == (stated or "unknown")
+    limits = set(content["detection_limits"])
+    assert "channel_delay" in limits and ("moving_mass" in limits) == (stated is not None)
     assert not list(Draft202012Validator(SCHEMA).iter_errors(json.loads(json.dumps(content))))
 
 

@@ -51,24 +51,6 @@ def test_what_is_named_without_the_doubtful_tests_is_told(named, changed):
     )
 
 
-def test_a_bench_that_nobody_stated_is_said_with_what_hangs_on_it():
-    read = {"test_type": "bending", "specimens": ["A", "B"], "isotherms_C": [4.0, 20.0]}
-    mass = {"value": -0.227, "std_error": 0.01, "unit": "kg"}
-    rung = {
-        "cause": "moving_mass",
-        "where": None,
-        "parameters": {"moving_mass": mass},
-        "p_value": 1e-9,
-        "as_good": [],
-        "confirmed_by": "weighing it",
-    }
-    stated, assumed = ({"ladder": [rung], "reading": read | more} for more in ({}, {"bench_assumed": True}))
-    (plain,), (conditional,) = causes(stated), causes(assumed)
-    assert conditional[0] == f"{plain[0]}, if this was two-point bending"
-    offset = rung | {"cause": "phase_offset"}
-    assert "bending" not in causes(assumed | {"ladder": [offset]})[0][0]
-
-
 def test_the_same_causes_in_another_order_are_the_same():
     found = content(0, 1, with_suspects={"verdict": "explained", "causes": []})
     found["ladder"] = [{"cause": name, "where": None} for name in ("phase_offset", "channel_delay")]

@@ -79,17 +79,26 @@ def test_test_type_that_the_user_states_is_taken(tmp_path):
     assert campaign.test_type == "bending" and "tension" not in " ".join(campaign.notes)
 
 
-def test_of_a_table_it_is_said_that_bending_is_assumed(tmp_path):
-    (tmp_path / "t.csv").write_text(
-        "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\n1,15,1,9000,20\n1,15,3,11000,18\n"
-    )
-    assumed, _ = read_campaign([tmp_path / "t.csv"])
-    assert (
-        "a table is taken as two-point bending; say --measured-in tension-compression if it is not"
-        in assumed.notes
-    )
-    stated, _ = read_campaign([tmp_path / "t.csv"], test_type="tension-compression")
-    assert not any("is taken as" in note for note in stated.notes)
+@pytest.mark.parametrize(
+    ("title", "kind"),
+    [
+        ("", "unknown"),
+        ("Complex modulus", "unknown"),
+        ("Essai de module complexe NF EN 12697-26, 2PB-TR", "bending"),
+        ("Flexion deux points", "bending"),
+        ("Dynamic modulus, AASHTO T 378", "tension-compression"),
+        ("Zug-Druck-Versuch an Zylindern", "tension-compression"),
+    ],
+)
+def test_the_kind_of_test_is_told_by_its_scheme_and_never_assumed(tmp_path, title, kind):
+    rows = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\n1,15,1,9000,20\n1,15,3,11000,18\n"
+    (tmp_path / "t.csv").write_text((f'"{title}"\n' if title else "") + rows)
+    told, _ = read_campaign([tmp_path / "t.csv"])
+    assert told.test_type == kind
+    asked = [note for note in told.notes if "is not said; say --measured-in" in note]
+    assert bool(asked) == (kind == "unknown")
+    stated, _ = read_campaign([tmp_path / "t.csv"], test_type="bending")
+    assert stated.test_type == "bending" and not any("--measured-in" in note for note in stated.notes)
 
 
 @pytest.mark.parametrize("codec", ["utf-8", "utf-8-sig", "utf-16"])

@@ -134,7 +134,7 @@ def test_grouped_digits_are_named_as_such(tmp_path):
 def test_a_table_repeated_under_its_names_is_no_export(tmp_path):
     """Names of columns are no header of a machine, even if one of them is `specimen`."""
     campaign = read(tmp_path, [HEADER, *ROWS[:4], HEADER, *ROWS[4:]])
-    assert campaign.table.columns == as_is(tmp_path) and campaign.test_type == "bending"
+    assert campaign.table.columns == as_is(tmp_path) and campaign.test_type == "unknown"
 
 
 def test_names_without_a_line_of_tests(tmp_path):

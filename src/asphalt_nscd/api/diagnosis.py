@@ -280,7 +280,7 @@ def diagnose(
     """Say which tests can be trusted, what is wrong with the others, which law they follow and what to test next.
 
     measurements: a file, a folder, several of them, or a DataFrame, read as `read` says. measured_in: "bending" or
-    "tension-compression"; else tension-compression for machine exports, bending for tables. geometry: b_mm, B_mm,
+    "tension-compression"; else what the files say, and bending of a DataFrame of one's own. geometry: b_mm, B_mm,
     e_mm, h_mm, mass_kg, mobile_mass_kg of the specimens, or a table of them; of ready moduli only the form factor
     counts. known: Known(static_modulus_MPa, scatter). simulated: what was simulated of the same tests.
     progress(stage, done, total): called as the work goes on.

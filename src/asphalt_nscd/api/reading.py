@@ -39,7 +39,7 @@ def read(
     * A result file of the simulation (HDF5): a Packing, a Specimen or a Test.
 
     sheet: of an XLSX file. columns: what a column holds, where its name does not say, {"E_GPa": "Steifigkeit"}.
-    measured_in: "bending" or "tension-compression"; else tension-compression for exports, bending for tables.
+    measured_in: "bending" or "tension-compression"; else what the files say.
     Raises InputError, with one sentence that names file, row and mend.
 
     >>> table = read("data/tutorial/exports")

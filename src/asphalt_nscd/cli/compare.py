@@ -14,7 +14,7 @@ from asphalt_nscd.cli._progress import bars
 @click.option(
     "--measured-in",
     type=click.Choice(["bending", "tension-compression"]),
-    help="Test that gave the moduli; else tension-compression for machine exports, bending for tables.",
+    help="Test that gave the moduli; else what the files say.",
 )
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 def command(mixes: tuple[Path, ...], output: Path, measured_in: str | None, draws: int) -> None:

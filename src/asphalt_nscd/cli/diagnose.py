@@ -20,7 +20,7 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 @click.option(
     "--measured-in",
     type=click.Choice(["bending", "tension-compression"]),
-    help="Test that gave the moduli; else tension-compression for machine exports, bending for tables.",
+    help="Test that gave the moduli; else what the files say.",
 )
 @click.option(
     "--geometry",

@@ -39,7 +39,7 @@ Of a sieve table:
 @click.option(
     "--measured-in",
     type=click.Choice(["bending", "tension-compression"]),
-    help="Test that gave the moduli; else tension-compression for machine exports, bending for tables.",
+    help="Test that gave the moduli; else what the files say.",
 )
 @click.option("--grading", type=_options.File, help="Sieve table for the spheres: sieve (mm), passing (%).")
 @click.option("--small", is_flag=True, help="One sample of some hundred spheres, to try a study in minutes.")

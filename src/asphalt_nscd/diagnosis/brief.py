@@ -18,7 +18,7 @@ from asphalt_nscd.diagnosis.fixed_orders import band
 from asphalt_nscd.diagnosis.sentences import cause_words, doubtful, not_used, odd
 from asphalt_nscd.diagnosis.written import UNDETERMINED
 from asphalt_nscd.files.words import counted, joined, specimen_named
-from asphalt_nscd.measurements.campaign import OFF_TARGET
+from asphalt_nscd.measurements.campaign import OFF_TARGET, UNKNOWN
 
 Content = Mapping[str, Any]
 Rows = list[tuple[str, list[str]]]
@@ -82,17 +82,12 @@ def sure(rung: Content) -> bool:
     return bool(rung.get("established", True))
 
 
-def _certain(rung: Content, content: Content) -> bool:
-    """Whether a cause is named for certain, and not only if a bench that nobody stated was used."""
-    return sure(rung) and not sentences.if_bending(rung, content)
-
-
 def _told(rungs: list[Content], content: Content, certain: bool) -> list[str]:
     """Named causes that are certain, or those that are not and improve the fit."""
     return [
         _fault(rung, content)
         for rung in rungs
-        if _certain(rung, content) == certain and (certain or not sentences.worsens(rung))
+        if sure(rung) == certain and (certain or not sentences.worsens(rung))
     ]
 
 
@@ -114,17 +109,18 @@ def _tests(content: Content) -> list[str]:
     if len(names) <= FEW:
         which = f"specimen{'s' * (len(names) > 1)} {joined(names)}"
     at = joined([f"{t:g}" for t in read["isotherms_C"]])
-    assumed = " (assumed)" * bool(read.get("bench_assumed"))
-    return [_sentence(f"{verdict.TEST_TYPES[read['test_type']]}{assumed}: {which} at {at} degC")]
+    return [_sentence(f"{verdict.TEST_TYPES[read['test_type']]}: {which} at {at} degC")]
 
 
 def _notes(content: Content) -> list[str]:
     """What a reader must know before all else."""
     read = content.get("reading", {})
     said = [verdict.mixes(content), verdict.files(content)]
-    said += ["Nobody said what was tested. For a cylinder, add --measured-in tension-compression."] * bool(
-        read.get("bench_assumed")
-    )
+    if read.get("test_type") == UNKNOWN:
+        said.append(
+            "Nobody said which test gave the moduli, so faults of one apparatus alone, such as a moving mass, were not "
+            "looked for. Add --measured-in bending or tension-compression."
+        )
     if read.get("off_target"):
         said.append(
             "All this takes the recorded temperatures for right. Some are off their target: see Check first."
@@ -142,7 +138,7 @@ def _data(content: Content) -> list[str]:
     """How many tests can be used, how many only after a check, how many not."""
     tests, out = content["tests"], len(not_used(content))
     trust = content.get("trust", {"use": tests, "check": 0, "not_used": out})
-    everywhere = any(_certain(rung, content) and rung["where"] is None for rung in verdict.faults(content))
+    everywhere = any(sure(rung) and rung["where"] is None for rung in verdict.faults(content))
     corrected = " after correction" * (everywhere and trust["use"] > 0)
     if not trust["check"] and not trust["not_used"]:
         return [f"All {tests} tests can be used{corrected}."]
@@ -180,8 +176,7 @@ def _fault(rung: Content, content: Content) -> str:
     everywhere = " in all tests" * (rung["where"] is None)
     of_the_mix = rung["cause"] in verdict.OF_THE_MIX
     meaning = _sentence(rung["sentence"]) if of_the_mix else sentences.meaning(rung).strip()
-    bench = sentences.if_bending(rung, content)
-    said = _sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}{bench}")
+    said = _sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}")
     if not sure(rung):
         meaning = f"If so, {meaning[:1].lower()}{meaning[1:]}" if meaning else ""
     said = " ".join(filter(None, [said, meaning]))
@@ -190,8 +185,6 @@ def _fault(rung: Content, content: Content) -> str:
         if same:
             return f"{said} Not certain: {joined(list(map(sentences.in_words, same)), 'or')} fits as well."
         return f"{said} law.json is corrected for it all the same." if _taken_off(rung, content) else said
-    if bench:
-        return f"{said} Say first what was tested."
     if of_the_mix:
         return f"{said} law.json is free of it." if _taken_off(rung, content) else said
     correction = verdict.correction(rung)
@@ -205,9 +198,7 @@ def _taken_off(rung: Content, content: Content) -> bool:
 def _not_taken_off(content: Content, possible: bool) -> list[str]:
     """That law.json holds what is not certain, where no such cause was taken off."""
     told = possible and "law_misses" in content
-    taken_off = any(
-        _taken_off(rung, content) for rung in verdict.faults(content) if not _certain(rung, content)
-    )
+    taken_off = any(_taken_off(rung, content) for rung in verdict.faults(content) if not sure(rung))
     return (
         ["The master curve in law.json is not corrected for possible faults."]
         if told and not taken_off

@@ -10,16 +10,11 @@ import numpy as np
 from asphalt_nscd.diagnosis import quality
 from asphalt_nscd.diagnosis.chance import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.sentences import OF_THE_BENCH, an
 from asphalt_nscd.diagnosis.sweeps import BEYOND, COLDEST, METAL, NEW, WARMEST, Costs, temperatures
 from asphalt_nscd.files.words import counted, joined, specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 
 Orders = list[dict[str, Any]]
-WHICH_TEST = (
-    "say what was tested and run this again: with --measured-in tension-compression for a cylinder (AMPT too), with "
-    "--geometry for two-point bending (see --help)"
-)
 
 
 def gauges(done: Observations, costs: Costs) -> Orders:
@@ -75,16 +70,6 @@ def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, An
         )
         orders.append(_order(f"test {named(names)}", names, [t], done, costs, (purpose, why), "again"))
     return orders
-
-
-def which_test(ladder: Sequence[Mapping[str, Any]]) -> Orders:
-    """What was tested, where nobody said it and a cause is named that only the bench assumed can have."""
-    named = [rung["cause"].replace("_", " ") for rung in ladder if rung["cause"] in OF_THE_BENCH]
-    if not named:
-        return []
-    only = f"{joined(list(map(an, named)))} {'is' if len(named) == 1 else 'are'} possible in two-point bending only"
-    why = f"{only.capitalize()}. Bending was assumed, because nobody said what was tested."
-    return [_content(WHICH_TEST, (f"because {only}", why), 0.0, [], [], [])]
 
 
 def second_specimen(done: Observations, costs: Costs) -> Orders:

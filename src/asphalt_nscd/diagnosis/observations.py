@@ -25,7 +25,7 @@ class Observations:
     are rows of, None if they are all. nominal_temperature (n,): temperature of the isotherm each test belongs
     to [degC], where the measured ones differ within it; strain (n,): amplitude of the strain, where measured.
     quality: columns of the testing machine by name, (n,) each, NaN where it gave none (see
-    `diagnosis.quality`). test_type: "bending" (two-point) or "tension-compression" (a cylinder).
+    `diagnosis.quality`). test_type: "bending" (two-point), "tension-compression" (a cylinder) or "unknown".
     """
 
     specimen: NDArray[np.int64]

@@ -44,7 +44,6 @@ OF_THE_PAPER = (
     "no --geometry: the specimen of Quezada and Chazallon (2020) is taken, 250 mm high, with 235 g that move; sizes of "
     "causes in the bench (mass, friction, compliance) depend on it"
 )
-TAKEN_AS_BENDING = "is taken as two-point bending"  # as `table_import.campaign` says it without --measured-in
 STEPS = 5  # read, causes, law, second opinion, next tests
 FEW_DRAWS = 1000  # where a second opinion is asked for
 MATTERING = 0.02  # share of the tests that doubtful ones must have for one
@@ -175,8 +174,6 @@ def conclude(
     if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:
         notes.append(OF_THE_PAPER)
     content["reading"] = reading(observed, notes, without_tests)
-    if OF_THE_PAPER in notes and any(TAKEN_AS_BENDING in note for note in notes):
-        content["reading"]["bench_assumed"] = True
     if simulated.campaign is not None:
         content["numerics"]["campaign"] = of_campaign(
             simulated.campaign, observed.temperature, observed.frequency
@@ -192,9 +189,7 @@ def conclude(
     content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
     content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
     done.step()
-    assumed = content["reading"].get("bench_assumed")
-    ahead = fixed_orders.which_test(content["ladder"]) if assumed else []
-    ahead += fixed_orders.off_target(observed, Costs(), content["reading"].get("off_target", []))
+    ahead = fixed_orders.off_target(observed, Costs(), content["reading"].get("off_target", []))
     ahead += fixed_orders.metal(observed, Costs(), one_sided) if one_sided else []
     content["instructions"] = instructions(diagnosis, ahead=ahead)
     done.step()

@@ -38,7 +38,6 @@ ORIGINS = {
 LAW = "relaxation_spectrum"
 RANKED = "In this order: checks, doubtful tests again, then the tests that tell most per hour."
 ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
-OF_THE_BENCH = {cause.name for cause in CATALOGUE if "tension-compression" not in cause.benches}
 WORSE = 1.05  # times the misfit without a cause, from which it is told that the cause does not help
 
 
@@ -166,7 +165,7 @@ def causes(content: Content) -> list[tuple[str, str]]:
     """Each named cause with its size; what its sign means, how sure the name is and what would confirm it."""
     return [
         (
-            f"{cause_words(rung)}: {size(rung, content)}".removesuffix(": ") + if_bending(rung, content),
+            f"{cause_words(rung)}: {size(rung, content)}".removesuffix(": "),
             f"{meaning(rung)}{_sure(rung, content)}{_not_in_answer(rung)}{_to_confirm(rung)}",
         )
         for rung in content["ladder"]
@@ -184,12 +183,6 @@ def _not_in_answer(rung: Content) -> str:
 def _to_confirm(rung: Content) -> str:
     """Only where the simulations do not show it by themselves."""
     return "" if rung["cause"] == BOND_MAPPING else f" To confirm it: {rung['confirmed_by']}."
-
-
-def if_bending(rung: Content, content: Content) -> str:
-    """The condition of a fault that a cylinder cannot have, where nobody said what was tested."""
-    assumed = content.get("reading", {}).get("bench_assumed") and rung["cause"] in OF_THE_BENCH
-    return ", if this was two-point bending" if assumed else ""
 
 
 def meaning(rung: Content) -> str:

@@ -23,6 +23,7 @@ from asphalt_nscd.files.words import joined
 TEST_TYPES = {
     "bending": "two-point bending of trapezoids",
     "tension-compression": "axial tests of cylinders (AMPT or UTM)",
+    "unknown": "tests of a kind that was not said",
 }
 OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to} | {
     "relaxation_spectrum",

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from asphalt_nscd.files.csvinput import Table
 
 TEST_TYPES = ("bending", "tension-compression")
+UNKNOWN = "unknown"  # of moduli where nothing says which test gave them
 READINGS_APART = 0.5  # K; neighbours in one isotherm are no further apart: T 378 holds +- 0.5 K
 WIDEST_ISOTHERM = 1.0  # K between the coldest and the warmest reading of one isotherm
 OFF_TARGET = 0.5  # K that T 378 lets the mean temperature of a test stray from its target
@@ -21,7 +22,8 @@ OFF_TARGET = 0.5  # K that T 378 lets the mean temperature of a test stray from 
 class Campaign:
     """Tests of a campaign in our columns, the files they came from, and sentences on how they were read.
 
-    test_type: one of TEST_TYPES. without_tests: a sentence for each folder some of whose files hold no test.
+    test_type: one of TEST_TYPES, or UNKNOWN. without_tests: a sentence for each folder some of whose files hold no
+    test.
     """
 
     table: Table

@@ -12,7 +12,7 @@ from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.files.words import counted
-from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
+from asphalt_nscd.measurements.campaign import UNKNOWN, Campaign, nominal_temperatures
 from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
 from asphalt_nscd.table_import.cells import Cells, NotTests, Row, Sheet, read_sheets
 from asphalt_nscd.table_import.contested import refuse_mislabelled
@@ -22,6 +22,7 @@ from asphalt_nscd.table_import.matrices import matrix_cells
 from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
 from asphalt_nscd.table_import.passed_over import PassedOver, common_mend, listed, refused
 from asphalt_nscd.table_import.quantities import QUALITY
+from asphalt_nscd.table_import.schemes import schemes_in
 from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
 from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import (
@@ -48,7 +49,7 @@ def read_campaign(
     """The campaign that files and folders hold together, and its form, a key of `reduction.FORMS`.
 
     sheet, chosen: see `read_sheets` and `understand`. test_type: the kind of test; None takes
-    tension-compression for machine exports and bending for everything else.
+    what the files say (`_told_kind`).
     """
     notes: list[str] = []
     parts: list[Part] = []
@@ -71,14 +72,7 @@ def read_campaign(
         raise InputError(
             f"{_called(paths)}: the files hold {' and '.join(forms)}; give those of one form together."
         )
-    exported = any(part.exported for part in parts)
-    if test_type is None:
-        notes.append(
-            "a machine export (AMPT, UTM) is taken as an axial test; for bending say --measured-in bending"
-            if exported
-            else "a table is taken as two-point bending; say --measured-in tension-compression if it is not"
-        )
-    kind = test_type or ("tension-compression" if exported else "bending")
+    kind = test_type or _told_kind(paths, parts, forms[0], notes)
     table = _joined(paths, parts, notes)
     _require_unit(paths, parts, table)
     specimens = list(dict.fromkeys(table.columns["specimen"]))
@@ -88,6 +82,25 @@ def read_campaign(
     files = tuple(dict.fromkeys(part.path for part in parts))
     notes = [*_said(parts), *notes]
     return Campaign(table, files, kind, tuple(notes), tuple(without_tests)), forms[0]
+
+
+def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: list[str]) -> str:
+    """The kind of test that files say: machines that export, forces of a bending test, or the name of its scheme."""
+    if any(part.exported for part in parts):
+        notes.append(
+            "a machine export (AMPT, UTM) is taken as an axial test; for bending say --measured-in bending"
+        )
+        return "tension-compression"
+    if form in ("peaks", "records"):
+        notes.append("forces and displacements are taken as of two-point bending")
+        return "bending"
+    found = {kind for part in parts for kind in schemes_in(part.path)}
+    if len(found) == 1:
+        kind = found.pop()
+        notes.append(f"taken as {kind}, for the file names such a test; else say --measured-in")
+        return kind
+    notes.append("which test gave the moduli is not said; say --measured-in bending or tension-compression")
+    return UNKNOWN
 
 
 def _require_named_specimens(paths: Sequence[Path], parts: Sequence[Part]) -> None:

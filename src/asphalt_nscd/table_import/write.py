@@ -66,7 +66,7 @@ def new_study(name: str, measurements: Sequence[Path], wishes: Wishes) -> tuple[
         raise InputError("--small takes spheres of its own; leave out --grading or --small.")
     campaign, form = read_campaign(measurements, wishes.sheet, wishes.columns, wishes.measured_in)
     source = ", ".join(map(str, measurements))
-    direct = campaign.test_type != "bending"
+    direct = campaign.test_type == "tension-compression"
     read, notes = for_study(campaign, form)
     geometry = _geometry(form, direct, wishes)
     frame = reduced_frame(read, geometry)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.measurements.campaign import TEST_TYPES
+from asphalt_nscd.measurements.campaign import TEST_TYPES, UNKNOWN
 
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -61,6 +61,8 @@ class Cause(ABC):
 
     def on_bench(self, observed: Observations) -> bool:
         """Whether the apparatus of these tests can have the cause at all."""
+        if observed.test_type == UNKNOWN:  # only what every test can have
+            return set(TEST_TYPES) <= set(self.benches)
         return observed.test_type in self.benches
 
     def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
