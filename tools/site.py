@@ -22,6 +22,10 @@ PAGES = {
     "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changes.md",
     "config/README.md": "configuration.md",
+    "data/paper/README.md": "data-of-the-paper.md",
+    "data/tutorial/README.md": "data-of-the-tutorial.md",
+    "data/ncat/README.md": "data-of-ncat.md",
+    "plugins/README.md": "plugins.md",
 }
 MODULES = ROOT / "src/asphalt_nscd"
 LINK = re.compile(r"(?<=\]\()([^)#\s]+)")
