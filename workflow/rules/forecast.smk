@@ -18,7 +18,7 @@ rule forecast_packings:
     message:
         "Pour the levels of the recipe"
     shell:
-        "asphalt-nscd forecast-packings {input.recipe} --output {output} > {log} 2>&1"
+        "asphalt-nscd forecast-packings {input.recipe} --other-cuts --output {output} > {log} 2>&1"
 
 
 rule forecast_recipe:

@@ -91,7 +91,7 @@ class Networks:
 
     def __init__(self, packings: Packings) -> None:
         self._packings = packings
-        self._cut: dict[tuple[str, int], tuple[LevelPacking, Contents]] = {}
+        self._cut: dict[tuple, tuple[LevelPacking, Contents]] = {}
         self._maps: dict[tuple, StaticMap] = {}
 
     def chain(self, recipe: Recipe, settings: Settings, seed: int) -> tuple[LevelResult, ...]:
@@ -101,7 +101,16 @@ class Networks:
         for level in found:
             packing, contents = self._contents(level, seed)
             physics = physics_of(recipe, settings, level, last=level is found[-1])
-            key = (level.name, level.largest, level.fraction, seed, recipe.aggregate, bulk, physics)
+            key = (
+                level.name,
+                level.smallest,
+                level.largest,
+                level.fraction,
+                seed,
+                recipe.aggregate,
+                bulk,
+                physics,
+            )
             if key not in self._maps:
                 self._maps[key] = level_map(contents, level, recipe.aggregate, bulk, physics)
             results.append(LevelResult(level, packing, contents.prism.radius.size, self._maps[key], bulk))
@@ -109,7 +118,7 @@ class Networks:
         return tuple(results)
 
     def _contents(self, level: Level, seed: int) -> tuple[LevelPacking, Contents]:
-        key = (level.name, seed)
+        key = (level.name, level.smallest, level.largest, seed)
         if key not in self._cut:
             packing = self._packings(level, seed)
             self._cut[key] = packing, contents_of(packing)

@@ -19,6 +19,7 @@ from scipy.optimize import least_squares, minimize_scalar, nnls
 from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.forecast.film import Solid
 from asphalt_nscd.forecast.forecast import LevelResult, Networks, Settings, modulus_of
+from asphalt_nscd.forecast.levels import OTHER_CUTS
 from asphalt_nscd.forecast.recipe import UNSTATED, Recipe
 from asphalt_nscd.forecast.rivals import RIVALS
 from asphalt_nscd.rheology.shift import Arrhenius
@@ -91,6 +92,8 @@ def rungs(settings: Settings) -> Iterator[tuple[str, Settings]]:
     yield "without squeezed films", replace(settings, squeezed=False)
     yield "without grains that touch", replace(settings, touching=False)
     yield "without dry skeleton", replace(settings, skeleton_pressure=0.0)
+    for name, cuts in OTHER_CUTS.items():
+        yield f"levels: {name}", replace(settings, cuts=cuts)
 
 
 def compare(

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor
+from asphalt_nscd.nscd.bonds.implicit_operator import factors
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis
 from asphalt_nscd.specimen.network import Network
@@ -78,12 +79,22 @@ def stretched(prism: Specimen, system: BondedSystem) -> tuple[float, float]:
     b e.
     """
     n, geometry = prism.radius.size, prism.geometry
-    motion = ritz_basis(system, 0)[:, 0]
+    motion = _drawn(system)
     middle = np.abs(prism.position[:, 2] - geometry.h / 2) < MEASURED * geometry.h / 2
     along = motion[: 6 * n].reshape(n, 6)[middle, :3]
     strain = [np.polyfit(prism.position[middle, k], along[:, k], 1)[0] for k in range(3)]
     stress = stiffness(system, motion) / (geometry.b * geometry.e)
     return stress / strain[2], -(strain[0] + strain[1]) / (2.0 * strain[2])
+
+
+def _drawn(system: BondedSystem) -> np.ndarray:
+    """Static motion (d,) of a system whose driven degree of freedom moves by one."""
+    free, k = system.free, system.stiffness()
+    matrix, coupling = k[free][:, free].tocsc(), k[free][:, [system.driven]].toarray()[:, 0]
+    factor, motion = factors(matrix), np.ones(system.mass.size)
+    motion[free] = -factor.solve(coupling)
+    motion[free] -= factor.solve(matrix @ motion[free] + coupling)  # digits lost where films are soft
+    return motion
 
 
 def static_ratio(system: BondedSystem, geometry: Geometry) -> float:
