@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.forecast.stepping import Stiffness, fit_bonds, harmonic_stiffness, step_test
+from asphalt_nscd.formulation.stepping import Stiffness, fit_bonds, harmonic_stiffness, step_test
 from asphalt_nscd.measurements.twopoint import complex_modulus, norm_and_phase
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import TwoS2P1D

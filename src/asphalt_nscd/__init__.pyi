@@ -8,6 +8,8 @@ from asphalt_nscd.api.diagnosis import Known as Known
 from asphalt_nscd.api.diagnosis import diagnose as diagnose
 from asphalt_nscd.api.exporting import ExportSettings as ExportSettings
 from asphalt_nscd.api.exporting import export as export
+from asphalt_nscd.api.forecasting import Forecast as Forecast
+from asphalt_nscd.api.forecasting import forecast as forecast
 from asphalt_nscd.api.laws import Law as Law
 from asphalt_nscd.api.laws import fit as fit
 from asphalt_nscd.api.reading import read as read

@@ -21,24 +21,24 @@ ARROWS = {
     "specimen": ["files", "measurements", "nscd"],
     "packings": ["files", "nscd", "specimen"],
     "bending": ["files", "measurements", "nscd", "rheology", "specimen"],
-    "forecast": ["files", "measurements", "nscd", "rheology", "specimen"],
+    "formulation": ["files", "measurements", "nscd", "rheology", "specimen"],
     "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
     "exports": ["files", "measurements", "rheology", "diagnosis"],
-    "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "forecast", "diagnosis"],
+    "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "formulation", "diagnosis"],
     "study": ["files", "measurements", "rheology", "specimen", "packings", "reporting"],
     "table_import": ["files", "measurements", "study", "reporting"],
     "verification": [
         "files", "workflow_support", "measurements", "nscd", "contact_problems", "rheology", "specimen", "bending",
-        "forecast",
+        "formulation",
     ],
     "api": [
         "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "table_import", "packings",
+        "table_import", "packings", "formulation",
     ],
     "web": ["files", "diagnosis", "exports", "reporting", "table_import", "api"],
     "cli": [
         "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "study", "table_import", "verification", "nscd", "api", "contact_problems", "forecast", "web",
+        "study", "table_import", "verification", "nscd", "api", "contact_problems", "formulation", "web",
     ],
 }  # fmt: skip
 

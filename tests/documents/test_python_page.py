@@ -14,6 +14,7 @@ ROOT = Path(__file__).parents[2]
 @pytest.mark.slow
 def test_examples_of_the_page_run(tmp_path, monkeypatch):
     shutil.copytree(ROOT / "data/tutorial/exports", tmp_path / "data/tutorial/exports")
+    shutil.copytree(ROOT / "data/forecast", tmp_path / "data/forecast")
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs/python.md").read_text(encoding="utf-8"), re.S)
     names: dict[str, object] = {}

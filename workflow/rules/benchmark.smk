@@ -309,7 +309,7 @@ rule benchmark_films:
     # Full stepping with a law for each bond, against the frequency domain. Ten minutes: only on request.
     input:
         specimen=f"{FACETS}/specimens/{SAMPLES[0]}.h5",
-        code=["benchmarks/films.py", "src/asphalt_nscd/forecast/stepping.py", code("trim"), code("simulate")],
+        code=["benchmarks/films.py", "src/asphalt_nscd/formulation/stepping.py", code("trim"), code("simulate")],
     output:
         "results/benchmark/films.csv",
     log:

@@ -23,9 +23,9 @@ def command(recipe: Path, output: Path, packings: Path | None, seeds: int, page:
 
     RECIPE: YAML as data/forecast/recipe.yaml.
     """
-    from asphalt_nscd.forecast.forecast import Networks, forecast, kept_in
-    from asphalt_nscd.forecast.recipe import read_recipe
-    from asphalt_nscd.forecast.written import points, write
+    from asphalt_nscd.formulation.forecast import Networks, forecast, kept_in
+    from asphalt_nscd.formulation.recipe import read_recipe
+    from asphalt_nscd.formulation.written import points, write
 
     asked = read_recipe(recipe)
     with bars("", on_terminal=True) as progress:

@@ -3,12 +3,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.forecast.forecast import Networks, Settings, forecast, modulus_of
-from asphalt_nscd.forecast.levels import levels_of
-from asphalt_nscd.forecast.network import Physics, contents_of, films_of, level_map
-from asphalt_nscd.forecast.rivals import mori_tanaka
-from asphalt_nscd.forecast.static_map import RATIOS, fit_map
-from asphalt_nscd.forecast.written import law_of_mix, points, summary
+from asphalt_nscd.formulation.forecast import Networks, Settings, forecast, modulus_of
+from asphalt_nscd.formulation.levels import levels_of
+from asphalt_nscd.formulation.network import Physics, contents_of, films_of, level_map
+from asphalt_nscd.formulation.rivals import mori_tanaka
+from asphalt_nscd.formulation.static_map import RATIOS, fit_map
+from asphalt_nscd.formulation.written import law_of_mix, points, summary
 
 BULK = 2.5e9
 
@@ -132,7 +132,7 @@ def test_law_of_the_mix_follows_the_forecast(found, tmp_path):
 
 
 def test_maps_are_solved_once(recipe, packing, monkeypatch):
-    from asphalt_nscd.forecast import forecast as module
+    from asphalt_nscd.formulation import forecast as module
 
     solved = []
     real = module.level_map

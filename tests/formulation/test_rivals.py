@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.forecast.levels import levels_of
-from asphalt_nscd.forecast.recipe import Grading, recipe_of
-from asphalt_nscd.forecast.rivals import PSI, hirsch, mori_tanaka, self_consistent, witczak
+from asphalt_nscd.formulation.levels import levels_of
+from asphalt_nscd.formulation.recipe import Grading, recipe_of
+from asphalt_nscd.formulation.rivals import PSI, hirsch, mori_tanaka, self_consistent, witczak
 
 
 def test_dilute_grains_stiffen_a_flowing_matrix_as_einstein_says(content):

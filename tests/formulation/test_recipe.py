@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecast.levels import film_thickness, levels_of
-from asphalt_nscd.forecast.recipe import read_recipe, recipe_of
+from asphalt_nscd.formulation.levels import film_thickness, levels_of
+from asphalt_nscd.formulation.recipe import read_recipe, recipe_of
 
 
 def test_the_shipped_recipe_is_read():

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from asphalt_nscd.forecast.film import Films, Matrix, Solid, film_stiffness
-from asphalt_nscd.forecast.levels import Level
-from asphalt_nscd.forecast.packing import LARGEST, LevelPacking
-from asphalt_nscd.forecast.static_map import RATIOS, StaticMap, fit_map
+from asphalt_nscd.formulation.film import Films, Matrix, Solid, film_stiffness
+from asphalt_nscd.formulation.levels import Level
+from asphalt_nscd.formulation.packing import LARGEST, LevelPacking
+from asphalt_nscd.formulation.static_map import RATIOS, StaticMap, fit_map
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.specimen.network import facet_network
 from asphalt_nscd.specimen.prism import cut_prism, pulled_system, stretched

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from asphalt_nscd.forecast.levels import Level, levels_of
-from asphalt_nscd.forecast.recipe import Recipe
+from asphalt_nscd.formulation.levels import Level, levels_of
+from asphalt_nscd.formulation.recipe import Recipe
 
 PSI = 6894.757  # Pa
 BINDER_BULK = 2.5e9  # Pa

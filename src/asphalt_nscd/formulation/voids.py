@@ -13,8 +13,8 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecast.forecast import Networks, Settings, modulus_of
-from asphalt_nscd.forecast.recipe import Recipe
+from asphalt_nscd.formulation.forecast import Networks, Settings, modulus_of
+from asphalt_nscd.formulation.recipe import Recipe
 
 VOIDS = np.arange(0.03, 0.1201, 0.01)  # of the volume
 BINDER = np.geomspace(1e4, 6e8, 60)  # Pa, |E*|

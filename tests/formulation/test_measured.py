@@ -7,10 +7,10 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecast.forecast import Networks, Settings, modulus_of
-from asphalt_nscd.forecast.mixes import best_map, binder_shift, read_pairs
-from asphalt_nscd.forecast.recipe import read_recipe
-from asphalt_nscd.forecast.voids import compare_voids
+from asphalt_nscd.formulation.forecast import Networks, Settings, modulus_of
+from asphalt_nscd.formulation.mixes import best_map, binder_shift, read_pairs
+from asphalt_nscd.formulation.recipe import read_recipe
+from asphalt_nscd.formulation.voids import compare_voids
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +38,7 @@ def test_no_map_fits_warm_and_hot_mixes(pairs):
     """At equal modulus of the binder the mixes differ: the best map of the hot ones misses the warm ones."""
 
     def worst(of, on):
-        from asphalt_nscd.forecast.mixes import _any_map
+        from asphalt_nscd.formulation.mixes import _any_map
 
         weights = best_map([pair for pair in pairs if pair.name[0] == of])
         return max(

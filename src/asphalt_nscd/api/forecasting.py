@@ -1,0 +1,90 @@
+"""A mix from its binder and recipe, before it is made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from asphalt_nscd.api.arguments import checked
+from asphalt_nscd.api.laws import Law
+from asphalt_nscd.formulation import written
+from asphalt_nscd.formulation.forecast import Forecast as ForecastOfLevels
+from asphalt_nscd.formulation.forecast import Networks, kept_in
+from asphalt_nscd.formulation.forecast import forecast as forecast_of
+from asphalt_nscd.formulation.recipe import read_recipe, recipe_of
+from asphalt_nscd.nscd.core_cache import cache_base
+
+Progress = Callable[[str, float, float], None]
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """|E*| and phase of a mix that follow from its recipe alone; nothing is fitted to the mix."""
+
+    found: ForecastOfLevels
+
+    @cached_property
+    def table(self) -> pd.DataFrame:
+        """One row for each temperature [degC] and frequency [Hz]: |E*| [MPa], phase [deg], low and high of both."""
+        return written.points(self.found)
+
+    @cached_property
+    def rivals(self) -> pd.DataFrame:
+        """The same points as mean fields and regressions forecast them."""
+        return written.rival_points(self.found)
+
+    @cached_property
+    def law(self) -> Law:
+        """The law of the mix: 2S2P1D where the binder's law has a shift, else a Kelvin chain at its temperature."""
+        return Law(written.law_of_mix(self.found))
+
+    @cached_property
+    def summary(self) -> Mapping[str, Any]:
+        """Levels, volume fractions, packings, amplifications, and what each doubt changes."""
+        return written.summary(self.found)
+
+    def plot(self) -> Figure:
+        """|E*| and phase against reduced frequency, and the Black diagram, beside rivals."""
+        from asphalt_nscd.reporting.figures.forecast_panels import curves
+
+        return curves(self.found, self.table, self.rivals)
+
+    def plot_levels(self) -> Figure:
+        """The grading, and a cut through the packing of each level."""
+        from asphalt_nscd.reporting.figures.forecast_panels import levels
+
+        return levels(self.found)
+
+    def write(self, folder: str | Path) -> list[str]:
+        """Write the files of `asphalt-nscd forecast`, its page excepted; their names."""
+        return written.write(self.found, folder)
+
+    def __repr__(self) -> str:
+        sizes = self.table["E_MPa"]
+        return f"Forecast({self.found.recipe.name}: {len(sizes)} points, {sizes.min():.0f} to {sizes.max():.0f} MPa)"
+
+
+@checked
+def forecast(
+    recipe: str | Path | Mapping[str, Any],
+    *,
+    packings: str | Path | None = None,
+    seeds: int = 2,
+    progress: Progress = lambda stage, done, total: None,
+) -> Forecast:
+    """Forecast |E*| and phase of a mix from its binder and recipe.
+
+    recipe: path of a YAML file as data/forecast/recipe.yaml, or its content. packings: folder of packings to use and to
+    fill; else one in the user's cache. seeds: packings of each level, at least one; the forecast is their mean.
+    InputError names the key of a recipe that cannot be used. See docs/forecast.md.
+    """
+    asked = recipe_of(recipe) if isinstance(recipe, Mapping) else read_recipe(recipe)
+    folder = Path(cache_base()) / "packings" if packings is None else Path(packings)
+    networks = Networks(kept_in(folder, progress))
+    return Forecast(forecast_of(asked, networks, seeds=tuple(range(1, seeds + 1)), progress=progress))
