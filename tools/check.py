@@ -36,7 +36,17 @@ RULES = (
     "reconstruct", "reduce", "published_law", "fit", "table2", "table3", "table4", "diagnose", "ladder",
     "draw_family", "reduce_family", "diagnose_family", "families",
 )  # fmt: skip
-PUBLISHED = ("benchmark", "blind", "cluster", "faults", "fuzz", "mapping", "paper", "verification")
+PUBLISHED = (
+    "benchmark",
+    "blind",
+    "cluster",
+    "faults",
+    "forecast",
+    "fuzz",
+    "mapping",
+    "paper",
+    "verification",
+)
 TAKEN = ("simulations.csv", "facets.csv", "extended.csv")  # of full simulations
 
 

@@ -138,7 +138,7 @@ MUTANTS = [
         "diagnosis/ladder.py",
         "(fitted.residual.size - used)",
         "fitted.residual.size",
-        "diagnosis/test_ladder.py",
+        "diagnosis/test_rungs_accepted.py",
     ),
     Mutant(
         "variance of a value within its isotherm",
