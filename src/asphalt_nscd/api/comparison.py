@@ -21,7 +21,10 @@ Progress = Callable[[str, float, float], None]
 
 @dataclass(frozen=True)
 class Comparison:
-    """One diagnosis for each mix, by its name."""
+    """One diagnosis for each mix, by its name.
+
+    >>> both = compare(["data/ncat/N1-1_RH.csv", "data/ncat/N2-1_RH.csv"])  # doctest: +SKIP
+    """
 
     diagnoses: Mapping[str, Diagnosis]
 
@@ -87,7 +90,9 @@ def compare(
     mixes: paths by the name of the mix; of a list the names are those of files and folders. measured_in, draws: as
     in `diagnose`. Raises InputError, with the name of the mix, where one cannot be diagnosed.
 
-    >>> both = compare(["data/tutorial/measured.csv", "data/tutorial/exports"], draws=Draws(500))  # doctest: +SKIP
+    >>> compare(["mix.csv"])
+    Traceback (most recent call last):
+    asphalt_nscd.files.errors.InputError: one mix is no comparison; give the files or folders of two or more.
     """
     paths = _named(mixes)
     found: dict[str, Diagnosis] = {}

@@ -25,7 +25,11 @@ Progress = Callable[[str, float, float], None]
 
 @dataclass(frozen=True)
 class Forecast:
-    """|E*| and phase of a mix that follow from its recipe alone; nothing is fitted to the mix."""
+    """|E*| and phase of a mix that follow from its recipe alone; nothing is fitted to the mix.
+
+    >>> mix = forecast("data/forecast/recipe.yaml")  # doctest: +SKIP
+    >>> mix.table, mix.law, mix.summary["largest_doubt"], mix.plot()  # doctest: +SKIP
+    """
 
     found: ForecastOfLevels
 
@@ -83,6 +87,10 @@ def forecast(
     recipe: path of a YAML file as data/forecast/recipe.yaml, or its content. packings: folder of packings to use and to
     fill; else one in the user's cache. seeds: packings of each level, at least one; the forecast is their mean.
     InputError names the key of a recipe that cannot be used. See docs/forecast.md.
+
+    >>> forecast({"name": "a mix"})
+    Traceback (most recent call last):
+    asphalt_nscd.files.errors.InputError: recipe: 'binder' is a required property; see data/forecast/recipe.yaml.
     """
     asked = recipe_of(recipe) if isinstance(recipe, Mapping) else read_recipe(recipe)
     folder = Path(cache_base()) / "packings" if packings is None else Path(packings)

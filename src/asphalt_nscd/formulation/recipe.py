@@ -88,8 +88,8 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
     content = dict(content) | {"grading": _keyed(content.get("grading"))}
     error = best_match(Draft202012Validator(schema).iter_errors(content))
     if error is not None:
-        at = ".".join(str(part) for part in error.absolute_path) or "the recipe"
-        raise InputError(f"{path}: {at}: {error.message}; see data/forecast/recipe.yaml.")
+        at = ": ".join([str(path), *filter(None, [".".join(map(str, error.absolute_path))])])
+        raise InputError(f"{at}: {error.message}; see data/forecast/recipe.yaml.")
     aggregate = Solid(content["aggregate"]["E_GPa"] * 1e9, content["aggregate"]["poisson"])
     binder, shifted = _binder(content["binder"], path)
     stiffest = getattr(binder, "glassy_modulus", 0.0)
