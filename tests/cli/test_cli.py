@@ -11,6 +11,7 @@ import time
 
 import click
 import pytest
+from click.testing import CliRunner
 
 from asphalt_nscd import cli
 from asphalt_nscd.files.errors import InputError
@@ -29,6 +30,13 @@ def test_every_step_is_listed_and_explains_itself():
         command = cli.group.get_command(None, step)
         assert command.help, step
         assert all(option.help for option in command.params if isinstance(option, click.Option)), step
+
+
+def test_what_a_laboratory_types_stands_first_and_nothing_is_missing():
+    first, steps = CliRunner().invoke(cli.group, ["--help"]).output.split("Steps of the workflow:")
+    named = [re.findall(r"^  ([a-z][a-z-]*)  ", part, re.M) for part in (first, steps)]
+    assert named[0] == ["diagnose", "serve", "compare", "forecast", "export", "new-study"]
+    assert sorted([*named[0], *named[1]]) == cli.group.list_commands(None)
 
 
 def test_help_imports_nothing_heavy():

@@ -42,6 +42,16 @@ _OF_EXTRAS |= dict.fromkeys(("llvmlite", "numba", "pyamg"), "simulation")
 _NO_MEMORY = "the memory is used up; end other programs, or run fewer jobs at a time (--cores 1)."
 
 
+_FIRST = (
+    "diagnose",
+    "serve",
+    "compare",
+    "forecast",
+    "export",
+    "new-study",
+)  # what users type; a workflow calls the rest
+
+
 class _Steps(click.Group):
     """Subcommands found among this package's modules and imported when called."""
 
@@ -53,6 +63,18 @@ class _Steps(click.Group):
         if name not in self.list_commands(context):
             return None
         return import_module(f"{__name__}.{name.replace('-', '_')}").command
+
+    def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
+        """What users type first; the steps of the workflow below, in a group of their own."""
+        names = self.list_commands(context)
+        first = [name for name in _FIRST if name in names]
+        others = [name for name in names if name not in first]
+        for title, group in (("For your measurements", first), ("Steps of the workflow", others)):
+            commands = ((name, self.get_command(context, name)) for name in group)
+            with formatter.section(title):
+                formatter.write_dl(
+                    [(name, one.get_short_help_str(80)) for name, one in commands if one is not None]
+                )
 
 
 @click.group(cls=_Steps, context_settings={"show_default": True, "help_option_names": ["-h", "--help"]})
