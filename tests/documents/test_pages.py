@@ -80,6 +80,9 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
     [
         ("samples", "paper/samples"),
         ("table4", "paper/table4"),
+        ("bond_readings", "paper/bond_readings"),
+        ("reconstructions", "paper/reconstructions"),
+        ("rivals", "paper/rivals"),
         ("blind", "blind/summary"),
         ("benchmark", "benchmark/beside"),
         ("growth", "benchmark/growth"),

@@ -7,11 +7,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.measurements.twopoint import form_factor
-from asphalt_nscd.specimen.bond_readings import crossing, ratio_without_moments
-from asphalt_nscd.specimen.network import bond_network
+from asphalt_nscd.measurements.twopoint import Geometry, form_factor
+from asphalt_nscd.specimen.bond_readings import (
+    crossing,
+    farther_plates,
+    ratio_without_moments,
+    with_mean_radius,
+)
+from asphalt_nscd.specimen.network import Network, bond_network
 from asphalt_nscd.specimen.prism import static_ratio
 from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.specimen.trimming import Specimen
 
 
 def test_without_moments_nothing_turns(beam):
@@ -52,3 +58,28 @@ def test_crossings_of_a_beam_one_by_one(beam):
             any((np.linalg.norm(points - beam.position[k], axis=1) < beam.radius[k]).any() for k in others)
         )
     assert crossing(beam).tolist() == expected
+
+
+def tiny_specimen():
+    """Two spheres of 1 and 3 mm, the larger bonded to the foot (body 3)."""
+    geometry = Geometry(b=0.01, B=0.01, e=0.01, h=0.02, mass=1.0, mobile_mass=0.0)
+    rows = {
+        "first": np.array([0, 3]),
+        "second": np.array([1, 1]),
+        "frame": np.tile(np.eye(3), (2, 1, 1)),
+        "point": np.zeros((2, 3)),
+        "gap": np.array([1e-4, 1e-4]),
+        "length": np.array([4.1e-3, 3.1e-3]),
+        "area": np.pi * np.array([1e-3, 3e-3]) ** 2,
+    }
+    position = np.array([[0.0, 0.0, 7e-3], [0.0, 0.0, 3.1e-3]])
+    return Specimen(geometry, position, np.array([1e-3, 3e-3]), 1.0, Network(**rows), 0)
+
+
+def test_the_mean_radius_counts_between_spheres_and_the_spheres_own_at_a_plate():
+    area = with_mean_radius(tiny_specimen()).network.area
+    np.testing.assert_allclose(area, np.pi * np.array([2e-3, 3e-3]) ** 2)
+
+
+def test_only_bonds_to_plates_grow_longer():
+    assert farther_plates(tiny_specimen(), 5e-3).network.length.tolist() == pytest.approx([4.1e-3, 8.1e-3])

@@ -132,9 +132,10 @@ if "audit" in STUDY:
     FIGURES["fig_readings"] = ("6 Audit", {"readings": ["<results>/readings.csv"], "simulations": SIMULATIONS})
     PAGES["bond_readings"] = "6 Audit"
     TABLES["bond_readings"] = {
-        "deposits": DEPOSITS,
+        "deposits": [*DEPOSITS, *expand("<results>/deposits/{sample}.h5", sample=PACKED[1:])],
         "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
-        "loose": expand("<results>/deposits/{sample}.h5", sample=PACKED[1:]),
+        "simulations": SIMULATIONS,
+        "packing": ["<results>/packing.csv"] if "packing_study" in STUDY else [],
         "blocked": expand(AUDITED[:1], reading="blocked"),
     }
 if "packing_study" in STUDY:

@@ -214,6 +214,53 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         ),
         Notes(["topic", "case"], "remark"),
     ],
+    "bond_readings": [
+        Layout(
+            {
+                "reading": "reading",
+                "friction": "friction",
+                "solid_fraction": "solid fraction",
+                "E_over_law": "over law",
+                "expected": "expected",
+                "possible": "possible",
+            }
+        )
+    ],
+    "reconstructions": [
+        Layout(
+            {
+                "temperature_C": "T, °C",
+                "published_phase_percent": "published",
+                "smooth_law_phase_percent": "smooth law",
+                "lowest_phase_percent": "draws, lowest",
+                "highest_phase_percent": "highest",
+                "above_phase_percent": "above published",
+            },
+            "Phase angle, mean relative error of Table 3's laws in percent:",
+            figures=3,
+        )
+    ],
+    "rivals": [
+        Layout(
+            {"data": "data", "law": "law", "parameters": "parameters"}
+            | {
+                f"{kind}_{quantity}_percent": heading
+                for kind, heading in (
+                    ("fitted", "fitted"),
+                    ("inner_temperatures", "inner T"),
+                    ("end_temperatures", "end T"),
+                    ("inner_frequencies", "inner f"),
+                    ("end_frequencies", "end f"),
+                )
+            },
+            sentence,
+            figures=3,
+        )
+        for quantity, sentence in (
+            ("E", "Modulus |E\\*|, mean relative error in percent:"),
+            ("phase", "Phase angle, mean relative error in percent:"),
+        )
+    ],
     "families": [
         Layout(
             {

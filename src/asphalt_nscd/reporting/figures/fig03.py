@@ -59,7 +59,12 @@ def _element(axes: Axes, index: str, values: list[float]) -> None:
     middles = [(MAXWELL[0] + MAXWELL[1]) / 2.0, (MAXWELL[1] + MAXWELL[2]) / 2.0, (start + stop) / 2.0]
     names = ("K", "C", "K", "C")
     parts, units = ("m", "m", "k", "k"), ("N/m", "N s/m") * 2
-    places = [(middles[0], 0.3), (middles[1], -0.3), (middles[2], HALF + 0.25), (middles[2], -HALF - 0.25)]
+    places = [
+        (middles[0], 0.3),
+        (middles[1] - 0.55, -0.3),
+        (middles[2], HALF + 0.25),
+        (middles[2], -HALF - 0.25),
+    ]
     for name, part, value, unit, (x, y) in zip(names, parts, values, units, places, strict=True):
         text = f"${name}_{{{part}}}^{{{index}}}$ = {numbers.power(value)} {unit}"
         axes.text(x, y, text, ha="center", va="bottom" if y > 0 else "top", fontsize=6.5)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -29,65 +28,91 @@ OURS, AFTER = "as we read the paper", "dmin after the reduction of volume"
 BARYCENTRES, MEAN_RADIUS = "forces at the barycentres, without moments", "mean radius of both spheres"
 
 
-def make(deposits: list[Path], specimens: list[Path], loose: list[Path], blocked: list[Path]) -> pd.DataFrame:
-    """One row for each reading and friction while pouring; static solutions.
+def make(
+    deposits: list[Path],
+    specimens: list[Path],
+    simulations: list[Path],
+    packing: list[Path],
+    blocked: list[Path],
+) -> pd.DataFrame:
+    """One row for each reading and friction while pouring.
 
-    deposits, specimens: of the samples of the study, in one order; loose: deposits with more friction, of the first
-    seed; blocked: tests of the first sample with a head that cannot turn. samples: how many the ratio E_over_law is
-    the mean of. expected: the mean of all samples that a ratio of the first one stands for. possible: whether the
-    authors' mean, of as many samples, could be one within the printed error and twice both standard errors.
+    deposits: of all samples, those with more friction behind; specimens: of the samples of the study, in the same
+    order; simulations, packing: tables of the tests, in which our own reading is tested; blocked: a test of the first
+    sample with a head that cannot turn. The other readings are static solutions. samples: how many the ratio
+    E_over_law is the mean of. expected: the mean of all samples that a ratio of the first one stands for. possible:
+    whether the authors' mean, of as many samples, could be one within the printed error and twice both standard errors.
     """
-    names = [path.stem for path in deposits]
-    cut = {path.stem: read_specimen(path) for path in specimens}
+    layers = {path.stem: load(path, "deposit") for path in deposits}
     said = load(specimens[0], "specimen").attributes
     reduction, gap = float(said["volume_reduction"]), float(said["gap_max_m"])
     shrunk = gap * (1.0 - reduction) ** (1.0 / 3.0)
-    first = cut[names[0]]
-    layers = {path.stem: load(path, "deposit") for path in [*deposits, *loose]}
+    names = [path.stem for path in specimens]
+    loose = [name for name in layers if name not in names]
+    first = read_specimen(specimens[0])
+    tested = _tested(simulations, packing)
+    known = tested.loc[names, "ratio"].to_numpy()
 
     def bonded(name: str, reach: float) -> Specimen:
-        if name in cut and reach == gap:
-            return cut[name]
         arrays = layers[name].arrays
         return trim(arrays["position"], arrays["radius"], first.geometry, reduction, reach)
 
-    def rows() -> Iterator[dict[str, Any]]:
-        for reading, reach in ((OURS, gap), (AFTER, shrunk)):
-            made = [bonded(name, reach) for name in names]
-            yield _row(reading, reach, made[0], [_ratio(one) for one in made], layers[names[0]])
-            for path in loose:
-                one = bonded(path.stem, reach)
-                yield _row(reading, reach, one, [_ratio(one)], layers[path.stem])
-            if reach == shrunk:
-                far = _ratio(farther_plates(made[0], PLATE / 2.0))
-                yield _row(f"{AFTER}, l0 to the middle of plates", reach, made[0], [far], layers[names[0]])
-        alone = {
-            BARYCENTRES: ratio_without_moments(first, POISSON),
-            MEAN_RADIUS: _ratio(with_mean_radius(first)),
-            "rmin before the reduction of volume": _ratio(first) * (1.0 - reduction) ** (-2.0 / 3.0),
-            "head that cannot turn": _of_test(the_only(blocked, "blocked")),
-        }
-        for reading, ratio in alone.items():
-            yield _row(reading, gap, first, [ratio], layers[names[0]])
-
-    table = pd.DataFrame(rows())
-    ours = table.iloc[0]
-    error = ours["std_error"]
-    of_first = ours["E_over_law"] / _ratio(first)
-    table["expected"] = table["E_over_law"].where(table["samples"] > 1, table["E_over_law"] * of_first)
+    nearer = [bonded(name, shrunk) for name in names]
+    crossed, crossed_nearer = (100.0 * crossing(one).mean() for one in (first, nearer[0]))
+    whole, bonds = {"reach": gap, "crossed": crossed}, first.network.first.size
+    rows = [
+        _row(OURS, layers[names[0]], list(known), bonds, whole),
+        *(
+            _row(OURS, layers[name], [tested.loc[name, "ratio"]], tested.loc[name, "bonds"], {"reach": gap})
+            for name in loose
+        ),
+        _row(
+            AFTER,
+            layers[names[0]],
+            [_ratio(one) for one in nearer],
+            nearer[0].network.first.size,
+            {"reach": shrunk, "crossed": crossed_nearer},
+        ),
+    ]
+    for name in loose:
+        one = bonded(name, shrunk)
+        rows.append(_row(AFTER, layers[name], [_ratio(one)], one.network.first.size, {"reach": shrunk}))
+    alone = {
+        "l0 to the middle of plates of 10 mm": _ratio(farther_plates(first, PLATE / 2.0)),
+        BARYCENTRES: ratio_without_moments(first, POISSON),
+        MEAN_RADIUS: _ratio(with_mean_radius(first)),
+        "rmin before the reduction of volume": known[0] * (1.0 - reduction) ** (-2.0 / 3.0),
+        "head that cannot turn": _of_test(the_only(blocked, "blocked")),
+    }
+    rows += [_row(reading, layers[names[0]], [ratio], bonds, whole) for reading, ratio in alone.items()]
+    table = pd.DataFrame(rows)
+    error = table["std_error"].iloc[0]
+    table["expected"] = table["E_over_law"].where(
+        table["samples"] > 1, table["E_over_law"] * known.mean() / known[0]
+    )
     table["possible"] = (table["expected"] - 1.0).abs() <= PRINTED + 2.0 * np.sqrt(2.0) * error
     return table
 
 
-def _row(reading: str, reach: float, specimen: Specimen, ratios: list[float], layer: Any) -> dict[str, Any]:
+def _tested(simulations: list[Path], packing: list[Path]) -> pd.DataFrame:
+    """|E*| over that of the law (`ratio`) and bonds by sample, of tests with the paper's bonds in which none broke."""
+    tests = pd.concat([pd.read_csv(path) for path in [*simulations, *packing]])
+    if "mapping" in tests:
+        tests = tests[tests["mapping"] != "facets"]
+    whole = tests[tests["broken_bonds"] == 0]
+    ratio = whole["E_MPa"] / whole["E_law_MPa"]
+    return whole.assign(ratio=ratio).groupby("specimen")[["ratio", "bonds"]].mean()
+
+
+def _row(reading: str, layer: Any, ratios: list[float], bonds: float, of: dict[str, float]) -> dict[str, Any]:
     several = len(ratios) > 1
     return {
         "reading": reading,
         "friction": layer.attributes["friction"],
         "solid_fraction": layer.attributes["solid_fraction"],
-        "gap_max_mm": 1e3 * reach,
-        "bonds": specimen.network.first.size,
-        "through_third_sphere_percent": 100.0 * crossing(specimen).mean(),
+        "gap_max_mm": 1e3 * of["reach"],
+        "bonds": int(bonds),
+        "through_third_sphere_percent": of.get("crossed", np.nan),
         "samples": len(ratios),
         "E_over_law": float(np.mean(ratios)),
         "std_error": float(np.std(ratios, ddof=1) / np.sqrt(len(ratios))) if several else np.nan,

@@ -29,7 +29,7 @@ def make(grading: list[Path], used: list[Path]) -> pd.DataFrame:
             "passing_percent": sieves.numbers("passing_percent", PERCENT),
         }
     ).sort_values("diameter_mm", ascending=False, ignore_index=True)
-    table["retained_percent"] = -np.diff(table["passing_percent"], prepend=100.0)
+    table["retained_percent"] = np.abs(np.diff(table["passing_percent"], prepend=100.0))
     table["spheres"] = table["diameter_mm"].map(number).astype("Int64")
     shown = table["spheres"].notna()
     volume = table["spheres"].astype(float) * table["diameter_mm"] ** 3
