@@ -1,8 +1,8 @@
 """What an answer says of what was put in: rightly, wrongly, with confidence or as possible, removed or kept.
 
 A name is an entry of the ladder but the law. It is confident if `established`, else possible. It is right if it is the
-fault's own, in its place, or shares a group with it that the answer calls indistinguishable. Faults that the catalogue
-lacks are told by other lists of the answer too; which, is said in `told`.
+fault's own, in its place and of its sign, or shares a group with it that the answer calls indistinguishable. Faults
+that the catalogue lacks are told by other lists of the answer too; which, is said in `told`.
 """
 
 from __future__ import annotations
@@ -39,15 +39,20 @@ def names(content: Content) -> list[Mapping[str, Any]]:
 
 
 def right(entry: Mapping[str, Any], fault: Fault, content: Content) -> bool:
-    """Whether a name tells the fault: its cause and place, or a group that cannot be told apart."""
+    """Whether a name tells the fault: its cause, place and sign, or a group that cannot be told apart."""
     if _is(entry["cause"], entry.get("where"), fault):
-        return True
+        return fault.kind not in CATALOGUE or _value(entry) * fault.size > 0.0
     for group in content.get("indistinguishable", []):
         members = [_member(text) for text in group]
         mine = any(cause == entry["cause"] and _same(where, entry.get("where")) for cause, where in members)
         if mine and any(_is(cause, where, fault) for cause, where in members):
             return True
     return False
+
+
+def _value(entry: Mapping[str, Any]) -> float:
+    """Of the amplitude."""
+    return float(next(iter(entry["parameters"].values()))["value"])
 
 
 def _is(cause: str, where: Any, fault: Fault) -> bool:

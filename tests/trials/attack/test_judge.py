@@ -40,6 +40,7 @@ def test_a_name_is_right_by_cause_and_place():
     bias = Fault("temperature_bias", 1.0, temperature=20.0)
     assert row(bias, ladder=[entry("temperature_bias", where=20.1)])["named"]
     assert not row(bias, ladder=[entry("temperature_bias", where=35.0)])["named"]
+    assert not row(bias, ladder=[entry("temperature_bias", -1.0, where=20.0)])["named"]
 
 
 def test_a_bias_is_what_was_put_in_with_the_chambers_own_error():
