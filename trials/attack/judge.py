@@ -186,7 +186,7 @@ def _of(
     }  # fmt: skip
     if case.suite == "slip" and fault.kind != "wrong recorded temperature":
         row["removed"] = content["verdict"] == "refused" or bool(gone[fault.rows(campaign)].all())
-    itself = [e for e in telling if e["cause"] == fault.kind]
+    itself = [e for e in telling if _is(e["cause"], e.get("where"), fault)]  # not by a group
     if itself and "measured" not in campaign.about:
         parameter = next(iter(itself[0]["parameters"].values()))
         low, high = _interval(parameter)

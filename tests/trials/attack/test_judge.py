@@ -57,6 +57,12 @@ def test_a_group_that_cannot_be_told_apart_names_its_members():
     geometry = Fault("specimen_geometry", 0.3, specimen="S1")
     assert row(geometry, ladder=[entry("loose_clamp", where="S1")], indistinguishable=groups)["named"]
     assert not row(geometry, ladder=[entry("loose_clamp", where="S2")], indistinguishable=groups)["named"]
+    bias, biases = (
+        Fault("temperature_bias", 1.0, temperature=20.0),
+        [["temperature_bias @ 20.0", "temperature_bias @ 35.0"]],
+    )
+    other = row(bias, ladder=[entry("temperature_bias", -0.9, where=35.0)], indistinguishable=biases)
+    assert other["named"] and "covered" not in other  # of another place: its size is no estimate of this one
 
 
 def suspects(*tests, used=False):
