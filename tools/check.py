@@ -37,6 +37,7 @@ RULES = (
     "draw_family", "reduce_family", "diagnose_family", "families",
 )  # fmt: skip
 PUBLISHED = (
+    "attack",
     "benchmark",
     "blind",
     "cluster",

@@ -83,6 +83,7 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
         ("bond_readings", "paper/bond_readings"),
         ("reconstructions", "paper/reconstructions"),
         ("rivals", "paper/rivals"),
+        ("attack", "attack/summary"),
         ("blind", "blind/summary"),
         ("benchmark", "benchmark/beside"),
         ("growth", "benchmark/growth"),

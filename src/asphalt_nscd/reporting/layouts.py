@@ -171,6 +171,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         )
     ],
     "blind_real": [Layout(_CRITERIA)],
+    "attack": [Layout({"what": "what", "target": "target", "percent_before": "before"} | _CRITERIA)],
     "mapping": [
         Layout(
             {
