@@ -13,6 +13,8 @@ rule forecast_packings:
         code=code("forecast_packings"),
     output:
         directory("results/forecast/packings"),
+    conda:
+        ENVIRONMENT
     log:
         "results/forecast/logs/packings.log",
     message:
@@ -30,7 +32,9 @@ rule forecast_recipe:
     output:
         expand("results/forecast/recipe/{file}", file=FORECAST_FILES),
     params:
-        folder="results/forecast/recipe",
+        folder=lambda wildcards, output: os.path.dirname(output[0]),
+    conda:
+        ENVIRONMENT
     log:
         "results/forecast/logs/recipe.log",
     message:
@@ -49,7 +53,9 @@ rule forecast_mixes:
     output:
         expand("results/forecast/mixes/{table}.csv", table=["errors", "points", "overall"]),
     params:
-        folder="results/forecast/mixes",
+        folder=lambda wildcards, output: os.path.dirname(output[0]),
+    conda:
+        ENVIRONMENT
     log:
         "results/forecast/logs/mixes.log",
     message:
@@ -67,6 +73,8 @@ rule forecast_voids:
         code=code("forecast_voids"),
     output:
         "results/forecast/voids.csv",
+    conda:
+        ENVIRONMENT
     log:
         "results/forecast/logs/voids.log",
     message:
@@ -81,6 +89,8 @@ rule forecast_figure:
         code=code("figure", "reporting.figures.fig_forecast"),
     output:
         multiext("results/forecast/figures/fig_forecast", ".pdf", ".png", ".svg"),
+    conda:
+        ENVIRONMENT
     log:
         "results/forecast/logs/figure.log",
     message:
@@ -95,6 +105,8 @@ rule forecast_provenance:
         code=code("provenance"),
     output:
         "results/forecast/provenance.json",
+    conda:
+        ENVIRONMENT
     log:
         "results/forecast/logs/provenance.log",
     message:
@@ -122,6 +134,8 @@ rule publish_forecast:
         figure="results/forecast/figures/fig_forecast.png",
         provenance="results/forecast/provenance.json",
         code=code("publish"),
+    conda:
+        ENVIRONMENT
     message:
         "Copy the table of forecasts and its figure, and fill the table of docs/forecast.md"
     shell:
