@@ -23,11 +23,11 @@ $pip install "${1:-snakemake==9.19.0}"
 
 echo "With the package, it runs it, from a folder of the clone too."
 $pip install '.[workflow]'
-"$snakemake" --cores 2 --configfile config/smoke.yaml $table >"$place/said" 2>&1 || { cat "$place/said" >&2; exit 1; }
+"$snakemake" $table --cores 2 --configfile config/smoke.yaml >"$place/said" 2>&1 || { cat "$place/said" >&2; exit 1; }
 [ -s $table ]
 rm $table
 cd docs
-"$snakemake" --snakefile ../Snakefile --cores 2 --configfile ../config/smoke.yaml $table >"$place/said" 2>&1 ||
+"$snakemake" $table --snakefile ../Snakefile --cores 2 --configfile ../config/smoke.yaml >"$place/said" 2>&1 ||
     { cat "$place/said" >&2; exit 1; }
 [ -s ../$table ]
 echo "Any Snakemake works."

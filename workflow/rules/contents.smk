@@ -191,7 +191,7 @@ if REMAPPED:
 
 if FAMILIES:
     PAGES["rivals"] = "0 Diagnosis"
-    TABLES["rivals"] = {"measured": [*MEASURED, *expand(FAMILY + "measured.csv", family=FAMILIES)]}
+    TABLES["rivals"] = {"measured": [*MEASURED, *expand(f"{FAMILY}measured.csv", family=FAMILIES)]}
     PAGES["families"] = "0 Diagnosis"
     TABLES["families"] = {
         "measured": [*MEASURED, *expand(f"{FAMILY}measured.csv", family=FAMILIES)],
