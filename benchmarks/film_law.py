@@ -1,0 +1,228 @@
+"""The law of a film against elasticity: two spheres by finite elements, many by FFT.
+
+    python benchmarks/film_law.py packing PACKING --output SPHERES.csv
+    python benchmarks/film_law.py cell SPHERES.csv FRACTION VOXELS --output CELL.csv
+    python benchmarks/film_law.py cells --rows CELL.csv... --output CELLS.csv
+    python benchmarks/film_law.py pairs --output PAIRS.csv
+    python benchmarks/film_law.py summaries PAIRS.csv CELLS.csv --output PAIRS_SUMMARY.csv CELLS_SUMMARY.csv
+
+Moduli over Young's modulus of the grains, lengths over the edge of a cell or the radius of the larger sphere. `pairs`
+needs scikit-fem and gmsh: pip install "asphalt-nscd[film]".
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+import pandas as pd
+from film_packings import MANDEL, isotropic, jammed, network
+from film_voxels import VoxelCell
+
+from asphalt_nscd.files.store import write_table
+from asphalt_nscd.forecast.film import (
+    Films,
+    Matrix,
+    Solid,
+    bulk_modulus,
+    deviatoric_stiffness,
+    film_stiffness,
+    pair_stiffness,
+)
+
+PACKINGS = {"two": (32, 2.0, 1), "four": (48, 4.0, 3)}  # spheres, largest radius over smallest, seed
+GRAIN = Solid(1.0, 0.2)
+BITUMEN = 2.5 / 60.0  # bulk modulus over Young's modulus of the grains
+MODULI = [0.2, 0.05, 1e-2, 1e-3, 1e-4]
+LOADS = {
+    "shear": np.array([[0.0, 0.5, 0.0], [0.5, 0.0, 0.0], [0.0, 0.0, 0.0]]),
+    "stretch": np.diag([0.5, -0.5, 0.0]),
+    "volume": np.eye(3) / 3.0,
+}
+TOLERANCE = 2e-3
+RATIOS, GAPS, SIDE = [1.0, 0.3, 0.1], [0.3, 0.1, 0.03, 0.01, 0.003], 0.9
+FREE_SIDES = 0.2  # of Young's modulus of a film between rigid grains that its sides do not lower
+
+
+def poisson(modulus: float) -> float:
+    """Of the matrix: that of bitumen, 0.3 where its bulk modulus would make it less."""
+    return max(0.5 - modulus / (6.0 * BITUMEN), 0.3)
+
+
+def matrix(modulus: float) -> Matrix:
+    return Matrix(np.array(modulus), Solid(modulus, poisson(modulus)).bulk)
+
+
+def packing(name: str) -> pd.DataFrame:
+    """Spheres that just touch."""
+    position, radius = jammed(*PACKINGS[name])
+    return pd.DataFrame(np.column_stack([position, radius]), columns=["x", "y", "z", "radius"])
+
+
+def shrunk(spheres: pd.DataFrame, fraction: float) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and radii of the spheres at a volume fraction."""
+    radius = spheres["radius"].to_numpy()
+    return spheres[["x", "y", "z"]].to_numpy(), radius * (
+        fraction / (4.0 / 3.0 * np.pi * (radius**3).sum())
+    ) ** (1.0 / 3.0)
+
+
+def cell(path: str, fraction: float, voxels: int) -> pd.DataFrame:
+    """Stiffness of the cell for each mean strain and modulus, in voxels."""
+    position, radius = shrunk(pd.read_csv(path), fraction)
+    solved, rows = VoxelCell(position, radius, voxels), []
+    for load, strain in LOADS.items():
+        start = None
+        for modulus in MODULI:
+            found, start, steps = solved.solve(
+                GRAIN, Solid(modulus, poisson(modulus)), strain, TOLERANCE, start
+            )
+            rows.append((path, fraction, voxels, solved.fraction, load, modulus, found, steps))
+            print(*rows[-1], flush=True)
+    columns = ["packing", "fraction", "voxels", "voxel_fraction", "load", "M_over_Ea", "stiffness", "steps"]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def cells(paths: Sequence[str]) -> pd.DataFrame:
+    """The network of films beside each cell of voxels: shear modulus of the two strains, Young's modulus."""
+    voxels = pd.concat([pd.read_csv(path) for path in paths], ignore_index=True)
+    rows = []
+    for (path, fraction), same in voxels.groupby(["packing", "fraction"], sort=False):
+        bonds = network(*shrunk(pd.read_csv(path), fraction))
+        for modulus in MODULI:
+            solid = matrix(modulus)
+            pairs = bonds.stiffness(*deviatoric_stiffness(bonds.films, GRAIN, solid))
+            bulk, shear = isotropic(bonds.stiffness(*film_stiffness(bonds.films, GRAIN, solid, fraction)))
+            young = 9.0 * bulk * shear / (3.0 * bulk + shear)
+            for count, found in same[same["M_over_Ea"] == modulus].groupby("voxels"):
+                energy = found.set_index("load")["stiffness"]
+                strains = [np.einsum("kij,ij->k", MANDEL, LOADS[load]) for load in ("shear", "stretch")]
+                by_pairs = np.mean([strain @ pairs @ strain for strain in strains])
+                by_voxels = energy[["shear", "stretch"]].mean()
+                # of all directions, as far from these two strains as in the network
+                around = by_voxels * isotropic(pairs)[1] / by_pairs
+                expected = 9.0 * energy["volume"] * around / (3.0 * energy["volume"] + around)
+                gap = bonds.films.gap.min() * count
+                low, high = bounds(GRAIN, solid, fraction)
+                rows.append(
+                    (len(pd.read_csv(path)), fraction, modulus, count, gap, by_voxels / solid.shear)
+                    + (by_pairs / by_voxels - 1.0, expected / modulus, young / expected - 1.0)
+                    + (low / modulus, young / modulus, high / modulus)
+                    + (float(bulk_modulus(GRAIN, solid, fraction)) / energy["volume"] - 1.0,)
+                )
+    columns = [
+        "spheres", "fraction", "M_over_Ea", "voxels", "voxels_in_least_gap", "G_voxels_over_matrix", "G_error",
+        "E_voxels_over_M", "E_error", "E_lower_bound_over_M", "E_network_over_M", "E_upper_bound_over_M", "K_error",
+    ]  # fmt: skip
+    return pd.DataFrame(rows, columns=columns)
+
+
+def bounds(grain: Solid, solid: Matrix, fraction: float) -> tuple[float, float]:
+    """Young's modulus by Hashin & Shtrikman (1963), lower and upper."""
+    found = []
+    for (k1, g1, f1), (k2, g2, f2) in (
+        ((float(solid.bulk), float(solid.shear), 1.0 - fraction), (grain.bulk, grain.shear, fraction)),
+        ((grain.bulk, grain.shear, fraction), (float(solid.bulk), float(solid.shear), 1.0 - fraction)),
+    ):
+        bulk = k1 + f2 / (1.0 / (k2 - k1) + 3.0 * f1 / (3.0 * k1 + 4.0 * g1))
+        shear = g1 + f2 / (1.0 / (g2 - g1) + 6.0 * f1 * (k1 + 2.0 * g1) / (5.0 * g1 * (3.0 * k1 + 4.0 * g1)))
+        found.append(9.0 * bulk * shear / (3.0 * bulk + shear))
+    return found[0], found[1]
+
+
+def pairs() -> pd.DataFrame:
+    """Two spheres in a cylinder of free sides: the law with Young's moduli along its lines, by finite elements."""
+    from film_pair import Pair, normal_stiffness
+
+    rows = []
+    for ratio, gap, modulus in product(RATIOS, GAPS, [*MODULI, 1e-5]):
+        pair = Pair(1.0, ratio, gap * ratio, SIDE * ratio)
+        area, solid = np.pi * pair.side**2, matrix(modulus)
+        films = Films(*np.array([[pair.first], [pair.second], [pair.gap], [area]]))
+        soft = solid.modulus * (1.0 - FREE_SIDES * (1.0 - solid.shear / GRAIN.shear))
+        law = pair_stiffness(films, GRAIN, solid, (soft, GRAIN.modulus))[0][0]
+        phases = (GRAIN.shear, GRAIN.bulk), (float(solid.shear), float(solid.bulk))
+        coarse, fine = (normal_stiffness(pair, *phases, fineness) for fineness in (2.0, 3.5))
+        unit = modulus * area / pair.length
+        rows.append((ratio, gap, modulus, fine / unit, coarse / fine - 1.0, law / unit, law / fine - 1.0))
+        print(*rows[-1], flush=True)
+    columns = [
+        "ratio",
+        "gap_over_smaller_radius",
+        "M_over_Ea",
+        "FE_over_MA_l",
+        "FE_coarser",
+        "law_over_MA_l",
+        "error",
+    ]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def pairs_summary(table: pd.DataFrame) -> pd.DataFrame:
+    """Largest errors over all ratios of radii, percent."""
+    rows = []
+    for modulus, same in table.groupby("M_over_Ea", sort=False):
+        by = 100.0 * same.groupby("gap_over_smaller_radius", sort=False)["error"].agg(
+            lambda error: error.loc[error.abs().idxmax()]
+        )
+        rows.append({"M / Ea": modulus} | {f"gap {gap:g}": value for gap, value in by.round(1).items()})
+    return pd.DataFrame(rows)
+
+
+def cells_summary(table: pd.DataFrame) -> pd.DataFrame:
+    """The finest cell of each packing and fraction; how much the coarser one differs, percent."""
+    rows = []
+    for (spheres, fraction, modulus), same in table.groupby(["spheres", "fraction", "M_over_Ea"], sort=False):
+        fine, coarse = same.sort_values("voxels").iloc[-1], same.sort_values("voxels").iloc[0]
+        change = coarse["E_voxels_over_M"] / fine["E_voxels_over_M"] - 1.0 if len(same) > 1 else np.nan
+        rows.append(
+            {
+                "spheres": spheres,
+                "fraction": fraction,
+                "M / Ea": modulus,
+                "lower bound": fine["E_lower_bound_over_M"],
+                "voxels": fine["E_voxels_over_M"],
+                "network": fine["E_network_over_M"],
+                "upper bound": fine["E_upper_bound_over_M"],
+                "E, %": 100.0 * fine["E_error"],
+                "G, %": 100.0 * fine["G_error"],
+                "coarser, %": 100.0 * change,
+            }
+        )
+    return pd.DataFrame(rows).round({"E, %": 1, "G, %": 1, "coarser, %": 1})
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parts = parser.add_subparsers(dest="part", required=True)
+    parts.add_parser("packing").add_argument("name", choices=PACKINGS)
+    part = parts.add_parser("cell")
+    part.add_argument("spheres")
+    part.add_argument("fraction", type=float)
+    part.add_argument("voxels", type=int)
+    part = parts.add_parser("cells")
+    part.add_argument("--rows", nargs="+", required=True)
+    parts.add_parser("pairs")
+    part = parts.add_parser("summaries")
+    part.add_argument("pairs")
+    part.add_argument("cells")
+    for name, part in parts.choices.items():
+        part.add_argument("--output", required=True, nargs=2 if name == "summaries" else None)
+    given = parser.parse_args()
+    if given.part == "packing":
+        write_table(given.output, packing(given.name))
+    elif given.part == "cell":
+        write_table(given.output, cell(given.spheres, given.fraction, given.voxels))
+    elif given.part == "cells":
+        write_table(given.output, cells(given.rows))
+    elif given.part == "pairs":
+        write_table(given.output, pairs())
+    else:
+        write_table(given.output[0], pairs_summary(pd.read_csv(given.pairs)))
+        write_table(given.output[1], cells_summary(pd.read_csv(given.cells)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,118 @@
+# The law of a film (docs/film.md) against elasticity: two spheres by finite elements, many by FFT. About an hour, on request:
+#   pip install -e ".[film]" && snakemake film --cores all --configfile config/paper.yaml
+
+FILM_CELLS = [
+    *(f"two-{fraction}-{voxels}" for fraction in ("0.37", "0.51") for voxels in (72, 108)),
+    *(f"two-0.58-{voxels}" for voxels in (108, 160)),  # thinner films
+    *("four-0.37-72", "four-0.51-108"),
+]
+
+
+rule film_packing:
+    # Spheres that just touch, in a periodic cell.
+    input:
+        ["benchmarks/film_law.py", "benchmarks/film_packings.py"],
+    output:
+        "results/film/packings/{packing}.csv",
+    log:
+        "results/film/logs/packing-{packing}.log",
+    message:
+        "Grow spheres until they touch: {wildcards.packing}"
+    shell:
+        MEASURE + "/film_law.py packing {wildcards.packing} --output {output} > {log} 2>&1"
+
+
+rule film_cell:
+    # Stiffness of the cell at one fraction, in so many voxels along its edge.
+    input:
+        spheres="results/film/packings/{packing}.csv",
+        code=["benchmarks/film_law.py", "benchmarks/film_voxels.py"],
+    output:
+        "results/film/cells/{packing}-{fraction}-{voxels}.csv",
+    resources:
+        mem_mb=lambda wildcards: 500 + int(wildcards.voxels) ** 3 // 3000,
+    log:
+        "results/film/logs/cell-{packing}-{fraction}-{voxels}.log",
+    benchmark:
+        "results/film/benchmarks/cell-{packing}-{fraction}-{voxels}.tsv"
+    message:
+        "Solve {wildcards.fraction} of spheres in {wildcards.voxels} voxels: {wildcards.packing}"
+    shell:
+        MEASURE + "/film_law.py cell {input.spheres} {wildcards.fraction} {wildcards.voxels} --output {output} > {log} 2>&1"
+
+
+rule film_cells:
+    # The network of films beside each cell.
+    input:
+        rows=expand("results/film/cells/{cell}.csv", cell=FILM_CELLS),
+        code=["benchmarks/film_law.py", "src/asphalt_nscd/forecast/film.py"],
+    output:
+        "results/film/cells.csv",
+    log:
+        "results/film/logs/cells.log",
+    message:
+        "Compare networks of films with cells of voxels"
+    shell:
+        MEASURE + "/film_law.py cells --rows {input.rows} --output {output} > {log} 2>&1"
+
+
+rule film_pairs:
+    # One film by finite elements; needs scikit-fem and gmsh.
+    input:
+        ["benchmarks/film_law.py", "benchmarks/film_pair.py", "src/asphalt_nscd/forecast/film.py"],
+    output:
+        "results/film/pairs.csv",
+    log:
+        "results/film/logs/pairs.log",
+    benchmark:
+        "results/film/benchmarks/pairs.tsv"
+    message:
+        "Press two spheres together by finite elements"
+    shell:
+        MEASURE + "/film_law.py pairs --output {output} > {log} 2>&1"
+
+
+rule film_summaries:
+    # What docs/film.md shows of both.
+    input:
+        cells="results/film/cells.csv",
+        pairs="results/film/pairs.csv",
+        code="benchmarks/film_law.py",
+    output:
+        pairs="results/film/pairs_summary.csv",
+        cells="results/film/cells_summary.csv",
+    log:
+        "results/film/logs/summaries.log",
+    message:
+        "Sum up the law of a film"
+    shell:
+        MEASURE + "/film_law.py summaries {input.pairs} {input.cells} --output {output} > {log} 2>&1"
+
+
+rule film:
+    # What was solved, and by what.
+    input:
+        rules.film_summaries.output,
+        code=code("provenance"),
+    output:
+        "results/film/provenance.json",
+    log:
+        "results/film/logs/provenance.log",
+    message:
+        "Write down what was solved"
+    shell:
+        "asphalt-nscd provenance --output {output} > {log} 2>&1"
+
+
+rule publish_film:
+    # What is committed of it. Only on request:
+    #   snakemake publish_film --cores 1 --configfile config/paper.yaml
+    input:
+        files=["results/film/pairs.csv", "results/film/cells.csv", "results/film/provenance.json"],
+        pairs="results/film/pairs_summary.csv",
+        cells="results/film/cells_summary.csv",
+        code=code("publish"),
+    message:
+        "Copy the tables of films, and fill those of docs/film.md"
+    shell:
+        "asphalt-nscd publish {input.files} --root results/film --output results/published/film --document docs --block film_pairs={input.pairs} --block film_cells={input.cells}"
