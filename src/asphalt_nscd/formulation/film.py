@@ -24,9 +24,7 @@ import numpy as np
 from asphalt_nscd.nscd.compiled import compiled
 
 RINGS = 24  # of a facet
-SPOT = (
-    2.8  # depth of grain under a spot over its radius sqrt(r^2 + 2 a h), times 1 - nu^2: by finite elements
-)
+SPOT = 3.3  # depth of grain under a spot over sqrt(r^2 + 3/4 a h) and 1 - nu^2, by finite elements
 
 
 @dataclass(frozen=True)
