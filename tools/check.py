@@ -42,6 +42,7 @@ PUBLISHED = (
     "blind",
     "cluster",
     "faults",
+    "film",
     "forecast",
     "fuzz",
     "mapping",
