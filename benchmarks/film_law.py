@@ -189,6 +189,7 @@ def cells_summary(table: pd.DataFrame) -> pd.DataFrame:
                 "E, %": 100.0 * fine["E_error"],
                 "G, %": 100.0 * fine["G_error"],
                 "coarser, %": 100.0 * change,
+                "voxels in a film": round(fine["voxels_in_least_gap"], 1),
             }
         )
     return pd.DataFrame(rows).round({"E, %": 1, "G, %": 1, "coarser, %": 1})
