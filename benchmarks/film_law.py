@@ -182,14 +182,13 @@ def cells_summary(table: pd.DataFrame) -> pd.DataFrame:
                 "spheres": spheres,
                 "fraction": fraction,
                 "M / Ea": modulus,
-                "lower bound": fine["E_lower_bound_over_M"],
+                "lower": fine["E_lower_bound_over_M"],
                 "voxels": fine["E_voxels_over_M"],
                 "network": fine["E_network_over_M"],
-                "upper bound": fine["E_upper_bound_over_M"],
                 "E, %": 100.0 * fine["E_error"],
                 "G, %": 100.0 * fine["G_error"],
                 "coarser, %": 100.0 * change,
-                "voxels in a film": round(fine["voxels_in_least_gap"], 1),
+                "film": round(fine["voxels_in_least_gap"], 1),
             }
         )
     return pd.DataFrame(rows).round({"E, %": 1, "G, %": 1, "coarser, %": 1})
