@@ -22,7 +22,7 @@ from film_packings import MANDEL, isotropic, jammed, network
 from film_voxels import VoxelCell
 
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.forecast.film import (
+from asphalt_nscd.formulation.film import (
     Films,
     Matrix,
     Solid,

@@ -45,7 +45,7 @@ rule film_cells:
     # The network of films beside each cell.
     input:
         rows=expand("results/film/cells/{cell}.csv", cell=FILM_CELLS),
-        code=["benchmarks/film_law.py", "src/asphalt_nscd/forecast/film.py"],
+        code=["benchmarks/film_law.py", "src/asphalt_nscd/formulation/film.py"],
     output:
         "results/film/cells.csv",
     log:
@@ -59,7 +59,7 @@ rule film_cells:
 rule film_pairs:
     # One film by finite elements; needs scikit-fem and gmsh.
     input:
-        ["benchmarks/film_law.py", "benchmarks/film_pair.py", "src/asphalt_nscd/forecast/film.py"],
+        ["benchmarks/film_law.py", "benchmarks/film_pair.py", "src/asphalt_nscd/formulation/film.py"],
     output:
         "results/film/pairs.csv",
     log:
