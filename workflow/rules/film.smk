@@ -3,8 +3,7 @@
 
 FILM_CELLS = [
     *(f"two-{fraction}-{voxels}" for fraction in ("0.37", "0.51") for voxels in (72, 108)),
-    *(f"two-0.58-{voxels}" for voxels in (108, 160)),  # thinner films
-    *("four-0.37-72", "four-0.51-108"),
+    *("two-0.58-108", "four-0.37-72", "four-0.51-108"),
 ]
 
 
