@@ -147,5 +147,5 @@ def doubts(words: Sequence[str], percent: Sequence[float]) -> Figure:
     figure, axes = style.new_figure(style.SINGLE, 10.0 + 7.0 * len(words))
     order = np.argsort(percent)
     axes.barh([words[k] for k in order], [percent[k] for k in order], color=style.BLUE)
-    axes.set_xlabel("change of |E*| (%, root mean square over all points)")
+    axes.set_xlabel("change of |E*| (%)")
     return figure
