@@ -21,7 +21,7 @@ import pandas as pd
 from asphalt_nscd.files.store import load, write_table
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.network import Network, bond_network, facet_network, trapezoid
+from asphalt_nscd.specimen.network import Network, bond_network, facet_network, region_of
 from asphalt_nscd.specimen.power_diagram import power_diagram
 from asphalt_nscd.specimen.prism import cut_prism, pull, static_ratio
 from asphalt_nscd.specimen.system import affine_modulus, affine_poisson, bending_system, facet_share
@@ -158,7 +158,7 @@ def moments(network: Network, specimen: Specimen) -> Network:
     They lie on the ellipse of inertia, at twice the variance of the facet; a convex facet holds it (Kannan, Lovasz,
     Simonovits 1995).
     """
-    facets = power_diagram(specimen.position, specimen.radius, trapezoid(specimen.geometry))
+    facets = power_diagram(specimen.position, specimen.radius, region_of(specimen.geometry))
     uu, vv, uv = facets.spread[facets.second < specimen.radius.size + 2].T
     values, axes = np.linalg.eigh(np.stack([np.stack([uu, uv], -1), np.stack([uv, vv], -1)], axis=1))
     angle = np.radians([90.0, 210.0, 330.0])

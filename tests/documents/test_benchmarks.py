@@ -235,12 +235,12 @@ def test_three_points_have_the_moments_of_a_facet(monkeypatch, make_beam):
     monkeypatch.syspath_prepend(str(BENCHMARKS))
     import mapping
 
-    from asphalt_nscd.specimen.network import trapezoid
+    from asphalt_nscd.specimen.network import region_of
     from asphalt_nscd.specimen.power_diagram import power_diagram
 
     beam = make_beam(area="facets")
     network = mapping.moments(beam.network, beam)
-    facets = power_diagram(beam.position, beam.radius, trapezoid(beam.geometry))
+    facets = power_diagram(beam.position, beam.radius, region_of(beam.geometry))
     bonded = facets.second < beam.radius.size + 2
     points, area = network.point.reshape(-1, 3, 3), network.area.reshape(-1, 3)
     np.testing.assert_allclose(area.sum(axis=1), facets.area[bonded], rtol=1e-14)

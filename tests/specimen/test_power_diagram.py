@@ -7,7 +7,7 @@ import pytest
 from naive.power_diagram import cell
 
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.specimen.network import trapezoid
+from asphalt_nscd.specimen.network import region_of
 from asphalt_nscd.specimen.power_diagram import Region, power_diagram
 
 GEOMETRY = Geometry(b=10e-3, B=22e-3, e=12e-3, h=40e-3, mass=0.01, mobile_mass=0.0)
@@ -28,7 +28,7 @@ def lattice(shape, pitch):
 @pytest.fixture(scope="module")
 def packing():
     """Spheres of 0.3 to 1.5 mm that do not overlap, in the trapezoid; many cells reach its edges."""
-    rng, region = np.random.default_rng(7), trapezoid(GEOMETRY)
+    rng, region = np.random.default_rng(7), region_of(GEOMETRY)
     position, radius = np.empty((0, 3)), np.empty(0)
     for _ in range(4000):
         point = rng.uniform([-11e-3, -6e-3, 0], [11e-3, 6e-3, 40e-3])
@@ -87,7 +87,7 @@ def test_plane_between_unequal_spheres():
 def test_against_half_spaces(packing):
     """Volumes of some cells and areas of all their facets, at faces, edges and corners too."""
     position, radius = packing
-    region = trapezoid(GEOMETRY)
+    region = region_of(GEOMETRY)
     facets, n = power_diagram(position, radius, region), radius.size
     distance = region.offset - position @ region.normal.T
     cells = facets.cells(position)
@@ -106,7 +106,7 @@ def test_cells_fill_the_trapezoid(packing):
     """Volume, the area of each face, closed cells, and sum A l n n = V I."""
     position, radius = packing
     facets, n, (b, B, e, h) = (
-        power_diagram(position, radius, trapezoid(GEOMETRY)),
+        power_diagram(position, radius, region_of(GEOMETRY)),
         radius.size,
         (GEOMETRY.b, GEOMETRY.B, GEOMETRY.e, GEOMETRY.h),
     )
@@ -147,5 +147,5 @@ def test_negligible_facets_are_left_out(monkeypatch):
 
 
 def test_equal_bits(packing):
-    once, again = (power_diagram(*packing, trapezoid(GEOMETRY)) for _ in range(2))
+    once, again = (power_diagram(*packing, region_of(GEOMETRY)) for _ in range(2))
     assert all(value.tobytes() == vars(again)[name].tobytes() for name, value in vars(once).items())

@@ -214,3 +214,20 @@ def test_packings_and_pouring_exclude_each_other(config, tmp_path):
     assert "specimens.packings[0] is 'gone.csv', but there is no such file" in gone
     units = config | {"specimens": config["specimens"] | {"packing_up": "y"}}
     assert "specimens.packing_up is for packings; leave it out." in refusal(units)
+
+
+def test_a_cylinder_is_told_what_it_lacks_and_a_trapezoid_too(config):
+    """The sentence is of the shape that the mapping is nearest to."""
+    cylinder = {"d_mm": 100, "h_mm": 150, "mass_kg": 2.8, "mobile_mass_kg": 0}
+
+    def simulating(geometry):
+        return config | {"specimens": config["specimens"] | {"geometry": geometry}}
+
+    assert complete_study(simulating(cylinder), "study.yaml", SCHEMA)["specimens"]["geometry"] == cylinder
+    short = {key: value for key, value in cylinder.items() if key != "h_mm"}
+    assert "key 'h_mm' is missing from specimens.geometry; add it." in refusal(simulating(short))
+    assert "unknown key 'D_mm' in specimens.geometry;" in refusal(
+        simulating({"D_mm": 100} | {key: value for key, value in cylinder.items() if key != "d_mm"})
+    )
+    trapezoid = {"b_mm": 25, "B_mm": 56, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.2}
+    assert "key 'e_mm' is missing from specimens.geometry; add it." in refusal(simulating(trapezoid))

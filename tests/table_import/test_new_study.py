@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 
 import openpyxl
+import pandas as pd
 import pytest
 import yaml
 
@@ -114,6 +115,25 @@ def test_direct_tests_are_said_to_be_taken_as_measured():
     config, _ = new_study("mine", german(rows()), Wishes(measured_in="tension-compression"))
     assert "Moduli are taken as they were measured, in direct tension-compression," in config.read_text()
     assert accepted(config)["diagnosis"]["measured_in"] == "tension-compression"
+
+
+def test_direct_tests_are_simulated_on_a_cylinder():
+    ampt = accepted(new_study("ampt", german(rows()), Wishes(measured_in="tension-compression"))[0])
+    assert ampt["specimens"]["geometry"] == {"d_mm": 100, "h_mm": 150, "mass_kg": 2.83, "mobile_mass_kg": 0}
+    assert ampt["test"]["amplitude_m"] == pytest.approx(50e-6 * 0.15)
+    counts = pd.read_csv(ampt["specimens"]["counts_table"])
+    assert (
+        counts["diameter_mm"].tolist() == [4.0, 8.0, 12.6, 16.0, 20.0] and 7000 < counts["count"].sum() < 8000
+    )
+    given = {"d_mm": 60.0, "h_mm": 120.0, "mass_kg": 0.8, "mobile_mass_kg": 0.1}
+    other = Wishes(measured_in="tension-compression", geometry=given)
+    assert accepted(new_study("other", german(rows()), other)[0])["specimens"]["geometry"] == given
+    small = Wishes(measured_in="tension-compression", small=True)
+    assert accepted(new_study("small", german(rows()), small)[0])["specimens"]["geometry"]["d_mm"] == 18
+    with pytest.raises(
+        InputError, match="of a cylinder is for tests in tension-compression; say --measured-in"
+    ):
+        new_study("bent", german(rows()), Wishes(geometry=given))
 
 
 def peaks():

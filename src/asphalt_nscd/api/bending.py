@@ -112,7 +112,9 @@ def bend(
     bonds: Bonds = Bonds(),  # noqa: B008
     numerics: Numerics = Numerics(),  # noqa: B008
 ) -> Test:
-    """Bend a specimen at one frequency [Hz] and temperature [degC]: two-point bending, Eqs. (1)-(5).
+    """Test a specimen at one frequency [Hz] and temperature [degC]: a trapezoid in two-point bending, Eqs. (1)-(5).
+
+    A cylinder is pulled and pushed along its axis instead (docs/geometries.md).
 
     law: of one temperature, or of all; bonds then follow its Kelvin chain within 0.1 %. load: Load(amplitude_m,
     cycles, rig, frames); with frames=24 the test goes out as a series for ParaView, `export(test, "test.pvd", "vtk")`.

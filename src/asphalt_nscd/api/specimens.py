@@ -18,8 +18,8 @@ from asphalt_nscd.api.results import Result
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted
-from asphalt_nscd.measurements.geometry import read_geometry
-from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.measurements.geometry import read_shape
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.packings.incoming import as_deposit
 from asphalt_nscd.packings.incoming import read_packing as read_spheres
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
@@ -108,9 +108,10 @@ class Packing(Spheres):
 
 @dataclass(frozen=True)
 class Specimen(Spheres):
-    """Bonded spheres between the foot (z = 0) and the head (z = h); bending along x.
+    """Bonded spheres between the foot (z = 0) and the head (z = h).
 
-    The origin is the middle of the foot. Radii are those after the reduction of volume.
+    The head is driven along x in bending, along z in tension-compression. The origin is the middle of the foot. Radii
+    are those after the reduction of volume.
 
     >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
     >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}
@@ -127,8 +128,8 @@ class Specimen(Spheres):
         return specimen_of((dict(self.arrays), dict(self.attributes)))
 
     @property
-    def geometry(self) -> Geometry:
-        """b, B, e, h [m] and masses [kg]."""
+    def geometry(self) -> Shape:
+        """Of a trapezoid b, B, e, h [m] and masses [kg]; of a cylinder d, h and masses."""
         return self.bonded.geometry
 
     @property
@@ -146,11 +147,17 @@ class Specimen(Spheres):
         )
 
     def __repr__(self) -> str:
-        g = self.geometry
         return (
             f"Specimen({counted(self.radius_m.size, 'sphere')}, {counted(self._bonds, 'bond')} by {self.bonded.area}, "
-            f"b = {1e3 * g.b:g}, B = {1e3 * g.B:g}, e = {1e3 * g.e:g}, h = {1e3 * g.h:g} mm)"
+            f"{self._lengths})"
         )
+
+    @property
+    def _lengths(self) -> str:
+        lengths = {
+            key.removesuffix("_mm"): x for key, x in self.geometry.keys().items() if key.endswith("_mm")
+        }
+        return ", ".join(f"{name} = {x:g}" for name, x in lengths.items()) + " mm"
 
     @property
     def _bonds(self) -> int:
@@ -162,8 +169,8 @@ class Specimen(Spheres):
             f"Specimen of {counted(self.radius_m.size, 'sphere')}",
             {
                 "bonds": f"{self._bonds}, their area by {self.bonded.area}",
-                "width of head b and of foot B": f"{1e3 * g.b:g} and {1e3 * g.B:g} mm",
-                "thickness e, height h": f"{1e3 * g.e:g} and {1e3 * g.h:g} mm",
+                "test": g.test,
+                "lengths": self._lengths,
                 "mass, mobile mass": f"{g.mass:g} and {g.mobile_mass:g} kg",
                 "spheres": f"{self._radii}, {self.bonded.density:.4g} kg/m³",
             },
@@ -258,7 +265,8 @@ def specimen(
 ) -> Specimen:
     """Cut a specimen from a packing, turn it upright, shrink its spheres and bond them.
 
-    geometry: b_mm, B_mm, e_mm, h_mm, mass_kg, mobile_mass_kg; h lies along x of the packing, e along y, B along z. area
+    geometry: of a trapezoid in two-point bending b_mm, B_mm, e_mm, h_mm, mass_kg, mobile_mass_kg; of a cylinder in
+    tension-compression d_mm, h_mm, mass_kg, mobile_mass_kg. h lies along x of the packing, e along y, B along z. area
     of a bond: "paper", pi rmin^2 between spheres with a gap below gap_max_mm, or "facets", those of the cells that fill
     the specimen (docs/mapping.md). volume_reduction: part of each sphere's volume that makes room for the mastic.
 
@@ -269,5 +277,5 @@ def specimen(
     """
     cutting = Cutting(volume_reduction, gap_max_mm, area)
     given = packing if isinstance(packing, Packing) else Packing.read(packing)
-    shape = read_geometry(geometry, ["specimen"])["specimen"]
+    shape = read_shape(geometry)
     return Specimen(*bonded((dict(given.arrays), dict(given.attributes)), shape, cutting), given.name)

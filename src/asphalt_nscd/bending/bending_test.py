@@ -19,8 +19,9 @@ from asphalt_nscd.bending.rig import Rig, read_rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save
 from asphalt_nscd.files.words import counted
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.signals import Response, harmonic_response, peak_response, require_steps
-from asphalt_nscd.measurements.twopoint import Geometry, complex_modulus, norm_and_phase
+from asphalt_nscd.measurements.twopoint import norm_and_phase
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
@@ -252,10 +253,10 @@ def outcome(
     return arrays, columns
 
 
-def _modulus(geometry: Geometry, frequency: float, response: Response) -> complex:
+def _modulus(shape: Shape, frequency: float, response: Response) -> complex:
     return complex(
-        complex_modulus(
-            geometry, frequency, response.force_amplitude, response.displacement_amplitude, response.phase
+        shape.complex_modulus(
+            frequency, response.force_amplitude, response.displacement_amplitude, response.phase
         )
     )
 

@@ -12,14 +12,14 @@ from asphalt_nscd.bending.checkpoint import Checkpoint
 from asphalt_nscd.bending.rig import Rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range, Ranged, one_of, within
-from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.measurements.shape import Shape
+from asphalt_nscd.measurements.twopoint import PAPER_AMPLITUDE
 from asphalt_nscd.nscd.stepping.scheme import SCHEMES
 
 Vector = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
-PAPER_AMPLITUDE = 63e-6  # m, of a head 250 mm above a foot 56 mm wide
 METHODS = ("reduced", "condensed", "sweeps", "harmonic")
 MOST_STEPS = 5_000_000  # of a test, which keeps some 200 bytes of each
 
@@ -105,10 +105,12 @@ class RunOptions:
 class Load(Ranged):
     """What the actuator does, what stands between it, the head and the record, and what is kept of it.
 
-    amplitude_m: without it the strain is that of the paper's 63 um on its own specimen. rig: devices at the head,
+    amplitude_m: without it the strain is usual: in bending that of the paper's 63 um on its own specimen, in
+    tension-compression 50e-6. rig: devices at the head,
     and errors of the measuring channel. frames: how many instants of the last cycle to keep with the motion of all
     spheres and the forces of all bonds, for a series of ParaView.
 
+    >>> from asphalt_nscd.measurements.twopoint import Geometry
     >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
     >>> print(f"{Load(frames=24).at(10.0, paper).amplitude:.2g} m")
     6.3e-05 m
@@ -119,9 +121,9 @@ class Load(Ranged):
     rig: Rig = Rig()
     frames: int = within(0, low=0)
 
-    def at(self, frequency_Hz: float, geometry: Geometry) -> LoadCase:
+    def at(self, frequency_Hz: float, shape: Shape) -> LoadCase:
         """The case of one frequency [Hz] on specimens of a geometry."""
-        amplitude_m = usual_amplitude(geometry) if self.amplitude_m is None else self.amplitude_m
+        amplitude_m = shape.usual_amplitude() if self.amplitude_m is None else self.amplitude_m
         if not Range(above=0.0).holds(frequency_Hz):
             raise InputError(f"frequency_Hz = {frequency_Hz:g}: give a frequency greater than zero.")
         return LoadCase(frequency_Hz, amplitude_m, self.cycles, self.rig)
@@ -152,8 +154,3 @@ def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) ->
         raise InputError(
             "rig: the method sweeps cannot simulate devices at the head; choose the method reduced."
         )
-
-
-def usual_amplitude(geometry: Geometry) -> float:
-    """Amplitude [m] of the head that strains a cantilever as the paper's 63 um strain its specimen: as h^2 / B."""
-    return PAPER_AMPLITUDE * (geometry.h**2 / geometry.B) / (0.25**2 / 0.056)

@@ -11,7 +11,6 @@ from asphalt_nscd.bending.excerpt import write_excerpt
 from asphalt_nscd.bending.model import SHAPE, model_of
 from asphalt_nscd.files.ranges import Ranged, one_of, within
 from asphalt_nscd.files.store import Record, save
-from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.stepping.break_modes import BONDS, StandBy
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
@@ -93,7 +92,7 @@ def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None 
         "head": bonds.head,
         "driven": system.driven,
         "friction": bonds.friction,
-        **{name: getattr(specimen.geometry, name) for name in Geometry.__dataclass_fields__},
+        **specimen.geometry.attributes(),
     }
     return arrays, attributes
 

@@ -13,7 +13,8 @@ import numpy as np
 from asphalt_nscd.bending.layers import LayerHeights
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save
-from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.measurements.geometry import shape_of
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.nscd.stepping.excerpt import Excerpt
 
 if TYPE_CHECKING:  # sparse matrices, which take as long to import as a test to run
@@ -30,7 +31,7 @@ class ModelExcerpt:
     reduced_form: tuple[Excerpt, None]
     along: np.ndarray  # (k, l): coordinates of velocity to means over the layers
     layers: LayerHeights
-    geometry: Geometry
+    geometry: Shape
     name: str
     head: str
     spheres: int
@@ -59,7 +60,7 @@ def write_excerpt(path: str | Path, model: Model, digest: str) -> None:
         "spheres": model.spheres,
         "bonds": model.bonds,
         "model_digest": digest,
-        **{name: getattr(model.geometry, name) for name in Geometry.__dataclass_fields__},
+        **model.geometry.attributes(),
     }
     save(path, KIND, arrays, attributes)
 
@@ -84,7 +85,7 @@ def read_excerpt(path: str | Path, model_file: str | Path) -> ModelExcerpt:
         reduced_form=(Excerpt.from_arrays(small, lambda: whole().reduced_form), None),
         along=arrays["along"].T,
         layers=LayerHeights(arrays["layer_height"], arrays["layer_spheres"]),
-        geometry=Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__}),
+        geometry=shape_of(attributes),
         **{name: attributes[name] for name in ("name", "head", "spheres", "bonds")},
         read_whole=whole,
     )

@@ -10,6 +10,8 @@ import numpy as np
 if TYPE_CHECKING:
     from scipy import sparse
 
+    from asphalt_nscd.measurements.shape import Shape
+
 LAYERS = 50
 
 
@@ -28,14 +30,14 @@ class Layers(LayerHeights):
     mean: sparse.csr_matrix  # (l, d): velocities of all bodies to mean velocities along the drive
 
     @classmethod
-    def of(cls, sphere_height: np.ndarray, height: float, degrees: int) -> Layers:
-        """sphere_height (n,) [m]; height [m] of the specimen; degrees d of freedom, six for each sphere first."""
+    def of(cls, sphere_height: np.ndarray, shape: Shape, degrees: int) -> Layers:
+        """sphere_height (n,) [m] in the specimen; degrees d of freedom, six for each sphere first."""
         from scipy import sparse
 
-        edges = np.linspace(0.0, height, LAYERS + 1)
+        edges = np.linspace(0.0, shape.h, LAYERS + 1)
         layer = np.clip(np.digitize(sphere_height, edges) - 1, 0, LAYERS - 1)
         spheres = np.bincount(layer, minlength=LAYERS)
-        entries = (1.0 / spheres[layer], (layer, 6 * np.arange(layer.size)))
+        entries = (1.0 / spheres[layer], (layer, 6 * np.arange(layer.size) + shape.axis))
         return cls(
             0.5 * (edges[1:] + edges[:-1]), spheres, sparse.csr_matrix(entries, shape=(LAYERS, degrees))
         )

@@ -12,7 +12,8 @@ from scipy.sparse.linalg import SuperLU
 
 from asphalt_nscd.bending.layers import Layers
 from asphalt_nscd.files.store import Record, load
-from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.measurements.geometry import shape_of
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.break_modes import StandBy
@@ -28,7 +29,7 @@ class Model:
 
     system: BondedSystem
     basis: np.ndarray  # (d, k) of the reduced form
-    geometry: Geometry
+    geometry: Shape
     sphere_height: np.ndarray  # (n,) m
     name: str
     head: str
@@ -75,7 +76,7 @@ class Model:
     @cached_property
     def layers(self) -> Layers:
         """Over which velocities are averaged."""
-        return Layers.of(self.sphere_height, self.geometry.h, self.system.mass.size)
+        return Layers.of(self.sphere_height, self.geometry, self.system.mass.size)
 
 
 def read_model(path: str | Path) -> Model:
@@ -100,7 +101,7 @@ def model_of(record: Record) -> Model:
         friction=attributes["friction"],
         position=arrays["position"],
     )
-    geometry = Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__})
+    geometry = shape_of(attributes)
     own, shape = (
         {name.removeprefix(prefix): value for name, value in arrays.items() if name.startswith(prefix)}
         for prefix in ("stand_by/", SHAPE)

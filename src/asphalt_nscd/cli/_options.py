@@ -12,7 +12,8 @@ import click
 
 from asphalt_nscd.files.ranges import Range
 
-GEOMETRY_KEYS = ("b_mm", "B_mm", "e_mm", "h_mm", "mass_kg", "mobile_mass_kg")
+TRAPEZOID = ("b_mm", "B_mm", "e_mm", "h_mm", "mass_kg", "mobile_mass_kg")
+CYLINDER = ("d_mm", "h_mm", "mass_kg", "mobile_mass_kg")
 
 File = click.Path(path_type=Path)
 output = click.option("--output", required=True, type=File, help="File to write.")
@@ -40,6 +41,9 @@ class Geometry(click.ParamType):
 
     name = "key=value,... or file"
 
+    def __init__(self, *known: tuple[str, ...]) -> None:
+        self.known = known or (TRAPEZOID,)
+
     def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
         if not isinstance(value, str) or "=" not in value:
             return value
@@ -48,12 +52,19 @@ class Geometry(click.ParamType):
             geometry = {key.strip(): float(number) for key, number in pairs}
         except ValueError:
             self.fail(f"{value!r} is not of the form b_mm=25,B_mm=56,...", param, context)
-        if set(geometry) != set(GEOMETRY_KEYS):
-            self.fail(f"{value!r} must give {', '.join(GEOMETRY_KEYS)}, each once.", param, context)
+        if set(geometry) not in [set(keys) for keys in self.known]:
+            known = " or ".join(", ".join(keys) for keys in self.known)
+            self.fail(f"{value!r} must give {known}, each once.", param, context)
         return geometry
 
 
 geometry = click.option("--geometry", required=True, type=Geometry(), help="Trapezoidal specimen.")
+shape = click.option(
+    "--geometry",
+    required=True,
+    type=Geometry(TRAPEZOID, CYLINDER),
+    help="Trapezoid in two-point bending, or cylinder in tension-compression: d_mm,h_mm,mass_kg,mobile_mass_kg.",
+)
 
 
 class Number(click.ParamType):

@@ -33,8 +33,9 @@ Of a sieve table:
 @_options.column
 @click.option(
     "--geometry",
-    type=_options.Geometry(),
-    help="Specimens, b_mm equal to B_mm for prisms. Needed for F0 and z0; with moduli the default is the paper's.",
+    type=_options.Geometry(_options.TRAPEZOID, _options.CYLINDER),
+    help="Specimens, b_mm equal to B_mm for prisms. Needed for F0 and z0. With moduli the default is the paper's, with "
+    "those of a direct test a cylinder of d_mm=100,h_mm=150.",
 )
 @click.option(
     "--measured-in",

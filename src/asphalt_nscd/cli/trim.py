@@ -12,7 +12,7 @@ _CUTTING = "specimen.preparation.Cutting"
 
 @click.command()
 @click.argument("deposit", type=_options.File)
-@_options.geometry
+@_options.shape
 @click.option(
     "--volume-reduction",
     default=0.1,

@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save
-from asphalt_nscd.measurements.twopoint import Geometry, form_factor, mass_factor
+from asphalt_nscd.measurements.geometry import shape_of
+from asphalt_nscd.measurements.shape import Shape
 
 KIND = "reduced specimen"
 SHIPPED = "specimen.h5"
@@ -27,7 +28,7 @@ class NumericalSpecimen:
 
     stiffness: NDArray[np.float64]
     mass: NDArray[np.float64]
-    geometry: Geometry
+    geometry: Shape
     name: str
 
     def apparent_modulus(self, omega: ArrayLike, modulus: ArrayLike) -> NDArray[np.complex128]:
@@ -37,7 +38,7 @@ class NumericalSpecimen:
         motion = np.linalg.solve(dynamic[:, 1:, 1:], -dynamic[:, 1:, :1])
         force = dynamic[:, 0, 0] + (dynamic[:, :1, 1:] @ motion)[:, 0, 0]
         return np.asarray(
-            form_factor(self.geometry) * (force + mass_factor(self.geometry) * omega**2), complex
+            self.geometry.form_factor() * (force + self.geometry.mass_factor() * omega**2), complex
         )
 
     def ratio(self) -> float:
@@ -52,10 +53,8 @@ def reduce_model(model_file: str | Path, output: str | Path) -> None:
 
     model = read_model(model_file)
     reduced = ReducedModel(model.system, model.basis)
-    geometry = {name: getattr(model.geometry, name) for name in Geometry.__dataclass_fields__}
-    save(
-        output, KIND, {"stiffness": reduced.stiffness, "mass": reduced.mass}, {"name": model.name, **geometry}
-    )
+    arrays = {"stiffness": reduced.stiffness, "mass": reduced.mass}
+    save(output, KIND, arrays, {"name": model.name, **model.geometry.attributes()})
 
 
 def read_specimen(path: str | Path | None = None) -> NumericalSpecimen:
@@ -69,7 +68,7 @@ def read_specimen(path: str | Path | None = None) -> NumericalSpecimen:
         raise InputError(
             f"{path}: not a numerical specimen; give a file made by `reduced-specimen`."
         ) from None
-    geometry = Geometry(**{name: record.attributes[name] for name in Geometry.__dataclass_fields__})
+    shape = shape_of(record.attributes)
     return NumericalSpecimen(
-        record.arrays["stiffness"], record.arrays["mass"], geometry, record.attributes["name"]
+        record.arrays["stiffness"], record.arrays["mass"], shape, record.attributes["name"]
     )

@@ -127,7 +127,7 @@ def _dry_contact(contents: Contents, touching: np.ndarray, grain: Solid, pressur
     if not pressure:
         return 0.0
     prism = contents.prism
-    volume = prism.geometry.b * prism.geometry.e * prism.geometry.h
+    volume = prism.geometry.width * prism.geometry.thickness * prism.geometry.h
     force = 3.0 * pressure * volume / prism.network.length[touching].sum()
     plane = grain.modulus / (2.0 * (1.0 - grain.poisson**2))
     curvature = 0.5 * float(np.average(prism.radius, weights=prism.radius**2))

@@ -3,23 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from asphalt_nscd.files.csvinput import Limits, read_csv
+from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json
+from asphalt_nscd.measurements.shape import Shape
+from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
 
-# Wide enough for any two-point bending rig, narrow enough to catch metres under a name in mm.
-LIMITS = {
-    "b_mm": Limits(2, 200, "give the width of the head in mm"),
-    "B_mm": Limits(2, 300, "give the width of the foot in mm"),
-    "e_mm": Limits(2, 200, "give the thickness in mm"),
-    "h_mm": Limits(20, 1000, "give the height in mm"),
-    "mass_kg": Limits(1e-3, 20, "give the mass of the specimen in kg"),
-    "mobile_mass_kg": Limits(0, 20, "give the mass of the mobile equipment in kg"),
-}
+SHAPES: dict[str, type[Shape]] = {shape.test: shape for shape in (Geometry, Cylinder)}
+LIMITS = Geometry.limits  # of those measured in bending, which alone are reduced here from forces
+
+
+def shape_of(attributes: Mapping[str, Any]) -> Shape:
+    """What `Shape.attributes` said of it; in older files a trapezoid."""
+    shape = SHAPES[attributes.get("geometry", Geometry.test)]
+    return shape(**{field.name: attributes[field.name] for field in fields(shape)})  # type: ignore[arg-type]
+
+
+def read_shape(source: str | Path | Mapping[str, Any]) -> Shape:
+    """The specimen to simulate: a mapping of the keys of one of SHAPES, or the path of a JSON file with it.
+
+    The keys say which: d_mm is of a cylinder in tension-compression, b_mm of a trapezoid in two-point bending.
+    """
+    if isinstance(source, Mapping):
+        return _from_mapping(source, "geometry")
+    if Path(source).suffix.lower() == ".json":
+        return _from_mapping(read_json(source), str(source))
+    return read_geometry(source, ["specimen"])["specimen"]
 
 
 def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[str]) -> dict[str, Geometry]:
@@ -30,9 +44,9 @@ def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[st
     """
     specimens = list(dict.fromkeys(specimens))
     if isinstance(source, Mapping):
-        return dict.fromkeys(specimens, _from_mapping(source, "geometry"))
+        return dict.fromkeys(specimens, _trapezoid(source, "geometry"))
     if Path(source).suffix.lower() == ".json":
-        return dict.fromkeys(specimens, _from_mapping(read_json(source), str(source)))
+        return dict.fromkeys(specimens, _trapezoid(read_json(source), str(source)))
     known = _from_table(source)
     for specimen in specimens:
         if specimen not in known:
@@ -43,14 +57,15 @@ def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[st
     return {specimen: known[specimen] for specimen in specimens}
 
 
-def require_within(geometry: Geometry, box: Sequence[float]) -> None:
+def require_within(shape: Shape, box: Sequence[float]) -> None:
     """Refuse a specimen that a layer in the box (length, width, height) [m] cannot hold in full."""
-    room = {"h": ("high", "long", box[0]), "e": ("thick", "wide", box[1])}
-    for name, (extent, direction, size) in room.items():
-        if getattr(geometry, name) > size * (1.0 + 1e-9):
+    across = "e_mm" if isinstance(shape, Geometry) else "d_mm"
+    room = {"h_mm": (shape.h, "high", "long", box[0]), across: (shape.thickness, "thick", "wide", box[1])}
+    for name, (wanted, extent, direction, size) in room.items():
+        if wanted > size * (1.0 + 1e-9):
             raise InputError(
-                f"the specimen is {1e3 * getattr(geometry, name):g} mm {extent}, but the box only "
-                f"{1e3 * size:g} mm {direction}; lower {name}_mm or pour into a larger box."
+                f"the specimen is {1e3 * wanted:g} mm {extent}, but the box only "
+                f"{1e3 * size:g} mm {direction}; lower {name} or pour into a larger box."
             )
 
 
@@ -63,20 +78,28 @@ def _from_table(path: str | Path) -> dict[str, Geometry]:
         if specimen in known:
             raise table.error(row, f"specimen {specimen!r} appears twice; keep one line for it.")
         try:
-            known[specimen] = _in_metres({name: float(column[row]) for name, column in values.items()})
+            known[specimen] = Geometry.of({name: float(column[row]) for name, column in values.items()})
         except InputError as error:
             raise table.error(row, str(error)) from None
     return known
 
 
-def _from_mapping(mapping: Any, name: str) -> Geometry:
+def _trapezoid(mapping: Any, name: str) -> Geometry:
+    shape = _from_mapping(mapping, name, Geometry)
+    assert isinstance(shape, Geometry)
+    return shape
+
+
+def _from_mapping(mapping: Any, name: str, kind: type[Shape] | None = None) -> Shape:
+    """Of one kind, or of that whose first key the mapping has."""
     if not isinstance(mapping, Mapping):
-        raise InputError(f"{name}: not a mapping; give {', '.join(LIMITS)}.")
-    for key in [*LIMITS, *mapping]:
-        if key not in mapping or key not in LIMITS:
-            problem = "is missing" if key in LIMITS else "is not known"
-            raise InputError(f"{name}: key {key!r} {problem}; give exactly {', '.join(LIMITS)}.")
-    for key, limits in LIMITS.items():
+        raise InputError(f"{name}: not a mapping; give {', '.join((kind or Geometry).limits)}.")
+    kind = kind or next((one for one in SHAPES.values() if next(iter(one.limits)) in mapping), Geometry)
+    for key in [*kind.limits, *mapping]:
+        if key not in mapping or key not in kind.limits:
+            problem = "is missing" if key in kind.limits else "is not known"
+            raise InputError(f"{name}: key {key!r} {problem}; give exactly {', '.join(kind.limits)}.")
+    for key, limits in kind.limits.items():
         value = mapping[key]
         number = isinstance(value, int | float) and not isinstance(value, bool)
         if not number or not limits.low <= value <= limits.high:
@@ -85,11 +108,6 @@ def _from_mapping(mapping: Any, name: str) -> Geometry:
                 f"{limits.mend}."
             )
     try:
-        return _in_metres(mapping)
+        return kind.of(mapping)
     except InputError as error:
         raise InputError(f"{name}: {error}") from None
-
-
-def _in_metres(values: Mapping[str, float]) -> Geometry:
-    b, foot, e, h = (values[name] * 1e-3 for name in ("b_mm", "B_mm", "e_mm", "h_mm"))
-    return Geometry(b, foot, e, h, mass=values["mass_kg"], mobile_mass=values["mobile_mass_kg"])

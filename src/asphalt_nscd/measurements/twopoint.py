@@ -7,18 +7,22 @@ the units N, mm, g, MPa and has no place in SI).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from asphalt_nscd.files.csvinput import Limits
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.shape import Shape
 
 HEAD_SHARE_OF_MASS = 0.135  # part of the specimen's mass that moves with the head, Eq. (1)
+PAPER_AMPLITUDE = 63e-6  # m, of a head 250 mm above a foot 56 mm wide
 
 
 @dataclass(frozen=True)
-class Geometry:
+class Geometry(Shape):
     """Trapezoidal specimen, Fig. 1a.
 
     b: width of the head [m]; B: width of the foot [m]; e: thickness [m]; h: height [m];
@@ -32,16 +36,75 @@ class Geometry:
     mass: float
     mobile_mass: float
 
+    test: ClassVar[str] = "bending"
+    axis: ClassVar[int] = 0
+    # Wide enough for any two-point bending rig, narrow enough to catch metres under a name in mm.
+    limits: ClassVar[dict[str, Limits]] = {
+        "b_mm": Limits(2, 200, "give the width of the head in mm"),
+        "B_mm": Limits(2, 300, "give the width of the foot in mm"),
+        "e_mm": Limits(2, 200, "give the thickness in mm"),
+        "h_mm": Limits(20, 1000, "give the height in mm"),
+        "mass_kg": Limits(1e-3, 20, "give the mass of the specimen in kg"),
+        "mobile_mass_kg": Limits(0, 20, "give the mass of the mobile equipment in kg"),
+    }
+
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if not np.isfinite(value) or value < 0 or (value == 0 and field.name != "mobile_mass"):
-                raise InputError(f"geometry: {field.name} = {value:g} must be positive; give it in m or kg.")
+        super().__post_init__()
         if self.b > self.B:
             raise InputError(
                 f"geometry: the head b = {self.b:g} m is wider than the foot B = {self.B:g} m; "
                 "exchange b and B."
             )
+
+    @property
+    def width(self) -> float:
+        """Of the foot [m]."""
+        return self.B
+
+    @property
+    def thickness(self) -> float:
+        """e [m]."""
+        return self.e
+
+    def faces(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Head, foot, the two inclined faces and the two others."""
+        slope = (self.B - self.b) / (2.0 * self.h)
+        side = np.array([1.0, 0.0, slope]) / np.hypot(1.0, slope)
+        normal = np.array([[0, 0, 1], [0, 0, -1], side, side * [-1, 1, 1], [0, 1, 0], [0, -1, 0]])
+        half = self.B / 2.0 * side[0]
+        return normal, np.array([self.h, 0.0, half, half, self.e / 2.0, self.e / 2.0])
+
+    def gyration(self) -> NDArray[np.float64]:
+        """Of a thin rectangle b x e."""
+        b2, e2 = self.b**2, self.e**2
+        return np.array([e2, b2, b2 + e2]) / 12.0
+
+    def form_factor(self) -> float:
+        """gamma [1/m], Eq. (3)."""
+        return form_factor(self)
+
+    def mass_factor(self) -> float:
+        """mu [kg] of Eq. (1)."""
+        return mass_factor(self)
+
+    def counted_share(self, poisson: float) -> float:
+        """Bending, without shear."""
+        return bending_share(self, poisson)
+
+    def line(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Elastic line of the cantilever under a force at its free head; x [m] rises from 0 to h.
+
+        w'' ~ (h - x) / width(x)^3, the bending theory behind Eq. (3), integrated by the trapezoidal rule.
+        """
+        curvature = (self.h - x) / (self.B - (self.B - self.b) * x / self.h) ** 3
+        step = np.diff(x)
+        slope = np.concatenate([[0.0], np.cumsum(0.5 * step * (curvature[1:] + curvature[:-1]))])
+        line = np.concatenate([[0.0], np.cumsum(0.5 * step * (slope[1:] + slope[:-1]))])
+        return line / line[-1]
+
+    def usual_amplitude(self) -> float:
+        """Of the head [m], which strains it as the paper's 63 um strain its specimen: as h^2 / B."""
+        return PAPER_AMPLITUDE * (self.h**2 / self.B) / (0.25**2 / 0.056)
 
 
 def form_factor(geometry: Geometry) -> float:
@@ -107,11 +170,7 @@ def complex_modulus(
     >>> print(f"{modulus / 1e9:.3f} GPa")
     9.165+2.825j GPa
     """
-    omega = 2.0 * np.pi * np.asarray(frequency)
-    stiffness = (
-        np.asarray(force_amplitude) / np.asarray(displacement_amplitude) * np.exp(1j * np.asarray(phase))
-    )
-    return form_factor(geometry) * (stiffness + mass_factor(geometry) * omega**2)
+    return geometry.complex_modulus(frequency, force_amplitude, displacement_amplitude, phase)
 
 
 def head_response(

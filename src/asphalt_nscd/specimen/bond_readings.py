@@ -8,7 +8,6 @@ import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from asphalt_nscd.measurements.twopoint import form_factor
 from asphalt_nscd.nscd.bonds.implicit_operator import factors
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen
@@ -27,7 +26,7 @@ def ratio_without_moments(specimen: Specimen, poisson: float) -> float:
     of_head = stiffness[:, driven].toarray()[:, 0]
     displacement = np.ones(driven.size)
     displacement[~driven] = factors(stiffness[~driven][:, ~driven]).solve(-of_head[~driven])
-    return float(form_factor(specimen.geometry) * of_head @ displacement)
+    return float(specimen.geometry.form_factor() * of_head @ displacement)
 
 
 def with_mean_radius(specimen: Specimen) -> Specimen:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 from asphalt_nscd.specimen.power_diagram import Region, frames, power_diagram
 
@@ -74,7 +74,7 @@ def bond_network(position: np.ndarray, radius: np.ndarray, height: float, reach:
     return Network(first, second, frames(normal), point, gap, length, np.pi * rmin**2, np.empty(0))
 
 
-def facet_network(position: np.ndarray, radius: np.ndarray, geometry: Geometry) -> Network:
+def facet_network(position: np.ndarray, radius: np.ndarray, shape: Shape) -> Network:
     """Bond every pair of spheres whose cells share a facet, and every sphere whose cell reaches an end plate.
 
     position (n, 3) [m] inside the specimen, z = 0 at the foot; radius (n,) [m]. A bond acts at the centroid of its
@@ -82,7 +82,7 @@ def facet_network(position: np.ndarray, radius: np.ndarray, geometry: Geometry) 
     tangential stiffness is the normal one (docs/mapping.md).
     """
     n = radius.size
-    facets = power_diagram(position, radius, trapezoid(geometry))
+    facets = power_diagram(position, radius, region_of(shape))
     bonded = facets.second < n + 2  # the other faces are free
     i, j = facets.first[bonded], facets.second[bonded]
     length = facets.length[bonded]
@@ -91,11 +91,6 @@ def facet_network(position: np.ndarray, radius: np.ndarray, geometry: Geometry) 
     return Network(i, j, frame, centroid, gap, length, area, facets.cells(position))
 
 
-def trapezoid(geometry: Geometry) -> Region:
-    """The specimen between the planes of head, foot and the four free faces, in this order."""
-    slope = (geometry.B - geometry.b) / (2.0 * geometry.h)
-    side = np.array([1.0, 0.0, slope]) / np.hypot(1.0, slope)
-    normal = np.array([[0, 0, 1], [0, 0, -1], side, side * [-1, 1, 1], [0, 1, 0], [0, -1, 0]])
-    half = geometry.B / 2.0 * side[0]
-    offset = np.array([geometry.h, 0.0, half, half, geometry.e / 2.0, geometry.e / 2.0])
-    return Region(normal, offset, np.array([0.0, 0.0, geometry.h / 2.0]))
+def region_of(shape: Shape) -> Region:
+    """The specimen between the planes of head, foot and its free faces, in this order."""
+    return Region(*shape.faces(), np.array([0.0, 0.0, shape.h / 2.0]))

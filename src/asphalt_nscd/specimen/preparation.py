@@ -13,8 +13,8 @@ import numpy as np
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range, Ranged, one_of, within
 from asphalt_nscd.files.store import load, save
-from asphalt_nscd.measurements.geometry import read_geometry, require_within
-from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.measurements.geometry import read_shape, require_within, shape_of
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.nscd.cores import cores
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.counts import read_counts
@@ -228,13 +228,13 @@ def trim_deposit(
 ) -> Mapping[str, float | int | str]:
     """Cut a specimen from a deposit, bond its spheres (`trim`), and save; what it holds."""
     record = load(deposit_file, DEPOSIT)
-    shape = read_geometry(geometry, ["specimen"])["specimen"]
+    shape = read_shape(geometry)
     arrays, said = bonded((record.arrays, record.attributes), shape, cutting)
     save(output, SPECIMEN, arrays, said)
     return said
 
 
-def bonded(deposited: Content, shape: Geometry, cutting: Cutting) -> Content:
+def bonded(deposited: Content, shape: Shape, cutting: Cutting) -> Content:
     """Arrays and attributes of a specimen file, cut from the content of a deposit file. See `trim_deposit`."""
     arrays, attributes = deposited
     require_within(shape, arrays["box"].tolist())
@@ -243,7 +243,7 @@ def bonded(deposited: Content, shape: Geometry, cutting: Cutting) -> Content:
     network = specimen.network
     said: dict[str, float | int | str] = {
         **{name: attributes[name] for name in KEPT if name in attributes},
-        **asdict(specimen.geometry),
+        **specimen.geometry.attributes(),
         "spheres": specimen.radius.size,
         "bonds": network.first.size,
         "density": specimen.density,
@@ -267,7 +267,7 @@ def specimen_of(content: Content) -> Specimen:
     """The specimen in the content of its file."""
     arrays, attributes = content
     return Specimen(
-        geometry=Geometry(**{name: attributes[name] for name in Geometry.__dataclass_fields__}),
+        geometry=shape_of(attributes),
         position=arrays["position"],
         radius=arrays["radius"],
         density=attributes["density"],

@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from asphalt_nscd.measurements.twopoint import Geometry, form_factor
+from asphalt_nscd.measurements.shape import Shape
+from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.implicit_operator import factors
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis
@@ -83,7 +84,7 @@ def stretched(prism: Specimen, system: BondedSystem) -> tuple[float, float]:
     middle = np.abs(prism.position[:, 2] - geometry.h / 2) < MEASURED * geometry.h / 2
     along = motion[: 6 * n].reshape(n, 6)[middle, :3]
     strain = [np.polyfit(prism.position[middle, k], along[:, k], 1)[0] for k in range(3)]
-    stress = stiffness(system, motion) / (geometry.b * geometry.e)
+    stress = stiffness(system, motion) / (geometry.width * geometry.thickness)
     return stress / strain[2], -(strain[0] + strain[1]) / (2.0 * strain[2])
 
 
@@ -97,9 +98,9 @@ def _drawn(system: BondedSystem) -> np.ndarray:
     return motion
 
 
-def static_ratio(system: BondedSystem, geometry: Geometry) -> float:
-    """c: static |E*| of a bending test by Eq. (1), over the modulus of the bonds."""
-    return form_factor(geometry) * stiffness(system, ritz_basis(system, 0)[:, 0])
+def static_ratio(system: BondedSystem, shape: Shape) -> float:
+    """c: static |E*| of a test by its form factor, over the modulus of the bonds."""
+    return shape.form_factor() * stiffness(system, ritz_basis(system, 0)[:, 0])
 
 
 def stiffness(system: BondedSystem, motion: np.ndarray) -> float:

@@ -1,10 +1,10 @@
-"""The mechanical system of a two-point bending test on a specimen."""
+"""The mechanical system of a test on a specimen."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.measurements.twopoint import Geometry, bending_share
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.specimen.trimming import Specimen
 
@@ -21,13 +21,14 @@ def affine_poisson(kt_over_kn: float) -> float:
     return (1.0 - kt_over_kn) / (4.0 + kt_over_kn)
 
 
-def facet_share(geometry: Geometry, kt_over_kn: float) -> np.ndarray:
+def facet_share(shape: Shape, kt_over_kn: float) -> np.ndarray:
     """Normal and two tangential stiffnesses (3,) of a facet over E A / l, E being the modulus of the law.
 
-    The law is that of |E*| by Eqs. (1)-(3), which count bending alone: the material is stiffer by the part
-    that shear has in the deflection. One constant from theory (docs/mapping.md), none from a specimen.
+    The law is that of |E*| by the form factor of the test. That of two-point bending counts bending alone: the material
+    is stiffer by the part that shear has in the deflection. One constant from theory (docs/mapping.md), none from a
+    specimen.
     """
-    modulus = affine_modulus(kt_over_kn) * bending_share(geometry, affine_poisson(kt_over_kn))
+    modulus = affine_modulus(kt_over_kn) * shape.counted_share(affine_poisson(kt_over_kn))
     return np.array([1.0, kt_over_kn, kt_over_kn]) / modulus
 
 
@@ -51,20 +52,19 @@ def bending_system(
     gravity: float = 9.81,
     kt_over_kn: float = 1.0,
 ) -> BondedSystem:
-    """Foot fixed, head driven along x; the head's rotation is "free" or "blocked".
+    """Foot fixed, head driven along the axis of its shape; the head's rotation is "free" or "blocked".
 
-    The head is a plate of the mobile mass with the inertia of a thin rectangle b x e; its other two
-    translations are free. Plate bonds do not yield. yield_stress [Pa] acts on the area of a bond.
-    poisson is that of Eqs. (8)-(11) for bonds of area "paper", kt_over_kn that of "facets".
+    The head is a thin plate of the mobile mass; its other two translations are free. Plate bonds do not yield.
+    yield_stress [Pa] acts on the area of a bond. poisson is that of Eqs. (8)-(11) for bonds of area "paper", kt_over_kn
+    that of "facets".
     """
     n, geometry, network = specimen.radius.size, specimen.geometry, specimen.network
     share, size = _inertia(specimen)
     mass = np.empty((n + 1, 6))
     mass[:n, :3] = share[:, None]
     mass[:n, 3:] = (0.4 * share * size**2)[:, None]
-    b2, e2 = geometry.b**2, geometry.e**2
     mass[n, :3] = geometry.mobile_mass
-    mass[n, 3:] = geometry.mobile_mass / 12.0 * np.array([e2, b2, b2 + e2])
+    mass[n, 3:] = geometry.mobile_mass * geometry.gyration()
     load = np.zeros((n + 1, 6))
     load[:, 2] = -gravity * mass[:, 2]
     head_position = np.array([[0.0, 0.0, geometry.h]])
@@ -84,7 +84,7 @@ def bending_system(
         weight=(network.form[:, None] * stiffness).ravel(),
         mass=mass.ravel()[kept],
         load=load.ravel()[kept],
-        driven=6 * n,
+        driven=6 * n + geometry.axis,
         gap=network.gap,
         strength=strength,
         friction=friction,

@@ -9,7 +9,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.specimen.network import Network, bond_network, facet_network
 
 FEWEST_BONDS = 3
@@ -18,12 +18,9 @@ FEWEST_BONDS = 3
 
 @dataclass(frozen=True)
 class Specimen:
-    """Bonded spheres between the foot (z = 0, width B) and the head (z = h, width b).
+    """Bonded spheres between the foot (z = 0) and the head (z = h); the origin is the middle of the foot."""
 
-    The bending direction is x, the thickness e lies along y; the origin is the middle of the foot.
-    """
-
-    geometry: Geometry
+    geometry: Shape
     position: np.ndarray  # (n, 3) m
     radius: np.ndarray  # (n,) m, after the reduction of volume
     density: float  # kg/m3, matched to the mass of the geometry
@@ -40,28 +37,28 @@ def layer_height(position: np.ndarray, radius: np.ndarray) -> float:
 def trim(
     position: np.ndarray,
     radius: np.ndarray,
-    geometry: Geometry,
+    geometry: Shape,
     volume_reduction: float,
     reach: float,
     area: str = "paper",
 ) -> Specimen:
     """Cut the specimen from the middle of a layer (length along x, width along y, height along z).
 
-    Grains whose barycentre lies outside the trapezoid are removed. The volume of each sphere is
+    Grains whose barycentre lies outside the shape are removed. The volume of each sphere is
     reduced by the fraction volume_reduction, and the density raised until the mass is right.
     Pairs with a gap below reach [m] are bonded (area "paper"), or those that share a facet ("facets").
     """
     height = layer_height(position, radius)
-    if height < geometry.B:
+    if height < geometry.width:
         raise InputError(
             f"the deposited layer is {1e3 * height:.1f} mm high, less than the foot of the specimen "
-            f"({1e3 * geometry.B:.1f} mm); pour more spheres."
+            f"({1e3 * geometry.width:.1f} mm); pour more spheres."
         )
-    axis, across = position[:, 0], position[:, 2] - height / 2.0
-    width = geometry.B + (geometry.b - geometry.B) * axis / geometry.h
-    inside = (2.0 * np.abs(across) <= width) & (axis >= 0.0) & (axis <= geometry.h)
-    inside &= (position[:, 1] >= 0.0) & (position[:, 1] <= geometry.e)
-    upright = np.stack([across, position[:, 1] - geometry.e / 2.0, axis], axis=1)[inside]
+    across, along = position[:, 2] - height / 2.0, position[:, 1] - geometry.thickness / 2.0
+    upright = np.stack([across, along, position[:, 0]], axis=1)
+    normal, offset = geometry.faces()
+    inside = (upright @ normal.T <= offset).all(axis=1)
+    upright = upright[inside]
     shrunk = radius[inside] * (1.0 - volume_reduction) ** (1.0 / 3.0)
     candidates = shrunk.size
     while True:

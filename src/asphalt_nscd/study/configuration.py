@@ -108,9 +108,12 @@ def _numbers(value: Any) -> Any:
 
 
 def _of_mapping(error: ValidationError) -> list[ValidationError]:
-    """What is wrong with the mapping, where a mapping is one of the alternatives."""
+    """What is wrong with the mapping, where mappings are alternatives: of the one that it is nearest to."""
     alternatives = error.validator_value if error.validator == "anyOf" else ()
-    return [part for part in error.context if "$ref" in alternatives[part.schema_path[0]]]
+    parts = [part for part in error.context if "$ref" in alternatives[part.schema_path[0]]]
+    places = [part.schema_path[0] for part in parts]
+    nearest = min(places, key=places.count, default=None)
+    return [part for part, place in zip(parts, places, strict=True) if place == nearest]
 
 
 def _sentence(error: ValidationError) -> str:
@@ -127,7 +130,9 @@ def _sentence(error: ValidationError) -> str:
         return f"{where} needs exactly one of {', '.join(schema['properties'])}."
     wanted = _wanted(error)
     if error.validator == "anyOf":
-        wanted = " or ".join(_TYPES[item.get("type", "object")] for item in error.validator_value)
+        wanted = " or ".join(
+            dict.fromkeys(_TYPES[item.get("type", "object")] for item in error.validator_value)
+        )
     meaning = f" ({schema['description'].rstrip('.')})" if "description" in schema else ""
     return f"{where} is {error.instance!r}, but must be {wanted}{meaning}."
 
@@ -235,7 +240,7 @@ def _check(study: dict[str, Any], source: str) -> None:
 
 
 def _check_geometry(study: dict[str, Any], source: str) -> None:
-    """The simulated trapezoid is the measured one where that is the same for all specimens."""
+    """The simulated specimen is the measured one where that is the same for all specimens."""
     if "geometry" not in study["specimens"]:
         if isinstance(study["geometry"], str):
             raise InputError(
@@ -244,7 +249,7 @@ def _check_geometry(study: dict[str, Any], source: str) -> None:
         study["specimens"]["geometry"] = dict(study["geometry"])
     for where, holder in (("geometry", study), ("specimens.geometry", study["specimens"])):
         shape = holder["geometry"]
-        if isinstance(shape, dict) and not shape["b_mm"] <= shape["B_mm"]:
+        if isinstance(shape, dict) and "b_mm" in shape and not shape["b_mm"] <= shape["B_mm"]:
             raise InputError(
                 f"{source}: {where}.b_mm must not be larger than B_mm; exchange them if they are swapped."
             )

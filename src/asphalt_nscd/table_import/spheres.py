@@ -9,6 +9,8 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.shape import Shape
+from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.reporting.tables.table2 import PERCENT, SIEVE, counts_of_grading
 from asphalt_nscd.table_import.cells import read_cells
@@ -18,6 +20,9 @@ from asphalt_nscd.table_import.quantities import SIEVES, recognise
 PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
 PAPER_COUNTS = pd.Series({2.0: 11798, 4.0: 1588, 6.3: 492, 8.0: 211, 10.0: 71})
 SMALLEST_MM = 2.0  # of the paper's spheres; what is finer belongs to the mastic
+COARSER = (
+    2.0  # spheres of a cylinder, so that one of 100 x 150 mm takes about as many as the paper's trapezoid
+)
 CELLS_FILLED = 2448 / 8000  # of the lattice from which the paper's spheres are poured
 MOST_SPHERES = 200_000
 
@@ -28,48 +33,52 @@ class Spheres:
 
     counts: pd.Series
     box: tuple[float, float, float]
+    smallest_mm: float = SMALLEST_MM  # what is finer belongs to the mastic
 
 
-def spheres_for(geometry: Geometry, grading: pd.Series | None = None) -> Spheres:
-    """Spheres of the paper's volume per volume of specimen, of its sizes or those of a sieve curve.
+def spheres_for(shape: Shape, grading: pd.Series | None = None) -> Spheres:
+    """Spheres of the paper's volume per volume of specimen, of its sizes, in a cylinder twice as large, or of a sieve
+    curve.
 
     grading: per cent passing by sieve [mm].
     """
-    room = _block(geometry) / _block(PAPER)
+    coarser = COARSER if isinstance(shape, Cylinder) else 1.0
+    room, smallest = _block(shape) / _block(PAPER), SMALLEST_MM * coarser
     if grading is None:
-        counts = (PAPER_COUNTS * room).round().astype(int)
+        counts = (PAPER_COUNTS * room / coarser**3).round().astype(int)
+        counts.index = counts.index * coarser
     else:
         curve = np.array(grading.index, np.float64), np.array(grading, np.float64)
-        shares = counts_of_grading(*curve, SMALLEST_MM, 1_000_000)
+        shares = counts_of_grading(*curve, smallest, 1_000_000)
         mean = float((shares * shares.index**3).sum()) / 1e6
         total = round(room * float((PAPER_COUNTS * PAPER_COUNTS.index**3).sum()) / mean)
-        counts = counts_of_grading(*curve, SMALLEST_MM, total)
+        counts = counts_of_grading(*curve, smallest, total)
     counts = counts[counts > 0]
     if counts.sum() > MOST_SPHERES:
         raise InputError(
             f"the specimen takes {counts.sum()} spheres, more than {MOST_SPHERES}; give a smaller one."
         )
-    return Spheres(counts, _box(geometry, counts))
+    return Spheres(counts, _box(shape, counts), smallest)
 
 
-def _block(geometry: Geometry) -> float:
-    return geometry.h * geometry.e * geometry.B
+def _block(shape: Shape) -> float:
+    return shape.h * shape.thickness * shape.width
 
 
-def _box(geometry: Geometry, counts: pd.Series) -> tuple[float, float, float]:
+def _box(geometry: Shape, counts: pd.Series) -> tuple[float, float, float]:
     """As long and wide as the specimen, and so high that the lattice (`random_lattice`) is as loose as the paper's."""
     diameter = counts.index.to_numpy(float) * 1e-3
-    if diameter.max() > geometry.e:
+    if diameter.max() > geometry.thickness:
         raise InputError(
-            f"spheres of {1e3 * diameter.max():g} mm do not fit into a specimen {1e3 * geometry.e:g} mm thick; give a "
-            "thicker one or a finer grading."
+            f"spheres of {1e3 * diameter.max():g} mm do not fit into a specimen {1e3 * geometry.thickness:g} mm thick; "
+            "give a thicker one or a finer grading."
         )
-    across = [int(np.floor(size / diameter.max() + 1e-9)) for size in (geometry.h, geometry.e)]
+    across = [int(np.floor(size / diameter.max() + 1e-9)) for size in (geometry.h, geometry.thickness)]
     shared = 2.0 * diameter <= diameter.max()
     number_of = counts.to_numpy()
     cells = number_of[~shared].sum() + np.ceil(number_of[shared].sum() / 8)
     layers = int(np.ceil(cells / CELLS_FILLED / (across[0] * across[1]) - 1e-9))
-    return geometry.h, geometry.e, round(layers * float(diameter.max()), 6)
+    return geometry.h, geometry.thickness, round(layers * float(diameter.max()), 6)
 
 
 def read_grading(path: str | Path, sheet: str | None = None) -> pd.Series:

@@ -6,9 +6,9 @@ import json
 import re
 import shutil
 from collections.abc import Mapping, Sequence
-from dataclasses import astuple, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 import pandas as pd
@@ -19,26 +19,31 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path, write_table
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes, nominal_temperatures
-from asphalt_nscd.measurements.geometry import read_geometry
+from asphalt_nscd.measurements.geometry import read_geometry, read_shape
 from asphalt_nscd.measurements.limits import LIMITS
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, reduced_frame, require_enough
+from asphalt_nscd.measurements.shape import Shape
+from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.study.configuration import RESERVED, complete_study
 from asphalt_nscd.study.preflight import require_feasible
 from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.duration import duration
 from asphalt_nscd.table_import.grid import grid
-from asphalt_nscd.table_import.spheres import PAPER, Spheres, read_grading, spheres_for
+from asphalt_nscd.table_import.spheres import PAPER, SMALLEST_MM, Spheres, read_grading, spheres_for
 
 SCHEMA = Path(__file__).resolve().parents[3] / "workflow/schemas/study.schema.yaml"
 TAKEN = (*RESERVED, "blind")
 
-AMPLITUDE = 63e-6  # m, of the paper's head
 STEPS_PER_CYCLE = 500  # of the paper's highest frequency, 40 Hz
 COARSEST_STEP = 2e-4  # s, of those in Fig. 6
 
-# The smoke study's specimen: some hundred spheres.
+# The smoke study's specimen, and a cylinder of as many spheres: some hundred.
 SMALL = Geometry(b=0.01, B=0.02, e=0.01, h=0.06, mass=0.021, mobile_mass=0.008)
+SMALL_CYLINDER = Cylinder(d=0.018, h=0.032, mass=0.0195, mobile_mass=0.0)
+AMPT = Cylinder(
+    d=0.1, h=0.15, mass=2.83, mobile_mass=0.0
+)  # of AASHTO T 378 and EN 12697-26 annex D, 2400 kg/m3
 SMALL_SPHERES = Spheres(pd.Series({2.0: 600, 3.0: 200, 4.0: 90}), (0.06, 0.01, 0.2))
 
 
@@ -77,8 +82,8 @@ def new_study(name: str, measurements: Sequence[Path], wishes: Wishes) -> tuple[
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
     shape = read_geometry(geometry, frame["specimen"])[frame["specimen"].iloc[0]]
-    simulated = SMALL if wishes.small else shape
-    spheres = SMALL_SPHERES if wishes.small else _spheres(simulated, wishes)
+    simulated, why_simulated = _simulated(shape, direct, wishes)
+    spheres = _spheres(simulated, wishes)
     seeds = [1] if wishes.small else [1, 2, 3, 4]
     amplitude, why = _amplitude(read.columns.get("z0_m"), simulated, wishes.small)
     step = float(f"{min(COARSEST_STEP, 1.0 / (STEPS_PER_CYCLE * max(frequencies))):.2g}")
@@ -101,8 +106,9 @@ def new_study(name: str, measurements: Sequence[Path], wishes: Wishes) -> tuple[
         box=list(spheres.box),
         amplitude=f"{amplitude:.3e}",
         amplitude_why=why,
-        simulated=_flow(_as_mapping(simulated)) if wishes.small or not isinstance(geometry, Mapping) else "",
-        simulated_why="Smaller than measured" if wishes.small else "That of the first specimen in the table",
+        simulated=_flow(simulated.keys()) if simulated != shape or not isinstance(geometry, Mapping) else "",
+        simulated_why=why_simulated,
+        test="two-point bending" if simulated.test == "bending" else simulated.test,
         time_step=f"{step:.2e}",
         steps_per_cycle=round(1.0 / (step * max(frequencies))),
         middle=temperatures[len(temperatures) // 2],
@@ -172,46 +178,65 @@ def _geometry(form: str, direct: bool, wishes: Wishes) -> Mapping[str, float] | 
         raise InputError(
             "forces and displacements of a direct test are not reduced here; give moduli, E (MPa) and phi (deg)."
         )
+    if _is_cylinder(wishes.geometry):
+        if not direct:
+            raise InputError(
+                "--geometry of a cylinder is for tests in tension-compression; say --measured-in tension-compression, "
+                "or give b_mm, B_mm, e_mm and h_mm."
+            )
+        return PAPER.keys()
     if wishes.geometry is not None:
         return wishes.geometry
     if form == "peaks":
-        given = ",".join(f"{key}={value:g}" for key, value in _as_mapping(PAPER).items())
+        given = ",".join(f"{key}={value:g}" for key, value in PAPER.keys().items())
         raise InputError(
             f"forces and displacements need the geometry of the specimens; give it, the paper's as --geometry {given}."
         )
-    return _as_mapping(PAPER)
+    return PAPER.keys()
 
 
-def _as_mapping(geometry: Geometry) -> dict[str, float]:
-    b, foot, e, h, mass, mobile = astuple(geometry)
-    lengths = {"b_mm": b, "B_mm": foot, "e_mm": e, "h_mm": h}
-    return {key: float(f"{1e3 * value:.10g}") for key, value in lengths.items()} | {
-        "mass_kg": mass,
-        "mobile_mass_kg": mobile,
-    }
+def _is_cylinder(geometry: Mapping[str, float] | Path | None) -> TypeGuard[Mapping[str, float]]:
+    return isinstance(geometry, Mapping) and "d_mm" in geometry
 
 
-def _spheres(geometry: Geometry, wishes: Wishes) -> Spheres:
-    return spheres_for(geometry, None if wishes.grading is None else read_grading(wishes.grading))
+def _simulated(measured: Shape, direct: bool, wishes: Wishes) -> tuple[Shape, str]:
+    """What to simulate, and why: the specimen measured, or the cylinder of direct tests, or a small one of its kind."""
+    if wishes.small:
+        return SMALL_CYLINDER if direct else SMALL, "Smaller than measured"
+    if _is_cylinder(wishes.geometry):
+        return read_shape(wishes.geometry), "As given"
+    if direct and wishes.geometry is None:
+        return AMPT, "The cylinder of AASHTO T 378 and EN 12697-26 annex D"
+    return measured, "That of the first specimen in the table"
+
+
+def _spheres(shape: Shape, wishes: Wishes) -> Spheres:
+    if wishes.small:
+        return replace(SMALL_SPHERES, box=(shape.h, shape.thickness, SMALL_SPHERES.box[2]))
+    return spheres_for(shape, None if wishes.grading is None else read_grading(wishes.grading))
 
 
 def _words(spheres: Spheres, wishes: Wishes) -> str:
-    origin = "Table 2 of the paper, scaled to the volume of the specimen"
+    coarser = "" if spheres.smallest_mm == SMALLEST_MM else " at twice its sizes"
+    origin = f"Table 2 of the paper{coarser}, scaled to the volume of the specimen"
     if wishes.small:
         origin = "a few, of sizes that fit into the small specimen"
     elif wishes.grading is not None:
-        origin = f"from the sieve table {json.dumps(str(wishes.grading))}, down to 2 mm as in the paper"
+        origin = f"from the sieve table {json.dumps(str(wishes.grading))}, down to {spheres.smallest_mm:g} mm"
+        origin += "" if coarser else " as in the paper"
     return f"{counted(spheres.counts.sum(), 'sphere')}: {origin}."
 
 
-def _amplitude(measured: list[str] | None, simulated: Geometry, small: bool) -> tuple[float, str]:
+def _amplitude(measured: list[str] | None, simulated: Shape, small: bool) -> tuple[float, str]:
     """Of the simulated head [m]: as measured, or giving the strain of the paper's."""
     if measured is not None and not small:
         return float(np.median(np.array(measured, float))), "median of those measured"
-    # Strain of a cantilever's flank goes with width times deflection over height squared.
-    return AMPLITUDE * (
-        simulated.h / PAPER.h
-    ) ** 2 * PAPER.B / simulated.B, "the strain of the paper's 63e-6 m"
+    why = (
+        "the strain of the paper's 63e-6 m"
+        if simulated.test == "bending"
+        else "a strain of 50e-6, as in T 378"
+    )
+    return simulated.usual_amplitude(), why
 
 
 def _flow(value: Any) -> str:

@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
-from asphalt_nscd.measurements.twopoint import bending_share
 from asphalt_nscd.nscd.bonds.system import opening_operator
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
-from asphalt_nscd.specimen.network import trapezoid
+from asphalt_nscd.specimen.network import region_of
 from asphalt_nscd.specimen.power_diagram import power_diagram
 from asphalt_nscd.specimen.prism import pull, static_ratio
 from asphalt_nscd.specimen.system import bending_system
@@ -34,8 +33,8 @@ def cells() -> list[Row]:
     """Pyramids over the facets fill the specimen; each cell is closed and obeys the divergence theorem."""
     specimen, source = block(), "divergence theorem"
     n, geometry = specimen.radius.size, specimen.geometry
-    facets = power_diagram(specimen.position, specimen.radius, trapezoid(geometry))
-    volume = geometry.b * geometry.e * geometry.h
+    facets = power_diagram(specimen.position, specimen.radius, region_of(geometry))
+    volume = geometry.width * geometry.thickness * geometry.h
     own, normal = facets.second < n, facets.frame[:, 0]
     vector = facets.area[:, None] * normal
     out = np.zeros((n, 3))
@@ -64,7 +63,7 @@ def patch() -> list[Row]:
     )
     motion = np.hstack([specimen.position @ STRAIN, np.zeros((n, 3))]).ravel()
     force = np.repeat(network.form, 3) * (operator @ motion)
-    half = np.array([geometry.b, geometry.e, geometry.h]) / 2
+    half = np.array([geometry.width, geometry.thickness, geometry.h]) / 2
     centre = np.array([0.0, 0.0, half[2]])
     deep = (half - np.abs(specimen.position - centre) > 6e-3).all(axis=1)
     load = (operator.T @ force).reshape(n, 6)[deep]
@@ -123,7 +122,7 @@ def bending() -> list[Row]:
     rows = []
     for count in (6, 10):
         beam = jittered_beam(seed=6, shape=(count, 3, 36), area="facets")
-        share = bending_share(beam.geometry, 0.0)
+        share = beam.geometry.counted_share(0.0)
         expected = 1.0 / (1.0 / (1.0 - count**-2) + 1.0 / share - 1.0)
         found = share * static_ratio(bending_system(beam, 0.35, np.inf, 0.7), beam.geometry)
         name = f"cantilever of {count} facets over its width, Eq. (3) over the law"
@@ -140,8 +139,8 @@ def resonance() -> Row:
     mass = system.mass.copy()
     mass[head:] = 1e-9 * geometry.mass
     along = replace(system, mass=mass, driven=head + 2)
-    share = bending_share(geometry, 0.0)  # of the stiffness of bonds, which Eq. (3) has in bending
-    speed = np.sqrt(modulus / share * geometry.b * geometry.e * geometry.h / geometry.mass)
+    share = geometry.counted_share(0.0)  # of the stiffness of bonds, which Eq. (3) has in bending
+    speed = np.sqrt(modulus / share * geometry.width * geometry.thickness * geometry.h / geometry.mass)
     quarter = np.pi / 2.0 * speed / geometry.h
     found = brentq(
         lambda omega: driving_force(along, complex(modulus), omega).real,

@@ -132,7 +132,7 @@ def network() -> list[Row]:
 def solid_fraction(prism: Specimen) -> float:
     """Volume of the spheres over that of the prism."""
     of = prism.geometry
-    return float(4.0 / 3.0 * np.pi * (prism.radius**3).sum() / (of.b * of.e * of.h))
+    return float(4.0 / 3.0 * np.pi * (prism.radius**3).sum() / (of.width * of.thickness * of.h))
 
 
 def young(prism: Specimen, solid: Matrix) -> float:

@@ -11,7 +11,6 @@ import pytest
 from asphalt_nscd.reporting.audit import outcomes, preparation
 from asphalt_nscd.reporting.audit.equations import PAPER
 from asphalt_nscd.reporting.audit.statement import DIFFERS, HOLDS, INCONSISTENT, REPRODUCED, UNCHECKED
-from asphalt_nscd.reporting.figures.beam import deflection
 
 COUNTS = np.array([2, 4, 6.3, 8, 10]) * 1e-3, np.array([11798, 1588, 492, 211, 71])
 
@@ -135,7 +134,7 @@ def time_steps():
 @pytest.mark.parametrize(("bulge", "verdict"), [(0.0, REPRODUCED), (0.05, DIFFERS)])
 def test_a_profile_is_held_against_the_beam(bulge, verdict):
     height = np.linspace(0.0, 0.25, 1001)
-    shape = deflection(PAPER, height)[5::10]
+    shape = PAPER.line(height)[5::10]
     height = height[5::10]
     velocity = np.outer([0.5, 1.0], shape + bulge * np.sin(np.pi * height / 0.25))
     arrays = {"velocity_m_s": velocity, "spheres": np.ones(height.size), "height_m": height}

@@ -10,7 +10,6 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, load, save
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor
 from asphalt_nscd.reporting.figures import fig06, fig07, fig08
-from asphalt_nscd.reporting.figures.beam import deflection
 from asphalt_nscd.reporting.figures.records import last_cycle
 
 
@@ -138,7 +137,7 @@ def test_test_without_velocities_is_refused(results):
 def test_prismatic_cantilever_bends_as_in_the_textbook():
     geometry = Geometry(0.02, 0.02, 0.02, 0.2, 1.0, 0.0)
     x = np.linspace(0.0, 0.2, 401)
-    assert deflection(geometry, x) == pytest.approx((0.6 * x**2 - x**3) / (2.0 * 0.2**3), abs=1e-5)
+    assert geometry.line(x) == pytest.approx((0.6 * x**2 - x**3) / (2.0 * 0.2**3), abs=1e-5)
 
 
 def test_tapered_cantilever_against_the_unit_load_method():
@@ -155,5 +154,5 @@ def test_tapered_cantilever_against_the_unit_load_method():
 
     assert compliance(geometry.h) == pytest.approx(form_factor(geometry), rel=1e-8)
     x = np.linspace(0.0, geometry.h, 1001)
-    half = deflection(geometry, x)[500]
+    half = geometry.line(x)[500]
     assert half == pytest.approx(compliance(0.125) / compliance(0.25), rel=1e-5)

@@ -93,6 +93,23 @@ def test_section_cuts_spheres_and_leaves_out_bonds_to_plates(results):
     assert [segment.tolist() for segment in bonds.get_segments()] == [[[0.0, 0.03], [0.003, 0.03]]]
 
 
+def test_a_cylinder_is_drawn_as_one(tmp_path):
+    geometry = {"d_mm": 100, "h_mm": 150, "mass_kg": 2.8, "mobile_mass_kg": 0.3}
+    study = {"specimens": {"geometry": geometry}, "test": {"amplitude_m": 7.5e-6}}
+    (path := tmp_path / "study.json").write_text(json.dumps(study))
+    texts = " ".join(text.get_text() for axes in fig01.draw(study=[path]).axes for text in axes.texts)
+    for words in (
+        "$d$ = 100 mm",
+        "$h$ = 150 mm",
+        "$M$ = 2.8 kg",
+        "$m$ = 0.3 kg",
+        "7.5 µm",
+        "upper plate: driven",
+    ):
+        assert words in texts, words
+    assert "free to rotate" not in texts
+
+
 def test_drawing_carries_the_numbers_of_the_study(tmp_path):
     geometry = {"b_mm": 10, "B_mm": 20, "e_mm": 12, "h_mm": 60, "mass_kg": 0.021, "mobile_mass_kg": 0.008}
     study = {"specimens": {"geometry": geometry}, "test": {"amplitude_m": 1e-5}}

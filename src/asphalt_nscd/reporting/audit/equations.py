@@ -21,7 +21,6 @@ from asphalt_nscd.reporting.audit.statement import (
     judged,
     spanned,
 )
-from asphalt_nscd.reporting.figures.beam import deflection
 from asphalt_nscd.rheology.burgers import Burgers
 
 PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
@@ -105,7 +104,7 @@ def _strain() -> Judgement:
 def _mass_factor() -> Judgement:
     """Kinetic energy of the cantilever in its static deflection, over that of its mass at the head."""
     x = np.linspace(0.0, PAPER.h, 20_001)
-    moving = np.trapezoid(_width(x) * deflection(PAPER, x) ** 2, x)
+    moving = np.trapezoid(_width(x) * PAPER.line(x) ** 2, x)
     share = float(moving / np.trapezoid(_width(x), x))
     apart = form_factor(PAPER) * (share - 0.135) * PAPER.mass * OMEGA[-1] ** 2 / 1e6
     return compared(

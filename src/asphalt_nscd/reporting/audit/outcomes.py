@@ -20,7 +20,6 @@ from asphalt_nscd.reporting.audit.statement import (
     judged,
     spanned,
 )
-from asphalt_nscd.reporting.figures.beam import deflection
 from asphalt_nscd.reporting.figures.records import last_cycle
 
 PAPER_COST = 2e-4  # CPU s per particle and step
@@ -363,7 +362,7 @@ def profile(arrays: Mapping[str, Any]) -> Iterator[Judgement]:
         "A layer slower than the one below by 2 % of the head.",
     )
     fine = np.linspace(0.0, PAPER.h, 1001)
-    beam = np.interp(level, fine, deflection(PAPER, fine))
+    beam = np.interp(level, fine, PAPER.line(fine))
     off = 100.0 * float(np.abs(along / along[-1] - beam / beam[-1]).max())
     yield Judgement(
         "fig8_beam",

@@ -1,4 +1,4 @@
-"""Fig. 1: the trapezoidal specimen, and the two-point bending test."""
+"""Fig. 1: the simulated specimen, and its test."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
 from asphalt_nscd.files.store import read_json
-from asphalt_nscd.measurements.geometry import read_geometry
+from asphalt_nscd.measurements.geometry import read_shape
 from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.reporting.figures import style
-from asphalt_nscd.reporting.figures.beam import deflection
+from asphalt_nscd.reporting.figures import cylinder, style
 
 RECEDING = np.array([0.5, 0.3])  # how a length across the specimen shows in (a)
 BENT = 0.13  # deflection of the head in (b), of the height
@@ -26,7 +26,7 @@ ARROW = {"arrowstyle": "<->", "lw": 0.5, "shrinkA": 0.0, "shrinkB": 0.0, "mutati
 def draw(study: list[Path]) -> Figure:
     """(a) dimensions, (b) scheme of the test, of the simulated specimen of a study."""
     content = read_json(the_only(study, "study"))
-    geometry = read_geometry(content["specimens"]["geometry"], ["specimen"])["specimen"]
+    geometry = read_shape(content["specimens"]["geometry"])
     figure, (left, right) = style.new_figure(
         style.WIDE, 88.0, columns=2, gridspec_kw={"width_ratios": (1.0, 1.5)}
     )
@@ -34,10 +34,16 @@ def draw(study: list[Path]) -> Figure:
         axes.set_aspect("equal")
         axes.set_axis_off()
         axes.set_ylim(-0.13 * geometry.h, 1.2 * geometry.h)
-    _dimensions(left, geometry)
-    _test(right, geometry, content["test"]["amplitude_m"])
+    amplitude = content["test"]["amplitude_m"]
+    if isinstance(geometry, Cylinder):
+        cylinder.dimensions(left, geometry)
+        cylinder.scheme(right, geometry, amplitude)
+    else:
+        assert isinstance(geometry, Geometry)
+        _dimensions(left, geometry)
+        _test(right, geometry, amplitude)
     style.letter(left, "a", "dimensions")
-    style.letter(right, "b", "two-point bending")
+    style.letter(right, "b", "two-point bending" if geometry.test == "bending" else geometry.test)
     return figure
 
 
@@ -91,7 +97,7 @@ def _dimension(
 def _test(axes: Axes, geometry: Geometry, amplitude: float) -> None:
     h, b, B = geometry.h, geometry.b, geometry.B
     z = np.linspace(0.0, h, 60)
-    half, bent = 0.5 * (B - (B - b) * z / h), BENT * h * deflection(geometry, z)
+    half, bent = 0.5 * (B - (B - b) * z / h), BENT * h * geometry.line(z)
     axes.add_patch(Polygon(_front(geometry), facecolor=FACES["front"], edgecolor=style.INK, lw=0.8))
     axes.plot(
         np.concatenate([bent - half, (bent + half)[::-1]]),

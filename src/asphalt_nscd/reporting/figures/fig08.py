@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +10,10 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
+from asphalt_nscd.measurements.geometry import shape_of
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.reporting.figures import style
-from asphalt_nscd.reporting.figures.beam import deflection
 
 INSTANTS = {0.0: "0", 0.125: "T/8", 0.25: "T/4", 0.375: "3T/8", 0.5: "T/2"}
 HEIGHTS = 5  # shown in (b)
@@ -22,13 +21,12 @@ HEIGHTS = 5  # shown in (b)
 
 @style.journal
 def draw(test: list[Path], specimen: list[Path]) -> Figure:
-    """(a) velocity along the drive against height, beside the beam behind Eqs. (1)-(3); (b) against time."""
+    """(a) velocity along the drive against height, beside the beam or bar behind its form factor; (b) against time."""
     path = the_only(test, "test")
     record = load(path, "test")
     if "profile/velocity_m_s" not in record.arrays:
         raise InputError(f"{path}: holds no velocities; simulate it by a method other than harmonic.")
-    shape = load(the_only(specimen, "specimen"), "specimen").attributes
-    geometry = Geometry(**{field.name: shape[field.name] for field in fields(Geometry)})
+    shape = shape_of(load(the_only(specimen, "specimen"), "specimen").attributes)
     height, time, velocity = (
         record.arrays[f"profile/{name}"] for name in ("height_m", "time_s", "velocity_m_s")
     )
@@ -40,28 +38,28 @@ def draw(test: list[Path], specimen: list[Path]) -> Figure:
     head = 2e3 * np.pi * frequency * record.attributes["amplitude_m"] * np.cos(2.0 * np.pi * cycles)
 
     figure, (left, right) = style.new_figure(style.WIDE, 76.0, columns=2)
-    _profiles(left, geometry, height, cycles, velocity, head)
+    _profiles(left, shape, height, cycles, velocity, head)
     _histories(right, height, cycles, velocity)
     return figure
 
 
 def _profiles(
     axes: Axes,
-    geometry: Geometry,
+    shape: Shape,
     height: np.ndarray,
     cycles: np.ndarray,
     velocity: np.ndarray,
     head: np.ndarray,
 ) -> None:
-    fine = np.linspace(0.0, geometry.h, 200)
-    beam = deflection(geometry, fine)
+    fine = np.linspace(0.0, shape.h, 200)
+    beam = shape.line(fine)
     for (instant, text), (colour, marker) in zip(INSTANTS.items(), style.series(len(INSTANTS)), strict=True):
         row = int(np.argmin(np.abs(cycles - instant)))
         axes.plot(head[row] * beam, 1e3 * fine, color=style.GREY, lw=0.6, zorder=1)
         axes.plot(velocity[row], height, ls="", marker=marker, ms=2.4, color=colour, mew=0.3)
         axes.annotate(
             text,
-            (head[row], 1e3 * geometry.h),
+            (head[row], 1e3 * shape.h),
             xytext=(0.0, 4.0),
             ha="center",
             textcoords="offset points",
@@ -69,13 +67,13 @@ def _profiles(
             color=colour,
             annotation_clip=False,
         )
-    axes.set_ylim(0.0, 1e3 * geometry.h)
+    axes.set_ylim(0.0, 1e3 * shape.h)
     axes.set_xlabel("mean velocity of the spheres (mm/s)")
     axes.set_ylabel("height above the foot (mm)")
     axes.legend(
         handles=[
             axes.plot([], [], ls="", marker="o", ms=2.4, color=style.INK, label="spheres")[0],
-            axes.plot([], [], color=style.GREY, lw=0.6, label="elastic beam")[0],
+            axes.plot([], [], color=style.GREY, lw=0.6, label="beam theory")[0],
         ],
         loc="lower right",
         borderpad=0.1,

@@ -1,0 +1,102 @@
+"""What a test must know of its specimen: how it is cut and driven, and how force and displacement become E*.
+
+A test of another kind is one file beside `twopoint.py` and `tension.py` with a class that inherits `Shape`, entered in
+`SHAPES` of `geometry.py`. Complex amplitudes go with exp(+i omega t); the force leads the displacement by its phase.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import asdict, fields
+from typing import Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from asphalt_nscd.files.csvinput import Limits
+from asphalt_nscd.files.errors import InputError
+
+
+class Shape(ABC):
+    """A specimen between foot (z = 0) and head (z = h), its axis along z; subclasses are dataclasses of m and kg."""
+
+    test: ClassVar[str]
+    limits: ClassVar[Mapping[str, Limits]]  # of its keys, in mm and kg, in the order of the fields
+    axis: ClassVar[int]  # along which the head is driven: 0 for x, 2 for z
+
+    h: float  # height [m]
+    mass: float  # of the specimen [kg]
+    mobile_mass: float  # of the equipment that moves with the head [kg]
+
+    def __post_init__(self) -> None:
+        for field in fields(self):  # type: ignore[arg-type]  # of the dataclass that inherits
+            value = getattr(self, field.name)
+            if not np.isfinite(value) or value < 0 or (value == 0 and field.name != "mobile_mass"):
+                raise InputError(f"geometry: {field.name} = {value:g} must be positive; give it in m or kg.")
+
+    @classmethod
+    def of(cls, values: Mapping[str, float]) -> Self:
+        """From values by the keys of `limits`, in mm and kg."""
+        return cls(*(values[key] * (1e-3 if key.endswith("_mm") else 1.0) for key in cls.limits))
+
+    def keys(self) -> dict[str, float]:
+        """The values by the keys of `limits`, in mm and kg."""
+        values = zip(self.limits, asdict(self).values(), strict=True)  # type: ignore[call-overload]
+        return {key: float(f"{1e3 * x:.10g}") if key.endswith("_mm") else x for key, x in values}
+
+    def attributes(self) -> dict[str, Any]:
+        """What a file says of it; `geometry.shape_of` reads it."""
+        return {"geometry": self.test, **asdict(self)}  # type: ignore[call-overload]
+
+    @property
+    @abstractmethod
+    def width(self) -> float:
+        """Largest extent [m] along x, which is the height of the layer that it is cut from."""
+
+    @property
+    @abstractmethod
+    def thickness(self) -> float:
+        """Extent [m] along y."""
+
+    @abstractmethod
+    def faces(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Outward normals (p, 3) and offsets (p,) [m] of the planes around it: head, foot, then the free faces."""
+
+    @abstractmethod
+    def gyration(self) -> NDArray[np.float64]:
+        """Squared radii of gyration (3,) [m2] of the head, a thin plate, about its axes."""
+
+    @abstractmethod
+    def form_factor(self) -> float:
+        """E [1/m] over the static force and displacement of the head."""
+
+    @abstractmethod
+    def mass_factor(self) -> float:
+        """Mass [kg] that moves with the head."""
+
+    @abstractmethod
+    def counted_share(self, poisson: float) -> float:
+        """Part of the static displacement of the head that the form factor counts."""
+
+    @abstractmethod
+    def line(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Static displacement along the drive in theory, 1 at the head, at the heights x [m], which rise."""
+
+    @abstractmethod
+    def usual_amplitude(self) -> float:
+        """Of the head [m], at the strain of usual tests."""
+
+    def complex_modulus(
+        self,
+        frequency: ArrayLike,
+        force_amplitude: ArrayLike,
+        displacement_amplitude: ArrayLike,
+        phase: ArrayLike,
+    ) -> NDArray[np.complex128]:
+        """E* [Pa] from peak values, Eqs. (1)-(2): frequency [Hz], F0 [N], z0 [m], phase [rad], scalars or arrays."""
+        omega = 2.0 * np.pi * np.asarray(frequency)
+        stiffness = (
+            np.asarray(force_amplitude) / np.asarray(displacement_amplitude) * np.exp(1j * np.asarray(phase))
+        )
+        return self.form_factor() * (stiffness + self.mass_factor() * omega**2)
