@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,7 +16,7 @@ from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.rheology.laws_io import read_law
 from asphalt_nscd.specimen.preparation import read_specimen
 
-WIRE = {"color": style.INK, "lw": 0.9, "solid_capstyle": "round", "clip_on": False}
+WIRE: dict[str, Any] = {"color": style.INK, "lw": 0.9, "solid_capstyle": "round", "clip_on": False}
 MAXWELL, KELVIN, END = (0.0, 1.4, 2.8), 4.6, 5.0  # places along the element
 HALF = 0.42  # of the distance between the branches of the Kelvin element
 

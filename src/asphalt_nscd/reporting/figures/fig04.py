@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from asphalt_nscd.bending.bending_test import bond_law
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.nscd.bonds.strength import utilisation
+from asphalt_nscd.nscd.bonds.strength import utilisations
 from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.rheology.laws_io import read_law
 
@@ -34,8 +34,8 @@ def draw(laws: list[Path], study: list[Path]) -> Figure:
         for rate, (colour, _) in zip(RATES, style.series(len(RATES))[::-1], strict=True):
             for side in (1.0, -1.0):
                 opening, stress = _pulled(law, side * rate)
-                reaction = np.stack([normal * stress, tangential * stress])
-                used = np.array([utilisation(*(part / strength), 0.0) for part in reaction.T])
+                reaction = np.stack([normal * stress, tangential * stress, 0.0 * stress])
+                used = utilisations(reaction.T.ravel(), np.full(stress.shape, strength))
                 broken = np.maximum.accumulate(used > 1.0)
                 shown = np.where(broken, 0.0, reaction.sum(axis=0)) / 1e6
                 axes.plot(1e6 * opening, shown, color=colour, label=f"{rate:g}/s" if side > 0 else None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +36,9 @@ def draw(
     temperatures = sorted(set(before["temperature_C"]) | set(after["temperature_C"]))
     frequencies = np.unique(np.concatenate([before["frequency_Hz"], after["frequency_Hz"]]))
     figure, panels = style.new_figure(style.SINGLE, 165.0, rows=2, sharex=True, sharey=True)
-    of_all = {t: lambda omega, t=t: spectrum.complex_modulus(omega, t) for t in temperatures}
+    of_all: dict[float, Callable[..., np.ndarray]] = {
+        t: lambda omega, t=t: spectrum.complex_modulus(omega, t) for t in temperatures
+    }
     for axes, panel, words, tests, lines in zip(
         panels,
         "ab",

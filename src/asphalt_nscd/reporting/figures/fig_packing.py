@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -39,7 +40,7 @@ def draw(packing: list[Path]) -> Figure:
     axes.set_ylabel("|E*| simulated / law")
     keys, _ = axes.get_legend_handles_labels()
     if tests["facets"].any():
-        bare = {"ls": "", "marker": "o", "ms": 5.0, "color": style.INK}
+        bare: dict[str, Any] = {"ls": "", "marker": "o", "ms": 5.0, "color": style.INK}
         keys += [
             Line2D([], [], **bare, label="areas of Eqs. (30)-(33)"),
             Line2D([], [], **bare, markerfacecolor="white", label="facets"),
