@@ -71,6 +71,7 @@ def tiny_specimen():
         "gap": np.array([1e-4, 1e-4]),
         "length": np.array([4.1e-3, 3.1e-3]),
         "area": np.pi * np.array([1e-3, 3e-3]) ** 2,
+        "cell": np.empty(0),
     }
     position = np.array([[0.0, 0.0, 7e-3], [0.0, 0.0, 3.1e-3]])
     return Specimen(geometry, position, np.array([1e-3, 3e-3]), 1.0, Network(**rows), 0)

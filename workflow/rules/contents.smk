@@ -31,9 +31,6 @@ FIGURES = {
     "fig_master": ("0 Diagnosis", RESIDUALS),
     "fig_limits": ("0 Diagnosis", {"diagnosis": RESIDUALS["diagnosis"]}),
     "fig01": ("1 Measurements and laws", {"study": ["<results>/study.json"]}),
-    "fig02": ("2 Preparation", {"study": ["<results>/study.json"]}),
-    "fig03": ("1 Measurements and laws", ELEMENT | {"specimen": [f"<results>/specimens/{FIRST}.h5"]}),
-    "fig04": ("1 Measurements and laws", ELEMENT),
     "fig07": (
         "3 Bending tests",
         {"test": expand(TESTS, sample=FIRST, temperature=TYPICAL, frequency=max(FREQUENCIES, key=float))},
@@ -95,6 +92,9 @@ if POURED:
     PAGES["preparation"] = "2 Preparation"
     TABLES["preparation"] = {"deposits": DEPOSITS}
 if "published" in STUDY:
+    FIGURES["fig02"] = ("2 Preparation", {"study": ["<results>/study.json"]})
+    FIGURES["fig03"] = ("1 Measurements and laws", ELEMENT | {"specimen": [f"<results>/specimens/{FIRST}.h5"]})
+    FIGURES["fig04"] = ("1 Measurements and laws", ELEMENT)
     PAGES["table1"] = "1 Measurements and laws"
     TABLES["table1"] = {"grading": [STUDY["published"]["grading_table"]], "used": [COUNTS]}
     PAGES["table2"] = "2 Preparation"
