@@ -44,7 +44,7 @@ def test_misfit_beyond_scatter_is_none_on_average_and_what_was_put_in_else(fit):
 
 def test_estimates_spread_is_that_of_causes_without_a_name():
     offset, delay, bias = (CAUSES[name] for name in ("phase_offset", "channel_delay", "temperature_bias"))
-    named = Rung(Candidate(delay, None, (1e-4,)), 0.001, None, None, (), 0.99, 0.99)
+    named = Rung(Candidate(delay, None, (1e-4,)), 0.001, None, None, ())
     estimates = {
         (delay.name, None): (9.0, 1.0),  # named: not counted
         (offset.name, None): (3.0, 2.0),

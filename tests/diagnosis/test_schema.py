@@ -33,12 +33,12 @@ def loose_clamp(frame):
 
 
 def one_isotherm_warmer(frame):
-    """Half of the way from 15 to 20 degC."""
+    """A fifth of the way from 15 to 20 degC."""
     at, above = (frame["temperature_C"] == temperature for temperature in (15, 20))
     changed = frame.copy()
     warmer = frame.loc[above, "E_MPa"].to_numpy() / frame.loc[at, "E_MPa"].to_numpy()
-    changed.loc[at, "E_MPa"] *= warmer**0.5
-    changed.loc[at, "phase_deg"] += 0.5 * (
+    changed.loc[at, "E_MPa"] *= warmer**0.2
+    changed.loc[at, "phase_deg"] += 0.2 * (
         frame.loc[above, "phase_deg"].to_numpy() - frame.loc[at, "phase_deg"].to_numpy()
     )
     return changed

@@ -17,11 +17,9 @@ from numpy.typing import NDArray
 from asphalt_nscd.diagnosis import chance, discrepancy, limits
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import CHANCE, Scores
-from asphalt_nscd.diagnosis.criteria import POSSIBLE
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.probability import log_odds, shares
 from asphalt_nscd.diagnosis.start import of_likeliest_roughness
 from asphalt_nscd.files.words import specimen_named
 
@@ -56,28 +54,24 @@ class State:
     def misfit(self) -> float:
         """-2 ln of the likelihood with the law integrated out (Laplace), the causes at their best."""
         law = self.fitted.law.size + self.fitted.scales.size
+        usual = self.model.processes.usual
         return (
             self.fitted.objective
             + float(np.linalg.slogdet(self.fitted.precision[:law, :law])[1])
             + self.wide.noise.log_determinant
-            + self.model.processes.prior(self.variances)[0]
+            + 2.0 * float(np.log1p(self.variances / usual**2).sum())
         )
 
 
 @dataclass(frozen=True)
 class Found:
-    """One cause taken: how likely by chance, the states before and after, and who did as well.
-
-    probability, shared: as of `ladder.Rung`.
-    """
+    """One cause taken: how likely by chance, the states before and after, and who did as well."""
 
     candidate: Candidate
     p_value: float
     before: State
     after: State
     rivals: tuple[Candidate, ...]
-    probability: float
-    shared: float
 
 
 @dataclass(frozen=True)
@@ -133,7 +127,7 @@ def _settle(
     """Law, causes and discrepancy fitted in turn from where they stand."""
     law, scales = at.law, at.scales
     for _ in range(SETTLED):
-        noise = plain.noise.beside(found.beside(variances))
+        noise = replace(plain.noise, discrepancy=found.beside(variances))
         wide = Joint(plain.observed, plain.base, noise)
         fitted = wide.fit(law, scales, active, CONVERGED)
         law, scales, active = fitted.law, fitted.scales, fitted.active
@@ -193,7 +187,6 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         if eligible[k] and len(shortlist) < REFITS:
             shortlist.setdefault(candidates[k].key, int(k))
     refits = []
-    odds: dict[int, float] = {}
     for k in shortlist.values():
         amplitude = estimates[k].amplitude * candidates[k].typical[0]
         first = candidates[k].cause.parameters[0]
@@ -202,10 +195,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         after = _settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
         gain = state.misfit - after.misfit - 2.0 * (len(candidates[k].values) - 1)
         if gain > LEAST_GAIN:
-            taken = after.fitted.active[-1]
-            own = of_taken(after, taken)
-            z[k] = max(z[k], abs(own.z))
-            odds[k] = log_odds(taken, state.plain.observed, gain, own.std_error * float(taken.typical[0]))
+            z[k] = max(z[k], abs(of_taken(after, after.fitted.active[-1]).z))
             if z[k] > least:
                 refits.append((gain, k, after))
     if not refits:
@@ -222,12 +212,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     as_good = [refit for refit in refits if most - refit[0] < AS_GOOD]
     gain, k, after = min(as_good, key=lambda refit: (len(candidates[refit[1]].values), -refit[0]))
     rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
-    share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
-    shared = sum(share[j] for _, j, _ in as_good)
-    if shared < POSSIBLE:
-        return None
-    p_value = chance.tail(by_chance, float(z[k]))
-    return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k], shared)
+    return Found(after.fitted.active[-1], chance.tail(by_chance, float(z[k])), state, after, rivals)
 
 
 def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate], Direction]:
@@ -296,10 +281,7 @@ def _of_rows(found: Processes, plain: Joint, rows: NDArray, variances: Vector) -
     factor = np.hstack([plain.noise.whiten(root) for root in roots])
     block = np.repeat(np.arange(len(kept)), [root.shape[1] for root in roots])
     described = tuple(found.described[k] for k in kept)
-    return (
-        Processes(described, roots, factor, block, found.usual[kept], found.spread[kept]),
-        variances[kept],
-    )
+    return Processes(described, roots, factor, block, found.usual[kept]), variances[kept]
 
 
 def hangs_on(state: State, candidate: Candidate) -> list[str]:

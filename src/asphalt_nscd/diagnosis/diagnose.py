@@ -12,10 +12,8 @@ from asphalt_nscd.diagnosis import causality, chance, copies, scatter, start, su
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import CHANCE
-from asphalt_nscd.diagnosis.criteria import NAMED
 from asphalt_nscd.diagnosis.doubts import Key, find_doubts
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
-from asphalt_nscd.diagnosis.laboratory import Laboratory, with_laboratory
 from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.suspects import Suspect
@@ -46,11 +44,10 @@ class Diagnosis:
     suspects: tuple[Suspect, ...] = ()  # rows of whole
     too_few: str = ""  # why these data tell no cause from what the catalogue lacks; empty if they may
     doubts: dict[Key, list[str]] = field(default_factory=dict)  # of names, see `diagnosis.doubts`
-    laboratory: Laboratory | None = None  # None where one isotherm was tested
 
     def established(self, rung: Rung) -> bool:
         """Whether a name is more than the likeliest: no rival, with a name or without, carried by the whole table."""
-        return not self.too_few and rung.probability >= NAMED and self.taken_off(rung)
+        return not self.too_few and self.taken_off(rung)
 
     def taken_off(self, rung: Rung) -> bool:
         """Whether law.json is free of a cause, and the extended simulation holds it.
@@ -93,10 +90,6 @@ def diagnose(
             f"{100.0 * scatter.FLOOR:g} % and {np.degrees(scatter.FLOOR):.2g} deg. Check that they are separate tests."
         )
     joint, fitted = start.fit_spectrum(observed, noise)
-    wide, laboratory = with_laboratory(joint, fitted)
-    if laboratory is not None:
-        noise = wide.noise
-        joint, fitted = start.of_likeliest_roughness(wide, fitted)
     baseline_joint, baseline = start.fit_burgers_at_each(observed, noise)
     baseline_p = misfit_p_value(baseline, noise)
     spectrum_p = misfit_p_value(fitted, noise)
@@ -126,7 +119,6 @@ def diagnose(
         notes=notes,
     )
     diagnosis.whole, diagnosis.suspects = whole, tuple(doubtful)
-    diagnosis.laboratory = laboratory
     diagnosis.doubts = _doubts(ladder, noise)
     diagnosis.verdict = _verdict(diagnosis)
     diagnosis.too_few = too_few = _too_few(diagnosis)

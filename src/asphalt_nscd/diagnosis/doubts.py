@@ -123,7 +123,6 @@ class _Table:
             factor,
             np.repeat(np.arange(len(count)), count),
             np.array([*found.usual, *(usual for _ in roots)]),
-            np.concatenate([found.spread, np.full(len(roots), np.inf)]),
         )
         model: Reduced = discrepancy.reduce(every, rest)
         along: Direction | None = (

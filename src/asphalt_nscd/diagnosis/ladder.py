@@ -13,10 +13,8 @@ from asphalt_nscd.diagnosis import beside, chance, hidden_bias, limits
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import CHANCE, Scores
-from asphalt_nscd.diagnosis.criteria import POSSIBLE
 from asphalt_nscd.diagnosis.discrepancy import Process
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
-from asphalt_nscd.diagnosis.probability import log_odds, shares
 from asphalt_nscd.diagnosis.start import fit_spectrum, marginal_likelihood
 from asphalt_nscd.diagnosis.written import CONFIDENCE, widening
 
@@ -35,18 +33,13 @@ NOTICED = 0.1  # size of a process over the scatter of one test, below which it 
 
 @dataclass(frozen=True)
 class Rung:
-    """One step: the cause taken, its chance level, the fits before and after, and who did as well.
-
-    probability: of the name; shared: of it or one of those that did as well.
-    """
+    """One step: the cause taken, its chance level, the fits before and after, and who did as well."""
 
     candidate: Candidate
     p_value: float
     before: Fitted
     after: Fitted
     rivals: tuple[Candidate, ...]
-    probability: float
-    shared: float
 
 
 @dataclass(frozen=True)
@@ -159,7 +152,7 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
             ladder.joint, ladder.start = joint, rung.before
         else:
             rung = _best(joint, fitted, candidates, gains, p_value, np.quantile(by_chance, 1.0 - CHANCE) ** 2)
-        if rung.shared < POSSIBLE or not _stands_out(rung, ladder.remaining):
+        if not _stands_out(rung, ladder.remaining):
             break
         ladder.rungs.append(rung)
         fitted = rung.after
@@ -224,16 +217,7 @@ def _take(ladder: Ladder, begun: beside.State, found: Sequence[beside.Found], en
     """Rungs and fits of an ascent beside a discrepancy."""
     ladder.joint, ladder.start = end.wide, begun.fitted
     ladder.rungs = [
-        Rung(
-            one.candidate,
-            one.p_value,
-            one.before.fitted,
-            one.after.fitted,
-            one.rivals,
-            one.probability,
-            one.shared,
-        )
-        for one in found
+        Rung(one.candidate, one.p_value, one.before.fitted, one.after.fitted, one.rivals) for one in found
     ]
     # A rung ends where the next begins, with the roughness of the law chosen anew.
     ends = [*(rung.before for rung in ladder.rungs[1:]), end.fitted]
@@ -291,20 +275,7 @@ def _best(
     same = [k for k in as_good if refits[k].active[-1].cause is cause]
     best = max(same, key=lambda k: gained[k] - _by_size(refits[k].active[-1]))
     rivals = tuple(refits[k].active[-1] for k in as_good if k != best)
-    odds = [
-        log_odds(one.active[-1], joint.observed, gain, _std_error(one))
-        for one, gain in zip(refits, gained, strict=True)
-    ]
-    share = shares(odds)
-    shared = float(share[as_good].sum())
-    return Rung(refits[best].active[-1], p_value, fitted, refits[best], rivals, float(share[best]), shared)
-
-
-def _std_error(fitted: Fitted) -> float:
-    """Of the amplitude of the last cause in a fit."""
-    last = fitted.active[-1]
-    place = fitted.jacobian.shape[1] - len(last.values)
-    return float(np.sqrt(fitted.covariance[place, place]) * last.typical[0])
+    return Rung(refits[best].active[-1], p_value, fitted, refits[best], rivals)
 
 
 def _by_size(candidate: Candidate) -> float:
@@ -324,10 +295,11 @@ def _begun_with(
             gain = 2.0 * (marginal_likelihood(smooth, after) - marginal_likelihood(joint, fitted))
             if gain > least:
                 least = gain
-                odds = log_odds(after.active[0], joint.observed, gain, _std_error(after))
-                (share,) = shares([odds]).tolist()
-                before = smooth.fit(after.law, after.scales)
-                best = gain, smooth, Rung(after.active[0], 1.0, before, after, (), share, share)
+                best = (
+                    gain,
+                    smooth,
+                    Rung(after.active[0], 1.0, smooth.fit(after.law, after.scales), after, ()),
+                )
     return best
 
 
@@ -389,13 +361,14 @@ def _drop_needless(ladder: Ladder, draws: int, random: np.random.Generator) -> N
             return
         least = min(needless + unsure, key=lambda key: losses[key])
         kept = [rung.candidate.key for rung in ladder.rungs if rung.candidate.key != least]
-        rungs = {rung.candidate.key: rung for rung in ladder.rungs}
+        p_values = {rung.candidate.key: rung.p_value for rung in ladder.rungs}
+        rivals = {rung.candidate.key: rung.rivals for rung in ladder.rungs}
         ladder.rungs.clear()
         before = ladder.start
         for key in kept:
             candidate = next(c for c in fitted.active if c.key == key)
             after = joint.fit(before.law, before.scales, (*before.active, candidate))
-            ladder.rungs.append(replace(rungs[key], candidate=after.active[-1], before=before, after=after))
+            ladder.rungs.append(Rung(after.active[-1], p_values[key], before, after, rivals[key]))
             before = after
         ladder.remaining = _remaining(joint, before, draws, random)
 

@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.heldout import HeldOut
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted
 from asphalt_nscd.diagnosis.ladder import Rung
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at, widening
+from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at
 
 
 def name_of(candidate: Candidate) -> str:
@@ -40,7 +40,6 @@ def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held
         "parameters": _parameters(diagnosis, final),
         "p_value": rung.p_value,
         "gain": gain,
-        "probability": rung.probability,
         "as_good": [name_of(rival) for rival in rung.rivals],
         "established": diagnosis.established(rung),
         "taken_off": diagnosis.taken_off(rung),
@@ -65,7 +64,7 @@ def amplitude(diagnosis: Diagnosis, candidate: Candidate) -> tuple[float, float]
 
 def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[str, Any]]:
     errors = diagnosis.ladder.std_errors(candidate)
-    found: dict[str, dict[str, Any]] = {
+    return {
         parameter.name: {
             "value": value,
             "std_error": float(errors[k]),
@@ -73,12 +72,6 @@ def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[st
         }
         for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True))
     }
-    half = widening(diagnosis.ladder.estimates_spread) * CONFIDENCE * float(errors[0])
-    found[candidate.cause.parameters[0].name]["interval_95"] = [
-        candidate.values[0] - half,
-        candidate.values[0] + half,
-    ]
-    return found
 
 
 def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
