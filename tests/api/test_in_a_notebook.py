@@ -43,7 +43,7 @@ def test_a_specimen_and_its_test(packing):
     beam = an.specimen(packing, SHAPE, area="facets")
     shown = rows(beam)
     assert shown["bonds"] == f"{len(beam.bonds)}, their area by facets"
-    assert shown["width of head b and of foot B"] == "16 and 24 mm"
+    assert shown["lengths"] == "b = 16, B = 24, e = 20, h = 100 mm"
     assert shown["mass, mobile mass"] == "0.1 and 0.1 kg"
     law = an.Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
     test = an.bend(beam, law, 10.0, 15.0, load=an.Load(amplitude_m=2e-6, cycles=1.0, frames=1))
