@@ -176,7 +176,7 @@ def test_python_asks_for_instants_as_the_command_line_does(cycle, beam, tmp_path
         ours, other = test.arrays[name], theirs.arrays[name]
         assert np.allclose(ours, other, atol=1e-6 * np.abs(other[np.isfinite(other)]).max()), name
     assert len(list((tmp_path / "test").glob("bonds-*.vtp"))) == 10
-    with pytest.raises(an.InputError, match="frames = -1: give how many instants to keep"):
+    with pytest.raises(an.InputError, match="frames = -1; give a number at least 0"):
         an.bend(beam, law, 20.0, 15.0, load=an.Load(frames=-1))
 
 

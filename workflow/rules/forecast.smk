@@ -118,6 +118,7 @@ rule forecast_provenance:
 rule forecast:
     # All of it.
     input:
+        rules.forecast_packings.output,
         rules.forecast_recipe.output,
         rules.forecast_mixes.output,
         rules.forecast_figure.output,

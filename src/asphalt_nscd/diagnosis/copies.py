@@ -48,7 +48,10 @@ def copied(observed: Observations) -> Iterator[Copy]:
         common = sorted(blocks[one].keys() & blocks[other].keys())
         rows = [[block[condition] for condition in common] for block in (blocks[one], blocks[other])]
         first, second = (observed.modulus[at] for at in rows)
-        if len(common) >= LEAST and np.allclose(first, second, SAME, 0.0):
+        flat = np.allclose(
+            first, first[:1], SAME, 0.0
+        )  # one modulus at all frequencies tells nothing of a copy
+        if len(common) >= LEAST and not flat and np.allclose(first, second, SAME, 0.0):
             yield Copy((one, other), (*rows[0], *rows[1]))
 
 
