@@ -31,3 +31,10 @@ def test_hirsch_and_the_slower_binder():
 def test_the_forecast_beats_rivals_of_as_many_parameters_in_modulus():
     rivals = OVERALL.loc[["mori_tanaka", "self_consistent", "hirsch", "witczak"], "factor_all"]
     assert OVERALL.loc[FORECAST, "factor_all"] < rivals.min()
+
+
+def test_how_far_the_cost_of_air_is_from_measured():
+    table = pd.read_csv(ROOT / "results/published/forecast/voids.csv")
+    off = (table["forecast_percent"] - table["measured_percent"]) / table["standard_error_percent"]
+    text = " ".join((ROOT / "docs/forecast.md").read_text(encoding="utf-8").split())
+    assert f"{off.min():.1f} to {off.max():.1f} standard errors off" in text
