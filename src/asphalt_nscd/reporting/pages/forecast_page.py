@@ -45,7 +45,8 @@ def write_page(found: Forecast, folder: Path) -> Path:
             rows=[_row(level) for level in said["levels"]],
             limit=(
                 f"The largest single doubt is {said['largest_doubt']}: it changes |E*| by "
-                f"{doubts[said['largest_doubt']]:.0f} %. All doubts together are the band of the figure."
+                f"{doubts[said['largest_doubt']]:.0f} %. All doubts together are the band of the figure, "
+                "which is no confidence interval."
             ),
             links=[written.TABLE, written.RIVAL_TABLE, written.LAW, written.SUMMARY],
         )
