@@ -12,7 +12,7 @@ import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
-from asphalt_nscd.api.pictures import sheet, shown_in_notebooks
+from asphalt_nscd.api.pictures import drawing, sheet, shown_in_notebooks
 from asphalt_nscd.api.results import Result
 from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told
@@ -73,7 +73,8 @@ class Test(Result):
 
     def plot(self) -> Figure:
         """Force against displacement: the loop, whose first cycles hold the transient."""
-        from matplotlib.figure import Figure
+        with drawing():
+            from matplotlib.figure import Figure
 
         figure = Figure(figsize=(3.5, 2.8), layout="constrained")
         axes = figure.subplots()

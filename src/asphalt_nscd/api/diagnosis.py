@@ -16,7 +16,7 @@ import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
-from asphalt_nscd.api.pictures import shown_in_notebooks
+from asphalt_nscd.api.pictures import drawing, shown_in_notebooks
 from asphalt_nscd.api.tables import Measurements, campaign_in
 from asphalt_nscd.diagnosis.brief import rows
 from asphalt_nscd.diagnosis.measured_limits import Progress, Trials, verify
@@ -161,7 +161,8 @@ class Diagnosis:
 
     def _figure(self, name: str) -> Figure:
         # By name: a step of the workflow that imports this module must not run again after a change to a figure.
-        draw = import_module(f"asphalt_nscd.reporting.figures.{name}").draw
+        with drawing():
+            draw = import_module(f"asphalt_nscd.reporting.figures.{name}").draw
         with TemporaryDirectory() as folder:
             self.outcome.write(folder)
             files = [Path(folder) / "residuals.csv"], [Path(folder) / "diagnosis.json"]

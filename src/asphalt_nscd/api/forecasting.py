@@ -6,19 +6,22 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
-from matplotlib.figure import Figure
 
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
+from asphalt_nscd.api.pictures import drawing
 from asphalt_nscd.formulation import written
 from asphalt_nscd.formulation.forecast import Forecast as ForecastOfLevels
 from asphalt_nscd.formulation.forecast import Networks, kept_in
 from asphalt_nscd.formulation.forecast import forecast as forecast_of
 from asphalt_nscd.formulation.recipe import read_recipe, recipe_of
 from asphalt_nscd.nscd.core_cache import cache_base
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Progress = Callable[[str, float, float], None]
 
@@ -55,13 +58,15 @@ class Forecast:
 
     def plot(self) -> Figure:
         """|E*| and phase against reduced frequency, and the Black diagram, beside rivals."""
-        from asphalt_nscd.reporting.figures.forecast_panels import curves
+        with drawing():
+            from asphalt_nscd.reporting.figures.forecast_panels import curves
 
         return curves(self.found, self.table, self.rivals)
 
     def plot_levels(self) -> Figure:
         """The grading, and a cut through the packing of each level."""
-        from asphalt_nscd.reporting.figures.forecast_panels import levels
+        with drawing():
+            from asphalt_nscd.reporting.figures.forecast_panels import levels
 
         return levels(self.found)
 

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from importlib.util import find_spec
 from typing import Any
 
 import click
@@ -120,10 +121,13 @@ def command(
         # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
         title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
         names.append(_data.part("exports", "workbook").corrected_workbook(output).name)
-        names.append(_data.part("reporting.pages", "handout").write_handout(output, title).name)
+        if find_spec("matplotlib"):
+            names.append(_data.part("reporting.pages", "handout").write_handout(output, title).name)
         names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
     click.echo(
         f"{diagnosis.details if written['details'] else diagnosis}\n\nWritten to {output}: {', '.join(names)}."
     )
     if written["page"]:
         click.echo(f"For the reasons and figures, open {output / names[-1]} in a browser.")
+        if not find_spec("matplotlib"):
+            click.echo("For report.pdf, two pages to hand on: pip install 'asphalt-nscd[figures]'.")

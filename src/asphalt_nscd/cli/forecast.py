@@ -23,6 +23,8 @@ def command(recipe: Path, output: Path, packings: Path | None, seeds: int, page:
 
     RECIPE: YAML as data/forecast/recipe.yaml.
     """
+    if page:  # before the work, since it needs the extra `figures`
+        from asphalt_nscd.reporting.pages.forecast_page import write_page
     from asphalt_nscd.formulation.forecast import Networks, forecast, kept_in
     from asphalt_nscd.formulation.recipe import read_recipe
     from asphalt_nscd.formulation.written import points, write
@@ -37,8 +39,6 @@ def command(recipe: Path, output: Path, packings: Path | None, seeds: int, page:
         )
     names = write(found, output)
     if page:
-        from asphalt_nscd.reporting.pages.forecast_page import write_page
-
         names.append(write_page(found, output).name)
     frame = points(found)
     click.echo(f"{asked.name}: forecast of {len(frame)} points, nothing fitted.")

@@ -11,15 +11,13 @@ from html import escape
 
 import numpy as np
 import pandas as pd
-from matplotlib import colormaps
-from matplotlib.colors import to_hex
-from matplotlib.ticker import LogLocator, MaxNLocator
 
 from asphalt_nscd.reporting.figures.numbers import celsius, minus
 
 WIDTH, HEIGHT = 360, 250  # of one plot, in units of about a pixel on a telephone
 LEFT, RIGHT, TOP, BOTTOM = 52, 8, 22, 40  # margins for labels
 MOST_TICKS = 7
+PLASMA = ("#0d0887", "#4c02a1", "#7e03a8", "#aa2395", "#cc4778", "#e66c5c", "#f89540", "#fdc527", "#f0f921")
 MOST_NUMBERED = 8  # columns of a map whose cells have room for a number
 STRONGEST = 0.85  # opacity of the largest value of a map
 HINT = (
@@ -55,11 +53,15 @@ class Axis:
     def ticks(self, low: float, high: float) -> list[tuple[float, str]]:
         """Places and labels between two places."""
         if not self.log:
-            places = MaxNLocator(6).tick_values(low, high)
-            return [(float(x), minus(f"{x:.6g}")) for x in places if low <= x <= high]
+            decade = 10.0 ** np.floor(np.log10((high - low) / MOST_TICKS))
+            step = next(
+                n * decade for n in (1, 2, 2.5, 5, 10, 20) if (high - low) / (n * decade) <= MOST_TICKS - 1
+            )
+            places = step * np.arange(np.ceil(low / step), np.floor(high / step) + 1)
+            return [(float(x), minus(f"{x + 0.0:.6g}")) for x in places]
+        decades = 10.0 ** np.arange(np.floor(low), np.ceil(high) + 1)
         for steps in ((1.0, 2.0, 5.0), (1.0,)):
-            places = LogLocator(subs=steps, numticks=50).tick_values(10.0**low, 10.0**high)
-            inside = [float(x) for x in places if low <= np.log10(x) <= high]
+            inside = [float(x) for x in np.outer(decades, steps).ravel() if low <= np.log10(x) <= high]
             if len(inside) <= MOST_TICKS:
                 break
         every = -(-len(inside) // MOST_TICKS) or 1
@@ -185,9 +187,15 @@ def cells(title: str, label: str, every: Sequence[Cell], largest: float) -> str:
 
 def colours(count: int) -> list[tuple[str, str]]:
     """Of each series, cold to warm, on a light and on a dark page; as the figures have them."""
-    plasma = colormaps["plasma"]
-    light, dark = (plasma(np.linspace(*ends, max(count, 2)))[:count] for ends in ((0.0, 0.7), (0.4, 1.0)))
-    return [(to_hex(one), to_hex(other)) for one, other in zip(light, dark, strict=True)]
+    light, dark = (np.linspace(*ends, max(count, 2))[:count] for ends in ((0.0, 0.7), (0.4, 1.0)))
+    return [(_plasma(one), _plasma(other)) for one, other in zip(light, dark, strict=True)]
+
+
+def _plasma(place: float) -> str:
+    """Colour of the map of that name, straight between its ninths: from 0, dark blue, to 1, yellow."""
+    at = place * (len(PLASMA) - 1)
+    channels = zip(*(bytes.fromhex(one[1:]) for one in PLASMA), strict=True)
+    return "#" + "".join(f"{round(np.interp(at, range(len(PLASMA)), one)):02x}" for one in channels)
 
 
 def signed(value: float) -> str:
