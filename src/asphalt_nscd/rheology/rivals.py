@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
+from scipy.optimize import OptimizeResult, least_squares
 
 from asphalt_nscd.rheology.fitting import log_residual
 from asphalt_nscd.rheology.shift import WLF
@@ -16,6 +16,8 @@ from asphalt_nscd.rheology.spectrum_coordinates import Coordinates
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 STARTS = 4
+FIRST_STEPS = 20  # from each start; the best of them goes on to the end
+PULL = 1e-3  # towards the middle of the starts; a residual of ln E* is of the order of 1e-2
 BRANCHES = 4
 
 
@@ -32,18 +34,25 @@ class Rival:
     def fit(
         self, omega: Vector, temperature: Vector, modulus: Complex, start: Vector | None = None
     ) -> Vector:
-        """Coordinates of least squares of ln E*, from all starts or from one."""
-        starts = self.starts if start is None else start[None]
-        fits = [
-            least_squares(
-                lambda x: log_residual(modulus, self.modulus(x, omega, temperature)),
+        """Coordinates of least squares of ln E*, from the best of all starts or from one.
+
+        What the tests do not determine stays near the middle of the starts, wherever the fit starts.
+        """
+        middle = self.starts.mean(axis=0)
+
+        def fitted(one: Vector, most: int) -> OptimizeResult:
+            return least_squares(
+                lambda x: np.append(
+                    log_residual(modulus, self.modulus(x, omega, temperature)), PULL * (x - middle)
+                ),
                 np.clip(one, self.low + 1e-6, self.high - 1e-6),
                 bounds=(self.low, self.high),
-                max_nfev=200,
+                max_nfev=most,
             )
-            for one in starts
-        ]
-        return min(fits, key=lambda fit: fit.cost).x
+
+        if start is None:
+            start = min((fitted(one, FIRST_STEPS) for one in self.starts), key=lambda fit: fit.cost).x
+        return fitted(start, 200).x
 
 
 def rivals(omega: Vector, temperature: Vector, modulus: Complex, reference: float) -> Iterator[Rival]:
@@ -94,10 +103,12 @@ def _prony(omega: Vector, temperature: Vector, largest: float, reference: float)
 
 
 def left_out(
-    rival: Rival, omega: Vector, temperature: Vector, modulus: Complex, groups: Vector
+    rival: Rival, omega: Vector, temperature: Vector, modulus: Complex, groups: Vector, start: Vector
 ) -> Iterator[tuple[float, Vector]]:
-    """(value, coordinates fitted without it) for each value of `groups` (n,): a temperature or a frequency."""
-    whole = rival.fit(omega, temperature, modulus)
+    """(value, coordinates fitted without it) for each value of `groups` (n,): a temperature or a frequency.
+
+    start: coordinates from which the fits start; those of a fit to all tests, as `fit` forgets them.
+    """
     for value in np.unique(groups):
         rest = groups != value
-        yield float(value), rival.fit(omega[rest], temperature[rest], modulus[rest], whole)
+        yield float(value), rival.fit(omega[rest], temperature[rest], modulus[rest], start)

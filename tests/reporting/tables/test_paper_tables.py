@@ -10,6 +10,7 @@ import pytest
 
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.reporting.tables import reconstructions, rivals, table1
+from asphalt_nscd.rheology.rivals import left_out
 from asphalt_nscd.rheology.rivals import rivals as laws_of
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
@@ -73,3 +74,28 @@ def test_a_prony_series_is_a_sum_of_maxwell_branches():
     reduced = 1j * omega / rate
     expected = 2e9 * (0.1 + 0.5 * reduced / (1.0 + reduced))
     np.testing.assert_allclose(prony.modulus(x, omega, temperature), expected, rtol=1e-9)
+
+
+def test_what_was_left_out_does_not_come_back_through_the_start():
+    """A temperature left out of three leaves the shift undetermined: the fit must not keep it from its start."""
+    temperature, frequency = (a.ravel() for a in np.meshgrid([0.0, 15.0, 30.0], [1.0, 5.0, 20.0]))
+    omega = 2 * np.pi * frequency
+    modulus = LAW.complex_modulus(omega, temperature)
+    law = next(iter(laws_of(omega, temperature, modulus, 15.0)))
+    whole = law.fit(omega, temperature, modulus)
+    elsewhere = law.starts[-1]
+    predicted = [
+        dict(left_out(law, omega, temperature, modulus, temperature, start))[0.0]
+        for start in (whole, elsewhere)
+    ]
+    cold = temperature == 0.0
+    one, other = (law.modulus(x, omega[cold], temperature[cold]) for x in predicted)
+    np.testing.assert_allclose(np.abs(one), np.abs(other), rtol=0.02)
+
+
+def test_three_temperatures_tell_nothing_of_one_left_out(exact, tmp_path):
+    table = pd.read_csv(exact)
+    write_table(tmp_path / "three.csv", table[table["temperature_C"] > -10.0])
+    found = rivals.make(measured=[tmp_path / "three.csv"])
+    assert found["inner_temperatures_E_percent"].isna().all()
+    assert found["inner_frequencies_E_percent"].notna().all()

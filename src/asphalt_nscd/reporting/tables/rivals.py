@@ -13,6 +13,8 @@ from asphalt_nscd.measurements.tables import origin_of, read_measured
 from asphalt_nscd.rheology.rivals import Complex, Rival, Vector, left_out, rivals
 
 REFERENCE = 15.0  # degC; any choice gives the same laws
+KINDS = ("fitted", "inner_temperatures", "end_temperatures", "inner_frequencies", "end_frequencies")
+TEMPERATURES = 4  # fewest of which one can be left out: two parameters of the shift need three
 
 
 def make(measured: list[Path]) -> pd.DataFrame:
@@ -20,7 +22,8 @@ def make(measured: list[Path]) -> pd.DataFrame:
 
     measured: files, one for each table, named by the folder that holds them. fitted: errors of the tests that the law
     was fitted to. Each other column: tests left out, a temperature or a frequency at a time; "end" is the lowest and
-    the highest, "inner" all between. No simulation: a specimen with facets returns its law.
+    the highest, "inner" all between; none where the rest would have fewer than three temperatures, which leave the
+    shift undetermined. No simulation: a specimen with facets returns its law.
     """
     rows: list[dict[str, object]] = []
     for number, path in enumerate(measured):
@@ -36,10 +39,9 @@ def make(measured: list[Path]) -> pd.DataFrame:
             rows.append(
                 {"data": name, "origin": origin, "law": rival.name, "parameters": rival.low.size}
                 | {
-                    f"{kind}_{q}_percent": value
+                    f"{kind}_{q}_percent": errors.get((kind, q), np.nan)
                     for q in ("E", "phase")
-                    for (kind, of), value in errors.items()
-                    if of == q
+                    for kind in KINDS
                 }
             )
     return pd.DataFrame(rows)
@@ -58,12 +60,15 @@ def _errors(
         }
 
     everywhere = np.ones(omega.size, bool)
-    for quantity, errors in missed(rival.fit(omega, temperature, modulus), everywhere).items():
+    whole = rival.fit(omega, temperature, modulus)
+    for quantity, errors in missed(whole, everywhere).items():
         yield ("fitted", quantity), 100.0 * float(errors.mean())
-    for kind, groups in (("temperatures", temperature), ("frequencies", omega)):
+    for kind, groups, fewest in (("temperatures", temperature, TEMPERATURES), ("frequencies", omega, 2)):
+        if np.unique(groups).size < fewest:
+            continue
         ends = groups.min(), groups.max()
         found: dict[tuple[str, str], list[float]] = {}
-        for value, x in left_out(rival, omega, temperature, modulus, groups):
+        for value, x in left_out(rival, omega, temperature, modulus, groups, whole):
             place = "end" if value in ends else "inner"
             for quantity, errors in missed(x, groups == value).items():
                 found.setdefault((f"{place}_{kind}", quantity), []).append(float(errors.mean()))
