@@ -229,5 +229,7 @@ def test_a_cylinder_is_told_what_it_lacks_and_a_trapezoid_too(config):
     assert "unknown key 'D_mm' in specimens.geometry;" in refusal(
         simulating({"D_mm": 100} | {key: value for key, value in cylinder.items() if key != "d_mm"})
     )
+    beam = {"L_mm": 357, "H_mm": 50, "mass_kg": 2.7, "mobile_mass_kg": 0}
+    assert "key 'B_mm' is missing from specimens.geometry; add it." in refusal(simulating(beam))
     trapezoid = {"b_mm": 25, "B_mm": 56, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.2}
     assert "key 'e_mm' is missing from specimens.geometry; add it." in refusal(simulating(trapezoid))

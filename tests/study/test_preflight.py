@@ -123,6 +123,15 @@ def test_implausible_geometry(check, change, sentence):
         check(specimens=check.specimens | {"geometry": check.geometry | {"mass_kg": 0.0000001}})
 
 
+def test_four_clamps_need_facets(check):
+    beam = {"L_mm": 60, "H_mm": 10, "B_mm": 10, "mass_kg": 0.02, "mobile_mass_kg": 0}
+    with pytest.raises(
+        InputError, match="my.yaml: specimens: four-point bending clamps .*; give area facets."
+    ):
+        check(specimens=check.specimens | {"geometry": beam})
+    check(specimens=check.specimens | {"geometry": beam, "bonds": {"area": "facets"}})
+
+
 def test_time_steps_too_coarse(check):
     with pytest.raises(
         InputError, match=r"my.yaml: test.time_step_s: .* fewer than 20 steps per cycle at 10 Hz"

@@ -115,7 +115,7 @@ def bend(
 ) -> Test:
     """Test a specimen at one frequency [Hz] and temperature [degC]: a trapezoid in two-point bending, Eqs. (1)-(5).
 
-    A cylinder is pulled and pushed along its axis instead (docs/geometries.md).
+    A cylinder is pulled and pushed along its axis instead, a prism bent between four clamps (docs/geometries.md).
 
     law: of one temperature, or of all; bonds then follow its Kelvin chain within 0.1 %. load: Load(amplitude_m,
     cycles, rig, frames); with frames=24 the test goes out as a series for ParaView, `export(test, "test.pvd", "vtk")`.

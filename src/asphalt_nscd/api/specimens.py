@@ -129,12 +129,12 @@ class Specimen(Spheres):
 
     @property
     def geometry(self) -> Shape:
-        """Of a trapezoid b, B, e, h [m] and masses [kg]; of a cylinder d, h and masses."""
+        """Lengths [m] and masses [kg], a class for each test (docs/geometries.md)."""
         return self.bonded.geometry
 
     @property
     def bonds(self) -> pd.DataFrame:
-        """One row for each bond: bodies first and second (n is the head, n + 1 the foot), gap_m, length_m, area_m2."""
+        """One row for each bond: bodies first and second (n and above: plates), gap_m, length_m, area_m2."""
         network = self.bonded.network
         return pd.DataFrame(
             {
@@ -265,10 +265,11 @@ def specimen(
 ) -> Specimen:
     """Cut a specimen from a packing, turn it upright, shrink its spheres and bond them.
 
-    geometry: of a trapezoid in two-point bending b_mm, B_mm, e_mm, h_mm, mass_kg, mobile_mass_kg; of a cylinder in
-    tension-compression d_mm, h_mm, mass_kg, mobile_mass_kg. h lies along x of the packing, e along y, B along z. area
-    of a bond: "paper", pi rmin^2 between spheres with a gap below gap_max_mm, or "facets", those of the cells that fill
-    the specimen (docs/mapping.md). volume_reduction: part of each sphere's volume that makes room for the mastic.
+    geometry: mass_kg, mobile_mass_kg, and of a trapezoid in two-point bending b_mm, B_mm, e_mm, h_mm, of a cylinder in
+    tension-compression d_mm, h_mm, of a prism in four-point bending L_mm, H_mm, B_mm. h, or L, lies along x of the
+    packing, the thickness along y, the direction in which it is bent along z. area of a bond: "paper", pi rmin^2
+    between spheres with a gap below gap_max_mm, or "facets", those of the cells that fill the specimen
+    (docs/mapping.md). volume_reduction: part of each sphere's volume that makes room for the mastic.
 
     >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
     >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}

@@ -80,6 +80,7 @@ def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None 
         "gap": system.gap,
         "strength": system.strength,
         "position": system.position,
+        "place": system.place,
         "sphere_height": specimen.position[:, 2],
         **{f"{SHAPE}{name}": values for name, values in _shape(specimen).items()},
     }
@@ -98,7 +99,7 @@ def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None 
 
 
 def _shape(specimen: Specimen) -> dict[str, np.ndarray]:
-    """position_m (n, 3), radius_m (n,); of bonds: bodies joined (b,) (n: head, n + 1: foot), point_m (b, 3), area."""
+    """position_m (n, 3), radius_m (n,); of bonds: bodies joined (b,) (n and above: plates), point_m (b, 3), area."""
     network = specimen.network
     return {
         "position_m": specimen.position,

@@ -100,6 +100,7 @@ def model_of(record: Record) -> Model:
         strength=arrays["strength"],
         friction=attributes["friction"],
         position=arrays["position"],
+        place=arrays.get("place"),
     )
     geometry = shape_of(attributes)
     own, shape = (

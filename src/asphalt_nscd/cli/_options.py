@@ -14,6 +14,7 @@ from asphalt_nscd.files.ranges import Range
 
 TRAPEZOID = ("b_mm", "B_mm", "e_mm", "h_mm", "mass_kg", "mobile_mass_kg")
 CYLINDER = ("d_mm", "h_mm", "mass_kg", "mobile_mass_kg")
+BEAM = ("L_mm", "H_mm", "B_mm", "mass_kg", "mobile_mass_kg")
 
 File = click.Path(path_type=Path)
 output = click.option("--output", required=True, type=File, help="File to write.")
@@ -62,8 +63,9 @@ geometry = click.option("--geometry", required=True, type=Geometry(), help="Trap
 shape = click.option(
     "--geometry",
     required=True,
-    type=Geometry(TRAPEZOID, CYLINDER),
-    help="Trapezoid in two-point bending, or cylinder in tension-compression: d_mm,h_mm,mass_kg,mobile_mass_kg.",
+    type=Geometry(TRAPEZOID, CYLINDER, BEAM),
+    help="Trapezoid in two-point bending; cylinder in tension-compression: d_mm,h_mm,mass_kg,mobile_mass_kg; prism in "
+    "four-point bending: L_mm,H_mm,B_mm,mass_kg,mobile_mass_kg.",
 )
 
 

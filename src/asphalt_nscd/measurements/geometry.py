@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields
+from numbers import Real
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json
+from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
 
-SHAPES: dict[str, type[Shape]] = {shape.test: shape for shape in (Geometry, Cylinder)}
+SHAPES: dict[str, type[Shape]] = {shape.test: shape for shape in (Geometry, Cylinder, Beam)}
 LIMITS = Geometry.limits  # of those measured in bending, which alone are reduced here from forces
 
 
@@ -27,7 +31,8 @@ def shape_of(attributes: Mapping[str, Any]) -> Shape:
 def read_shape(source: str | Path | Mapping[str, Any]) -> Shape:
     """The specimen to simulate: a mapping of the keys of one of SHAPES, or the path of a JSON file with it.
 
-    The keys say which: d_mm is of a cylinder in tension-compression, b_mm of a trapezoid in two-point bending.
+    The keys say which: d_mm is of a cylinder in tension-compression, L_mm of a prism in four-point bending, b_mm of a
+    trapezoid in two-point bending.
     """
     if isinstance(source, Mapping):
         return _from_mapping(source, "geometry")
@@ -59,14 +64,25 @@ def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[st
 
 def require_within(shape: Shape, box: Sequence[float]) -> None:
     """Refuse a specimen that a layer in the box (length, width, height) [m] cannot hold in full."""
-    across = "e_mm" if isinstance(shape, Geometry) else "d_mm"
-    room = {"h_mm": (shape.h, "high", "long", box[0]), across: (shape.thickness, "thick", "wide", box[1])}
-    for name, (wanted, extent, direction, size) in room.items():
+    for wanted, extent, direction, size in (
+        (shape.h, "high", "long", box[0]),
+        (shape.thickness, "thick", "wide", box[1]),
+    ):
         if wanted > size * (1.0 + 1e-9):
+            name = next(key for key, value in shape.keys().items() if np.isclose(1e-3 * value, wanted))
             raise InputError(
                 f"the specimen is {1e3 * wanted:g} mm {extent}, but the box only "
                 f"{1e3 * size:g} mm {direction}; lower {name} or pour into a larger box."
             )
+
+
+def require_joined(shape: Shape, area: str) -> None:
+    """Refuse bonds by an area, other than facets, that do not join a specimen to all of its plates."""
+    if area != "facets" and len(shape.plates) > 2:
+        raise InputError(
+            f"{shape.test} clamps the specimen between its ends, where bonds by area {area!r} do not join it; give "
+            "area facets."
+        )
 
 
 def _from_table(path: str | Path) -> dict[str, Geometry]:
@@ -101,10 +117,11 @@ def _from_mapping(mapping: Any, name: str, kind: type[Shape] | None = None) -> S
             raise InputError(f"{name}: key {key!r} {problem}; give exactly {', '.join(kind.limits)}.")
     for key, limits in kind.limits.items():
         value = mapping[key]
-        number = isinstance(value, int | float) and not isinstance(value, bool)
+        number = isinstance(value, Real) and not isinstance(value, bool)
         if not number or not limits.low <= value <= limits.high:
+            said = f"{value:g}" if number else repr(value)
             raise InputError(
-                f"{name}: {key} = {value!r} is not a number from {limits.low:g} to {limits.high:g}; "
+                f"{name}: {key} = {said} is not a number from {limits.low:g} to {limits.high:g}; "
                 f"{limits.mend}."
             )
     try:

@@ -1,14 +1,15 @@
 """What a test must know of its specimen: how it is cut and driven, and how force and displacement become E*.
 
-A test of another kind is one file beside `twopoint.py` and `tension.py` with a class that inherits `Shape`, entered in
-`SHAPES` of `geometry.py`. Complex amplitudes go with exp(+i omega t); the force leads the displacement by its phase.
+A test of another kind is one file beside `twopoint.py`, `tension.py` and `fourpoint.py` with a class that inherits
+`Shape`, entered in `SHAPES` of `geometry.py`. Complex amplitudes go with exp(+i omega t); the force leads the
+displacement by its phase.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import asdict, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -17,6 +18,25 @@ from numpy.typing import ArrayLike, NDArray
 from asphalt_nscd.files.csvinput import Limits
 from asphalt_nscd.files.errors import InputError
 
+FREE, HELD, DRIVEN = 0, 1, 2  # what a degree of freedom of a plate is
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A section that stays plane and stiff, at a height [m], and bears a share of the mobile mass.
+
+    motion: FREE, HELD or DRIVEN for three translations and three rotations; all that are driven move as one.
+    """
+
+    height: float
+    motion: tuple[int, ...]
+    share: float
+
+    @property
+    def moves(self) -> bool:
+        """Whether anything of it does."""
+        return self.motion != (HELD,) * 6
+
 
 class Shape(ABC):
     """A specimen between foot (z = 0) and head (z = h), its axis along z; subclasses are dataclasses of m and kg."""
@@ -24,6 +44,7 @@ class Shape(ABC):
     test: ClassVar[str]
     limits: ClassVar[Mapping[str, Limits]]  # of its keys, in mm and kg, in the order of the fields
     axis: ClassVar[int]  # along which the head is driven: 0 for x, 2 for z
+    down: ClassVar[int] = 2  # against which its weight acts
 
     h: float  # height [m]
     mass: float  # of the specimen [kg]
@@ -59,13 +80,19 @@ class Shape(ABC):
     def thickness(self) -> float:
         """Extent [m] along y."""
 
+    @property
+    def plates(self) -> tuple[Plate, ...]:
+        """Those that move, then those that rest: here the head, driven along the axis, and the foot."""
+        driven = tuple(DRIVEN if k == self.axis else FREE for k in range(6))
+        return Plate(self.h, driven, 1.0), Plate(0.0, (HELD,) * 6, 0.0)
+
     @abstractmethod
     def faces(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Outward normals (p, 3) and offsets (p,) [m] of the planes around it: head, foot, then the free faces."""
 
     @abstractmethod
     def gyration(self) -> NDArray[np.float64]:
-        """Squared radii of gyration (3,) [m2] of the head, a thin plate, about its axes."""
+        """Squared radii of gyration (3,) [m2] of a plate that moves, thin, about its axes."""
 
     @abstractmethod
     def form_factor(self) -> float:

@@ -1,15 +1,17 @@
 """The bond network of a specimen: which bodies are bonded, where, and how strongly.
 
-Bodies are numbered 0 ... n - 1 for the spheres, n for the head plate, n + 1 for the fixed foot.
+Bodies are numbered 0 ... n - 1 for the spheres, then the plates of the shape: n for the head, n + 1 for the fixed foot,
+or n to n + 3 for four clamps.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from itertools import pairwise
 
 import numpy as np
 
-from asphalt_nscd.measurements.shape import Shape
+from asphalt_nscd.measurements.shape import Plate, Shape
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 from asphalt_nscd.specimen.power_diagram import Region, frames, power_diagram
 
@@ -75,22 +77,44 @@ def bond_network(position: np.ndarray, radius: np.ndarray, height: float, reach:
 
 
 def facet_network(position: np.ndarray, radius: np.ndarray, shape: Shape) -> Network:
-    """Bond every pair of spheres whose cells share a facet, and every sphere whose cell reaches an end plate.
+    """Bond every pair of spheres whose cells share a facet, and every sphere whose cell reaches a plate.
 
     position (n, 3) [m] inside the specimen, z = 0 at the foot; radius (n,) [m]. A bond acts at the centroid of its
     facet: then spheres displaced by any uniform strain without turning are in equilibrium where the
     tangential stiffness is the normal one (docs/mapping.md).
     """
-    n = radius.size
-    facets = power_diagram(position, radius, region_of(shape))
-    bonded = facets.second < n + 2  # the other faces are free
-    i, j = facets.first[bonded], facets.second[bonded]
-    length = facets.length[bonded]
-    gap = length - radius[i] - np.where(j < n, radius[np.minimum(j, n - 1)], 0.0)
-    frame, centroid, area = facets.frame[bonded], facets.centroid[bonded], facets.area[bonded]
-    return Network(i, j, frame, centroid, gap, length, area, facets.cells(position))
+    n, plates = radius.size, shape.plates
+    order = sorted(range(len(plates)), key=lambda k: plates[k].height)
+    between = np.searchsorted([plates[k].height for k in order[1:-1]], position[:, 2])
+    parts, cell = [], np.empty(n)
+    for number, (below, above) in enumerate(pairwise(order)):
+        own = np.flatnonzero(between == number)
+        if not own.size:
+            continue
+        facets = power_diagram(position[own], radius[own], _between(shape, plates[below], plates[above]))
+        cell[own] = facets.cells(position[own])
+        bonded = facets.second < own.size + 2  # the other faces are free
+        first = own[facets.first[bonded]]
+        second = np.append(own, [n + above, n + below])[facets.second[bonded]]
+        length = facets.length[bonded]
+        gap = length - radius[first] - np.where(second < n, radius[np.minimum(second, n - 1)], 0.0)
+        cut = np.isin(second, [n + k for k in order[1:-1]])
+        gap[cut] = length[cut]  # a plate in the middle cuts through spheres
+        of_facets = facets.frame[bonded], facets.centroid[bonded], gap, length, facets.area[bonded]
+        parts.append((first, second, *of_facets))
+    first, second, frame, point, gap, length, area = (
+        np.concatenate(column) for column in zip(*parts, strict=True)
+    )
+    return Network(first, second, frame, point, gap, length, area, cell)
 
 
 def region_of(shape: Shape) -> Region:
     """The specimen between the planes of head, foot and its free faces, in this order."""
     return Region(*shape.faces(), np.array([0.0, 0.0, shape.h / 2.0]))
+
+
+def _between(shape: Shape, below: Plate, above: Plate) -> Region:
+    """The part of a specimen between two of its plates: the upper plane, the lower one, then the free faces."""
+    normal, offset = shape.faces()
+    offset[:2] = above.height, 0.0 - below.height
+    return Region(normal, offset, np.array([0.0, 0.0, (below.height + above.height) / 2.0]))

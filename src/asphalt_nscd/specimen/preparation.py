@@ -40,6 +40,7 @@ LONGEST_POURING = 3.0  # s
 LONGEST_REST = 0.3  # s
 OUT_OF_BALANCE = 0.01  # of the weight, and of the mean contact force: a layer at rest has a twentieth of it
 DEEP = 0.05  # of the smallest radius: an overlap that a layer at rest does not have
+MOST_STEPS = 500_000  # of a pouring and its vibration
 TOUCHING = 1e-6  # m, gap below which two spheres count as touching
 
 
@@ -76,6 +77,12 @@ class Pouring(Ranged):
             raise InputError(
                 f"a box of {box[0]:g} x {box[1]:g} x {box[2]:g} m is longer than {LARGEST_BOX:g} m; give its sides in "
                 "m, not in mm."
+            )
+        steps = (LONGEST_POURING + 3.0 * LONGEST_REST + self.vibration.duration) / self.time_step
+        if steps > MOST_STEPS:
+            raise InputError(
+                f"pouring: up to {steps:.3g} steps of {self.time_step:g} s; it takes at most {MOST_STEPS:g}: raise the "
+                "time step, or vibrate for less long."
             )
         if not 1 <= self.threads <= cores():
             raise InputError(

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Sequence
 
-from asphalt_nscd.measurements.shape import Shape
+import numpy as np
+from scipy import sparse
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.shape import DRIVEN, FREE, HELD, Plate, Shape
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.specimen.trimming import Specimen
 
@@ -52,27 +56,29 @@ def bending_system(
     gravity: float = 9.81,
     kt_over_kn: float = 1.0,
 ) -> BondedSystem:
-    """Foot fixed, head driven along the axis of its shape; the head's rotation is "free" or "blocked".
+    """Plates held, free and driven as its shape says; the head's rotation is "free" or "blocked".
 
     The head is a thin plate of the mobile mass; its other two translations are free. Plate bonds do not yield.
     yield_stress [Pa] acts on the area of a bond. poisson is that of Eqs. (8)-(11) for bonds of area "paper", kt_over_kn
     that of "facets".
     """
     n, geometry, network = specimen.radius.size, specimen.geometry, specimen.network
+    plates = [plate for plate in geometry.plates if plate.moves]
+    if head == "blocked" and len(plates) > 1:
+        raise InputError(f"head: {geometry.test} turns the specimen at its clamps; give free.")
     share, size = _inertia(specimen)
-    mass = np.empty((n + 1, 6))
+    mass = np.empty((n + len(plates), 6))
     mass[:n, :3] = share[:, None]
     mass[:n, 3:] = (0.4 * share * size**2)[:, None]
-    mass[n, :3] = geometry.mobile_mass
-    mass[n, 3:] = geometry.mobile_mass * geometry.gyration()
-    load = np.zeros((n + 1, 6))
-    load[:, 2] = -gravity * mass[:, 2]
-    head_position = np.array([[0.0, 0.0, geometry.h]])
-    position = np.concatenate([specimen.position, head_position])
+    mobile = geometry.mobile_mass * np.array([plate.share for plate in plates])
+    mass[n:, :3] = mobile[:, None]
+    mass[n:, 3:] = mobile[:, None] * geometry.gyration()
+    load = np.zeros_like(mass)
+    load[:, geometry.down] = -gravity * mass[:, geometry.down]
+    centres = np.array([[0.0, 0.0, plate.height] for plate in plates])
+    position = np.concatenate([specimen.position, centres])
     operator = opening_operator(network.first, network.second, network.frame, network.point, position)
-    kept = np.arange(6 * (n + 1))
-    if head == "blocked":
-        kept = kept[:-3]
+    column, place = _columns(n, plates, head == "blocked")
     if specimen.area == "facets":
         stiffness = facet_share(geometry, kt_over_kn)
     else:
@@ -80,13 +86,41 @@ def bending_system(
     strength = yield_stress * network.area
     strength[np.maximum(network.first, network.second) >= n] = np.inf
     return BondedSystem(
-        operator=operator[:, kept],
+        operator=_joined(operator, column),
         weight=(network.form[:, None] * stiffness).ravel(),
-        mass=mass.ravel()[kept],
-        load=load.ravel()[kept],
-        driven=6 * n + geometry.axis,
+        mass=np.bincount(column[column >= 0], mass.ravel()[column >= 0]),
+        load=np.bincount(column[column >= 0], load.ravel()[column >= 0]),
+        driven=int(column[6 * n + geometry.axis]),
         gap=network.gap,
         strength=strength,
         friction=friction,
         position=position,
+        place=place,
     )
+
+
+def _columns(n: int, plates: Sequence[Plate], blocked: bool) -> tuple[np.ndarray, np.ndarray]:
+    """What becomes of the degrees of freedom of n spheres and the plates that move, six each.
+
+    (column, place): of each its number in the system, -1 where it is held, one for all that are driven; and of each
+    in the system where it stands among all. blocked: no plate turns.
+    """
+    motion = np.array([plate.motion for plate in plates])
+    if blocked:
+        motion[:, 3:] = HELD
+    motion = np.concatenate([np.full(6 * n, FREE), motion.ravel()])
+    driven = np.flatnonzero(motion == DRIVEN)
+    own = motion != HELD
+    own[driven[1:]] = False
+    column = np.where(own, np.cumsum(own) - 1, -1)
+    column[driven] = column[driven[0]]
+    return column, np.flatnonzero(own)
+
+
+def _joined(operator: sparse.csr_matrix, column: np.ndarray) -> sparse.csr_matrix:
+    """An operator (rows, all) on the degrees of freedom that are kept."""
+    entries = operator.tocoo()
+    at = column[entries.col]
+    kept = at >= 0
+    values = entries.data[kept], (entries.row[kept], at[kept])
+    return sparse.csr_matrix(values, shape=(operator.shape[0], int(column.max()) + 1))

@@ -9,6 +9,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.geometry import require_joined
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.specimen.network import Network, bond_network, facet_network
 
@@ -48,6 +49,7 @@ def trim(
     reduced by the fraction volume_reduction, and the density raised until the mass is right.
     Pairs with a gap below reach [m] are bonded (area "paper"), or those that share a facet ("facets").
     """
+    require_joined(geometry, area)
     height = layer_height(position, radius)
     if height < geometry.width:
         raise InputError(
@@ -70,7 +72,7 @@ def trim(
             network = facet_network(upright, shrunk, geometry)
         else:
             network = bond_network(upright, shrunk, geometry.h, reach)
-        kept, joined = held(network, shrunk.size)
+        kept, joined = held(network, shrunk.size, len(geometry.plates))
         if kept.all():
             break
         upright, shrunk = upright[kept], shrunk[kept]
@@ -88,10 +90,11 @@ def trim(
     return Specimen(geometry, upright, shrunk, density, network, candidates - shrunk.size, area)
 
 
-def held(network: Network, n: int) -> tuple[np.ndarray, bool]:
-    """(n,) which of n spheres are held fast by bonds, and whether the head hangs together with the foot."""
+def held(network: Network, n: int, plates: int = 2) -> tuple[np.ndarray, bool]:
+    """(n,) which of n spheres are held fast by bonds, and whether all plates hang together."""
     ends = network.first, network.second
-    count = np.bincount(np.concatenate(ends), minlength=n + 2)[:n]
-    graph = sparse.coo_array((np.ones(network.first.size), ends), shape=(n + 2, n + 2))
+    count = np.bincount(np.concatenate(ends), minlength=n + plates)[:n]
+    graph = sparse.coo_array((np.ones(network.first.size), ends), shape=(n + plates, n + plates))
     cluster = connected_components(graph, directed=False)[1]
-    return (count >= FEWEST_BONDS) & (cluster[:n] == cluster[n + 1]), cluster[n] == cluster[n + 1]
+    joined = bool((cluster[n:] == cluster[n]).all())
+    return (count >= FEWEST_BONDS) & (cluster[:n] == cluster[n + 1]), joined

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.geometry import read_geometry, read_shape, require_within
+from asphalt_nscd.measurements.geometry import read_geometry, read_shape, require_joined, require_within
 from asphalt_nscd.measurements.reduction import require_enough, tests_measured
 from asphalt_nscd.measurements.signals import require_steps
 from asphalt_nscd.reporting.tables import table2, table4
@@ -54,6 +54,7 @@ def _at(where: str) -> Iterator[None]:
 def _check_specimens(specimens: Mapping[str, Any], source: str) -> None:
     with _at(f"{source}: specimens"):
         geometry = read_shape(specimens["geometry"])
+        require_joined(geometry, specimens["bonds"]["area"])
     for path in specimens.get("packings", []):
         # Only here, for it loads the compiled core, which no other study needs before its first job.
         from asphalt_nscd.packings.incoming import as_deposit, read_packing

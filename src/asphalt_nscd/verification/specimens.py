@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy import sparse
 
+from asphalt_nscd.measurements.fourpoint import Beam
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.law import BondLaw, BondLaws
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
@@ -41,8 +43,11 @@ def jittered_beam(
     fill: float = 0.42,
     reach: float = 2e-3,
     area: str = "paper",
+    test: str = Geometry.test,
 ) -> Specimen:
     """A prismatic beam of spheres on a cubic lattice, each moved within its cell; bonds as in `trim`.
+
+    test: two-point or four-point bending.
 
     fill: largest radius over `spacing` [m]; a sphere stays inside its cell, so that none overlap.
     """
@@ -53,7 +58,10 @@ def jittered_beam(
     position = spacing * (cells + 0.5) + slack * rng.uniform(-1.0, 1.0, cells.shape)
     width, thickness, height = spacing * np.array(shape)
     position -= np.array([width / 2, thickness / 2, 0.0])
-    geometry = Geometry(b=width, B=width, e=thickness, h=height, mass=4e-3, mobile_mass=2e-3)
+    masses = {"mass": 4e-3, "mobile_mass": 2e-3}
+    geometry: Shape = Geometry(b=width, B=width, e=thickness, h=height, **masses)
+    if test == Beam.test:
+        geometry = Beam(h=height, depth=width, breadth=thickness, **masses)
     if area == "facets":
         network = facet_network(position, radius, geometry)
     else:

@@ -127,3 +127,23 @@ def test_drawing_carries_the_numbers_of_the_study(tmp_path):
         "free to rotate",
     ):
         assert words in texts, words
+
+
+def test_a_prism_between_four_clamps_is_drawn_as_one(tmp_path):
+    geometry = {"L_mm": 357, "H_mm": 50, "B_mm": 63, "mass_kg": 2.7, "mobile_mass_kg": 0.5}
+    study = {"specimens": {"geometry": geometry}, "test": {"amplitude_m": 2.4e-5}}
+    (path := tmp_path / "study.json").write_text(json.dumps(study))
+    left, right = fig01.draw(study=[path]).axes
+    texts = " ".join(text.get_text() for axes in (left, right) for text in axes.texts)
+    for words in (
+        "$L$ = 357 mm",
+        "$H$ = 50 mm",
+        "$B$ = 63 mm",
+        "$M$ = 2.7 kg",
+        "$m$ = 0.5 kg",
+        "24 µm",
+        "inner clamps",
+    ):
+        assert words in texts, words
+    bent = right.lines[0].get_xdata()
+    assert np.argmax(bent) in range(38, 42) and bent[0] == bent[-1]  # most in the middle, at rest at the ends

@@ -34,6 +34,9 @@ class BondedSystem:
     strength: np.ndarray  # (b,) N, yield force in tension and in shear
     friction: float
     position: np.ndarray | None = None  # (n, 3) m of the bodies, which systems of many need
+    place: np.ndarray | None = (
+        None  # (d,) of each degree of freedom among the six of all bodies; None: the first
+    )
 
     def __post_init__(self) -> None:
         if not (self.strength > 0.0).all():
@@ -59,7 +62,7 @@ class BondedSystem:
         motion = np.zeros((len(self.position), 6, 6))
         motion[:, :3, :3] = motion[:, 3:, 3:] = np.eye(3)
         motion[:, :3, 3:] = np.cross(np.eye(3), self.position[:, None]).transpose(0, 2, 1)
-        return motion.reshape(-1, 6)[: self.mass.size]
+        return motion.reshape(-1, 6)[np.arange(self.mass.size) if self.place is None else self.place]
 
     def stiffness(self, weight: np.ndarray | None = None) -> sparse.csc_matrix:
         """K = G^T w G [m]; w may be given with zeros for broken bonds."""

@@ -21,6 +21,7 @@ from asphalt_nscd.nscd.contacts.proximal import proximal_points
 PATHS = ((3.0, 0.0), (10.0, 0.3), (10.0, 1.0), (100.0, 0.3), (1000.0, 0.0))
 """Start and balance of the paths, tried in turn: no single choice leads through every rock pile."""
 
+FINEST = 1e-14  # tolerance: rounding keeps most problems from smaller errors, and all methods would be tried in vain
 FIRST_REFINEMENT = 1e-3  # error from which Newton's method may see the right statuses
 AGAIN = 10  # steps of a path after which Newton's method tries anew
 PATIENCE = 60  # steps of a path that may pass without the error falling to a half
@@ -77,8 +78,8 @@ def solve_contacts(
     >>> solve_contacts(W, q, mu=0.1).reactions.round(12).tolist()  # slows it down
     [0.01962, -0.001962, 0.0]
     """
-    if not 0.0 < tolerance < 1.0:
-        raise ValueError(f"tolerance {tolerance} is not between 0 and 1")
+    if not FINEST <= tolerance < 1.0:
+        raise ValueError(f"tolerance {tolerance} is not between {FINEST:g}, near rounding, and 1")
     q = np.array(q, float).ravel()
     if np.shape(W) == (0, 0) and not q.size:
         return ContactSolution(q, q, 0.0, 0.0, 0, 0, True)
@@ -101,7 +102,10 @@ def solve_contacts(
             best, swept, taken = proximal_points(problem, best, tolerance, 2 * most_steps)
         sweeps, steps, least = sweeps + swept, steps + taken, max(problem.errors(best))
     error, scaled = problem.errors(best)
-    reactions, velocities = np.ldexp(best, exponent), np.ldexp(problem.velocity(best), exponent)
+    with np.errstate(over="ignore"):
+        reactions, velocities = np.ldexp(best, exponent), np.ldexp(problem.velocity(best), exponent)
+    if not (np.isfinite(reactions).all() and np.isfinite(velocities).all()):
+        raise ValueError("reactions are beyond the largest number; give W and q in other units")
     return ContactSolution(reactions, velocities, error, scaled, sweeps, steps, bool(least <= tolerance))
 
 

@@ -19,6 +19,7 @@ FIRST, LEAST, LARGEST = 0.3, 1e-6, 10.0  # damping d, of the mean of the eigenva
 EASED, STIFFENED = 0.5, 2.0  # d after a point that was reached, and one that was not
 NEAR = 1e-2  # each point is solved to this share of the error of the last
 MOST_SWEEPS = 500  # for each point
+PATIENCE = 60  # points that may pass without the error falling to a half: there may be no solution
 HOPEFUL = 1e-2  # error from which Newton's method is tried on the problem itself
 
 
@@ -28,8 +29,11 @@ def proximal_points(
     """(reactions of the least error, sweeps, Newton steps) from r on, until the error is within tolerance."""
     best, least = r, max(problem.errors(r))
     error, damping, sweeps, steps = least, FIRST, 0, 0
-    for _ in range(most_points):
-        if least <= tolerance:
+    mark, mark_point = least, 0
+    for point in range(most_points):
+        if least < 0.5 * mark:
+            mark, mark_point = least, point
+        if least <= tolerance or point - mark_point > PATIENCE:
             break
         soft = softened(problem, damping, r)
         aim = max(0.1 * tolerance, NEAR * error)

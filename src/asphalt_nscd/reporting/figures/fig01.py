@@ -10,11 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
 from asphalt_nscd.files.store import read_json
+from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.measurements.geometry import read_shape
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.reporting.figures import cylinder, style
+from asphalt_nscd.reporting.figures import beam, cylinder, style
 
 RECEDING = np.array([0.5, 0.3])  # how a length across the specimen shows in (a)
 BENT = 0.13  # deflection of the head in (b), of the height
@@ -38,6 +39,9 @@ def draw(study: list[Path]) -> Figure:
     if isinstance(geometry, Cylinder):
         cylinder.dimensions(left, geometry)
         cylinder.scheme(right, geometry, amplitude)
+    elif isinstance(geometry, Beam):
+        beam.dimensions(left, geometry)
+        beam.scheme(right, geometry, amplitude)
     else:
         assert isinstance(geometry, Geometry)
         _dimensions(left, geometry)

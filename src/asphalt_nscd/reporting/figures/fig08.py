@@ -59,7 +59,7 @@ def _profiles(
         axes.plot(velocity[row], height, ls="", marker=marker, ms=2.4, color=colour, mew=0.3)
         axes.annotate(
             text,
-            (head[row], 1e3 * shape.h),
+            (head[row] * beam.max(), 1e3 * fine[np.argmax(beam)]),
             xytext=(0.0, 4.0),
             ha="center",
             textcoords="offset points",

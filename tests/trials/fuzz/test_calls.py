@@ -1,0 +1,89 @@
+"""Drawn calls of the public functions: what they draw, how their ends are told apart, and that a few have one."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pytest
+from fuzz import calls
+
+import asphalt_nscd as an
+from asphalt_nscd.files.ranges import Range
+
+
+def test_numbers_are_of_their_range_and_of_many_sizes():
+    rng = np.random.default_rng(1)
+    for allowed in (
+        Range(low=0.0, high=60.0),
+        Range(above=0.0),
+        Range(above=-1.0, high=0.5),
+        Range(low=0.0, below=1.0),
+    ):
+        drawn = [calls.number(rng, allowed, 0.3) for _ in range(500)]
+        assert all(allowed.holds(one) for one in drawn)
+        ends = [end for end in (allowed.low, allowed.high) if np.isfinite(end)]
+        assert all(end in drawn for end in ends)
+        assert min(one for one in drawn if one > 0.0) < 1e-3 * 0.3
+    assert max(calls.number(rng, Range(above=0.0), 0.3) for _ in range(500)) > 300.0
+
+
+def test_a_seed_repeats_its_call_and_all_functions_are_called():
+    assert {calls.called(seed) for seed in range(600)} == {one.__name__ for one in calls.SHARES}
+    assert sum(calls.SHARES.values()) == pytest.approx(1.0)
+    assert calls.called(7) == calls.called(7)
+
+
+@pytest.mark.parametrize("function", ["law", "solve_contacts", "read", "read_packing", "export"])
+def test_a_few_calls_end_in_a_result_or_a_sentence(function):
+    seeds = [seed for seed in range(300) if calls.called(seed) == function][:3]
+    for seed in seeds:
+        assert calls.tried(seed).ended in ("result", "sentence")
+
+
+@pytest.mark.parametrize(
+    ("ends_in", "ended"),
+    [
+        (an.InputError("counts: no sphere; give at least one."), "sentence"),
+        (an.InputError("no"), "traceback"),  # which is no sentence
+        (ValueError("math domain error"), "traceback"),
+        (RecursionError("too deep"), "traceback"),
+    ],
+)
+def test_only_a_sentence_of_ours_is_one(monkeypatch, ends_in, ended):
+    def call():
+        raise ends_in
+
+    monkeypatch.setattr(calls, "draw", lambda seed: call)
+    assert calls.tried(0).ended == ended
+
+
+def test_results_are_looked_at(monkeypatch):
+    class Nowhere(an.Packing):
+        def __init__(self):
+            super().__init__({"position": np.full((1, 3), np.nan), "radius": np.ones(1)}, {})
+
+    monkeypatch.setattr(calls, "draw", lambda seed: Nowhere)
+    assert calls.tried(0).ended == "traceback"
+    monkeypatch.setattr(calls, "draw", lambda seed: lambda: None)
+    assert calls.tried(0).ended == "result"
+
+
+def endless(pipe):  # in the process of the trial
+    calls.LONGEST = 1
+    calls.called = lambda seed: "law"
+    calls.draw = lambda seed: (lambda: None) if seed else lambda: [time.process_time() for _ in iter(int, 1)]
+    calls._serve(pipe)
+
+
+@pytest.mark.slow
+def test_a_call_without_end_is_ended_and_the_next_one_made(monkeypatch):
+    serve = calls._serve
+    monkeypatch.setattr(calls, "_serve", endless)
+    trial = calls.Trial()
+    assert trial.of(0).ended == "no end"
+    monkeypatch.setattr(calls, "_serve", serve)
+    trial.end()
+    table = calls.counted([calls.Outcome(0, "law", "no end"), calls.Outcome(1, "fit", "result", cpu_s=2.0)])
+    rows = table.set_index("function")
+    assert rows.loc["law", "no_end"] == 1 and rows.loc["fit", "result"] == 1 and rows.loc["all", "calls"] == 2
