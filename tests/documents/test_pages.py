@@ -82,6 +82,8 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
         ("table4", "paper/table4"),
         ("bond_readings", "paper/bond_readings"),
         ("reconstructions", "paper/reconstructions"),
+        ("smoothness", "paper/smoothness"),
+        ("ensemble", "paper/ensemble"),
         ("rivals", "paper/rivals"),
         ("attack", "attack/summary"),
         ("blind", "blind/summary"),

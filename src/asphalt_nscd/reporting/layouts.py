@@ -241,6 +241,38 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             figures=3,
         )
     ],
+    "smoothness": [
+        Layout(
+            {
+                "phase_weight": "weight",
+                "temperature_C": "T, °C",
+                "published_phase_percent": "published",
+                "smallest_phase_percent": "smallest",
+                "largest_phase_percent": "largest",
+                "scatter_percent": "scatter",
+            },
+            "Phase angle, mean relative error of Table 3's laws in percent:",
+            figures=3,
+        )
+    ],
+    "ensemble": [
+        Layout(
+            {
+                "tests": "tests",
+                f"burgers_{quantity}_percent": "Burgers, printed",
+                f"nearest_{quantity}_percent": "one law, nearest data",
+                f"mean_{quantity}_percent": "mean of draws",
+                f"lowest_{quantity}_percent": "lowest",
+                f"highest_{quantity}_percent": "highest",
+            },
+            sentence,
+            figures=3,
+        )
+        for quantity, sentence in (
+            ("E", "Modulus |E\\*|, mean relative error in percent:"),
+            ("phase", "Phase angle, mean relative error in percent:"),
+        )
+    ],
     "rivals": [
         Layout(
             {"data": "data", "law": "law", "parameters": "parameters"}

@@ -35,7 +35,7 @@ def make(measured: list[Path]) -> pd.DataFrame:
         temperature = data["temperature_C"].to_numpy()
         modulus = 1e6 * data["E_MPa"].to_numpy() * np.exp(1j * np.radians(data["phase_deg"].to_numpy()))
         for rival in rivals(omega, temperature, modulus, REFERENCE):
-            errors = dict(_errors(rival, omega, temperature, modulus))
+            errors = dict(errors_of(rival, omega, temperature, modulus))
             rows.append(
                 {"data": name, "origin": origin, "law": rival.name, "parameters": rival.low.size}
                 | {
@@ -47,7 +47,7 @@ def make(measured: list[Path]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _errors(
+def errors_of(
     rival: Rival, omega: Vector, temperature: Vector, modulus: Complex
 ) -> Iterator[tuple[tuple[str, str], float]]:
     """Mean relative error in percent by (tests, quantity)."""

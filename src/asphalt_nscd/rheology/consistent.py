@@ -1,0 +1,103 @@
+"""Measurements of which printed laws are the fit and printed errors the residual, drawn about one smooth law.
+
+At each temperature four conditions make a Burgers law the fit of least squares in ln E*, and two say what it misses.
+Ten numbers (norm and phase at five frequencies) leave four free: drawn about a smooth law for all temperatures, then
+moved to the nearest point that meets all six. The law is the one nearest to such data, found by turns; the scatter of
+the draws is the distance that remains.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import null_space
+from scipy.optimize import minimize
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.rivals import rivals
+from asphalt_nscd.rheology.smooth_bounds import Printed, log_slopes
+
+Vector = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+TURNS = 6
+TRIES = 20  # of a draw that leads nowhere
+CLOSE = 1e-6  # to a printed error, absolute
+GAIN = 1e4  # brings squares of ln E* to order one
+
+
+def nearest(printed: Printed, wanted: Complex) -> Complex | None:
+    """The ln E* (n,) nearest to those wanted with the law as their fit and its two errors; None where none is found."""
+    law = np.log(printed.modulus)
+    n, angle = law.size, law.imag
+    free = null_space(log_slopes(printed.law, printed.omega).T)  # of errors that leave the fit where it is
+    away = wanted - law
+    start = free.T @ np.concatenate([away.real, away.imag])
+
+    def parts(x: Vector) -> tuple[Vector, Vector, Vector]:
+        error = free @ x
+        with np.errstate(over="ignore"):  # a wild trial
+            return error, np.expm1(-error[:n]), error[n:] / (angle + error[n:])
+
+    def missed(x: Vector) -> Vector:
+        _, norm, phase = parts(x)
+        return np.array([np.abs(norm).mean() - printed.error, np.abs(phase).mean() - printed.phase_error])
+
+    def slopes(x: Vector) -> NDArray[np.float64]:
+        error, norm, phase = parts(x)
+        by_norm = -np.sign(norm) * (1.0 + norm) / n
+        by_phase = np.sign(phase) * angle / (angle + error[n:]) ** 2 / n
+        return np.stack([by_norm @ free[:n], by_phase @ free[n:]])
+
+    found = minimize(
+        lambda x: 0.5 * GAIN * ((x - start) ** 2).sum(),
+        start,
+        jac=lambda x: GAIN * (x - start),
+        constraints={"type": "eq", "fun": missed, "jac": slopes},
+        method="SLSQP",
+        options={"maxiter": 100, "ftol": 1e-10},
+    )
+    error = free @ found.x
+    if np.abs(missed(found.x)).max() > CLOSE or (angle + error[n:]).min() <= 0.0:
+        return None
+    return np.asarray(law + error[:n] + 1j * error[n:])
+
+
+def nearest_law(
+    printed: Sequence[Printed], temperature: Vector, smooth: Complex, reference: float
+) -> tuple[Complex, float]:
+    """ln E* (t, n) of a 2S2P1D law for all temperatures [degC] near data that meet all that is printed.
+
+    And the distance that remains, the root mean square of one part of ln E*. smooth: ln E* of the law to start from.
+    """
+    omega = np.tile(printed[0].omega, len(printed))
+    each = np.repeat(temperature, printed[0].omega.size)
+    law, best, x = smooth, (smooth, np.inf), None
+    for _ in range(TURNS):
+        met = [nearest(one, row) for one, row in zip(printed, law, strict=True)]
+        data = np.array([row if new is None else new for row, new in zip(law, met, strict=True)])
+        rival = next(rivals(omega, each, np.exp(data).ravel(), reference))
+        x = rival.fit(omega, each, np.exp(data).ravel(), x)
+        law = np.log(rival.modulus(x, omega, each)).reshape(data.shape)
+        distance = float(np.sqrt((np.abs(data - law) ** 2).mean() / 2.0))
+        if all(new is not None for new in met) and distance < best[1]:
+            best = law, distance
+    return best
+
+
+def draws(printed: Sequence[Printed], law: Complex, scatter: float, number: int, seed: int) -> Complex:
+    """ln E* (number, t, n) that meet all that is printed, about a law (t, n) of ln E* with a scatter of its parts."""
+    found = np.empty((number, *law.shape), complex)
+    for k in range(number):
+        random = np.random.default_rng([seed, k])  # a stream of its own: the same draw among two or ten
+        for row, (one, about) in enumerate(zip(printed, law, strict=True)):
+            for _ in range(TRIES):
+                noise = random.standard_normal((2, about.size))
+                new = nearest(one, about + scatter * (noise[0] + 1j * noise[1]))
+                if new is not None:
+                    found[k, row] = new
+                    break
+            else:
+                raise InputError("no data meet the printed laws and errors; check both tables.")
+    return found
