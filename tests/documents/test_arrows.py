@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -76,3 +77,21 @@ def test_arrows_run_one_way(folder):
 
 def test_few_modules_lie_loose():
     assert [path.name for path in PACKAGE.glob("*.py")] == ["__init__.py"]
+
+
+def test_no_modules_import_each_other():
+    """Imports inside functions included: what would be a circle is two halves of one module."""
+    modules = {
+        ".".join(file.relative_to(PACKAGE.parent).with_suffix("").parts): file
+        for file in PACKAGE.rglob("*.py")
+    }
+    needs = {}
+    for name, file in modules.items():
+        nodes = ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        froms = [node for node in nodes if isinstance(node, ast.ImportFrom)]
+        named = {f"{node.module}.{alias.name}" for node in froms for alias in node.names}
+        needs[name] = ((named | {node.module for node in froms}) & modules.keys()) - {name}
+    try:
+        TopologicalSorter(needs).prepare()
+    except CycleError as found:
+        pytest.fail(" imports ".join(reversed(found.args[1])))

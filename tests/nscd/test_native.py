@@ -9,7 +9,8 @@ import pytest
 from numba import carray, cfunc, types
 
 from asphalt_nscd.nscd import native
-from asphalt_nscd.nscd.stepping.reduced_steps import ReducedRun, advance_reduced
+from asphalt_nscd.nscd.stepping.reduced_run import ReducedRun
+from asphalt_nscd.nscd.stepping.reduced_steps import advance_reduced
 
 
 @cfunc(types.float64(types.CPointer(types.float64), types.intp), error_model="numpy")
@@ -67,7 +68,7 @@ def test_arrays_of_another_kind_are_refused():
         np.ones(5), (0.0, 0.0, 0.0, 0.0), 1.0, vector, vector, 1.0, matrix, matrix, vector, small, 1.0, 1.0, 1.0,
         one, one, one, np.ones((7, 7)), 1.0, 1.0, 1.0, np.empty((0, 3, k)), np.empty((0, 2)), np.empty((0, k)),
         vector, vector, vector, vector, np.zeros(3), vector, vector, vector, np.ones((1, k)), np.ones((3, k)),
-        np.empty(5), np.empty((5, k)),
+        np.empty(5), np.empty((5, k)), np.empty(4 * k + 1),
     ]  # fmt: skip
     for place, wrong in (
         (6, np.ones((2 * k, k))[::2]),

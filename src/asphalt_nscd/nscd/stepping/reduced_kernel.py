@@ -8,86 +8,53 @@ from numba import carray, cfunc, types
 from asphalt_nscd.nscd.bonds.head_kernels import actuator_force, follow_actuator
 from asphalt_nscd.nscd.bonds.strength import utilisation
 from asphalt_nscd.nscd.compiled import compiled
-from asphalt_nscd.nscd.stepping.reduced_steps import (
-    ARRAYS,
+from asphalt_nscd.nscd.stepping.reduced_run import (
     CLOSED_GAP,
     DONE,
+    FIELDS,
     OUTSIDE_ENVELOPE,
     RESIDUAL,
     YIELD,
+    ReducedRun,
 )
 
 
 @compiled
-def take_steps(
-    driven,
-    devices,
-    impedance,
-    head_inertia,
-    head_strain,
-    head_load,
-    mass,
-    stiffness,
-    load,
-    inverse,
-    dt,
-    compliance,
-    memory,
-    recall,
-    keep,
-    gain,
-    residual_factor,
-    head_norm,
-    load_norm,
-    tolerance,
-    reaction,
-    beyond_head,
-    closing,
-    sigma_envelope,
-    motion_envelope,
-    reached_sigma,
-    reached_motion,
-    maxima,
-    q,
-    v,
-    s,
-    kelvin,
-    trial,
-    force,
-    velocity,
-    scratch,
-):
-    """Steps until the end or the first violation: (steps taken, code, index into the watched bonds).
+def take_steps(run):
+    """Steps of a `ReducedRun` until the end or the first violation: (steps, code, index into the watched bonds).
 
-    State arrays change in place, step by step; `trial` receives v+, s+, q+ of the refused step; scratch (4 k + 1,).
+    State arrays change in place, step by step; `trial` receives v+, s+, q+ of the refused step.
     """
+    q, v, s, kelvin, dt, force, maxima = run.q, run.v, run.s, run.kelvin, run.dt, run.force, run.maxima
     k = q.shape[0]
-    kept = velocity.shape[1]
-    scale = dt / compliance
-    explicit, known, combined = scratch[:k], scratch[k : 2 * k], scratch[2 * k : 4 * k + 1]
-    new_v, new_s, new_q = trial[0], trial[1], trial[2]
-    for n in range(driven.shape[0]):
+    kept = run.velocity.shape[1]
+    scale = dt / run.compliance
+    explicit, known, combined = run.scratch[:k], run.scratch[k : 2 * k], run.scratch[2 * k : 4 * k + 1]
+    new_v, new_s, new_q = run.trial[0], run.trial[1], run.trial[2]
+    for n in range(run.driven.shape[0]):
         for a in range(k):
-            explicit[a] = memory * s[a]
-            for e in range(recall.shape[0]):
-                explicit[a] -= recall[e] * kelvin[e, a]
-        free_force = -head_load
+            explicit[a] = run.memory * s[a]
+            for e in range(run.recall.shape[0]):
+                explicit[a] -= run.recall[e] * kelvin[e, a]
+        free_force = -run.head_load
         for a in range(k):
-            free_force -= head_inertia[a] * v[a] + head_strain[a] * explicit[a]
-        new_v[0], friction = follow_actuator(devices, dt, free_force, impedance, driven[n], q[0], v[0])
+            free_force -= run.head_inertia[a] * v[a] + run.head_strain[a] * explicit[a]
+        new_v[0], friction = follow_actuator(
+            run.devices, dt, free_force, run.impedance, run.driven[n], q[0], v[0]
+        )
         for a in range(1, k):
-            known[a] = dt * load[a] - (mass[a, 0] + scale * stiffness[a, 0]) * new_v[0]
+            known[a] = dt * run.load[a] - (run.mass[a, 0] + scale * run.stiffness[a, 0]) * new_v[0]
             for b in range(k):
-                known[a] += mass[a, b] * v[b] + scale * stiffness[a, b] * explicit[b]
+                known[a] += run.mass[a, b] * v[b] + scale * run.stiffness[a, b] * explicit[b]
         for a in range(1, k):
             new_v[a] = 0.0
             for b in range(1, k):
-                new_v[a] += inverse[a - 1, b - 1] * known[b]
+                new_v[a] += run.inverse[a - 1, b - 1] * known[b]
         outside = False
         for a in range(k):
-            new_s[a] = (explicit[a] - new_v[a]) / compliance
+            new_s[a] = (explicit[a] - new_v[a]) / run.compliance
             new_q[a] = q[a] + dt * new_v[a]
-            outside |= abs(new_s[a]) > sigma_envelope[a] or abs(new_q[a]) > motion_envelope[a]
+            outside |= abs(new_s[a]) > run.sigma_envelope[a] or abs(new_q[a]) > run.motion_envelope[a]
             combined[a] = (new_v[a] - v[a]) / dt
             combined[k + a] = new_s[a]
         combined[2 * k] = 1.0
@@ -95,20 +62,20 @@ def take_steps(
             return n, OUTSIDE_ENVELOPE, -1
         # an inaccurate trial must not decide on gaps and yield, nor one without its contacts on yield
         stress = max(maxima[0], abs(new_s[0]))
-        size = head_norm * stress + load_norm
-        missing = _norm_of_product(residual_factor, combined)
-        if not missing <= tolerance * size:
+        size = run.head_norm * stress + run.load_norm
+        missing = _norm_of_product(run.residual_factor, combined)
+        if not missing <= run.tolerance * size:
             return n, RESIDUAL, -1
-        for c in range(closing.shape[0]):
+        for c in range(run.closing.shape[0]):
             share = 0.0
             for a in range(k):
-                share += closing[c, a] * new_q[a]
+                share += run.closing[c, a] * new_q[a]
             if share > 1.0:
                 return n, CLOSED_GAP, c
         worst, most = -1, maxima[2]
-        for c in range(reaction.shape[0]):
-            if beyond_head[c, 0] * abs(new_s[0]) + beyond_head[c, 1] > most:
-                share = _utilisation(reaction[c], new_s)
+        for c in range(run.reaction.shape[0]):
+            if run.beyond_head[c, 0] * abs(new_s[0]) + run.beyond_head[c, 1] > most:
+                share = _utilisation(run.reaction[c], new_s)
                 if share > most:
                     worst, most = c, share
         if most > 1.0:
@@ -117,19 +84,19 @@ def take_steps(
         maxima[0] = stress
         if size > 0.0:
             maxima[1] = max(maxima[1], missing / size)
-        force[n] = -load[0]
+        force[n] = -run.load[0]
         for b in range(k):
-            force[n] += mass[0, b] * combined[b] - stiffness[0, b] * new_s[b]
-        force[n] = actuator_force(devices, dt, force[n], friction, q[0], v[0], new_v[0])
+            force[n] += run.mass[0, b] * combined[b] - run.stiffness[0, b] * new_s[b]
+        force[n] = actuator_force(run.devices, dt, force[n], friction, q[0], v[0], new_v[0])
         for a in range(k):
             v[a], s[a], q[a] = new_v[a], new_s[a], new_q[a]
-            for e in range(recall.shape[0]):
-                kelvin[e, a] = keep[e] * kelvin[e, a] - gain[e] * new_s[a]
-            reached_sigma[a] = max(reached_sigma[a], abs(s[a]))
-            reached_motion[a] = max(reached_motion[a], abs(q[a]))
+            for e in range(run.recall.shape[0]):
+                kelvin[e, a] = run.keep[e] * kelvin[e, a] - run.gain[e] * new_s[a]
+            run.reached_sigma[a] = max(run.reached_sigma[a], abs(s[a]))
+            run.reached_motion[a] = max(run.reached_motion[a], abs(q[a]))
             if a < kept:
-                velocity[n, a] = v[a]
-    return driven.shape[0], DONE, -1
+                run.velocity[n, a] = v[a]
+    return run.driven.shape[0], DONE, -1
 
 
 @compiled
@@ -156,99 +123,53 @@ def _norm_of_product(upper, vector):
 _INTEGERS, _DOUBLES = types.CPointer(types.intp), types.CPointer(types.float64)
 
 
-@cfunc(types.void(_INTEGERS, *[_DOUBLES] * ARRAYS, _INTEGERS), error_model="numpy")
-def native_steps(
-    sizes,
-    numbers,
-    devices,
-    driven,
-    head_inertia,
-    head_strain,
-    mass,
-    stiffness,
-    load,
-    inverse,
-    recall,
-    keep,
-    gain,
-    residual_factor,
-    reaction,
-    beyond_head,
-    closing,
-    sigma_envelope,
-    motion_envelope,
-    reached_sigma,
-    reached_motion,
-    maxima,
-    q,
-    v,
-    s,
-    kelvin,
-    trial,
-    force,
-    velocity,
-    scratch,
-    taken,
-):
-    """`take_steps` over pointers to contiguous arrays."""
-    size, number, device = carray(sizes, 8), carray(numbers, 8), carray(devices, 4)
-    n, k, elements, rows, columns, watched, closed, kept = (
-        size[0],
-        size[1],
-        size[2],
-        size[3],
-        size[4],
-        size[5],
-        size[6],
-        size[7],
-    )
-    impedance, head_load, dt, compliance, memory, head_norm, load_norm, tolerance = (
-        number[0],
-        number[1],
-        number[2],
-        number[3],
-        number[4],
-        number[5],
-        number[6],
-        number[7],
-    )
-    found = take_steps(
-        carray(driven, n),
-        (device[0], device[1], device[2], device[3]),
-        impedance,
-        carray(head_inertia, k),
-        carray(head_strain, k),
-        head_load,
-        carray(mass, (k, k)),
-        carray(stiffness, (k, k)),
-        carray(load, k),
-        carray(inverse, (k - 1, k - 1)),
-        dt,
-        compliance,
-        memory,
-        carray(recall, elements),
-        carray(keep, elements),
-        carray(gain, elements),
-        carray(residual_factor, (rows, columns)),
-        head_norm,
-        load_norm,
-        tolerance,
-        carray(reaction, (watched, 3, k)),
-        carray(beyond_head, (watched, 2)),
-        carray(closing, (closed, k)),
-        carray(sigma_envelope, k),
-        carray(motion_envelope, k),
-        carray(reached_sigma, k),
-        carray(reached_motion, k),
-        carray(maxima, 3),
-        carray(q, k),
-        carray(v, k),
-        carray(s, k),
-        carray(kelvin, (elements, k)),
-        carray(trial, (3, k)),
-        carray(force, n),
-        carray(velocity, (n, kept)),
-        carray(scratch, 4 * k + 1),
+@cfunc(types.void(_INTEGERS, types.CPointer(_DOUBLES), _INTEGERS), error_model="numpy")
+def native_steps(sizes, fields, taken):
+    """`take_steps` on the fields of a `ReducedRun` behind pointers to contiguous doubles, in its order."""
+    size = carray(sizes, 8)
+    n, k, e, rows = size[0], size[1], size[2], size[3]
+    columns, watched, closed, kept = size[4], size[5], size[6], size[7]
+    at = carray(fields, FIELDS)
+    device = carray(at[1], 4)
+    steps = take_steps(
+        ReducedRun(
+            carray(at[0], n),
+            (device[0], device[1], device[2], device[3]),
+            carray(at[2], 1)[0],
+            carray(at[3], k),
+            carray(at[4], k),
+            carray(at[5], 1)[0],
+            carray(at[6], (k, k)),
+            carray(at[7], (k, k)),
+            carray(at[8], k),
+            carray(at[9], (k - 1, k - 1)),
+            carray(at[10], 1)[0],
+            carray(at[11], 1)[0],
+            carray(at[12], 1)[0],
+            carray(at[13], e),
+            carray(at[14], e),
+            carray(at[15], e),
+            carray(at[16], (rows, columns)),
+            carray(at[17], 1)[0],
+            carray(at[18], 1)[0],
+            carray(at[19], 1)[0],
+            carray(at[20], (watched, 3, k)),
+            carray(at[21], (watched, 2)),
+            carray(at[22], (closed, k)),
+            carray(at[23], k),
+            carray(at[24], k),
+            carray(at[25], k),
+            carray(at[26], k),
+            carray(at[27], 3),
+            carray(at[28], k),
+            carray(at[29], k),
+            carray(at[30], k),
+            carray(at[31], (e, k)),
+            carray(at[32], (3, k)),
+            carray(at[33], n),
+            carray(at[34], (n, kept)),
+            carray(at[35], 4 * k + 1),
+        )
     )
     for place in range(3):
-        carray(taken, 3)[place] = found[place]
+        carray(taken, 3)[place] = steps[place]

@@ -17,14 +17,8 @@ from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.stepping.bond_bounds import BeyondExcerpt
 from asphalt_nscd.nscd.stepping.excerpt import Excerpt
-from asphalt_nscd.nscd.stepping.reduced_steps import (
-    CLOSED_GAP,
-    DONE,
-    OUTSIDE_ENVELOPE,
-    YIELD,
-    ReducedRun,
-    advance_reduced,
-)
+from asphalt_nscd.nscd.stepping.reduced_run import CLOSED_GAP, DONE, OUTSIDE_ENVELOPE, YIELD, ReducedRun
+from asphalt_nscd.nscd.stepping.reduced_steps import advance_reduced
 
 if TYPE_CHECKING:  # sparse matrices, which take as long to import as a test without breaks to run
     from scipy.sparse.linalg import SuperLU
@@ -274,6 +268,7 @@ class ReducedStepper:
             self._trial,
             force,
             velocity,
+            np.empty(4 * len(inverse) + 5),
         )
         taken, code, watched = advance_reduced(run)
         return taken, code, int(self._may_yield[watched]) if code == YIELD else -1

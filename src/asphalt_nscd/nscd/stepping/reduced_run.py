@@ -1,0 +1,54 @@
+"""What the steps of the reduced model work on, and why they end."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+DONE, OUTSIDE_ENVELOPE, YIELD, CLOSED_GAP, RESIDUAL = range(5)
+"""Why steps ended."""
+
+
+class ReducedRun(NamedTuple):
+    """Model, state and results of some steps: n steps, k coordinates, e Kelvin elements, c bonds."""
+
+    driven: np.ndarray  # (n,) m, of the actuator
+    devices: tuple[float, float, float, float]  # `HeadDevices.of_head`
+    impedance: float  # Z: the head takes the force Z v+ - a v - b explicit - c
+    head_inertia: np.ndarray  # a (k,)
+    head_strain: np.ndarray  # b (k,)
+    head_load: float  # c, N
+    mass: np.ndarray  # (k, k)
+    stiffness: np.ndarray  # (k, k)
+    load: np.ndarray  # (k,)
+    inverse: np.ndarray  # (k - 1, k - 1) of the step matrix without the head
+    dt: float  # s
+    compliance: float  # of the law, as those that follow
+    memory: float
+    recall: np.ndarray  # (e,)
+    keep: np.ndarray  # (e,)
+    gain: np.ndarray  # (e,)
+    residual_factor: np.ndarray  # upper triangle, with 2 k + 1 columns
+    head_norm: float
+    load_norm: float
+    tolerance: float  # of the residual, relative
+    reaction: np.ndarray  # (c, 3, k) of bonds watched for yield, over their strength
+    beyond_head: np.ndarray  # (c, 2)
+    closing: np.ndarray  # (d, k) of d bonds watched for a closing gap, share of it
+    sigma_envelope: np.ndarray  # (k,)
+    motion_envelope: np.ndarray  # (k,)
+    reached_sigma: np.ndarray  # (k,), written, as all that follow
+    reached_motion: np.ndarray  # (k,)
+    maxima: np.ndarray  # (3,)
+    q: np.ndarray  # (k,)
+    v: np.ndarray  # (k,)
+    s: np.ndarray  # (k,)
+    kelvin: np.ndarray  # (e, k)
+    trial: np.ndarray  # (3, k)
+    force: np.ndarray  # (n,) N
+    velocity: np.ndarray  # (n, at most k)
+    scratch: np.ndarray  # (4 k + 1,)
+
+
+FIELDS = len(ReducedRun._fields)
