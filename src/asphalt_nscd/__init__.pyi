@@ -8,6 +8,7 @@ from asphalt_nscd.api.diagnosis import Known as Known
 from asphalt_nscd.api.diagnosis import diagnose as diagnose
 from asphalt_nscd.api.exporting import ExportSettings as ExportSettings
 from asphalt_nscd.api.exporting import export as export
+from asphalt_nscd.api.fatigue import fatigue as fatigue
 from asphalt_nscd.api.forecasting import Forecast as Forecast
 from asphalt_nscd.api.forecasting import forecast as forecast
 from asphalt_nscd.api.laws import Law as Law
@@ -21,6 +22,7 @@ from asphalt_nscd.api.specimens import specimen as specimen
 from asphalt_nscd.bending.case import Load as Load
 from asphalt_nscd.bending.case import Numerics as Numerics
 from asphalt_nscd.bending.condensing import Bonds as Bonds
+from asphalt_nscd.bending.fatigue import Tiring as Tiring
 from asphalt_nscd.bending.rig import Rig as Rig
 from asphalt_nscd.diagnosis.run import Draws as Draws
 from asphalt_nscd.diagnosis.run import Simulated as Simulated

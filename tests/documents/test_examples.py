@@ -13,8 +13,9 @@ import asphalt_nscd
 ROOT = Path(__file__).parents[2]
 MODULES = [
     "api.arguments", "api.bending", "api.comparison", "api.contacts", "api.diagnosis", "api.exporting",
-    "api.forecasting", "api.laws", "api.reading", "api.specimens", "bending.case", "bending.condensing",
-    "bending.rig", "diagnosis.run", "files.errors", "files.words", "measurements.signals", "measurements.twopoint",
+    "api.fatigue", "api.forecasting", "api.laws", "api.reading", "api.specimens", "bending.case", "bending.condensing",
+    "bending.fatigue", "bending.rig", "diagnosis.run", "files.errors", "files.words", "measurements.signals",
+    "measurements.twopoint",
     "nscd.contacts.friction", "rheology.burgers", "rheology.chain", "rheology.fitting", "rheology.shift",
     "rheology.spectrum", "specimen.preparation",
 ]  # fmt: skip

@@ -1,0 +1,41 @@
+"""Fatigue of a numerical specimen."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from asphalt_nscd.api.arguments import checked
+from asphalt_nscd.api.specimens import Specimen
+from asphalt_nscd.bending import fatigue as test
+from asphalt_nscd.bending.condensing import Bonds
+from asphalt_nscd.bending.fatigue import Tiring
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.ranges import Range
+from asphalt_nscd.nscd.bonds.fatigue import Course
+
+
+@checked
+def fatigue(
+    specimen: Specimen | str | Path,
+    strain: float,
+    *,
+    law: Tiring = Tiring(),  # noqa: B008  frozen, and the next
+    bonds: Bonds = Bonds(),  # noqa: B008
+) -> Course:
+    """Tire a trapezoid at constant displacement of its head until half of its stiffness is left (docs/fatigue.md).
+
+    strain: largest amplitude in bending theory, as 100e-6. law: Tiring(endured, exponent) of a bond. Of the result:
+    life() in cycles; cycles, stiffness (over the first) and lost bonds of each jump; damage of the bonds at the end.
+
+    >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
+    >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
+    >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}
+    >>> beam = specimen(packing, g, area="facets")
+    >>> lives = [fatigue(beam, strain).life() for strain in (100e-6, 200e-6)]
+    >>> round(lives[0] / lives[1], 1)  # twice the strain: a life by 2^5 shorter
+    32.0
+    """
+    if not Range(above=0.0, high=0.1).holds(strain):
+        raise InputError(f"strain = {strain:g}; give an amplitude as 100e-6, greater than 0 and at most 0.1.")
+    given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
+    return test.fatigue(given.bonded, strain, law, bonds)

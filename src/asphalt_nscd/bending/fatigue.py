@@ -1,0 +1,155 @@
+"""Fatigue in two-point bending at constant displacement of the head, EN 12697-24 annex A, on a numerical specimen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.bending.condensing import Bonds
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.ranges import Ranged, within
+from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.nscd.bonds.fatigue import Course, Jumps, kept, strain, tire
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.stepping.integrator import March
+from asphalt_nscd.nscd.stepping.scheme import Scheme
+from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.specimen.trimming import Specimen
+
+FAILURE = 0.5  # of the first stiffness, EN 12697-24
+MILLION = 1e6  # cycles, to which epsilon6 refers
+STEPS_PER_CYCLE = 32
+LAYERS = 20
+MOST_CYCLES = 10_000  # one by one
+
+
+@dataclass(frozen=True)
+class Tiring(Ranged):
+    """The law of a bond: of its damage, which is 1 when it is lost, each cycle adds 1e-6 (e / endured)^exponent.
+
+    e: amplitude of its opening over its length. endured: the e that uses a bond up in a million cycles. The exponent
+    is minus one over the slope b of the Wöhler line of specimens, log e = log e6 + b log (N / 1e6).
+
+    >>> law = Tiring(endured=100e-6, exponent=5.0)
+    >>> float(law.rate(np.array([200e-6]))[0]).__round__(9)
+    3.2e-05
+    """
+
+    endured: float = within(100e-6, above=0.0, high=0.1)
+    exponent: float = within(5.0, low=1.0, high=20.0)
+
+    def rate(self, amplitude: np.ndarray) -> np.ndarray:
+        """Damage per cycle of bonds at amplitudes (b,) of strain."""
+        return np.asarray((amplitude / self.endured) ** self.exponent / MILLION)
+
+
+def largest_strain(geometry: Geometry) -> float:
+    """Strain [1/m] per displacement of the head: largest of the faces in bending theory.
+
+    The moment F (h - z) over E e w^2 / 6, w the width at z, and F = E z0 / gamma; EN 12697-24 calls it K_eps.
+
+    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    >>> round(63e-6 * largest_strain(paper) * 1e6, 1)  # the paper: "less than 50e-6"
+    48.6
+    """
+    height = largest_strain_at(geometry)
+    width = geometry.B - (geometry.B - geometry.b) * height / geometry.h
+    return 6.0 * (geometry.h - height) / (geometry.e * width**2) / geometry.form_factor()
+
+
+def largest_strain_at(geometry: Geometry) -> float:
+    """Height [m] of that strain: where the width is twice that of the cone that ends at the head, or the foot."""
+    taper = (geometry.B - geometry.b) / geometry.h
+    return 0.0 if taper == 0.0 else max(0.0, 2.0 * geometry.h - geometry.B / taper)
+
+
+def fatigue(
+    specimen: Specimen, strain_amplitude: float, law: Tiring, bonds: Bonds = Bonds(), jumps: Jumps = Jumps()
+) -> Course:
+    """The course of a test at this strain, largest of bending theory, until FAILURE.
+
+    Bonds to the plates do not tire, as a test that fails at its glue does not count.
+    """
+    amplitude = strain_amplitude / largest_strain(_trapezoid(specimen))
+    return tire(_system(specimen, bonds), specimen.network.length, law.rate, amplitude, FAILURE, jumps)
+
+
+def cycle_by_cycle(
+    specimen: Specimen,
+    strain_amplitude: float,
+    law: Tiring,
+    bond_law: BondLaw,
+    frequency: float,
+    bonds: Bonds = Bonds(),
+) -> Course:
+    """The same by full time steps at frequency [Hz], every cycle of them: with inertia and the law of the bonds.
+
+    After each cycle bonds take the damage of the harmonics of their openings in it. The stiffness is |E*| by Eqs.
+    (1)-(2), over that of the third cycle, and no gravity acts.
+    """
+    geometry, system = _trapezoid(specimen), _system(specimen, bonds)
+    length, tires = specimen.network.length, np.isfinite(system.strength)
+    system = replace(system, load=np.zeros_like(system.load), strength=np.full(length.size, np.inf))
+    amplitude = strain_amplitude / largest_strain(geometry)
+    omega = 2.0 * np.pi * frequency
+    time_step = 1.0 / (frequency * STEPS_PER_CYCLE)
+    scheme = Scheme.named("fitted", omega * time_step)
+    state, march = CondensedState.at_rest(system, bond_law), None
+    wave = np.exp(-1j * omega * time_step * np.arange(1, STEPS_PER_CYCLE + 1)) * 2.0 / STEPS_PER_CYCLE
+    damage, rows = np.zeros(length.size), []
+    for cycle in range(MOST_CYCLES):
+        tired = replace(system, weight=system.weight * kept(damage))
+        stepper = CondensedStepper(tired, bond_law, time_step / scheme.a, state)
+        if march is None:
+            march = March(stepper, scheme, bond_law, time_step)
+        march.stepper = stepper
+        force, motion = 0.0j, np.zeros(system.mass.size, complex)
+        for step, harmonic in enumerate(wave, start=1):
+            driven = amplitude * np.sin(omega * time_step * step)
+            force += harmonic * march.move_to(driven)
+            motion += harmonic * state.displacement
+        head = motion[system.driven]
+        modulus = geometry.form_factor() * (force / head + geometry.mass_factor() * omega**2)
+        rows.append((cycle, abs(modulus), np.count_nonzero(damage >= 1.0)))
+        if cycle > 2 and abs(modulus) <= FAILURE * rows[2][1]:
+            break
+        openings = strain(system.operator @ motion, length)
+        damage = np.minimum(damage + np.where(tires, law.rate(openings), 0.0), 1.0)
+    table = np.array(rows)
+    return Course(table[:, 0], table[:, 1] / table[2, 1], table[:, 2].astype(int), damage)
+
+
+def table_of(course: Course) -> pd.DataFrame:
+    """cycles, stiffness over the first one, lost_bonds."""
+    return pd.DataFrame({"cycles": course.cycles, "stiffness": course.stiffness, "lost_bonds": course.lost})
+
+
+def profile_of(specimen: Specimen, course: Course) -> pd.DataFrame:
+    """Of the bonds in each of LAYERS layers: height_share of its middle, mean damage, share of them lost."""
+    layer = np.minimum(LAYERS * specimen.network.point[:, 2] / specimen.geometry.h, LAYERS - 1).astype(int)
+    damage = pd.Series(course.damage)
+    return pd.DataFrame(
+        {
+            "height_share": (np.arange(LAYERS) + 0.5) / LAYERS,
+            "damage": damage.groupby(layer).mean().reindex(range(LAYERS), fill_value=0.0),
+            "lost": (damage >= 1.0).groupby(layer).mean().reindex(range(LAYERS), fill_value=0.0),
+        }
+    )
+
+
+def _trapezoid(specimen: Specimen) -> Geometry:
+    if not isinstance(specimen.geometry, Geometry):
+        raise InputError(
+            f"fatigue: the specimen is one of {specimen.geometry.test}; give a trapezoid for two-point bending."
+        )
+    return specimen.geometry
+
+
+def _system(specimen: Specimen, bonds: Bonds) -> BondedSystem:
+    return bending_system(
+        specimen, bonds.poisson, bonds.yield_Pa, bonds.friction, bonds.head, kt_over_kn=bonds.kt_over_kn
+    )

@@ -1,0 +1,154 @@
+"""Bonds that tire: their damage over many cycles of a head driven by a constant amplitude, by cycle jumps.
+
+A bond of damage D, from 0 to 1, has 1 - D of its stiffness. D grows by rate(e) per cycle, e being the amplitude of the
+bond's opening over its length. In steady oscillation of bonds of one law, far below the resonance, all openings are
+those of the static motion of the head, whatever E* is: one real solution stands for many cycles. The damage of a jump
+is that of its first cycle times their number, limited so that bonds and stiffness change little in a jump.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse.linalg import LinearOperator, SuperLU, cg
+
+from asphalt_nscd.nscd.bonds.implicit_operator import factorise
+from asphalt_nscd.nscd.bonds.multigrid import Multigrid
+from asphalt_nscd.nscd.bonds.system import BondedSystem
+
+LEFT = 1e-3  # of the stiffness of a bond that is lost: spheres on lost bonds alone keep their place
+TOLERANCE = 1e-6  # of the static solution
+MOST_ITERATIONS = 15  # of a solution; the matrix is factorised anew after one that took more
+
+
+@dataclass(frozen=True)
+class Jumps:
+    """How far a jump goes: until the fastest bond has lost `bond` of itself or, further, until the cycles have grown
+    by `growth`; at any rate no further than until the specimen has lost `stiffness` of itself."""
+
+    bond: float = 0.1
+    growth: float = 1e-3
+    stiffness: float = 0.01
+
+
+@dataclass(frozen=True)
+class Course:
+    """What became of the bonds; a row for each jump, its start."""
+
+    cycles: np.ndarray  # (j,)
+    stiffness: np.ndarray  # (j,) of the head, over that of sound bonds
+    lost: np.ndarray  # (j,) bonds
+    damage: np.ndarray  # (b,) of bonds, at the end
+
+    def life(self, share: float = 0.5) -> float:
+        """Cycles at which this share of the stiffness is left, interpolated."""
+        return float(np.interp(-share, -self.stiffness, self.cycles, right=np.nan))
+
+
+def kept(damage: np.ndarray) -> np.ndarray:
+    """Share (3 b,) of the stiffness of the components of bonds of damage (b,)."""
+    return np.repeat(np.maximum(1.0 - damage, LEFT), 3)
+
+
+def strain(opening: np.ndarray, length: np.ndarray) -> np.ndarray:
+    """Amplitude of opening over length (b,) of bonds; opening (3 b,) [m], real or complex, length (b,) [m]."""
+    return np.asarray(np.linalg.norm(opening.reshape(-1, 3), axis=1) / length)
+
+
+def tire(
+    system: BondedSystem,
+    length: np.ndarray,
+    rate: Callable[[np.ndarray], np.ndarray],
+    amplitude: float,
+    until: float = 0.5,
+    jumps: Jumps = Jumps(),
+) -> Course:
+    """Drive the head by amplitude [m] until this share of its stiffness is left.
+
+    length (b,) [m] of bonds; rate: damage per cycle (b,) at strain (b,). Bonds of infinite strength do not tire.
+    """
+    tires = np.isfinite(system.strength)
+    damage, cycles = np.zeros(length.size), 0.0
+    statics, rows = _Statics(system), []
+    while True:
+        opening, stiffness = statics.opening(kept(damage))
+        rows.append((cycles, stiffness, np.count_nonzero(damage >= 1.0)))
+        if stiffness <= until * rows[0][1]:
+            break
+        speed = np.where(tires & (damage < 1.0), rate(strain(amplitude * opening, length)), 0.0)
+        if not speed.max() > 0.0:
+            raise ArithmeticError("no bond tires at this strain")
+        energy = (system.weight * opening**2).reshape(-1, 3).sum(axis=1)
+        step = max(jumps.bond / speed.max(), jumps.growth * cycles)
+        step = min(step, _step_that_takes(jumps.stiffness * stiffness, energy, speed, damage))
+        damage = np.minimum(damage + step * speed, 1.0)
+        cycles += step
+    table = np.array(rows, float)
+    return Course(table[:, 0], table[:, 1] / table[0, 1], table[:, 2].astype(int), damage)
+
+
+def _step_that_takes(lost: float, energy: np.ndarray, speed: np.ndarray, damage: np.ndarray) -> float:
+    """Cycles after which bonds have lost so much of their energy (b,) at the motion of now.
+
+    A bond can lose no more than it has: the loss is concave in the cycles, and Newton's method from zero never passes
+    the solution. Infinity where it has none.
+    """
+    step = 0.0
+    for _ in range(50):
+        loses = step * speed < 1.0 - damage
+        slope = float(energy @ (speed * loses))
+        gap = lost - float(energy @ np.minimum(step * speed, 1.0 - damage))
+        if gap <= 1e-6 * lost:
+            break
+        if slope == 0.0:
+            return np.inf
+        step += gap / slope
+    return step
+
+
+class _Statics:
+    """The static motion while bonds tire: conjugate gradients, with factors of the bonds as they were for a while."""
+
+    def __init__(self, system: BondedSystem) -> None:
+        self.system = system
+        self.motion = np.zeros(system.mass.size)
+        self.motion[system.driven] = 1.0
+        self.operator, self.transpose = system.operator, system.operator.T.tocsr()
+        self.factor: SuperLU | Multigrid | None = None
+
+    def opening(self, share: np.ndarray) -> tuple[np.ndarray, float]:
+        """Openings (3 b,) per unit displacement of the head, and its stiffness over modulus [m]."""
+        system, free = self.system, self.system.free
+        weight = system.weight * share
+        if self.factor is None:
+            self.factor = factorise(system.stiffness(weight)[free][:, free].tocsc(), system)
+
+        def force(motion: np.ndarray) -> np.ndarray:
+            return np.asarray(self.transpose @ (weight * (self.operator @ motion)))
+
+        def of_free(part: np.ndarray) -> np.ndarray:
+            whole = np.zeros_like(self.motion)
+            whole[free] = part
+            return force(whole)[free]
+
+        head = np.zeros_like(self.motion)
+        head[system.driven] = 1.0
+        taken: list[None] = []
+        matrix, near = ((free.size, free.size) for _ in range(2))
+        self.motion[free], failed = cg(
+            LinearOperator(matrix, of_free, dtype=float),
+            -force(head)[free],
+            x0=self.motion[free],
+            rtol=TOLERANCE,
+            maxiter=20 * MOST_ITERATIONS,
+            M=LinearOperator(near, self.factor.solve, dtype=float),
+            callback=lambda _: taken.append(None),
+        )
+        if failed:
+            raise ArithmeticError("the static motion of the damaged specimen was not found")
+        if len(taken) > MOST_ITERATIONS:
+            self.factor = None
+        opening = self.operator @ self.motion
+        return opening, float(weight @ opening**2)

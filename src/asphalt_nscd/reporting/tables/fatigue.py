@@ -1,0 +1,47 @@
+"""Fatigue of the samples: cycles to half of the stiffness at three strains, with the bonds set on one mix."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.bending.fatigue import FAILURE, MILLION, Tiring
+
+STRAINS = (90e-6, 120e-6, 150e-6)
+EPSILON6, SLOPE, SCATTER = 100e-6, -1 / 5, 0.25
+"""Of a BBSG at 10 degC and 25 Hz, and the standard deviation of log N: NF P98-086 (2019), table of bituminous mixes."""
+REFERENCE = 100e-6  # strain of the courses, and what their bonds endured
+
+
+def life(course: Path) -> float:
+    """Cycles to FAILURE, interpolated between the jumps."""
+    table = pd.read_csv(course)
+    return float(np.interp(-FAILURE, -table["stiffness"], table["cycles"]))
+
+
+def factor(courses: list[Path]) -> float:
+    """By which cycles of the reference grow with bonds that give these samples EPSILON6, as the mean of log N."""
+    lives = np.array([life(path) for path in courses])
+    return float(MILLION / np.exp(np.log(lives).mean()) * (REFERENCE / EPSILON6) ** (1 / SLOPE))
+
+
+def tiring(courses: list[Path]) -> Tiring:
+    """The law of the bonds that does."""
+    return Tiring(endured=REFERENCE * factor(courses) ** -SLOPE, exponent=-1 / SLOPE)
+
+
+def make(course: list[Path]) -> pd.DataFrame:
+    """A row for each sample and strain; course: of one sample each, at REFERENCE.
+
+    Life falls with the power of the strain exactly: openings are proportional to the motion of the head, so that the
+    same damage takes as many times the cycles as one bond's does. A second strain needs no second run.
+    """
+    grows = factor(course)
+    rows = [
+        (path.stem, 1e6 * strain, life(path) * grows * (strain / REFERENCE) ** (1 / SLOPE))
+        for strain in STRAINS
+        for path in course
+    ]
+    return pd.DataFrame(rows, columns=["sample", "strain_1e-6", "cycles"])
