@@ -75,7 +75,7 @@ def test_commands_lead_from_the_table_to_the_plan_of_a_report(workspace):
     (workspace.folder / "config/mine.yaml").rename(workspace.folder / "study.yaml")
     planned = workspace.planned()
     assert (
-        planned["simulate"] == planned["simulate_extended"] == 16
+        planned["simulate"] == 4 * planned["simulate_extended"] == 16
         and planned["diagnose"] == planned["report"] == 1
     )
     (workspace.folder / "config/mine-full.yaml").rename(workspace.folder / "study.yaml")

@@ -41,21 +41,21 @@ use rule simulate as simulate_extended with:
         compiled="<results>/compiled/simulate",
         model=FACET_MODEL,
         excerpt=FACET_EXCERPT,
-        law=EXTENDED_LAWS,
+        law=expand(EXTENDED_LAWS, frequency=FREQUENCIES, allow_missing=True),
         rig="<results>/extended/rigs/{sample}.json",
         code=code("simulate"),
     output:
-        EXTENDED,
+        expand(EXTENDED, frequency=FREQUENCIES, allow_missing=True),
     params:
         source="diagnosis",
         tests=tests,
         test=lambda wildcards, input: f"{options(STUDY['test'], 'amplitude_m', 'cycles', 'time_step_s', 'rest_steps')} --rig {input.rig}",
     log:
-        "<results>/logs/simulate_extended/{sample}/T{temperature}/f{frequency}.log",
+        "<results>/logs/simulate_extended/{sample}/T{temperature}.log",
     benchmark:
-        "<results>/benchmarks/simulate_extended/{sample}/T{temperature}/f{frequency}.tsv"
+        "<results>/benchmarks/simulate_extended/{sample}/T{temperature}.tsv"
     message:
-        "Test sample {wildcards.sample} extended, at {wildcards.temperature} degC and {wildcards.frequency} Hz"
+        "Test sample {wildcards.sample} extended, at {wildcards.temperature} degC"
 
 
 use rule simulations as extended_simulations with:

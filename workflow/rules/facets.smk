@@ -39,7 +39,7 @@ if REMAPPED:
             "Condense the facets of sample {wildcards.sample}, head {wildcards.head} to rotate"
 
     use rule simulate as simulate_facets with:
-        # The tests of the paper, with the laws of the paper.
+        # The tests of the paper, with the laws of the paper; all frequencies in one job, which starts once.
         input:
             compiled="<results>/compiled/simulate",
             model=FACET_MODEL,
@@ -47,13 +47,13 @@ if REMAPPED:
             law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
             code=code("simulate"),
         output:
-            FACET_TESTS,
+            expand(FACET_TESTS, frequency=FREQUENCIES, allow_missing=True),
         log:
-            "<results>/logs/simulate_facets/{sample}/T{temperature}/f{frequency}.log",
+            "<results>/logs/simulate_facets/{sample}/T{temperature}.log",
         benchmark:
-            "<results>/benchmarks/simulate_facets/{sample}/T{temperature}/f{frequency}.tsv"
+            "<results>/benchmarks/simulate_facets/{sample}/T{temperature}.tsv"
         message:
-            "Test sample {wildcards.sample} with facets, at {wildcards.temperature} degC and {wildcards.frequency} Hz"
+            "Test sample {wildcards.sample} with facets, at {wildcards.temperature} degC"
 
     use rule simulations as facet_simulations with:
         # One row for each test with facets.

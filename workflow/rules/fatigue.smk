@@ -25,24 +25,44 @@ rule fatigue_course:
         "asphalt-nscd fatigue {input.specimen} --strain 100e-6 --profile {output.profile} --output {output.course} > {log} 2>&1"
 
 
-rule fatigue_every_cycle:
-    # The same at a strain so large that each of its cycles can be stepped.
+use rule trim as fatigue_small with:
+    # One so small that each of its cycles can be stepped.
     input:
-        specimen=FATIGUE_SPECIMEN,
+        deposit=f"results/mapping/deposits/1000-s1-friction{MAPPING_FRICTION}.h5",
+        code=code("trim"),
+    output:
+        "results/fatigue/small.h5",
+    params:
+        geometry=text({"b_mm": 10.3, "B_mm": 23.1, "e_mm": 10.3, "h_mm": 103, "mass_kg": 0.042, "mobile_mass_kg": 0.0166}),
+        bonds=options(STUDY["specimens"]["bonds"] | {"area": "facets"}, "area", "volume_reduction", "gap_max_mm"),
+    log:
+        "results/fatigue/logs/small.log",
+    benchmark:
+        "results/fatigue/benchmarks/small.tsv"
+    message:
+        "Trim a small sample"
+
+
+rule fatigue_checked:
+    # Cycle jumps at a large strain, and every cycle.
+    input:
+        specimen="results/fatigue/small.h5",
         law="<results>/laws/published/T10.json",
         code=code("fatigue"),
     output:
-        "results/fatigue/every_cycle/{sample}.csv",
+        "results/fatigue/check/{way}.csv",
+    params:
+        way=lambda wildcards, input: f"--every-cycle {input.law}" if wildcards.way == "every_cycle" else "",
     conda:
         ENVIRONMENT
     log:
-        "results/fatigue/logs/every_cycle-{sample}.log",
+        "results/fatigue/logs/check-{way}.log",
     benchmark:
-        "results/fatigue/benchmarks/every_cycle-{sample}.tsv"
+        "results/fatigue/benchmarks/check-{way}.tsv"
     message:
-        "Step through every cycle of sample {wildcards.sample}"
+        "Tire a small sample: {wildcards.way}"
     shell:
-        "asphalt-nscd fatigue {input.specimen} --strain 1000e-6 --every-cycle {input.law} --output {output} > {log} 2>&1"
+        "asphalt-nscd fatigue {input.specimen} --strain 500e-6 {params.way} --output {output} > {log} 2>&1"
 
 
 rule fatigue_table:
@@ -69,7 +89,7 @@ rule fatigue_summary:
     input:
         course=expand("results/fatigue/courses/{sample}.csv", sample=SAMPLES),
         profile=expand("results/fatigue/profiles/{sample}.csv", sample=SAMPLES),
-        every_cycle=f"results/fatigue/every_cycle/{SAMPLES[0]}.csv",
+        check=expand("results/fatigue/check/{way}.csv", way=["jumps", "every_cycle"]),
         specimen=expand(FATIGUE_SPECIMEN, sample=SAMPLES[0]),
         code=code("table", "reporting.tables.fatigue_summary"),
     output:
@@ -77,8 +97,8 @@ rule fatigue_summary:
     params:
         data=lambda wildcards, input: " ".join(
             f"{kind}={path}"
-            for kind in ("course", "profile", "every_cycle", "specimen")
-            for path in ([input[kind]] if isinstance(input[kind], str) else input[kind])
+            for kind in ("course", "profile", "check", "specimen")
+            for path in input[kind]
         ),
     conda:
         ENVIRONMENT

@@ -33,17 +33,17 @@ use rule simulate as simulate_scaled with:
         law=SCALED_LAW,
         code=code("simulate"),
     output:
-        SCALED_TESTS,
+        expand(SCALED_TESTS, frequency=FREQUENCIES, allow_missing=True),
     params:
         source="{parameter}:{factor}",
         tests=tests,
         test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s", "rest_steps"),
     log:
-        "<results>/logs/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}/f{frequency}.log",
+        "<results>/logs/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}.log",
     benchmark:
-        "<results>/benchmarks/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}/f{frequency}.tsv"
+        "<results>/benchmarks/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}.tsv"
     message:
-        "Test sample {wildcards.sample} with {wildcards.parameter} times {wildcards.factor}, {wildcards.frequency} Hz"
+        "Test sample {wildcards.sample} with {wildcards.parameter} times {wildcards.factor}"
 
 
 use rule simulations as sensitivity with:
