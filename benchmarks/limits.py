@@ -27,7 +27,7 @@ from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.compiled import compiled
 from asphalt_nscd.nscd.spheres.gauss_seidel import sweep_blocks
 from asphalt_nscd.nscd.stepping.reduced_model import shifted_factor
-from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
+from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.preparation import DENSITY
 
 LINE, NUMBER, INDEX = 64, 8, 4  # bytes: of a cache line, of a float64 and of an int32
@@ -53,24 +53,26 @@ def copying(_: Path, __: Path) -> Work:
 
 
 @compiled
-def sweep_all(slabs, room, friction, sweeps):
+def sweep_all(slabs, workspace, friction, sweeps):
     """Plain sweeps over all contacts of all slabs."""
     for _ in range(sweeps):
         for s in range(slabs.begin.shape[0] - 1):
             count = slabs.begin[s + 1] - slabs.begin[s]
-            sweep_blocks(slabs.blocks, slabs.begin[s], count, 0, friction, 1.0, np.inf, np.inf, room)
+            sweep_blocks(slabs.blocks, slabs.begin[s], count, 0, friction, 1.0, np.inf, np.inf, workspace)
 
 
 def sphere_sweeps(deposit: Path, _: Path) -> Work:
     arrays = load(deposit, "deposit").arrays
     position, radius, box = arrays["position"], arrays["radius"], tuple(arrays["box"])
-    granulate = Granulate.in_box(position, radius, box, DENSITY, FRICTION)
+    bed = GranularBed.in_box(position, radius, box, DENSITY, FRICTION)
     for _ in range(SETTLING):
-        granulate.advance(PouringNumerics.of(radius, TIME_STEP))
-    slabs, room = granulate._slabs, granulate._room
+        bed.advance(PouringNumerics.of(radius, TIME_STEP))
+    slabs, workspace = bed._slabs, bed._workspace
     contacts = int((slabs.pair >= 0).sum())
     # a contact is a line, read and written; its block names it and both bodies
-    return Work(lambda: sweep_all(slabs, room, FRICTION, SWEEPS), SWEEPS * contacts, 2.0 * LINE + 3.0 * INDEX)
+    return Work(
+        lambda: sweep_all(slabs, workspace, FRICTION, SWEEPS), SWEEPS * contacts, 2.0 * LINE + 3.0 * INDEX
+    )
 
 
 def system_of(model: Path) -> BondedSystem:

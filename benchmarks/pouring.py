@@ -13,7 +13,7 @@ import numpy as np
 from rows import Clock, absent, run, write_rows
 
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
+from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.specimen.preparation import DENSITY
 
@@ -29,16 +29,16 @@ HERE = Path(__file__).parent
 def pour(position: np.ndarray, radius: np.ndarray) -> tuple[dict[str, object], np.ndarray]:
     """(row, positions at rest) by NSCD."""
     clock, numerics = Clock(), PouringNumerics.of(radius, 4e-4)
-    granulate = Granulate.in_box(position, radius, BOX, DENSITY, FRICTION)
-    granulate.let_fall()
-    while granulate.time < DURATION:
-        granulate.advance(numerics)
-    speed = np.sqrt((granulate.velocity[: radius.size, :3] ** 2).sum(axis=1).mean())
-    gap = granulate.contacts(1e-6)[1]
+    bed = GranularBed.in_box(position, radius, BOX, DENSITY, FRICTION)
+    bed.let_fall()
+    while bed.time < DURATION:
+        bed.advance(numerics)
+    speed = np.sqrt((bed.velocity[: radius.size, :3] ** 2).sum(axis=1).mean())
+    gap = bed.contacts(1e-6)[1]
     remark = (
         f"rms speed {speed:.1e} m/s, overlap {max(0.0, -gap.min()) / radius.min():.2%} of the smallest radius"
     )
-    return {"time_step_s": numerics.time_step, **clock.row(), "remark": remark}, granulate.position
+    return {"time_step_s": numerics.time_step, **clock.row(), "remark": remark}, bed.position
 
 
 def liggghts(position: np.ndarray, radius: np.ndarray, folder: Path) -> dict[str, object]:

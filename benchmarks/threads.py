@@ -20,10 +20,10 @@ from growth import BOX
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.deposit import REST_SPEED, Course, Shaking, settle, vibrate
-from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
+from asphalt_nscd.specimen.deposit import REST_SPEED, PouringHistory, Vibration, settle, vibrate
+from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
-from asphalt_nscd.specimen.preparation import DENSITY, LONGEST_POURING, Vibration
+from asphalt_nscd.specimen.preparation import DENSITY, LONGEST_POURING
 
 FRICTION, TIME_STEP = 0.2, 4e-4  # -, s
 FALL = 0.25  # s, when half of the grains have landed
@@ -35,21 +35,19 @@ def silent(*_: object) -> None:
     """No progress is told."""
 
 
-def fall(granulate: Granulate, numerics: PouringNumerics) -> None:
+def fall(bed: GranularBed, numerics: PouringNumerics) -> None:
     for _ in range(FALLING_STEPS):
-        granulate.advance(numerics)
+        bed.advance(numerics)
 
 
-def shake(granulate: Granulate, numerics: PouringNumerics) -> None:
-    paper = Vibration()
-    pressure = granulate.weight() / (granulate.plane_point[3, 0] * granulate.plane_point[4, 1])
-    shaking = Shaking(paper.stroke, paper.frequency, VIBRATED, pressure)
-    vibrate(granulate, numerics, shaking, Course(), silent)
+def shake(bed: GranularBed, numerics: PouringNumerics) -> None:
+    pressure = bed.weight() / (bed.plane_point[3, 0] * bed.plane_point[4, 1])
+    vibrate(bed, numerics, Vibration(duration=VIBRATED), pressure, PouringHistory(), silent)
 
 
-def measured(granulate: Granulate, numerics: PouringNumerics, work, threads: int) -> tuple[float, bytes]:
+def measured(bed: GranularBed, numerics: PouringNumerics, work, threads: int) -> tuple[float, bytes]:
     """Wall time [s] of the same work from the same state, and what came of it."""
-    copy = deepcopy(granulate)
+    copy = deepcopy(bed)
     copy._room = None  # rows of a copy do not begin at cache lines, as those of a pouring do
     copy._list(copy._start, copy._other)
     with Team(threads) as copy.team:
@@ -59,21 +57,19 @@ def measured(granulate: Granulate, numerics: PouringNumerics, work, threads: int
         return time.perf_counter() - began, copy.position.tobytes() + copy.impulse.tobytes()
 
 
-def compared(
-    name: str, granulate: Granulate, numerics: PouringNumerics, work, threads: int
-) -> dict[str, object]:
+def compared(name: str, bed: GranularBed, numerics: PouringNumerics, work, threads: int) -> dict[str, object]:
     """A row: how many times faster so many threads are."""
     ratios, walls = [], []
     for _ in range(PAIRS):
-        one, single = measured(granulate, numerics, work, 1)
-        more, several = measured(granulate, numerics, work, threads)
+        one, single = measured(bed, numerics, work, 1)
+        more, several = measured(bed, numerics, work, threads)
         if single != several:
             raise ArithmeticError(f"{name}: one thread and {threads} give different numbers")
         ratios.append(one / more)
         walls.append(one)
     return {
         "work": name,
-        "spheres": granulate.radius.size,
+        "spheres": bed.radius.size,
         "threads": threads,
         "speed_up": float(np.median(ratios)),
         "lowest": min(ratios),
@@ -96,20 +92,20 @@ def main() -> None:
         diameters, np.rint(counts * share).astype(int), box, np.random.default_rng(1)
     )
     numerics = PouringNumerics.of(radius, TIME_STEP)
-    granulate = Granulate.in_box(position, radius, box, DENSITY, FRICTION)
-    granulate.let_fall()
+    bed = GranularBed.in_box(position, radius, box, DENSITY, FRICTION)
+    bed.let_fall()
     with Team(told.threads) as team:
-        granulate.team = team
-        while granulate.time < FALL:
-            granulate.advance(numerics)
-        granulate.team = Team()
-        falling = deepcopy(granulate)
-        granulate.team = team
-        settle(granulate, numerics, REST_SPEED, LONGEST_POURING, silent, "")
-        granulate.team = Team()
+        bed.team = team
+        while bed.time < FALL:
+            bed.advance(numerics)
+        bed.team = Team()
+        falling = deepcopy(bed)
+        bed.team = team
+        settle(bed, numerics, REST_SPEED, LONGEST_POURING, silent, "")
+        bed.team = Team()
     rows = [
         compared("falling", falling, numerics, fall, told.threads),
-        compared("vibrating", granulate, numerics, shake, told.threads),
+        compared("vibrating", bed, numerics, shake, told.threads),
     ]
     write_table(told.output, pd.DataFrame(rows))
 

@@ -32,7 +32,7 @@ _NAMES = {
     "Specimen": "api.specimens",
     "Test": "api.bending",
     "Tiring": "bending.fatigue",
-    "Vibration": "specimen.preparation",
+    "Vibration": "specimen.deposit",
     "bend": "api.bending",
     "compare": "api.comparison",
     "diagnose": "api.diagnosis",

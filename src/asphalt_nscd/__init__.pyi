@@ -27,6 +27,6 @@ from asphalt_nscd.bending.rig import Rig as Rig
 from asphalt_nscd.diagnosis.run import Draws as Draws
 from asphalt_nscd.diagnosis.run import Simulated as Simulated
 from asphalt_nscd.files.errors import InputError as InputError
-from asphalt_nscd.specimen.preparation import Vibration as Vibration
+from asphalt_nscd.specimen.deposit import Vibration as Vibration
 
 __version__: str

@@ -32,12 +32,12 @@ def test_exchange_is_named_by_both_tests_and_nothing_else_is_set_aside(what, tem
     observed = campaign()
     rows = places(observed, temperature)
     wrong = with_exchange(observed, rows, what)
-    held = within_isotherm.hold(wrong)
-    assert [(sorted(one.rows), one.columns) for one in held.exchanged] == [(rows, KINDS[what])]
-    found = suspects.find(wrong, held)
+    loo = within_isotherm.leave_one_out(wrong)
+    assert [(sorted(one.rows), one.columns) for one in loo.exchanged] == [(rows, KINDS[what])]
+    found = suspects.find(wrong, loo)
     assert [one.row for one in found] == rows and not any(one.used for one in found)
     assert found[0].reasons == found[1].reasons and len(found[0].reasons) == 1
-    assert not suspects.broken_isotherms(wrong, held)
+    assert not suspects.broken_isotherms(wrong, loo)
 
 
 @pytest.mark.parametrize("delay", [-1e-3, 1e-3])
@@ -45,10 +45,10 @@ def test_exchange_is_found_beside_a_delay(delay):
     observed = campaign()
     rows = places(observed)
     wrong = with_exchange(delayed(observed, delay), rows, "phase")
-    held = within_isotherm.hold(wrong)
-    assert held.delay == pytest.approx(delay, rel=0.1)
-    assert [sorted(one.rows) for one in held.exchanged] == [rows]
-    assert (held.chance[rows] > 0.05).all()
+    loo = within_isotherm.leave_one_out(wrong)
+    assert loo.delay == pytest.approx(delay, rel=0.1)
+    assert [sorted(one.rows) for one in loo.exchanged] == [rows]
+    assert (loo.chance[rows] > 0.05).all()
 
 
 def test_each_isotherm_may_have_one():
@@ -73,19 +73,19 @@ def test_exchange_in_a_broken_isotherm_leaves_the_size_of_the_break():
 def test_exchanged_phases_lie_on_no_side():
     observed = campaign().subset(np.arange(6))
     wrong = with_exchange(observed, [0, 5], "phase")
-    held = within_isotherm.hold(wrong)
-    held.exchanged = (exchanged.Exchange((0, 5), (1,), 9.0),)
-    held.required[:] = observed.logarithm.imag
-    held.required_error[:] = 1e-9
-    held.required[1:5] += np.array([1.0, 1.0, -1.0, -1.0]) * np.radians(0.01)
-    said = suspects.one_sided(wrong, held)
+    loo = within_isotherm.leave_one_out(wrong)
+    loo.exchanged = (exchanged.Exchange((0, 5), (1,), 9.0),)
+    loo.required[:] = observed.logarithm.imag
+    loo.required_error[:] = 1e-9
+    loo.required[1:5] += np.array([1.0, 1.0, -1.0, -1.0]) * np.radians(0.01)
+    said = suspects.one_sided(wrong, loo)
     assert said.startswith("2 of 4 phases are higher than |E*| requires")
 
 
 @pytest.mark.parametrize("scatter", [(0.003, 0.1), (0.01, 0.3)])
 @pytest.mark.parametrize("seed", range(4))
 def test_table_without_one_has_none(seed, scatter):
-    assert not within_isotherm.hold(campaign(seed, scatter)).exchanged
+    assert not within_isotherm.leave_one_out(campaign(seed, scatter)).exchanged
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_table_without_one_has_none(seed, scatter):
 def test_one_wrong_reading_is_no_exchange(frequency, change):
     observed = campaign()
     wrong = altered(observed, row_of(observed, 1, 21.0, frequency), **change)
-    assert not within_isotherm.hold(wrong).exchanged
+    assert not within_isotherm.leave_one_out(wrong).exchanged
 
 
 @pytest.mark.parametrize("size", [2.0, 5.0])
@@ -104,7 +104,7 @@ def test_in_an_isotherm_without_order_nothing_is_exchanged(seed, size):
     observed = campaign(seed)
     hot = observed.temperature == 37.0
     disorder = size * np.random.default_rng(seed).standard_normal(observed.size)
-    assert not within_isotherm.hold(altered(observed, hot, phase_deg=disorder[hot])).exchanged
+    assert not within_isotherm.leave_one_out(altered(observed, hot, phase_deg=disorder[hot])).exchanged
 
 
 def test_sentence_tells_both_readings_and_where_to_look():

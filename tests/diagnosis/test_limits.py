@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.chance import Scores
 from asphalt_nscd.diagnosis.joint import Candidate, Joint
 
 CHANCE_LEVEL = 3.5
-THRESHOLD = CHANCE_LEVEL + chance.POWER
+THRESHOLD = CHANCE_LEVEL + chance.Z_95
 
 
 def limits_of(joint, fitted, candidates):

@@ -104,10 +104,10 @@ def test_delay_neither_hides_a_fault_of_the_majority_nor_moves_it(delay):
 
 def test_delay_is_that_of_all_isotherms_or_none():
     observed = campaign()
-    assert within_isotherm.hold(observed).delay == 0.0
-    assert within_isotherm.hold(delayed(observed, 1e-3)).delay == pytest.approx(1e-3, rel=0.1)
-    assert within_isotherm.hold(delayed(observed, 1e-3, observed.specimen == 1)).delay == 0.0
-    assert within_isotherm.hold(delayed(observed, 1e-3, observed.temperature == 4.0)).delay == 0.0
+    assert within_isotherm.leave_one_out(observed).delay == 0.0
+    assert within_isotherm.leave_one_out(delayed(observed, 1e-3)).delay == pytest.approx(1e-3, rel=0.1)
+    assert within_isotherm.leave_one_out(delayed(observed, 1e-3, observed.specimen == 1)).delay == 0.0
+    assert within_isotherm.leave_one_out(delayed(observed, 1e-3, observed.temperature == 4.0)).delay == 0.0
 
 
 def test_specimen_that_differs_as_a_whole_is_no_suspect():
@@ -225,17 +225,17 @@ def test_replicates_alone_take_no_test_out():
 def test_isotherms_of_three_tests_are_not_judged():
     observed = campaign()
     few = observed.subset(np.isin(observed.frequency, [0.1, 1.0, 10.0]))
-    held = within_isotherm.hold(few)
-    assert not held.judged.any() and np.isnan(held.required).all()
-    assert not suspects.broken_isotherms(few, held)
+    loo = within_isotherm.leave_one_out(few)
+    assert not loo.judged.any() and np.isnan(loo.required).all()
+    assert not suspects.broken_isotherms(few, loo)
 
 
 def test_table_holds_what_the_map_shows():
     observed = campaign()
     row = row_of(observed, 1, 4.0, 25.0)
     faulty = flagged(altered(observed, row, phase_deg=5.0), row)
-    held = within_isotherm.hold(faulty)
-    table = suspects.table(faulty, suspects.find(faulty, held), held)
+    loo = within_isotherm.leave_one_out(faulty)
+    table = suspects.table(faulty, suspects.find(faulty, loo), loo)
     assert (
         table.index[table["used"] == 0].tolist() == table.index[table["quality_flag"] == 1].tolist() == [row]
     )
@@ -246,10 +246,10 @@ def test_table_holds_what_the_map_shows():
 
 def test_phases_that_lie_on_one_side_are_told():
     observed = campaign()
-    held = within_isotherm.hold(observed)
-    assert suspects.one_sided(observed, held) == ""
+    loo = within_isotherm.leave_one_out(observed)
+    assert suspects.one_sided(observed, loo) == ""
     turned = replace(observed, modulus=observed.modulus * np.exp(1j * np.radians(-4.0)))
-    said = suspects.one_sided(turned, within_isotherm.hold(turned))
+    said = suspects.one_sided(turned, within_isotherm.leave_one_out(turned))
     assert " phases are lower than |E*| requires (about 90 deg times the slope of log |E*| against" in said
 
 

@@ -46,7 +46,7 @@ def changed(observed: Observations, row: int, factor: complex) -> Observations:
 def test_each_value_is_expected_where_the_mixture_given_the_others_has_its_mean():
     """Every ripple and bend one normal distribution; weights by the density of the other values alone."""
     observed = table(specimens=1, temperatures=(15.0,))
-    held = within_isotherm._Table(observed).hold()
+    loo = within_isotherm._Table(observed).leave_one_out()
     k = FREQUENCY.size
     log_f = np.log(FREQUENCY)
     smooth = np.exp(-0.5 * ((log_f[:, None] - log_f) / within_isotherm.BEND_LENGTH) ** 2)
@@ -74,16 +74,17 @@ def test_each_value_is_expected_where_the_mixture_given_the_others_has_its_mean(
         error = np.sqrt(share @ (np.array(variances) + (np.array(means) - mean) ** 2))
         test, column = place % k, place // k
         shift = logarithm.real.mean() if column == 0 else 0.0
-        assert held.expected[test, column] - shift == pytest.approx(mean, abs=2e-7)
-        assert held.std_error[test, column] == pytest.approx(error, rel=1e-4)
+        assert loo.expected[test, column] - shift == pytest.approx(mean, abs=2e-7)
+        assert loo.std_error[test, column] == pytest.approx(error, rel=1e-4)
         z = np.abs(values[place] - np.array(means)) / np.sqrt(variances)
-        assert held.chance[test, column] == pytest.approx(share @ (2.0 * student(10.0).sf(z)), rel=1e-4)
+        assert loo.chance[test, column] == pytest.approx(share @ (2.0 * student(10.0).sf(z)), rel=1e-4)
 
 
 def test_the_scatter_of_a_table_is_learnt():
     for scatter in ((0.006, 0.003), (0.03, 0.012)):
         found = [
-            within_isotherm.hold(table(scatter=scatter, seed=seed)).scatter.mean(axis=0) for seed in range(6)
+            within_isotherm.leave_one_out(table(scatter=scatter, seed=seed)).scatter.mean(axis=0)
+            for seed in range(6)
         ]
         assert np.mean(found, axis=0) == pytest.approx(scatter, rel=0.25)
 
@@ -93,36 +94,36 @@ def test_expectations_miss_by_their_standard_errors():
     far = []
     for seed in range(12):
         observed = table(seed=10 + seed)
-        held = within_isotherm.hold(observed)
+        loo = within_isotherm.leave_one_out(observed)
         logarithm = observed.logarithm
-        left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
-        far.append(np.abs(left / held.std_error) > 2.0)
+        left = np.column_stack([logarithm.real, logarithm.imag]) - loo.expected
+        far.append(np.abs(left / loo.std_error) > 2.0)
     assert 0.02 < np.mean(far) < 0.09
 
 
 @pytest.mark.parametrize("delay", [6e-4, -6e-4])
 def test_a_delay_of_all_tests_is_taken_off_and_is_in_what_is_expected(delay):
     observed = table(delay=delay)
-    held = within_isotherm.hold(observed)
-    assert held.delay == pytest.approx(delay, rel=0.25)
-    left = observed.logarithm.imag - held.expected[:, 1]
+    loo = within_isotherm.leave_one_out(observed)
+    assert loo.delay == pytest.approx(delay, rel=0.25)
+    left = observed.logarithm.imag - loo.expected[:, 1]
     assert np.sqrt(np.mean(left**2)) < 0.02
-    assert within_isotherm.hold(table()).delay == 0.0
+    assert within_isotherm.leave_one_out(table()).delay == 0.0
 
 
 @pytest.mark.parametrize(("factor", "column"), [(1.25, 0), (np.exp(0.07j), 1)])
 def test_a_wrong_value_is_the_least_likely_and_expected_where_it_was(factor, column):
     row = 8  # specimen A, 15 degC, 1 Hz
     sound = table(seed=4)
-    held = within_isotherm.hold(changed(sound, row, factor))
-    assert np.unravel_index(held.chance[:, :2].argmin(), (sound.size, 2)) == (row, column)
-    assert held.chance[row, column] < 1e-3
+    loo = within_isotherm.leave_one_out(changed(sound, row, factor))
+    assert np.unravel_index(loo.chance[:, :2].argmin(), (sound.size, 2)) == (row, column)
+    assert loo.chance[row, column] < 1e-3
     true = (sound.logarithm.real, sound.logarithm.imag)[column][row]
-    assert held.expected[row, column] == pytest.approx(true, abs=3.0 * held.std_error[row, column])
+    assert loo.expected[row, column] == pytest.approx(true, abs=3.0 * loo.std_error[row, column])
 
 
 def test_isotherms_of_three_tests_judge_nothing():
     observed = table()
     few = observed.subset(observed.frequency < 2.0)
-    held = within_isotherm.hold(few)
-    assert not held.judged.any() and (held.chance == 1.0).all() and np.isnan(held.expected).all()
+    loo = within_isotherm.leave_one_out(few)
+    assert not loo.judged.any() and (loo.chance == 1.0).all() and np.isnan(loo.expected).all()

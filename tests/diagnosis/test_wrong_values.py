@@ -33,10 +33,10 @@ def _expected(reason):
 def test_no_impossible_phase_is_expected():
     """Even where a test is judged by neighbours that make no curve."""
     observed = campaign()
-    held = within_isotherm.hold(observed)
+    loo = within_isotherm.leave_one_out(observed)
     for phase in (-7.4, 255.2):
         told = suspects._causal_reason(
-            observed, replace(held, expected=held.expected * 0 + np.radians(phase)), 3, 1
+            observed, replace(loo, expected=loo.expected * 0 + np.radians(phase)), 3, 1
         )
         assert "expected" not in told and "does not fit" in told
 

@@ -12,7 +12,8 @@ from asphalt_nscd.bending.case import Load, Numerics
 from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.cli import _options
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.specimen.preparation import Cutting, Pouring, Vibration
+from asphalt_nscd.specimen.deposit import Vibration
+from asphalt_nscd.specimen.preparation import Cutting, Pouring
 
 NAN, INF, BOX = float("nan"), float("inf"), (0.1, 0.1, 0.1)
 
@@ -54,7 +55,7 @@ def test_values_out_of_range_are_one_sentence(make, sentence):
 
 
 def test_an_option_takes_what_its_field_takes_in_its_own_unit():
-    stroke = _options.Of("specimen.preparation.Vibration.stroke", unit=1e-3)  # mm of m
+    stroke = _options.Of("specimen.deposit.Vibration.stroke", unit=1e-3)  # mm of m
     assert stroke.convert("1000", None, None) == 1000.0
     for value in ("1000.1", "-1e-9", "nan", "six"):
         with pytest.raises(

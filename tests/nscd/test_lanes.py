@@ -10,16 +10,16 @@ from asphalt_nscd.nscd.lanes import (
     WIDTH,
     above,
     aligned,
+    broadcast,
     gather,
     largest,
     load,
-    nothing,
-    root,
     scatter,
-    spread,
+    select_greater,
+    sqrt,
     store,
     total,
-    where_above,
+    zeros,
 )
 
 
@@ -40,7 +40,7 @@ def test_arithmetic_is_that_of_each_lane(numbers):
     @njit
     def combine(array, block):
         a, b, c = load(array, block, 0), load(array, block, 1), load(array, block, 2)
-        store(array, block, 3, a * b - (c + a) / root(b * b))
+        store(array, block, 3, a * b - (c + a) / sqrt(b * b))
 
     a, b, c = numbers[1, :3].copy()
     others = numbers[[0, 2]].copy()
@@ -54,7 +54,7 @@ def test_each_lane_is_compared_by_itself(numbers):
     @njit
     def compare(array, limit):
         a, b = load(array, 0, 0), load(array, 0, 1)
-        store(array, 0, 2, where_above(a, b, a, spread(limit)))
+        store(array, 0, 2, select_greater(a, b, a, broadcast(limit)))
         return above(a, b), largest(a)
 
     a, b = numbers[0, :2].copy()
@@ -70,7 +70,7 @@ def test_each_lane_is_compared_by_itself(numbers):
 def test_sum_runs_from_the_first_lane_to_the_last():
     @njit
     def add(array):
-        return total(nothing() + load(array, 0, 0))
+        return total(zeros() + load(array, 0, 0))
 
     array = aligned((1, 1, WIDTH))
     array[0, 0] = [1.0, 1e-16, 1e-16, 1e100, -1e100, 3.0, 4.0, 5.0]

@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.nscd.compiled import compiled_for_teams
-from asphalt_nscd.nscd.team import Team, arrive, meet, share
+from asphalt_nscd.nscd.team import Team, barrier_wait, mark_started, partition
 
 
 @compiled_for_teams
 def pass_round(rank, members, barrier, rounds, seen):
     """In each round a member reads what its neighbour wrote in the round before; returns how often it was not there."""
-    arrive(barrier)
+    mark_started(barrier)
     missed = 0
     for k in range(rounds):
         missed += seen[k % 2, (rank + 1) % members, 0] != k
         seen[(k + 1) % 2, rank, 0] = k + 1
-        meet(barrier, members)
+        barrier_wait(barrier, members)
     return missed
 
 
@@ -34,10 +34,10 @@ def test_members_see_what_all_wrote_before_they_met(members):
 @pytest.mark.parametrize("who", [0, 1, 2])
 def test_one_that_fails_keeps_none_waiting(who, failure):
     def kernel(rank, members, barrier):
-        arrive(barrier)
+        mark_started(barrier)
         if rank == who:
             raise failure
-        meet(barrier, members)
+        barrier_wait(barrier, members)
 
     with Team(3) as team:
         with pytest.raises(failure):
@@ -59,7 +59,7 @@ def test_members_that_fell_asleep_are_woken():
 
 @pytest.mark.parametrize("members", [1, 2, 3, 8])
 def test_shares_join_up(members):
-    parts = [share(rank, members, 13) for rank in range(members)]
+    parts = [partition(rank, members, 13) for rank in range(members)]
     assert parts[0][0] == 0 and parts[-1][1] == 13
     assert [end for _, end in parts[:-1]] == [begin for begin, _ in parts[1:]]
     sizes = [end - begin for begin, end in parts]

@@ -9,9 +9,9 @@ import pytest
 from naive.granular import all_pairs
 
 from asphalt_nscd.nscd.spheres.granular import near_pairs
-from asphalt_nscd.specimen import granulate as granulate_module
-from asphalt_nscd.specimen.deposit import REST_SPEED, Course, Shaking, balance, settle, vibrate
-from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
+from asphalt_nscd.specimen import granular_bed as granular_bed
+from asphalt_nscd.specimen.deposit import REST_SPEED, PouringHistory, Vibration, balance, settle, vibrate
+from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 
 BOX = (0.021, 0.016, 0.07)
@@ -21,23 +21,23 @@ def silent(*_):
     pass
 
 
-def granulate(seed=1, friction=0.2) -> Granulate:
+def granular_layer(seed=1, friction=0.2) -> GranularBed:
     position, radius = random_lattice(
         np.array([2e-3, 3e-3, 5e-3]), np.array([60, 40, 15]), BOX, np.random.default_rng(seed)
     )
-    return Granulate.in_box(position, radius, BOX, 2600.0, friction)
+    return GranularBed.in_box(position, radius, BOX, 2600.0, friction)
 
 
 @pytest.fixture(scope="module")
 def layer():
     """Poured once; copied by those who move it."""
-    poured = granulate()
+    poured = granular_layer()
     settle(poured, PouringNumerics.of(poured.radius, 4e-4), 1e-3, 2.0, silent, "pouring")
     return poured
 
 
-def copy(of: Granulate) -> Granulate:
-    other = granulate()
+def copy(of: GranularBed) -> GranularBed:
+    other = granular_layer()
     for name in ("position", "velocity", "impulse", "plane_point"):
         setattr(other, name, getattr(of, name).copy())
     other._list(of._start, of._other)
@@ -51,7 +51,7 @@ def copy(of: Granulate) -> Granulate:
 def test_every_pair_that_may_meet_is_on_the_list(time_step, rain):
     """Fast grains and a moving lid: pairs that come within the margin in a step, by brute force, are
     listed although the list is renewed only now and then, or made short where grains rain [m/s]."""
-    flock = granulate(4)
+    flock = granular_layer(4)
     rng = np.random.default_rng(4)
     n, numerics = flock.radius.size, PouringNumerics(time_step=time_step)
     flock.velocity[:n] = rng.normal(0, 0.3, (n, 6))
@@ -85,11 +85,11 @@ def test_every_pair_that_may_meet_is_on_the_list(time_step, rain):
 def test_grains_that_rain_at_5_m_s_do_not_enter_each_other():
     """2 mm a step, as far as the smallest grain is wide: none goes through another, and no pair that meets,
     by brute force, was left out. An impact on a grain at rest drives it on within the step."""
-    flock = granulate(5)
+    flock = granular_layer(5)
     n, numerics, deepest = flock.radius.size, PouringNumerics.of(flock.radius, 4e-4), 0.0
     settle(flock, numerics, REST_SPEED, 1.0, silent, "pouring")
-    high = granulate(6)
-    flock = Granulate.in_box(
+    high = granular_layer(6)
+    flock = GranularBed.in_box(
         np.concatenate([flock.position, high.position + [0.0, 0.0, 0.02]]),
         np.concatenate([flock.radius, high.radius]),
         (BOX[0], BOX[1], 0.1),
@@ -150,7 +150,7 @@ def test_contacts_are_those_of_brute_force(layer):
 def test_settling_stops_in_time():
     """At most `longest` seconds, and progress is told in seconds of as many."""
     told = []
-    flock = granulate(2)
+    flock = granular_layer(2)
     settle(flock, PouringNumerics(), 0.0, 0.05, lambda *args: told.append(args), "pouring")
     assert 0.05 <= flock.time < 0.06
     assert told[-1] == ("pouring", 0.05, 0.05)
@@ -163,7 +163,7 @@ def test_vibration_follows_the_layer_and_forces_no_grain_through_another(layer, 
     with no more than its pressure; grains overlap by 10 % of the smallest radius at most, also under 30 layers."""
     shaken = copy(layer)
     area, n = BOX[0] * BOX[1], shaken.radius.size
-    shaking = Shaking(1e-3, 50.0, 0.2, strong * shaken.weight() / area)
+    vibration = Vibration(1e-3, 50.0, 0.2)
     tops, walls, pushes = [], [], []
     advance = shaken.advance
 
@@ -176,14 +176,14 @@ def test_vibration_follows_the_layer_and_forces_no_grain_through_another(layer, 
         return result
 
     shaken.advance = watched
-    course, numerics = Course(), PouringNumerics.of(shaken.radius, 2e-4)
-    vibrate(shaken, numerics, shaking, course, silent)
+    history, numerics = PouringHistory(), PouringNumerics.of(shaken.radius, 2e-4)
+    vibrate(shaken, numerics, vibration, strong * shaken.weight() / area, history, silent)
     tops, walls = np.array(tops).reshape(10, 100), np.array(walls).reshape(10, 100)
-    assert len(course.touched) == 10 and min(course.touched) > 0
+    assert len(history.touched) == 10 and min(history.touched) > 0
     tenth = tops[:, 0] + 0.5e-3 * np.cos(0.2 * np.pi)
     np.testing.assert_allclose(walls[:, 9], tenth, atol=1e-9)  # it kept up
     assert (walls.min(axis=1) < tops[:, 0]).all()  # and came down on the layer
-    assert (np.array([height for height in course.wall]) >= walls.min()).all()
+    assert (np.array([height for height in history.wall]) >= walls.min()).all()
     # all it can give: its drive, and its momentum of a step; a little faster where it catches up with its drive
     mass = 0.01 * shaken.weight() / 9.81
     most = 1.02 * strong * shaken.weight() + mass * 2 * np.pi * 50.0 * 0.5e-3 / 2e-4
@@ -198,11 +198,11 @@ def test_vibrated_layers_sink():
     """By 0.1 mm on average of four; where one lies dense already, it rises by 1 % of the smallest radius at most."""
     sunk = []
     for seed in range(1, 5):
-        shaken = granulate(seed)
+        shaken = granular_layer(seed)
         settle(shaken, PouringNumerics.of(shaken.radius, 4e-4), REST_SPEED, 2.0, silent, "pouring")
         poured = shaken.layer_height()
-        shaking = Shaking(1e-3, 50.0, 0.2, shaken.weight() / (BOX[0] * BOX[1]))
-        vibrate(shaken, PouringNumerics.of(shaken.radius, 2e-4), shaking, Course(), silent)
+        numerics, pressure = PouringNumerics.of(shaken.radius, 2e-4), shaken.weight() / (BOX[0] * BOX[1])
+        vibrate(shaken, numerics, Vibration(1e-3, 50.0, 0.2), pressure, PouringHistory(), silent)
         sunk.append(poured - shaken.layer_height())
     assert min(sunk) > -1e-5
     assert 2e-5 < np.mean(sunk) < 1e-3
@@ -232,7 +232,7 @@ def test_at_rest_forces_balance(layer):
 
 def test_rain_that_is_not_searched_falls_the_same():
     """To 1e-9 m, which is what sweeps to 1e-10 leave, far into the pile; and far grains are left out."""
-    both = granulate(5), granulate(5)
+    both = granular_layer(5), granular_layer(5)
     both[1].let_fall()
     numerics, involved = PouringNumerics(time_step=2e-4, tolerance=1e-10, most_sweeps=3000), []
     for _ in range(250):
@@ -251,7 +251,7 @@ def test_the_same_motion_twice():
     """Same spheres, same numbers to the last bit; another seed differs."""
     numerics, results = PouringNumerics(), []
     for seed in (3, 3, 4):
-        flock = granulate(seed)
+        flock = granular_layer(seed)
         for _ in range(150):
             flock.advance(numerics)
         results.append((flock.position.tobytes(), flock.velocity.tobytes(), flock.impulse.tobytes()))
@@ -279,7 +279,7 @@ def test_numerics_act(layer, monkeypatch):
         sweeps.append(shaken.sweeps)
     assert sweeps[1] > 2 * sweeps[0]
     positions = []
-    monkeypatch.setattr(granulate_module, "slabs_of", one_slab)
+    monkeypatch.setattr(granular_bed, "slabs_of", one_slab)
     for skin in (4e-4, 2e-3):
         shaken = copy(layer)
         shaken._start = None
@@ -292,10 +292,10 @@ def test_numerics_act(layer, monkeypatch):
 def test_a_layer_of_more_than_its_sweeps_can_carry_comes_to_rest():
     """Overlaps undone at once, however small, would keep it in motion."""
     few = PouringNumerics(most_sweeps=3)
-    lenient = replace(few, allowed_overlap=PouringNumerics.of(granulate().radius, 4e-4).allowed_overlap)
+    lenient = replace(few, allowed_overlap=PouringNumerics.of(granular_layer().radius, 4e-4).allowed_overlap)
     speed = []
     for numerics in few, lenient:
-        layer = granulate()
+        layer = granular_layer()
         settle(layer, numerics, REST_SPEED, 1.0, silent, "pouring")
         speed.append(np.sqrt((layer.velocity[: layer.radius.size, :3] ** 2).sum(axis=1).mean()))
     assert speed[1] < REST_SPEED < speed[0]

@@ -8,10 +8,10 @@ import pytest
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
 from asphalt_nscd.specimen import preparation
+from asphalt_nscd.specimen.deposit import Vibration
 from asphalt_nscd.specimen.preparation import (
     Cutting,
     Pouring,
-    Vibration,
     deposit,
     layer_statistics,
     read_specimen,

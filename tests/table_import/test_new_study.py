@@ -16,7 +16,7 @@ from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.study.configuration import complete_study
 from asphalt_nscd.study.preflight import require_feasible
 from asphalt_nscd.table_import.duration import duration
-from asphalt_nscd.table_import.write import SCHEMA, Wishes, new_study
+from asphalt_nscd.table_import.write import SCHEMA, StudyOptions, new_study
 
 LAW = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)
 PRISM = {"b_mm": 50, "B_mm": 50, "e_mm": 50, "h_mm": 300, "mass_kg": 1.8, "mobile_mass_kg": 0.2}
@@ -57,7 +57,7 @@ def accepted(config):
 
 
 def test_german_table_becomes_a_full_size_study():
-    config, notes = new_study("mine", german(rows()), Wishes())
+    config, notes = new_study("mine", german(rows()), StudyOptions())
     study = accepted(config)
     assert "E_MPa from column '|E*| [GPa]', converted from GPa" in notes
     assert (study["temperatures_C"], study["frequencies_Hz"]) == ([10, 15], [1, 10])
@@ -76,18 +76,18 @@ def test_german_table_becomes_a_full_size_study():
 
 
 def test_workbook_becomes_the_same_table():
-    new_study("csv", german(rows()), Wishes())
+    new_study("csv", german(rows()), StudyOptions())
     book = openpyxl.Workbook()
     book.active.append(["Sample", "Temp °C", "f (Hz)", "|E*| [GPa]", "delta_rad"])
     for s, t, f, e, p in rows():
         book.active.append([s, t, f, round(e, 4), round(p, 5)])
     book.save("t.xlsx")
-    new_study("xlsx", [Path("t.xlsx")], Wishes())
+    new_study("xlsx", [Path("t.xlsx")], StudyOptions())
     assert Path("data/csv/measurements.csv").read_bytes() == Path("data/xlsx/measurements.csv").read_bytes()
 
 
 def test_small_study_keeps_the_measured_geometry_beside_the_simulated_one():
-    study = accepted(new_study("mine", german(rows()), Wishes(geometry=PRISM, small=True))[0])
+    study = accepted(new_study("mine", german(rows()), StudyOptions(geometry=PRISM, small=True))[0])
     assert study["geometry"] == PRISM
     assert study["specimens"]["geometry"]["h_mm"] == 60
     assert study["specimens"]["seeds"] == [1]
@@ -101,24 +101,24 @@ def test_a_table_too_short_for_a_diagnosis_is_refused_at_once():
         InputError,
         match="two.csv: 2 tests at 2 frequencies are too few for a diagnosis",
     ):
-        new_study("mine", [Path("two.csv")], Wishes())
+        new_study("mine", [Path("two.csv")], StudyOptions())
     assert not Path("data/mine").exists()
 
 
 def test_prism_is_simulated_as_a_prism():
-    study = accepted(new_study("mine", german(rows()), Wishes(geometry=PRISM))[0])
+    study = accepted(new_study("mine", german(rows()), StudyOptions(geometry=PRISM))[0])
     assert study["specimens"]["geometry"] == PRISM
     assert study["specimens"]["box_m"][:2] == [0.3, 0.05]
 
 
 def test_direct_tests_are_said_to_be_taken_as_measured():
-    config, _ = new_study("mine", german(rows()), Wishes(measured_in="tension-compression"))
+    config, _ = new_study("mine", german(rows()), StudyOptions(measured_in="tension-compression"))
     assert "Moduli are taken as they were measured, in direct tension-compression," in config.read_text()
     assert accepted(config)["diagnosis"]["measured_in"] == "tension-compression"
 
 
 def test_direct_tests_are_simulated_on_a_cylinder():
-    ampt = accepted(new_study("ampt", german(rows()), Wishes(measured_in="tension-compression"))[0])
+    ampt = accepted(new_study("ampt", german(rows()), StudyOptions(measured_in="tension-compression"))[0])
     assert ampt["specimens"]["geometry"] == {"d_mm": 100, "h_mm": 150, "mass_kg": 2.83, "mobile_mass_kg": 0}
     assert ampt["test"]["amplitude_m"] == pytest.approx(50e-6 * 0.15)
     counts = pd.read_csv(ampt["specimens"]["counts_table"])
@@ -126,14 +126,14 @@ def test_direct_tests_are_simulated_on_a_cylinder():
         counts["diameter_mm"].tolist() == [4.0, 8.0, 12.6, 16.0, 20.0] and 7000 < counts["count"].sum() < 8000
     )
     given = {"d_mm": 60.0, "h_mm": 120.0, "mass_kg": 0.8, "mobile_mass_kg": 0.1}
-    other = Wishes(measured_in="tension-compression", geometry=given)
+    other = StudyOptions(measured_in="tension-compression", geometry=given)
     assert accepted(new_study("other", german(rows()), other)[0])["specimens"]["geometry"] == given
-    small = Wishes(measured_in="tension-compression", small=True)
+    small = StudyOptions(measured_in="tension-compression", small=True)
     assert accepted(new_study("small", german(rows()), small)[0])["specimens"]["geometry"]["d_mm"] == 18
     with pytest.raises(
         InputError, match="of a cylinder is for tests in tension-compression; say --measured-in"
     ):
-        new_study("bent", german(rows()), Wishes(geometry=given))
+        new_study("bent", german(rows()), StudyOptions(geometry=given))
 
 
 def peaks():
@@ -148,18 +148,18 @@ def test_peaks_need_a_geometry_and_set_the_amplitude():
     with pytest.raises(
         InputError, match="give it, the paper's as --geometry b_mm=25,B_mm=56,e_mm=25,h_mm=250"
     ):
-        new_study("mine", peaks(), Wishes())
+        new_study("mine", peaks(), StudyOptions())
     with pytest.raises(InputError, match="of a direct test are not reduced here"):
-        new_study("mine", peaks(), Wishes(measured_in="tension-compression"))
+        new_study("mine", peaks(), StudyOptions(measured_in="tension-compression"))
     geometry = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.235}
-    study = accepted(new_study("mine", peaks(), Wishes(geometry=geometry))[0])
+    study = accepted(new_study("mine", peaks(), StudyOptions(geometry=geometry))[0])
     assert study["test"]["amplitude_m"] == pytest.approx(50e-6)
     assert "E_MPa" not in read_csv("data/mine/measurements.csv").columns
 
 
 def test_tests_outside_the_full_grid_are_left_out_and_said():
     tests = [*rows(), *rows(temperatures=[20], frequencies=[10, 3])]
-    config, notes = new_study("mine", german(tests), Wishes())
+    config, notes = new_study("mine", german(tests), StudyOptions())
     study = accepted(config)
     assert (study["temperatures_C"], study["frequencies_Hz"]) == ([10, 15], [1, 10])
     assert any(note.startswith("4 of 12 tests are not simulated") for note in notes)
@@ -181,7 +181,7 @@ def test_tests_outside_the_full_grid_are_left_out_and_said():
 )
 def test_what_cannot_be_meant_is_refused_and_leaves_nothing(folder, tests, sentence):
     with pytest.raises(InputError) as error:
-        new_study("mine", german(tests), Wishes())
+        new_study("mine", german(tests), StudyOptions())
     assert sentence in str(error.value) and str(error.value).startswith("t.csv")
     assert [path.name for path in folder.iterdir()] == ["t.csv"]
 
@@ -191,16 +191,16 @@ def test_what_cannot_be_meant_is_refused_and_leaves_nothing(folder, tests, sente
 )
 def test_bad_names(name):
     with pytest.raises(InputError, match="NAME"):
-        new_study(name, german(rows()), Wishes())
+        new_study(name, german(rows()), StudyOptions())
 
 
 def test_nothing_is_replaced():
-    new_study("mine", german(rows()), Wishes())
+    new_study("mine", german(rows()), StudyOptions())
     with pytest.raises(InputError, match=r"config/mine\.yaml exists already; choose another NAME"):
-        new_study("mine", german(rows()), Wishes())
+        new_study("mine", german(rows()), StudyOptions())
     Path("data/paper").mkdir()
     with pytest.raises(InputError, match="data/paper exists already"):
-        new_study("paper", german(rows()), Wishes())
+        new_study("paper", german(rows()), StudyOptions())
 
 
 def test_refused_study_leaves_nothing(folder, monkeypatch):
@@ -209,14 +209,14 @@ def test_refused_study_leaves_nothing(folder, monkeypatch):
 
     monkeypatch.setattr("asphalt_nscd.table_import.write.require_feasible", refuse)
     with pytest.raises(InputError, match="no"):
-        new_study("mine", german(rows()), Wishes())
+        new_study("mine", german(rows()), StudyOptions())
     assert not (folder / "data/mine").exists() and not (folder / "config").exists()
 
 
 def test_file_names_cannot_write_into_the_configuration():
     evil = Path("a\nstudy: evil #.csv")
     german(rows())[0].rename(evil)
-    assert accepted(new_study("mine", [evil], Wishes())[0])["study"] == "mine"
+    assert accepted(new_study("mine", [evil], StudyOptions())[0])["study"] == "mine"
 
 
 def test_duration_grows_with_slow_tests_and_is_the_paper_studys_for_the_paper():
@@ -227,4 +227,4 @@ def test_duration_grows_with_slow_tests_and_is_the_paper_studys_for_the_paper():
 def test_an_installed_package_has_no_studies(monkeypatch):
     monkeypatch.setattr("asphalt_nscd.table_import.write.SCHEMA", Path("nowhere/study.schema.yaml"))
     with pytest.raises(InputError, match="a study runs in a clone of the repository"):
-        new_study("mine", german(rows()), Wishes())
+        new_study("mine", german(rows()), StudyOptions())

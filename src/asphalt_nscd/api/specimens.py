@@ -23,12 +23,12 @@ from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.packings.incoming import as_deposit
 from asphalt_nscd.packings.incoming import read_packing as read_spheres
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
+from asphalt_nscd.specimen.deposit import Vibration
 from asphalt_nscd.specimen.preparation import (
     DEPOSIT,
     SPECIMEN,
     Cutting,
     Pouring,
-    Vibration,
     bonded,
     specimen_of,
     unrest,

@@ -39,7 +39,7 @@ def bars(unit: str, on_terminal: bool = False) -> Iterator[Callable[[str, float,
                 unit=unit,
                 mininterval=0.1 if on_terminal else 5.0,
                 disable=None if on_terminal else False,
-                bar_format="{desc}: {percentage:3.0f}% |{bar:20}| {elapsed} gone, {remaining} left",
+                bar_format="{desc}: {percentage:3.0f}% |{bar:20}| {elapsed} elapsed, {remaining} left",
             )
             bar.start_t = began
         bar.update(done - bar.n)

@@ -7,7 +7,7 @@ import click
 
 from asphalt_nscd.cli import _options, _progress
 
-_POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.preparation.Vibration"
+_POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.deposit.Vibration"
 
 
 @click.command()
@@ -52,7 +52,8 @@ _POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.preparation.Vib
 )
 def command(counts: Path, pouring: dict[str, Any], vibration: dict[str, float], output: Path) -> None:
     """Pour spheres from a random lattice by gravity, then vibrate the layer with the top wall."""
-    from asphalt_nscd.specimen.preparation import Pouring, Vibration, deposit, unrest
+    from asphalt_nscd.specimen.deposit import Vibration
+    from asphalt_nscd.specimen.preparation import Pouring, deposit, unrest
 
     vibration["stroke"] *= 1e-3
     with _progress.bars("s") as progress:

@@ -45,7 +45,7 @@ Of a sieve table:
 @click.option("--grading", type=_options.File, help="Sieve table for the spheres: sieve (mm), passing (%).")
 @click.option("--small", is_flag=True, help="One sample of some hundred spheres, to try a study in minutes.")
 @_options.gather(
-    "wishes",
+    "options",
     geometry="geometry",
     grading="grading",
     measured_in="measured_in",
@@ -53,14 +53,14 @@ Of a sieve table:
     sheet="sheet",
     columns="columns",
 )
-def command(name: str, measurements: tuple[Path, ...], wishes: dict[str, Any]) -> None:
+def command(name: str, measurements: tuple[Path, ...], options: dict[str, Any]) -> None:
     """Write config/NAME.yaml, a study of your own measurements, and print how the table was read."""
-    from asphalt_nscd.table_import.write import Wishes, new_study
+    from asphalt_nscd.table_import.write import StudyOptions, new_study
 
-    if isinstance(wishes["geometry"], str):
-        wishes["geometry"] = Path(wishes["geometry"])
-    wishes["columns"] = dict(wishes["columns"])
-    config, notes = new_study(name, measurements, Wishes(**wishes))
+    if isinstance(options["geometry"], str):
+        options["geometry"] = Path(options["geometry"])
+    options["columns"] = dict(options["columns"])
+    config, notes = new_study(name, measurements, StudyOptions(**options))
     for note in notes:
         click.echo(note)
     click.echo(f"wrote {config}; run: snakemake --cores all --configfile {config}")

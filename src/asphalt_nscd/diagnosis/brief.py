@@ -118,8 +118,8 @@ def _notes(content: Content) -> list[str]:
     said = [verdict.mixes(content), verdict.files(content)]
     if read.get("test_type") == UNKNOWN:
         said.append(
-            "Nobody said which test gave the moduli, so faults of one apparatus alone, such as a moving mass, were not "
-            "looked for. Add --measured-in bending or tension-compression."
+            "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. "
+            "Add --measured-in bending or tension-compression."
         )
     if read.get("off_target"):
         said.append(

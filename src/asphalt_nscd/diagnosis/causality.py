@@ -16,7 +16,7 @@ from asphalt_nscd.diagnosis.joint import Fitted, Noise
 from asphalt_nscd.diagnosis.observations import Observations
 
 SHOWN = 3  # of the others
-CHANCE = 0.01  # that any pair of frequencies is reported where nothing is wrong
+ALPHA_PER_TABLE = 0.01  # that any pair of frequencies is reported where nothing is wrong
 AGREES = 0.6  # share of the larger departure: even a single relaxation time keeps slope and phase nearer
 
 
@@ -66,7 +66,7 @@ def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list
                     float(z),
                 )
             )
-    least = -ndtri(0.5 * CHANCE / max(tried, 1))
+    least = -ndtri(0.5 * ALPHA_PER_TABLE / max(tried, 1))
     return sorted((one for one in found if one.z > least), key=lambda one: -one.z)
 
 

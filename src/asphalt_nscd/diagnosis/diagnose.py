@@ -11,7 +11,7 @@ from scipy.special import chdtrc, fdtrc
 from asphalt_nscd.diagnosis import causality, chance, copies, scatter, start, suspects, within_isotherm
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
-from asphalt_nscd.diagnosis.chance import CHANCE
+from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP
 from asphalt_nscd.diagnosis.doubts import Key, find_doubts
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
@@ -77,8 +77,8 @@ def diagnose(
     copies.refuse_copies(observed)
     notes: list[str] = []
     whole = observed
-    held = within_isotherm.hold(whole)
-    doubtful = suspects.find(whole, held)
+    loo = within_isotherm.leave_one_out(whole)
+    doubtful = suspects.find(whole, loo)
     if use_suspects:
         doubtful = [replace(one, used=True) for one in doubtful]
     aside = np.array([one.row for one in doubtful if not one.used], np.int64)
@@ -94,7 +94,7 @@ def diagnose(
     baseline_p = misfit_p_value(baseline, noise)
     spectrum_p = misfit_p_value(fitted, noise)
     spectrum_better = _information(fitted) < _information(baseline)
-    no_common_law = baseline_p > CHANCE and not spectrum_better and spectrum_p < CHANCE
+    no_common_law = baseline_p > ALPHA_PER_STEP and not spectrum_better and spectrum_p < ALPHA_PER_STEP
     if no_common_law:
         joint, fitted = baseline_joint, baseline
         notes.append(
@@ -114,7 +114,7 @@ def diagnose(
         baseline_joint,
         baseline_p,
         law_p,
-        joint is not baseline_joint and baseline_p <= CHANCE and spectrum_better,
+        joint is not baseline_joint and baseline_p <= ALPHA_PER_STEP and spectrum_better,
         ladder,
         notes=notes,
     )
@@ -255,10 +255,10 @@ def _residual_scatter(fitted: Fitted, sizes: tuple[float, float]) -> tuple[tuple
 
 def _verdict(diagnosis: Diagnosis) -> str:
     remaining = diagnosis.ladder.remaining
-    # Two tests, so that an empty table fails either no more often than CHANCE.
-    unexplained = remaining is not None and remaining.p_value <= 0.5 * CHANCE
+    # Two tests, so that an empty table fails either no more often than ALPHA_PER_STEP.
+    unexplained = remaining is not None and remaining.p_value <= 0.5 * ALPHA_PER_STEP
     if diagnosis.replicated:
-        unexplained = unexplained or diagnosis.law_p <= 0.5 * CHANCE
+        unexplained = unexplained or diagnosis.law_p <= 0.5 * ALPHA_PER_STEP
     if unexplained or diagnosis.doubts:
         return "unexplained_structure"
     if diagnosis.ladder.rungs or diagnosis.relaxation_spectrum:

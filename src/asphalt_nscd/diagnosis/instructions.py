@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import fixed_orders, levels, rungs
-from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
+from asphalt_nscd.diagnosis.chance import USUAL_THRESHOLD, Z_95
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.further_tests import Departure, Possible, possible
 from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Question
@@ -32,8 +32,8 @@ from asphalt_nscd.files.words import joined, specimen_named
 MOST = 5
 LEAST = 0.3  # nats, below which a sweep tells nothing
 SURVIVES = 2.0  # standard errors that a cause keeps without what it hangs on
-FOUND = (USUAL_THRESHOLD + POWER) ** 2  # strength of a cause that is found in 19 of 20 cases
-KEPT = (SURVIVES + POWER) ** 2
+FOUND = (USUAL_THRESHOLD + Z_95) ** 2  # strength of a cause that is found in 19 of 20 cases
+KEPT = (SURVIVES + Z_95) ** 2
 TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached in 19 of 20 cases
 PRESENT = 0.1  # chance that a cause nobody has seen is there
 PLAIN = {  # whose size alone says little
@@ -192,7 +192,7 @@ def _by_limit(diagnosis: Diagnosis, candidate: Candidate) -> float:
     """Strength of a typical effect in the tests done, by the detection limit; none where no effect shows."""
     ladder = diagnosis.ladder
     limit = ladder.limits.get(candidate.key, np.inf) * ladder.estimates_spread
-    return float(((USUAL_THRESHOLD + POWER) * REACH * candidate.typical[0] / limit) ** 2)
+    return float(((USUAL_THRESHOLD + Z_95) * REACH * candidate.typical[0] / limit) ** 2)
 
 
 def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, ...]) -> list[Open]:

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from asphalt_nscd.diagnosis import beside, chance, hidden_bias, limits
+from asphalt_nscd.diagnosis import chance, hidden_bias, limits, with_discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
-from asphalt_nscd.diagnosis.chance import CHANCE, Scores
+from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP, DELTA_DEVIANCE, Scores
 from asphalt_nscd.diagnosis.discrepancy import Process
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.start import fit_spectrum, marginal_likelihood
@@ -22,7 +22,6 @@ RUNGS = 4
 SHORTLIST = 0.4  # candidates whose score gain is above this share of the best are refitted
 MOST_REFITS = 8
 MOST_PLACES = 20  # isotherms of a cause that are refitted beside them
-AS_GOOD = 6.0  # gains of the objective closer than this are a likelihood ratio of 20: not told apart
 USUAL = 7.0  # typical amplitudes, standard deviation of errors in laboratories: 2 K, say
 AS_MUCH = 0.97  # of the gain of the best nameless pattern, which may be the cause's own
 EXCESS = 4.0  # standard deviations of the misfit above which it is structure
@@ -139,19 +138,21 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
         by_chance = chance.largest_by_chance(found, one_sided, joint.noise.freedom, draws, random)
         ladder.remaining = _remaining(joint, fitted, draws, random)
         if not ladder.rungs:
-            threshold = float(np.quantile(by_chance, 1.0 - CHANCE)) + chance.POWER
+            threshold = float(np.quantile(by_chance, 1.0 - ALPHA_PER_STEP)) + chance.Z_95
             first = joint, fitted, candidates, found, threshold
         if not gains.size or len(ladder.rungs) == RUNGS:
             break
         begun = None if ladder.rungs else _begun_with(joint, fitted, candidates, gains.max())
         p_value = chance.tail(by_chance, float(np.sqrt(begun[0] if begun else gains.max())))
-        if p_value > CHANCE:
+        if p_value > ALPHA_PER_STEP:
             break
         if begun:
             joint, rung = begun[1], replace(begun[2], p_value=p_value)
             ladder.joint, ladder.start = joint, rung.before
         else:
-            rung = _best(joint, fitted, candidates, gains, p_value, np.quantile(by_chance, 1.0 - CHANCE) ** 2)
+            rung = _best(
+                joint, fitted, candidates, gains, p_value, np.quantile(by_chance, 1.0 - ALPHA_PER_STEP) ** 2
+            )
         if not _stands_out(rung, ladder.remaining):
             break
         ladder.rungs.append(rung)
@@ -163,7 +164,7 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
         _climb_beside(ladder, joint, start, catalogue, draws, random)
         return ladder
     ladder.limits, ladder.unseen = limits.detection_limits(*first)
-    ladder.alike = limits.alike(first[2], first[3], AS_GOOD)
+    ladder.alike = limits.alike(first[2], first[3], DELTA_DEVIANCE)
     if left:
         _withdraw(ladder, draws, random)
     return ladder
@@ -173,7 +174,7 @@ def _structure_left(ladder: Ladder) -> bool:
     """Whether more stays than scatter."""
     if ladder.remaining is None:
         return False
-    return ladder.remaining.p_value <= CHANCE or _excess(ladder) >= EXCESS * np.sqrt(
+    return ladder.remaining.p_value <= ALPHA_PER_STEP or _excess(ladder) >= EXCESS * np.sqrt(
         2.0 * ladder.fitted.residual.size
     )
 
@@ -194,26 +195,31 @@ def _climb_beside(
     random: np.random.Generator,
 ) -> None:
     """The ladder again, beside a discrepancy; every cause with what it hangs on."""
-    begun = beside.begin(joint, start)
-    found, end, survey = beside.climb(begun, catalogue, draws, random)
+    begun = with_discrepancy.begin(joint, start)
+    found, end, survey = with_discrepancy.climb(begun, catalogue, draws, random)
     ladder.withdrawn = list(ladder.rungs)
     _take(ladder, begun, found, end)
-    ladder.estimates = beside.estimates(end, survey)
+    ladder.estimates = with_discrepancy.estimates(end, survey)
     while (one := ladder.unsure) is not None:
         found = [other for other in found if other.candidate.key != one.key]
-        found, end, survey = beside.again(begun, found, catalogue)
+        found, end, survey = with_discrepancy.again(begun, found, catalogue)
         _take(ladder, begun, found, end)
-        ladder.estimates = beside.estimates(end, survey)
+        ladder.estimates = with_discrepancy.estimates(end, survey)
     named = {one.candidate.key for one in found}
     ladder.withdrawn = [rung for rung in ladder.withdrawn if rung.candidate.key not in named]
-    ladder.hangs_on = {c.key: beside.hangs_on(end, c) for c in end.fitted.active}
-    ladder.limits, ladder.unseen, ladder.alike = beside.detection_limits(end, survey, draws, random)
+    ladder.hangs_on = {c.key: with_discrepancy.hangs_on(end, c) for c in end.fitted.active}
+    ladder.limits, ladder.unseen, ladder.alike = with_discrepancy.detection_limits(end, survey, draws, random)
     sizes = np.sqrt(end.variances)
     ladder.discrepancy = dict(zip(end.model.processes.described, sizes.tolist(), strict=True))
     ladder.remaining = _remaining(end.plain, end.linear, draws, random)
 
 
-def _take(ladder: Ladder, begun: beside.State, found: Sequence[beside.Found], end: beside.State) -> None:
+def _take(
+    ladder: Ladder,
+    begun: with_discrepancy.State,
+    found: Sequence[with_discrepancy.Found],
+    end: with_discrepancy.State,
+) -> None:
     """Rungs and fits of an ascent beside a discrepancy."""
     ladder.joint, ladder.start = end.wide, begun.fitted
     ladder.rungs = [
@@ -228,7 +234,7 @@ def _stands_out(rung: Rung, remaining: Remaining) -> bool:
     """Whether the cause does no worse than the best nameless pattern; else its name would be forced."""
     more = len(rung.candidate.values) - 1
     gain = rung.before.objective - rung.after.objective
-    return gain - more * AS_GOOD >= AS_MUCH * remaining.simple
+    return gain - more * DELTA_DEVIANCE >= AS_MUCH * remaining.simple
 
 
 def _scores(
@@ -269,7 +275,7 @@ def _best(
     refits = [joint.fit(fitted.law, fitted.scales, (*fitted.active, c)) for c in shortlist.values()]
     gained = np.array([fitted.objective - refit.objective for refit in refits])
     gained -= [2.0 * (len(c.values) - 1) for c in shortlist.values()]
-    as_good = np.flatnonzero(gained.max() - gained < AS_GOOD)
+    as_good = np.flatnonzero(gained.max() - gained < DELTA_DEVIANCE)
     best = min(as_good, key=lambda k: (len(refits[k].active[-1].values), -gained[k]))
     cause = refits[best].active[-1].cause
     same = [k for k in as_good if refits[k].active[-1].cause is cause]

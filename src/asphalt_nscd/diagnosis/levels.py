@@ -29,7 +29,7 @@ FAR_SPECIMEN = 1.0  # the same for a specimen off at all isotherms; none in 549 
 MOST = 3  # odd phases looked for at once; of |E*| one, since specimens that wobble by themselves would pass for two
 ALIKE = 2.0  # factor between the temperatures by |E*| and by phase, within which one error of both is told
 LEAST_FREEDOM = 2  # degrees of freedom of the levels that judge one
-CHANCE = 0.003  # share of the tables without an odd level in which the levels name one by chance
+ALPHA_PER_TABLE = 0.003  # share of the tables without an odd level in which the levels name one by chance
 NORMAL = 1.4826  # standard deviation over the median absolute deviation
 LEAST_PHASE = 0.1  # deg: the logarithm of a phase needs one above zero
 ONE_MIX = 25.0  # percent by which specimens of one mix hardly differ; T 378 expects some 13
@@ -181,7 +181,7 @@ def _predicted(
         departure = float(values[row] - design[row] @ (back @ values[others]))
         spread = np.sqrt(residual @ residual / freedom * (1.0 + np.sum((design[row] @ back) ** 2)))
         errors = departure / max(float(spread), 1e-12)
-        by_chance = float(stdtrit(freedom, 1.0 - 0.5 * CHANCE / values.size))
+        by_chance = float(stdtrit(freedom, 1.0 - 0.5 * ALPHA_PER_TABLE / values.size))
         yield place, departure, errors, abs(errors) > max(DEVIATIONS, by_chance)
 
 

@@ -17,7 +17,7 @@ from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis import report, rungs
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.chance import POWER, USUAL_THRESHOLD
+from asphalt_nscd.diagnosis.chance import USUAL_THRESHOLD, Z_95
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -158,4 +158,4 @@ def summarised(table: pd.DataFrame) -> dict[str, Any]:
 
 def stated_power(multiple: float) -> float:
     """Chance to find a cause at a multiple of its limit, which is 95 % at the limit itself."""
-    return float(ndtr(multiple * (USUAL_THRESHOLD + POWER) - USUAL_THRESHOLD))
+    return float(ndtr(multiple * (USUAL_THRESHOLD + Z_95) - USUAL_THRESHOLD))

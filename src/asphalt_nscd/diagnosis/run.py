@@ -180,8 +180,8 @@ def conclude(
         )
         before = _begin_with_campaigns(content, diagnosis, numerical, simulated.campaign, simulated.facets)
     content["origin"] = origin
-    held = within_isotherm.hold(observed)
-    one_sided = "" if diagnosis.ladder.rungs else suspects.one_sided(observed, held)
+    loo = within_isotherm.leave_one_out(observed)
+    one_sided = "" if diagnosis.ladder.rungs else suspects.one_sided(observed, loo)
     content["one_sided"] = one_sided
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["odd_levels"], content["odd_phases"] = odd
@@ -193,7 +193,7 @@ def conclude(
     ahead += fixed_orders.metal(observed, Costs(), one_sided) if one_sided else []
     content["instructions"] = instructions(diagnosis, ahead=ahead)
     done.step()
-    broken = suspects.broken_isotherms(observed, held)
+    broken = suspects.broken_isotherms(observed, loo)
     content["contradictory_isotherms"] = [
         {
             "temperature_C": one.temperature,
@@ -231,7 +231,7 @@ def conclude(
     return Outcome(
         content,
         gain.residual_table(diagnosis, numerical, before),
-        suspects.table(observed, list(diagnosis.suspects), held),
+        suspects.table(observed, list(diagnosis.suspects), loo),
         law,
         diagnosis,
         to_report={

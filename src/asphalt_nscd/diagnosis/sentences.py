@@ -10,7 +10,7 @@ from typing import Any
 
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.chance import CHANCE, LEAST_ISOTHERMS
+from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP, LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
     CONFINED_TO,
@@ -272,7 +272,7 @@ def more_than_scatter(content: Content) -> bool:
     """Whether the named causes leave structure, whatever the verdict says of their names."""
     pattern = content["largest_pattern_left"]
     chances = [content.get("lack_of_fit_p_value", 0.0), 1.0 if pattern is None else pattern["p_value"]]
-    return min(chances) <= 0.5 * CHANCE
+    return min(chances) <= 0.5 * ALPHA_PER_STEP
 
 
 def size(rung: Content, content: Content) -> str:

@@ -23,7 +23,7 @@ from asphalt_nscd.diagnosis import quality, within_isotherm
 from asphalt_nscd.diagnosis.copies import copied
 from asphalt_nscd.diagnosis.exchanged import Exchange
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.within_isotherm import BEND_WEIGHTS, BENDS, Held
+from asphalt_nscd.diagnosis.within_isotherm import BEND_WEIGHTS, BENDS, LooPrediction
 from asphalt_nscd.files.words import counted
 
 STRONG = 6e-3  # chance, times the number of values, below which causality alone takes a test out
@@ -80,41 +80,41 @@ class BrokenIsotherm:
         )
 
 
-def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
-    """Suspect tests by row, each with the sentences that a reader can check; held: if it is already computed."""
-    held = held or within_isotherm.hold(observed)
-    broken = np.isin(observed.isotherm, _broken_temperatures(observed, held))
-    values = held.chance.shape[1] * max(np.count_nonzero(held.judged), 1)
+def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspect]:
+    """Suspect tests by row, each with the sentences that a reader can check; loo: if it is already computed."""
+    loo = loo or within_isotherm.leave_one_out(observed)
+    broken = np.isin(observed.isotherm, _broken_temperatures(observed, loo))
+    values = loo.chance.shape[1] * max(np.count_nonzero(loo.judged), 1)
     limit = np.where(broken, IN_BROKEN, 1.0) / values
     flags = _singled_out(observed)
-    worst, single = held.chance.min(axis=1), held.chance[:, :2]
+    worst, single = loo.chance.min(axis=1), loo.chance[:, :2]
     doubtful = single < SUPPORTED
     alone = np.bincount(observed.cell)[observed.cell] == 1
     against = single < np.where(alone, ALONE, SUPPORTED)[:, None]
     flagged = np.array([bool(sentences) for sentences in flags])
     logarithm = observed.logarithm
-    left = np.column_stack([logarithm.real, logarithm.imag]) - held.expected
+    left = np.column_stack([logarithm.real, logarithm.imag]) - loo.expected
     strong = worst < STRONG * limit
-    shared = _shared(observed, held, strong, left)
+    shared = _shared(observed, loo, strong, left)
     copied_blocks = list(copied(observed))
     copies = np.isin(np.arange(observed.size), [row for one in copied_blocks for row in one.rows])
-    out = (strong & ~shared) | (against.any(axis=1) & flagged) | ~held.in_place | copies
+    out = (strong & ~shared) | (against.any(axis=1) & flagged) | ~loo.in_place | copies
     # What is already out is no replicate of the others.
     apart, chance = _from_replicates(observed, ~out)
     far = chance * values < FAR
     agree = (np.sign(apart) == np.sign(left)) & ~broken[:, None]
     supported = agree & ((doubtful & far) | ((single < LEANING) & (chance * values < VERY_FAR)))
     out |= supported.any(axis=1)
-    listed = (out & held.in_place & ~copies) | (worst < NOTABLE * limit)
+    listed = (out & loo.in_place & ~copies) | (worst < NOTABLE * limit)
     # Beside a wrong phase the modulus seems wrong too: the less likely of the two is named, or the one with a witness.
     wrong = np.where(supported | ~supported.any(axis=1, keepdims=True), single, 1.0).argmin(axis=1)
     found = []
     for row in np.flatnonzero(out | listed | flagged | far.any(axis=1)):
         block = observed.names[observed.specimen[row]], float(observed.isotherm[row])
         reasons = [one.reason(*block) for one in copied_blocks if row in one.rows]
-        reasons += [_exchange_reason(observed, one) for one in held.exchanged if row in one.rows]
-        reasons += [_causal_reason(observed, held, int(row), int(wrong[row]))] if listed[row] else []
-        reasons += flags[row] + [ONE_WITNESS] * bool(flagged[row] and held.judged[row] and not listed[row])
+        reasons += [_exchange_reason(observed, one) for one in loo.exchanged if row in one.rows]
+        reasons += [_causal_reason(observed, loo, int(row), int(wrong[row]))] if listed[row] else []
+        reasons += flags[row] + [ONE_WITNESS] * bool(flagged[row] and loo.judged[row] and not listed[row])
         reasons += [
             _replicate_reason(observed, apart, int(row), int(column)) for column in np.flatnonzero(far[row])
         ]
@@ -124,28 +124,28 @@ def find(observed: Observations, held: Held | None = None) -> list[Suspect]:
 
 
 def _shared(
-    observed: Observations, held: Held, strong: NDArray[np.bool_], left: NDArray
+    observed: Observations, loo: LooPrediction, strong: NDArray[np.bool_], left: NDArray
 ) -> NDArray[np.bool_]:
     """Tests (n,) of conditions at which every specimen, two at least, contradicts its isotherm in the same way."""
-    channel = held.chance[:, :2].argmin(axis=1)
+    channel = loo.chance[:, :2].argmin(axis=1)
     sign = np.sign(np.take_along_axis(left, channel[:, None], axis=1)[:, 0])
     way = np.where(strong, sign * (channel + 1.0), 0.0)
     shared = np.zeros(observed.size, bool)
     for cell in np.unique(observed.cell[strong]):
-        rows = np.flatnonzero((observed.cell == cell) & held.judged)
+        rows = np.flatnonzero((observed.cell == cell) & loo.judged)
         alike = np.unique(way[rows]).size == 1
         shared[rows] = alike and np.unique(observed.specimen[rows]).size > 1
     return shared
 
 
-def broken_isotherms(observed: Observations, held: Held | None = None) -> list[BrokenIsotherm]:
+def broken_isotherms(observed: Observations, loo: LooPrediction | None = None) -> list[BrokenIsotherm]:
     """Isotherms that contradict themselves as a whole, ascending; their single tests are no suspects."""
-    held = held or within_isotherm.hold(observed)
-    difference = np.degrees(observed.logarithm.imag - held.required)
-    error = np.degrees(np.hypot(held.required_error, held.scatter[:, 1]))
+    loo = loo or within_isotherm.leave_one_out(observed)
+    difference = np.degrees(observed.logarithm.imag - loo.required)
+    error = np.degrees(np.hypot(loo.required_error, loo.scatter[:, 1]))
     found = []
-    for temperature in _broken_temperatures(observed, held):
-        rows = held.judged & held.in_place & (observed.isotherm == temperature)
+    for temperature in _broken_temperatures(observed, loo):
+        rows = loo.judged & loo.in_place & (observed.isotherm == temperature)
         frequency, at = np.unique(observed.frequency[rows], return_inverse=True)
         count = np.bincount(at)
         found.append(
@@ -160,11 +160,11 @@ def broken_isotherms(observed: Observations, held: Held | None = None) -> list[B
     return found
 
 
-def one_sided(observed: Observations, held: Held) -> str:
+def one_sided(observed: Observations, loo: LooPrediction) -> str:
     """A sentence where at least half of the phases lie on one side of what |E*| alone requires, beyond error."""
-    rows = held.judged & held.in_place
-    apart = np.degrees(observed.logarithm.imag - held.required)[rows]
-    far = np.abs(apart) > 2.0 * np.degrees(held.required_error[rows])
+    rows = loo.judged & loo.in_place
+    apart = np.degrees(observed.logarithm.imag - loo.required)[rows]
+    far = np.abs(apart) > 2.0 * np.degrees(loo.required_error[rows])
     for side, there in (("higher", far & (apart > 0.0)), ("lower", far & (apart < 0.0))):
         if 2 * np.count_nonzero(there) >= max(apart.size, 1):
             return (
@@ -175,7 +175,7 @@ def one_sided(observed: Observations, held: Held) -> str:
     return ""
 
 
-def table(observed: Observations, found: list[Suspect], held: Held) -> pd.DataFrame:
+def table(observed: Observations, found: list[Suspect], loo: LooPrediction) -> pd.DataFrame:
     """One row for each test: the phase measured and the one that |E*| alone requires, and what is suspect."""
     suspect = {one.row: one for one in found}
     flagged = {one.row for one in quality.exceeded(observed)}
@@ -187,8 +187,8 @@ def table(observed: Observations, found: list[Suspect], held: Held) -> pd.DataFr
             "frequency_Hz": observed.frequency,
             "E_MPa": np.abs(observed.modulus) / 1e6,
             "phase_deg": np.degrees(observed.logarithm.imag),
-            "phase_required_deg": np.degrees(held.required),
-            "std_error_deg": np.degrees(held.required_error),
+            "phase_required_deg": np.degrees(loo.required),
+            "std_error_deg": np.degrees(loo.required_error),
             "quality_flag": [int(row in flagged) for row in rows],
             "reasons": ["; ".join(suspect[row].reasons) if row in suspect else "" for row in rows],
             "used": [int(row not in suspect or suspect[row].used) for row in rows],
@@ -196,15 +196,15 @@ def table(observed: Observations, found: list[Suspect], held: Held) -> pd.DataFr
     )
 
 
-def _broken_temperatures(observed: Observations, held: Held) -> NDArray[np.float64]:
+def _broken_temperatures(observed: Observations, loo: LooPrediction) -> NDArray[np.float64]:
     block = within_isotherm.blocks(observed)
     broken = []
     for temperature in observed.isotherms:
-        rows = np.flatnonzero(held.judged & (observed.isotherm == temperature))
+        rows = np.flatnonzero(loo.judged & (observed.isotherm == temperature))
         _, first = np.unique(block[rows], return_index=True)
         if first.size:
             # All specimens of the isotherm depart by one size, each with a law of its own.
-            evidence = logsumexp(held.bent[rows[first]], axis=1).sum(axis=0) + np.log(BEND_WEIGHTS)
+            evidence = logsumexp(loo.log_evidence[rows[first]], axis=1).sum(axis=0) + np.log(BEND_WEIGHTS)
             if np.exp(logsumexp(evidence[BREAKS]) - logsumexp(evidence)) > BROKEN:
                 broken.append(temperature)
     return np.array(broken)
@@ -262,8 +262,8 @@ def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[N
     return apart, chance
 
 
-def _causal_reason(observed: Observations, held: Held, row: int, column: int) -> str:
-    expected, error = held.expected[row, column], held.std_error[row, column]
+def _causal_reason(observed: Observations, loo: LooPrediction, row: int, column: int) -> str:
+    expected, error = loo.expected[row, column], loo.std_error[row, column]
     if column == 0:
         modulus = abs(observed.modulus[row])
         times = modulus / np.exp(expected)
@@ -274,10 +274,10 @@ def _causal_reason(observed: Observations, held: Held, row: int, column: int) ->
             f"{'; look for a misplaced decimal point' * bool(slip)}"
         )
     phase, required = np.degrees(observed.logarithm.imag[row]), np.degrees(expected)
-    causal = required - np.degrees(held.delay * observed.omega[row])
+    causal = required - np.degrees(loo.delay * observed.omega[row])
     if not PHASES[0] <= causal <= PHASES[1]:  # nothing to expect where the others make no curve
         return f"phase {phase:.1f} deg does not fit its |E*| and the other frequencies"
-    delay = "; both phases as recorded, with the delay" if held.delay else ""
+    delay = "; both phases as recorded, with the delay" if loo.delay else ""
     return (
         f"phase {phase:.1f} deg, expected {required:.1f} deg from its |E*| and the other frequencies "
         f"(standard error {np.degrees(error):.1f} deg{delay})"

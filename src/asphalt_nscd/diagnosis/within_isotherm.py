@@ -48,13 +48,13 @@ ASIDE = 100.0  # variance that takes a value out
 
 
 @dataclass
-class Held:
+class LooPrediction:
     """What the isotherms say of each value; columns 0 and 1 are ln|E*| and phase [rad].
 
     judged (n,): whether the isotherm has tests enough; expected, std_error (n, 2): what the rest of the isotherm asks
     for, the scatter of one test included; chance (n, 3): of a departure as large in ln|E*|, in the phase, or in both,
     where neither is asked for the other; required, required_error (n,) [rad]: phase that |E*| alone requires;
-    bent (n, 4, 5): ln evidence of each ripple and bend; scatter (n, 2): of single tests; delay [s]: between the
+    log_evidence (n, 4, 5): ln evidence of each ripple and bend; scatter (n, 2): of single tests; delay [s]: between the
     channels, common to all tests, which the expected phase holds; exchanged: readings that stand in each other's
     place; everything else here is of the readings put right.
     """
@@ -65,7 +65,7 @@ class Held:
     chance: NDArray
     required: Vector
     required_error: Vector
-    bent: NDArray
+    log_evidence: NDArray
     scatter: NDArray
     delay: float = 0.0
     exchanged: tuple[Exchange, ...] = ()
@@ -108,10 +108,10 @@ class _Table:
         self.weight, self.squares = np.ones((n, 2)), np.ones((n, 2))
         self.weights = np.tile(np.log(np.multiply.outer(WEIGHTS, BEND_WEIGHTS)), (n, 1, 1))
 
-    def hold(self) -> Held:
+    def leave_one_out(self) -> LooPrediction:
         n = self.judged.size
         none, evidence = np.full((n, 2), np.nan), np.full((n, len(WEIGHTS), BENDS.size), np.nan)
-        held = Held(
+        loo = LooPrediction(
             self.judged,
             none,
             none.copy(),
@@ -122,10 +122,10 @@ class _Table:
             self.scatter,
         )
         for group in self.groups:
-            self._hold_group(group, held)
-        return held
+            self._leave_out_group(group, loo)
+        return loo
 
-    def _hold_group(self, group: _Group, held: Held) -> None:
+    def _leave_out_group(self, group: _Group, loo: LooPrediction) -> None:
         rows, k = group.rows, group.rows.shape[1]
         out = _side_by_side(ASIDE * self.aside, rows)
         precision, pull, evidence = self._evidence(group, _side_by_side(self.scatter**2, rows) + out)
@@ -144,11 +144,11 @@ class _Table:
         squares = (share / spread * np.minimum(left**2 / spread, CLIP**2)).sum(axis=1)
         for column, part in enumerate((slice(0, k), slice(k, None))):
             self.weight[rows, column], self.squares[rows, column] = weight[:, part], squares[:, part]
-            held.expected[rows, column] = self.values[rows, column] - mean[:, part]
-            held.std_error[rows, column] = error[:, part]
-            held.chance[rows, column] = chance[:, part]
-        held.chance[rows, 2] = self._both(group, precision, pull, weighed)
-        held.bent[rows] = evidence.reshape(-1, 1, len(WEIGHTS), BENDS.size)
+            loo.expected[rows, column] = self.values[rows, column] - mean[:, part]
+            loo.std_error[rows, column] = error[:, part]
+            loo.chance[rows, column] = chance[:, part]
+        loo.chance[rows, 2] = self._both(group, precision, pull, weighed)
+        loo.log_evidence[rows] = evidence.reshape(-1, 1, len(WEIGHTS), BENDS.size)
 
     def _evidence(self, group: _Group, variance: NDArray) -> tuple[NDArray, NDArray, NDArray]:
         """Precision (b, m, 2k, 2k), that times the values (b, m, 2k), and ln evidence (b, m), of each ripple and bend.
@@ -213,9 +213,9 @@ class _Table:
         Values set aside count as clipped ones: a scatter without them would be too small, and more would seem far.
         """
         for _ in range(rounds):
-            held = self.hold()
+            loo = self.leave_one_out()
             self._learn_scatter()
-            self._learn_weights(held)
+            self._learn_weights(loo)
 
     def _learn_scatter(self) -> None:
         labels, at = np.unique(self.isotherm[self.judged], return_inverse=True)
@@ -243,9 +243,9 @@ class _Table:
             self.scatter[self.isotherm == label] = np.maximum(value, LEAST_SCATTER)
             self.freedom[self.isotherm == label] = known
 
-    def _learn_weights(self, held: Held) -> None:
+    def _learn_weights(self, loo: LooPrediction) -> None:
         first = np.concatenate([group.first for group in self.groups])
-        weighed = held.bent[first] + self.weights[first]
+        weighed = loo.log_evidence[first] + self.weights[first]
         share = np.exp(weighed - logsumexp(weighed, axis=(1, 2), keepdims=True))
         ripple, bend = share.sum(axis=2), share.sum(axis=1)
         of_table = TABLE_WORTH + first.size
@@ -297,7 +297,7 @@ class _Table:
 
     def _stand(self, found: dict[tuple[int, ...], Exchange]) -> tuple[Exchange, ...]:
         """Those that, done, left good readings in an isotherm in order, and would cost as much if undone."""
-        chance, most = self.hold().chance, UNEVEN[1] * self._usual_scatter()
+        chance, most = self.leave_one_out().chance, UNEVEN[1] * self._usual_scatter()
         gain = [gain for _, gain, _ in self._gains(self.scatter)]
         return tuple(
             one
@@ -335,9 +335,9 @@ class _Table:
         self._set_wrong_aside(self.scatter)
         changed = True
         while changed:
-            changed, held = False, self.hold()
+            changed, loo = False, self.leave_one_out()
             for rows in (rows for group in self.groups for rows in group.rows):
-                chance = np.where(self.aside[rows], 1.0, held.chance[rows, :2])
+                chance = np.where(self.aside[rows], 1.0, loo.chance[rows, :2])
                 test, column = np.unravel_index(int(chance.argmin()), chance.shape)
                 room = self.aside[rows].any(axis=1).sum() < most_doubtful(rows.size)
                 if chance[test, column] < DOUBTFUL and room:
@@ -360,11 +360,11 @@ def most_doubtful(tests: int) -> int:
     return max(1, tests // MOST_DOUBTFUL)
 
 
-def hold(observed: Observations) -> Held:
+def leave_one_out(observed: Observations) -> LooPrediction:
     """Each value of the table held against the rest of its isotherm."""
     table = _Table(observed)
     if not table.groups:
-        return table.hold()
+        return table.leave_one_out()
     table.set_gross_aside()
     table.learn(ROUNDS[0])
     delay = table.common_delay(observed.omega)
@@ -376,14 +376,14 @@ def hold(observed: Observations) -> Held:
     in_each_others_place = table.put_right()
     table.set_doubtful_aside()
     table.learn(ROUNDS[1])
-    held = table.hold()
-    held.delay, held.exchanged = delay, in_each_others_place
-    held.expected[:, 1] += delay * observed.omega
+    loo = table.leave_one_out()
+    loo.delay, loo.exchanged = delay, in_each_others_place
+    loo.expected[:, 1] += delay * observed.omega
     for rows in (rows for group in table.groups for rows in group.rows):
         scatter = np.sqrt(table.scatter[rows, 0] ** 2 + ASIDE * table.aside[rows, 0])
         required = required_phase(observed.frequency[rows], table.values[rows, 0], scatter)
-        held.required[rows], held.required_error[rows] = required.phase, required.std_error
-    return held
+        loo.required[rows], loo.required_error[rows] = required.phase, required.std_error
+    return loo
 
 
 def blocks(observed: Observations) -> NDArray[np.int64]:

@@ -10,8 +10,8 @@ import numpy as np
 
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.formulation.levels import Level
-from asphalt_nscd.specimen.deposit import Progress
-from asphalt_nscd.specimen.preparation import Pouring, Vibration, pour
+from asphalt_nscd.specimen.deposit import Progress, Vibration
+from asphalt_nscd.specimen.preparation import Pouring, pour
 
 KIND = "level-packing"
 LARGEST = 10e-3  # m, of the spheres that are poured: the numbers of the pouring are made for this size

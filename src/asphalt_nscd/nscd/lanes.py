@@ -111,7 +111,7 @@ def _transposed(builder: ir.IRBuilder, rows: list[ir.Value]) -> list[ir.Value]:
 
 
 @intrinsic
-def nothing(typing_context: Any) -> Any:
+def zeros(typing_context: Any) -> Any:
     """Lanes of zero."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
@@ -121,7 +121,7 @@ def nothing(typing_context: Any) -> Any:
 
 
 @intrinsic
-def spread(typing_context: Any, value: Any) -> Any:
+def broadcast(typing_context: Any, value: Any) -> Any:
     """One number in all lanes."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
@@ -134,7 +134,7 @@ def spread(typing_context: Any, value: Any) -> Any:
 
 
 @intrinsic
-def root(typing_context: Any, value: Any) -> Any:
+def sqrt(typing_context: Any, value: Any) -> Any:
     """Square roots."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
@@ -146,7 +146,7 @@ def root(typing_context: Any, value: Any) -> Any:
 
 
 @intrinsic
-def where_above(typing_context: Any, a: Any, b: Any, then: Any, otherwise: Any) -> Any:
+def select_greater(typing_context: Any, a: Any, b: Any, then: Any, otherwise: Any) -> Any:
     """In each lane `then` if a > b, else `otherwise`."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:

@@ -57,7 +57,7 @@ def _read(typing_context: Any, array: Any, at: Any) -> Any:
 
 
 @compiled_for_teams
-def meet(barrier, members):
+def barrier_wait(barrier, members):
     """Wait until all members are here; then each sees what all others have written."""
     if members == 1:
         return
@@ -74,13 +74,13 @@ def meet(barrier, members):
 
 
 @compiled_for_teams
-def share(rank, members, count):
+def partition(rank, members, count):
     """First and end of what member `rank` takes of so many things in a row."""
     return rank * count // members, (rank + 1) * count // members
 
 
 @compiled_for_teams
-def arrive(barrier):
+def mark_started(barrier):
     """What a kernel does first: it tells that this member has Python's lock no longer."""
     _add(barrier, STARTED, 1)
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from asphalt_nscd.specimen.granulate import WALL, Granulate, PouringNumerics
+from asphalt_nscd.files.ranges import Ranged, within
+from asphalt_nscd.specimen.granular_bed import WALL, GranularBed, PouringNumerics
 
 REST_SPEED = 1e-3  # m/s, root mean square of all spheres
 REST_TOLERANCE = 1e-5  # of the sweeps that bring a layer into equilibrium
@@ -21,17 +22,20 @@ Progress = Callable[[str, float, float], None]
 
 
 @dataclass(frozen=True)
-class Shaking:
-    """The drive of the top wall."""
+class Vibration(Ranged):
+    """Of the top wall, after pouring.
 
-    stroke: float  # m, crest to crest
-    frequency: float  # Hz
-    duration: float  # s
-    pressure: float  # Pa, with which the wall pushes at most
+    >>> Vibration(duration=0.0).stroke  # pour without; the stroke of the paper
+    0.006
+    """
+
+    stroke: float = within(6e-3, "stroke_m", low=0.0, high=1.0)  # m, crest to crest
+    frequency: float = within(30.0, "frequency_Hz", above=0.0, high=1e3)  # Hz
+    duration: float = within(1.0, "duration_s", low=0.0, high=60.0)  # s; zero for none
 
 
 @dataclass
-class Course:
+class PouringHistory:
     """What happened to a layer, point by point in time and period by period."""
 
     time: list[float] = field(default_factory=list)  # s
@@ -39,9 +43,9 @@ class Course:
     wall: list[float] = field(default_factory=list)  # m, NaN where it is out of the way
     touched: list[int] = field(default_factory=list)  # grains touched by the wall in each period
 
-    def note(self, granulate: Granulate, wall: float = np.nan) -> None:
-        self.time.append(granulate.time)
-        self.height.append(granulate.layer_height())
+    def note(self, bed: GranularBed, wall: float = np.nan) -> None:
+        self.time.append(bed.time)
+        self.height.append(bed.layer_height())
         self.wall.append(wall)
 
     def arrays(self) -> dict[str, np.ndarray]:
@@ -54,7 +58,7 @@ class Course:
 
 
 def settle(
-    granulate: Granulate,
+    bed: GranularBed,
     numerics: PouringNumerics,
     rest_speed: float,
     longest: float,
@@ -62,63 +66,68 @@ def settle(
     stage: str,
 ) -> None:
     """Advance until the root mean square speed stays under rest_speed [m/s], at most `longest` [s]."""
-    n = granulate.radius.size
-    began = granulate.time
+    n = bed.radius.size
+    began = bed.time
     check = max(1, round(5e-3 / numerics.time_step))
     calm = 0
-    while granulate.time - began < longest and calm < 4:
+    while bed.time - began < longest and calm < 4:
         for _ in range(check):
-            granulate.advance(numerics)
-        rms = float(np.sqrt((granulate.velocity[:n, :3] ** 2).sum(axis=1).mean()))
+            bed.advance(numerics)
+        rms = float(np.sqrt((bed.velocity[:n, :3] ** 2).sum(axis=1).mean()))
         calm = calm + 1 if rms < rest_speed else 0
-        progress(stage, min(granulate.time - began, longest), longest)
+        progress(stage, min(bed.time - began, longest), longest)
 
 
 def balance(
-    granulate: Granulate, numerics: PouringNumerics, longest: float, progress: Progress, stage: str
+    bed: GranularBed, numerics: PouringNumerics, longest: float, progress: Progress, stage: str
 ) -> tuple[float, float]:
     """Advance with tight sweeps until forces are in equilibrium, at most `longest` [s]; see out_of_balance."""
     tight = replace(numerics, tolerance=REST_TOLERANCE, most_sweeps=REST_SWEEPS)
-    began = granulate.time
+    began = bed.time
     check = max(1, round(5e-3 / numerics.time_step))
     found = np.inf, np.inf
-    while granulate.time - began < longest and max(found) > UNBALANCED:
+    while bed.time - began < longest and max(found) > UNBALANCED:
         for _ in range(check):
-            granulate.advance(tight)
-        found = granulate.out_of_balance(tight.time_step)
-        progress(stage, min(granulate.time - began, longest), longest)
+            bed.advance(tight)
+        found = bed.out_of_balance(tight.time_step)
+        progress(stage, min(bed.time - began, longest), longest)
     return found
 
 
 def vibrate(
-    granulate: Granulate, numerics: PouringNumerics, shaking: Shaking, course: Course, progress: Progress
+    bed: GranularBed,
+    numerics: PouringNumerics,
+    vibration: Vibration,
+    pressure: float,
+    history: PouringHistory,
+    progress: Progress,
 ) -> None:
     """Drive the top wall by stroke/2 cos(2 pi f t) about the top of the layer, found anew in each period.
 
     The lower half of the stroke would pass through rigid grains once they lie dense. So the wall is a light
-    plate between rails: its drive pushes with a pressure of at most `shaking.pressure`.
+    plate between rails: its drive pushes with at most `pressure` [Pa].
     """
     numerics = replace(
         numerics, falling_sweeps=numerics.most_sweeps, falling_penetration=numerics.penetration
     )
-    n, dt = granulate.radius.size, numerics.time_step
-    omega = 2.0 * np.pi * shaking.frequency
-    length, width = granulate.plane_point[3, 0], granulate.plane_point[4, 1]
-    push = shaking.pressure * length * width * dt
-    steps, every, touched = round(shaking.duration / dt), max(1, round(RECORD / dt)), np.zeros(n, bool)
-    mass = WALL_MASS * granulate.weight() / float(np.linalg.norm(granulate.gravity))
-    granulate.hang_wall(granulate.top() + shaking.stroke / 2.0, mass)
+    n, dt = bed.radius.size, numerics.time_step
+    omega = 2.0 * np.pi * vibration.frequency
+    length, width = bed.plane_point[3, 0], bed.plane_point[4, 1]
+    push = pressure * length * width * dt
+    steps, every, touched = round(vibration.duration / dt), max(1, round(RECORD / dt)), np.zeros(n, bool)
+    mass = WALL_MASS * bed.weight() / float(np.linalg.norm(bed.gravity))
+    bed.hang_wall(bed.top() + vibration.stroke / 2.0, mass)
     for k in range(steps):
-        if int(k * dt * shaking.frequency + 1e-9) == len(course.touched):  # a period begins
-            level = granulate.top()
-            course.touched.append(0)
+        if int(k * dt * vibration.frequency + 1e-9) == len(history.touched):  # a period begins
+            level = bed.top()
+            history.touched.append(0)
             touched[:] = False
-        height = level + shaking.stroke / 2.0 * np.cos(omega * (k + 1) * dt)
-        granulate.drive[:] = (height - granulate.plane_point[WALL, 2]) / dt, push
-        granulate.advance(numerics)
-        touched[granulate.touching_wall()] = True
-        course.touched[-1] = int(touched.sum())
+        height = level + vibration.stroke / 2.0 * np.cos(omega * (k + 1) * dt)
+        bed.drive[:] = (height - bed.plane_point[WALL, 2]) / dt, push
+        bed.advance(numerics)
+        touched[bed.touching_wall()] = True
+        history.touched[-1] = int(touched.sum())
         if k % every == every - 1:
-            course.note(granulate, granulate.plane_point[WALL, 2])
+            history.note(bed, bed.plane_point[WALL, 2])
             progress("vibrating", k + 1, steps)
-    granulate.fix_wall(granulate.top() + shaking.stroke / 2.0)
+    bed.fix_wall(bed.top() + vibration.stroke / 2.0)

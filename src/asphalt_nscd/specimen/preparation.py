@@ -18,8 +18,16 @@ from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.nscd.cores import cores
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.deposit import REST_SPEED, Course, Progress, Shaking, balance, settle, vibrate
-from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
+from asphalt_nscd.specimen.deposit import (
+    REST_SPEED,
+    PouringHistory,
+    Progress,
+    Vibration,
+    balance,
+    settle,
+    vibrate,
+)
+from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.specimen.network import AREAS, Network
 from asphalt_nscd.specimen.trimming import Specimen, layer_height, trim
@@ -42,19 +50,6 @@ OUT_OF_BALANCE = 0.01  # of the weight, and of the mean contact force: a layer a
 DEEP = 0.05  # of the smallest radius: an overlap that a layer at rest does not have
 MOST_STEPS = 500_000  # of a pouring and its vibration
 TOUCHING = 1e-6  # m, gap below which two spheres count as touching
-
-
-@dataclass(frozen=True)
-class Vibration(Ranged):
-    """Of the top wall, after pouring.
-
-    >>> Vibration(duration=0.0).stroke  # pour without; the stroke of the paper
-    0.006
-    """
-
-    stroke: float = within(6e-3, "stroke_m", low=0.0, high=1.0)  # m, crest to crest
-    frequency: float = within(30.0, "frequency_Hz", above=0.0, high=1e3)  # Hz
-    duration: float = within(1.0, "duration_s", low=0.0, high=60.0)  # s; zero for none
 
 
 @dataclass(frozen=True)
@@ -124,25 +119,26 @@ def pour(
     began = time.process_time()
     box, seed, friction, time_step = pouring.box, pouring.seed, pouring.friction, pouring.time_step
     vibration = pouring.vibration
-    stroke, vibration_frequency, vibration_time = vibration.stroke, vibration.frequency, vibration.duration
     diameters, counts = spheres
     position, radius = random_lattice(diameters, counts, box, np.random.default_rng(seed))
     numerics = PouringNumerics.of(radius, time_step)
-    granulate = Granulate.in_box(position, radius, box, DENSITY, friction)
-    granulate.let_fall()
-    course, pressure = Course(), granulate.weight() / (box[0] * box[1]) if vibration_time > 0.0 else 0.0
-    with Team(pouring.threads) as granulate.team:
-        settle(granulate, numerics, REST_SPEED, LONGEST_POURING, progress, "pouring")
-        stages = {"poured": _stage(granulate, numerics, Course(), progress, "settling")}
-        poured = granulate.position.copy()
-        if vibration_time > 0.0:
-            course.note(granulate)
-            shaking = Shaking(stroke, vibration_frequency, vibration_time, pressure)
-            vibrate(granulate, numerics, shaking, course, progress)
-            settle(granulate, numerics, REST_SPEED, LONGEST_REST, progress, "coming to rest")
-            stages["vibrated"] = _stage(granulate, numerics, course, progress, "coming to rest")
-            course.note(granulate)
-    last = stages["vibrated" if vibration_time > 0.0 else "poured"]
+    bed = GranularBed.in_box(position, radius, box, DENSITY, friction)
+    bed.let_fall()
+    history, pressure = (
+        PouringHistory(),
+        bed.weight() / (box[0] * box[1]) if vibration.duration > 0.0 else 0.0,
+    )
+    with Team(pouring.threads) as bed.team:
+        settle(bed, numerics, REST_SPEED, LONGEST_POURING, progress, "pouring")
+        stages = {"poured": _stage(bed, numerics, PouringHistory(), progress, "settling")}
+        poured = bed.position.copy()
+        if vibration.duration > 0.0:
+            history.note(bed)
+            vibrate(bed, numerics, vibration, pressure, history, progress)
+            settle(bed, numerics, REST_SPEED, LONGEST_REST, progress, "coming to rest")
+            stages["vibrated"] = _stage(bed, numerics, history, progress, "coming to rest")
+            history.note(bed)
+    last = stages["vibrated" if vibration.duration > 0.0 else "poured"]
     if last["largest_overlap_m"] > DEEP * radius.min():
         raise InputError(
             f"grains overlap by {1e3 * last['largest_overlap_m']:.2g} mm at rest, which rigid ones cannot; lower the "
@@ -151,27 +147,27 @@ def pour(
     attributes = {
         "seed": seed,
         "friction": friction,
-        "stroke_m": stroke,
-        "vibration_Hz": vibration_frequency,
-        "vibration_s": vibration_time,
+        "stroke_m": vibration.stroke,
+        "vibration_Hz": vibration.frequency,
+        "vibration_s": vibration.duration,
         "wall_pressure_Pa": pressure,
         "spheres": radius.size,
-        "highest_point_m": granulate.top(),
-        "steps": granulate.steps,
-        "sweeps": granulate.sweeps,
+        "highest_point_m": bed.top(),
+        "steps": bed.steps,
+        "sweeps": bed.sweeps,
         **last,
         **{f"poured_{name}": value for name, value in stages["poured"].items()},
-        "kinetic_energy_J": granulate.kinetic_energy(),
+        "kinetic_energy_J": bed.kinetic_energy(),
         **asdict(numerics),
         "cpu_s": time.process_time() - began,
     }
     arrays = {
         "initial_position": position,
         "poured_position": poured,
-        "position": granulate.position,
+        "position": bed.position,
         "radius": radius,
         "box": np.asarray(box, float),
-        **course.arrays(),
+        **history.arrays(),
     }
     return arrays, attributes
 
@@ -188,16 +184,16 @@ def unrest(attributes: Mapping[str, Any]) -> str:
 
 
 def _stage(
-    granulate: Granulate, numerics: PouringNumerics, course: Course, progress: Progress, name: str
+    bed: GranularBed, numerics: PouringNumerics, history: PouringHistory, progress: Progress, name: str
 ) -> dict[str, float]:
     """Bring the layer into equilibrium; what is said of it then, and of its way there."""
-    moving, granulate.overlap = granulate.overlap, 0.0
-    weight_balance, unbalanced = balance(granulate, numerics, LONGEST_REST, progress, name)
-    contacts, gap = granulate.contacts(TOUCHING)
-    box = (granulate.plane_point[3, 0], granulate.plane_point[4, 1], granulate.top())
-    touched = np.array(course.touched)
+    moving, bed.overlap = bed.overlap, 0.0
+    weight_balance, unbalanced = balance(bed, numerics, LONGEST_REST, progress, name)
+    contacts, gap = bed.contacts(TOUCHING)
+    box = (bed.plane_point[3, 0], bed.plane_point[4, 1], bed.top())
+    touched = np.array(history.touched)
     return {
-        **layer_statistics(granulate.position, granulate.radius, box, contacts),
+        **layer_statistics(bed.position, bed.radius, box, contacts),
         "largest_overlap_m": float(max(0.0, -gap.min(initial=0.0))),
         "weight_balance": weight_balance,
         "unbalanced_force": unbalanced,

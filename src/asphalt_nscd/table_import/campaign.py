@@ -20,10 +20,10 @@ from asphalt_nscd.table_import.exports import blocks
 from asphalt_nscd.table_import.headings import require_rows, sections, tabulated, with_units
 from asphalt_nscd.table_import.matrices import matrix_cells
 from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
-from asphalt_nscd.table_import.passed_over import PassedOver, common_mend, listed, refused
 from asphalt_nscd.table_import.quantities import QUALITY
 from asphalt_nscd.table_import.schemes import schemes_in
 from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
+from asphalt_nscd.table_import.skipped_files import SkippedFile, common_mend, listed, refused
 from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import (
     FURTHER,
@@ -157,7 +157,7 @@ def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, 
     if len(sheets) == 1:
         return _sheet(path, sheets[0], chosen)
     parts: list[Part] = []
-    skipped: list[PassedOver] = []
+    skipped: list[SkippedFile] = []
     for one in sheets:
         # Errors and notes name the sheet as a part of the file's name.
         place = path.with_name(f"{path.name}, sheet {one.name}")
@@ -230,14 +230,14 @@ def _folder(
     if len(inside) > MOST_FILES:
         raise InputError(f"{folder}: more than {MOST_FILES} files; give the folder of one campaign.")
     parts: list[Part] = []
-    others: list[PassedOver] = []
-    empty: list[PassedOver] = []
+    others: list[SkippedFile] = []
+    empty: list[SkippedFile] = []
     for path in inside:
         if path.is_dir():
-            others.append(PassedOver(path.name, "a folder; name it too if it belongs to the campaign"))
+            others.append(SkippedFile(path.name, "a folder; name it too if it belongs to the campaign"))
         elif path.suffix.lower() not in TABLES:
             table = path.suffix.lower() in OTHER_TABLES or _holds_tests(path, sheet)
-            known = PassedOver(path.name, "neither CSV, TSV, TXT nor XLSX", SAVE_AS)
+            known = SkippedFile(path.name, "neither CSV, TSV, TXT nor XLSX", SAVE_AS)
             (empty if table else others).append(known)
         else:
             try:

@@ -13,7 +13,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted, specimen_named
 from asphalt_nscd.table_import.dates import later
 from asphalt_nscd.table_import.names import of_file, one_of_another, specimen_of, spelling
-from asphalt_nscd.table_import.understand import Understood
+from asphalt_nscd.table_import.understand import ParsedTable
 
 _FIGURES = 4  # digits in which two files that hold the same tests agree
 _RETEST = log(1.5)  # of |E*|, median over frequencies; specimens of a mix differ by a tenth or so
@@ -29,7 +29,7 @@ class Part:
     """
 
     path: Path
-    read: Understood
+    read: ParsedTable
     exported: bool
     repeated: bool = False
     tested: str = ""
@@ -229,7 +229,7 @@ def _said_of_repeated(worse: Part, better: Part, tests: list[tuple[str, ...]]) -
     )
 
 
-def _only(read: Understood, rows: list[int]) -> Understood:
+def _only(read: ParsedTable, rows: list[int]) -> ParsedTable:
     table = read.table
     columns = {name: [values[row] for row in rows] for name, values in table.columns.items()}
     return replace(read, table=Table(table.path, columns, [table.lines[row] for row in rows]))

@@ -41,7 +41,7 @@ _ANGLES = (
 
 
 @dataclass(frozen=True)
-class Understood:
+class ParsedTable:
     """A table in our columns and units, its form (a key of FORMS), and sentences on how it was read.
 
     sources: for each of our columns the user's, and the unit it was converted from. mix: its name, if a column says it.
@@ -56,7 +56,7 @@ class Understood:
     modulus_unit: str = ""
 
 
-def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Understood:
+def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> ParsedTable:
     """Tests of a user's table.
 
     chosen: names of columns by what they hold, `{"E_GPa": "Steifigkeit"}`, where a name does not tell.
@@ -102,14 +102,14 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> Underst
     wanted = [name for name in order if name in values]
     table = Table(cells.path, {name: values[name] for name in wanted}, [line for line, _ in cells.rows])
     modulus = next((kept[name][1] for name in ("E_MPa", "E1_MPa") if name in kept), Column("E_MPa", None))
-    return Understood(table, form, notes, sources, mix, (modulus.unit or "") if _converts(modulus) else "")
+    return ParsedTable(table, form, notes, sources, mix, (modulus.unit or "") if _converts(modulus) else "")
 
 
 def _converts(column: Column) -> bool:
     return (column.factor, column.offset) != (1.0, 0.0)
 
 
-def _own(cells: Cells) -> Understood | None:
+def _own(cells: Cells) -> ParsedTable | None:
     """A table that `reduce` wrote, or one that names records: in our columns already, taken as it is."""
     names = set(cells.header)
     if not set(REDUCED_COLUMNS) <= names and not {"record", *KEYS} <= names:
@@ -120,7 +120,7 @@ def _own(cells: Cells) -> Understood | None:
         columns["specimen"] = columns.pop("replicate")
     table = Table(cells.path, columns, [line for line, _ in cells.rows])
     table.require(("specimen",))
-    return Understood(table, form, [*cells.notes, "columns as `asphalt-nscd reduce` names them"])
+    return ParsedTable(table, form, [*cells.notes, "columns as `asphalt-nscd reduce` names them"])
 
 
 def _further(columns: dict[str, list[Place]], form: str) -> dict[str, Place]:

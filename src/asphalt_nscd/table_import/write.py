@@ -48,7 +48,7 @@ SMALL_SPHERES = Spheres(pd.Series({2.0: 600, 3.0: 200, 4.0: 90}), (0.06, 0.01, 0
 
 
 @dataclass(frozen=True)
-class Wishes:
+class StudyOptions:
     """What the user says beside the table; None where nothing."""
 
     geometry: Mapping[str, float] | Path | None = None
@@ -59,7 +59,7 @@ class Wishes:
     columns: Mapping[str, str] | None = None
 
 
-def new_study(name: str, measurements: Sequence[Path], wishes: Wishes) -> tuple[Path, list[str]]:
+def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) -> tuple[Path, list[str]]:
     """Write config/NAME.yaml, and below data/NAME/ the table in our columns and the spheres.
 
     Returns the path of the configuration, and what was understood. Nothing is replaced, and what was
@@ -67,13 +67,13 @@ def new_study(name: str, measurements: Sequence[Path], wishes: Wishes) -> tuple[
     """
     config, folder = Path("config", f"{name}.yaml"), Path("data", name)
     _require_free(name, config, folder)
-    if wishes.small and wishes.grading is not None:
+    if options.small and options.grading is not None:
         raise InputError("--small takes spheres of its own; leave out --grading or --small.")
-    campaign, form = read_campaign(measurements, wishes.sheet, wishes.columns, wishes.measured_in)
+    campaign, form = read_campaign(measurements, options.sheet, options.columns, options.measured_in)
     source = ", ".join(map(str, measurements))
     direct = campaign.test_type == "tension-compression"
     read, notes = for_study(campaign, form)
-    geometry = _geometry(form, direct, wishes)
+    geometry = _geometry(form, direct, options)
     frame = reduced_frame(read, geometry)
     temperatures, frequencies, outside = grid(frame, read.path)
     notes += outside
@@ -82,10 +82,10 @@ def new_study(name: str, measurements: Sequence[Path], wishes: Wishes) -> tuple[
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
     shape = read_geometry(geometry, frame["specimen"])[frame["specimen"].iloc[0]]
-    simulated, why_simulated = _simulated(shape, direct, wishes)
-    spheres = _spheres(simulated, wishes)
-    seeds = [1] if wishes.small else [1, 2, 3, 4]
-    amplitude, why = _amplitude(read.columns.get("z0_m"), simulated, wishes.small)
+    simulated, why_simulated = _simulated(shape, direct, options)
+    spheres = _spheres(simulated, options)
+    seeds = [1] if options.small else [1, 2, 3, 4]
+    amplitude, why = _amplitude(read.columns.get("z0_m"), simulated, options.small)
     step = float(f"{min(COARSEST_STEP, 1.0 / (STEPS_PER_CYCLE * max(frequencies))):.2g}")
     table, counts = folder / "measurements.csv", folder / "counts.csv"
     text = _render(
@@ -97,12 +97,12 @@ def new_study(name: str, measurements: Sequence[Path], wishes: Wishes) -> tuple[
         notes=[" ".join(note.split()) for note in notes],
         form=form,
         direct=direct,
-        small=wishes.small,
+        small=options.small,
         seeds=seeds,
         temperatures=temperatures,
         geometry=_flow(geometry if isinstance(geometry, Mapping) else str(geometry)),
         frequencies=frequencies,
-        spheres=_words(spheres, wishes),
+        spheres=_words(spheres, options),
         box=list(spheres.box),
         amplitude=f"{amplitude:.3e}",
         amplitude_why=why,
@@ -173,20 +173,20 @@ def for_study(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
     return replace(table, columns=columns), notes
 
 
-def _geometry(form: str, direct: bool, wishes: Wishes) -> Mapping[str, float] | Path:
+def _geometry(form: str, direct: bool, options: StudyOptions) -> Mapping[str, float] | Path:
     if form == "peaks" and direct:
         raise InputError(
             "forces and displacements of a direct test are not reduced here; give moduli, E (MPa) and phi (deg)."
         )
-    if _is_cylinder(wishes.geometry):
+    if _is_cylinder(options.geometry):
         if not direct:
             raise InputError(
                 "--geometry of a cylinder is for tests in tension-compression; say --measured-in tension-compression, "
                 "or give b_mm, B_mm, e_mm and h_mm."
             )
         return PAPER.keys()
-    if wishes.geometry is not None:
-        return wishes.geometry
+    if options.geometry is not None:
+        return options.geometry
     if form == "peaks":
         given = ",".join(f"{key}={value:g}" for key, value in PAPER.keys().items())
         raise InputError(
@@ -199,30 +199,32 @@ def _is_cylinder(geometry: Mapping[str, float] | Path | None) -> TypeGuard[Mappi
     return isinstance(geometry, Mapping) and "d_mm" in geometry
 
 
-def _simulated(measured: Shape, direct: bool, wishes: Wishes) -> tuple[Shape, str]:
+def _simulated(measured: Shape, direct: bool, options: StudyOptions) -> tuple[Shape, str]:
     """What to simulate, and why: the specimen measured, or the cylinder of direct tests, or a small one of its kind."""
-    if wishes.small:
+    if options.small:
         return SMALL_CYLINDER if direct else SMALL, "Smaller than measured"
-    if _is_cylinder(wishes.geometry):
-        return read_shape(wishes.geometry), "As given"
-    if direct and wishes.geometry is None:
+    if _is_cylinder(options.geometry):
+        return read_shape(options.geometry), "As given"
+    if direct and options.geometry is None:
         return AMPT, "The cylinder of AASHTO T 378 and EN 12697-26 annex D"
     return measured, "That of the first specimen in the table"
 
 
-def _spheres(shape: Shape, wishes: Wishes) -> Spheres:
-    if wishes.small:
+def _spheres(shape: Shape, options: StudyOptions) -> Spheres:
+    if options.small:
         return replace(SMALL_SPHERES, box=(shape.h, shape.thickness, SMALL_SPHERES.box[2]))
-    return spheres_for(shape, None if wishes.grading is None else read_grading(wishes.grading))
+    return spheres_for(shape, None if options.grading is None else read_grading(options.grading))
 
 
-def _words(spheres: Spheres, wishes: Wishes) -> str:
+def _words(spheres: Spheres, options: StudyOptions) -> str:
     coarser = "" if spheres.smallest_mm == SMALLEST_MM else " at twice its sizes"
     origin = f"Table 2 of the paper{coarser}, scaled to the volume of the specimen"
-    if wishes.small:
+    if options.small:
         origin = "a few, of sizes that fit into the small specimen"
-    elif wishes.grading is not None:
-        origin = f"from the sieve table {json.dumps(str(wishes.grading))}, down to {spheres.smallest_mm:g} mm"
+    elif options.grading is not None:
+        origin = (
+            f"from the sieve table {json.dumps(str(options.grading))}, down to {spheres.smallest_mm:g} mm"
+        )
         origin += "" if coarser else " as in the paper"
     return f"{counted(spheres.counts.sum(), 'sphere')}: {origin}."
 

@@ -22,7 +22,7 @@ from asphalt_nscd.bending.checkpoint import Checkpoint
 from asphalt_nscd.bending.model import Model
 from asphalt_nscd.nscd.stepping.break_modes import StandBy
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
-from asphalt_nscd.specimen.granulate import PouringNumerics
+from asphalt_nscd.specimen.granular_bed import PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.verification.methods import beam
 from asphalt_nscd.verification.row import Checks, Row

@@ -10,7 +10,7 @@ import numpy as np
 
 from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.specimen.granulate import LARGEST_RATIO, PouringNumerics
+from asphalt_nscd.specimen.granular_bed import LARGEST_RATIO, PouringNumerics
 from asphalt_nscd.specimen.preparation import unrest
 from asphalt_nscd.verification.row import Checks, Row
 from asphalt_nscd.verification.specimens import chain

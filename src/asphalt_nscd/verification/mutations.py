@@ -69,8 +69,8 @@ MUTANTS = [
     ("strength that a bond must have", "edges", "nscd/bonds/system.py", "self.strength > 0.0", "self.strength > -1.0"),
     ("gap that a bond must have", "edges", "nscd/bonds/system.py", "self.gap >= 0.0", "self.gap >= -1.0"),
     ("end of an open range", "edges", "files/ranges.py", "self.above < number", "self.above <= number"),
-    ("normal of spheres in one place", "edges", "nscd/spheres/granular.py", "where_above(square, zero, z / length, one)", "z / length"),
-    ("largest ratio of diameters", "edges", "specimen/granulate.py", "LARGEST_RATIO * smallest", "1e9 * smallest"),
+    ("normal of spheres in one place", "edges", "nscd/spheres/granular.py", "select_greater(square, zero, z / length, one)", "z / length"),
+    ("largest ratio of diameters", "edges", "specimen/granular_bed.py", "LARGEST_RATIO * smallest", "1e9 * smallest"),
     ("balance of a layer at rest", "edges", "specimen/preparation.py", "max(carried, unbalanced) <=", "min(carried, unbalanced) <="),
     ("restitution of an impact", "spheres", "nscd/spheres/granular.py", "= -restitution * opening", "= restitution * opening"),
 ]  # fmt: skip

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asphalt_nscd.nscd.team import Team
-from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
+from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.verification.row import Checks, Row, order
 
@@ -23,42 +23,42 @@ def balls(
     restitution: float = 0.0,
     gravity: ArrayLike = (0.0, 0.0, -G),
     box: tuple[float, float, float] = (1.0, 1.0, 1.0),
-) -> Granulate:
+) -> GranularBed:
     """Spheres of 2600 kg/m3 at rest in a box of walls."""
     position = np.atleast_2d(np.asarray(position, float))
     radius = np.broadcast_to(radius, len(position)).astype(float)
-    granulate = Granulate.in_box(position, radius, box, 2600.0, friction, restitution)
-    granulate.gravity = np.asarray(gravity, float)
-    return granulate
+    bed = GranularBed.in_box(position, radius, box, 2600.0, friction, restitution)
+    bed.gravity = np.asarray(gravity, float)
+    return bed
 
 
-def advanced(granulate: Granulate, steps: int, numerics: PouringNumerics = TIGHT) -> Granulate:
+def advanced(bed: GranularBed, steps: int, numerics: PouringNumerics = TIGHT) -> GranularBed:
     """The same after so many steps."""
     for _ in range(steps):
-        granulate.advance(numerics)
-    return granulate
+        bed.advance(numerics)
+    return bed
 
 
-def masses(granulate: Granulate) -> np.ndarray:
+def masses(bed: GranularBed) -> np.ndarray:
     """(n,) kg."""
-    return 1.0 / granulate.inverse_mass[: granulate.radius.size]
+    return 1.0 / bed.inverse_mass[: bed.radius.size]
 
 
-def momentum(granulate: Granulate) -> np.ndarray:
+def momentum(bed: GranularBed) -> np.ndarray:
     """Linear momentum (3,) [N s]."""
-    return masses(granulate) @ granulate.velocity[: granulate.radius.size, :3]
+    return masses(bed) @ bed.velocity[: bed.radius.size, :3]
 
 
-def angular_momentum(granulate: Granulate) -> np.ndarray:
+def angular_momentum(bed: GranularBed) -> np.ndarray:
     """About the origin (3,) [N m s]."""
-    n, m = granulate.radius.size, masses(granulate)[:, None]
-    v, s = granulate.velocity[:n, :3], granulate.velocity[:n, 3:]
-    return (m * np.cross(granulate.position, v) + 0.4 * m * granulate.radius[:, None] * s).sum(axis=0)
+    n, m = bed.radius.size, masses(bed)[:, None]
+    v, s = bed.velocity[:n, :3], bed.velocity[:n, 3:]
+    return (m * np.cross(bed.position, v) + 0.4 * m * bed.radius[:, None] * s).sum(axis=0)
 
 
-def energy(granulate: Granulate) -> float:
+def energy(bed: GranularBed) -> float:
     """Kinetic and potential [J]."""
-    return granulate.kinetic_energy() - float(masses(granulate) @ (granulate.position @ granulate.gravity))
+    return bed.kinetic_energy() - float(masses(bed) @ (bed.position @ bed.gravity))
 
 
 @checks
@@ -72,7 +72,7 @@ def free_fall() -> list[Row]:
     ]
 
 
-def _on_incline(slope: float, friction: float) -> Granulate:
+def _on_incline(slope: float, friction: float) -> GranularBed:
     tilted = (G * np.sin(slope), 0.0, -G * np.cos(slope))
     return advanced(balls([0.1, 0.5, R], friction=friction, gravity=tilted), 200)
 

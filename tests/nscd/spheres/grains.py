@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
+from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 
 G = 9.81
@@ -19,47 +19,47 @@ def numerics(**changes) -> PouringNumerics:
 
 def balls(
     position, radius=R, box=(1.0, 1.0, 1.0), friction=0.5, restitution=0.0, gravity=(0, 0, -G)
-) -> Granulate:
+) -> GranularBed:
     position = np.atleast_2d(np.asarray(position, float))
-    granulate = Granulate.in_box(
+    bed = GranularBed.in_box(
         position, np.broadcast_to(radius, len(position)).astype(float), box, 2600.0, friction, restitution
     )
-    granulate.gravity = np.asarray(gravity, float)
-    return granulate
+    bed.gravity = np.asarray(gravity, float)
+    return bed
 
 
-def mass(granulate: Granulate) -> np.ndarray:
-    return 1.0 / granulate.inverse_mass[: granulate.radius.size]
+def mass(bed: GranularBed) -> np.ndarray:
+    return 1.0 / bed.inverse_mass[: bed.radius.size]
 
 
-def pairs(granulate: Granulate):
+def pairs(bed: GranularBed):
     """(first, second, impulse on the second) of every listed pair."""
-    first = np.repeat(np.arange(granulate.radius.size), np.diff(granulate._start))
-    return zip(first, granulate._other, granulate.impulse)
+    first = np.repeat(np.arange(bed.radius.size), np.diff(bed._start))
+    return zip(first, bed._other, bed.impulse)
 
 
-def momentum(granulate: Granulate) -> np.ndarray:
-    n = granulate.radius.size
-    return mass(granulate) @ granulate.velocity[:n, :3]
+def momentum(bed: GranularBed) -> np.ndarray:
+    n = bed.radius.size
+    return mass(bed) @ bed.velocity[:n, :3]
 
 
-def angular_momentum(granulate: Granulate) -> np.ndarray:
-    n, m = granulate.radius.size, mass(granulate)[:, None]
-    v, s = granulate.velocity[:n, :3], granulate.velocity[:n, 3:]
-    return (m * np.cross(granulate.position, v) + 0.4 * m * granulate.radius[:, None] * s).sum(axis=0)
+def angular_momentum(bed: GranularBed) -> np.ndarray:
+    n, m = bed.radius.size, mass(bed)[:, None]
+    v, s = bed.velocity[:n, :3], bed.velocity[:n, 3:]
+    return (m * np.cross(bed.position, v) + 0.4 * m * bed.radius[:, None] * s).sum(axis=0)
 
 
-def energy(granulate: Granulate) -> float:
+def energy(bed: GranularBed) -> float:
     """Kinetic and potential [J]."""
-    return granulate.kinetic_energy() - float(mass(granulate) @ (granulate.position @ granulate.gravity))
+    return bed.kinetic_energy() - float(mass(bed) @ (bed.position @ bed.gravity))
 
 
-def deepest(granulate: Granulate) -> float:
+def deepest(bed: GranularBed) -> float:
     """Largest penetration [m]."""
-    return float(-min(granulate.contacts(1e-6)[1].min(initial=0.0), 0.0))
+    return float(-min(bed.contacts(1e-6)[1].min(initial=0.0), 0.0))
 
 
-def on_incline(slope: float, friction: float, steps: int = 200) -> Granulate:
+def on_incline(slope: float, friction: float, steps: int = 200) -> GranularBed:
     tilted = (G * np.sin(slope), 0.0, -G * np.cos(slope))
     ball = balls([0.1, 0.5, R], friction=friction, gravity=tilted)
     for _ in range(steps):
@@ -72,6 +72,6 @@ def cloud(seed, restitution, friction):
     rng = np.random.default_rng(seed)
     box = (0.017, 0.016, 0.05)  # not a multiple of the diameters: three spheres must not wedge between walls
     position, radius = random_lattice(np.array([3e-3, 5e-3]), np.array([20, 10]), box, rng)
-    granulate = balls(position, radius, box, friction, restitution)
-    granulate.velocity[: radius.size] = rng.normal(0, 0.2, (radius.size, 6))
-    return granulate
+    bed = balls(position, radius, box, friction, restitution)
+    bed.velocity[: radius.size] = rng.normal(0, 0.2, (radius.size, 6))
+    return bed

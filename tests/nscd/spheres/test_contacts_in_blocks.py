@@ -9,7 +9,7 @@ from naive.granular import blocks_in_order, sweep_one_by_one
 from asphalt_nscd.nscd.lanes import WIDTH
 from asphalt_nscd.nscd.spheres.blocks import deal_lively, in_blocks, number_blocks
 from asphalt_nscd.nscd.spheres.gauss_seidel import sweep_blocks
-from asphalt_nscd.nscd.spheres.slabs import own_rows, room_for
+from asphalt_nscd.nscd.spheres.slabs import private_rows, workspace_for
 from asphalt_nscd.nscd.team import Team
 
 SPHERES, PLANES = 60, 3
@@ -29,16 +29,16 @@ def some_contacts(count, spheres=SPHERES, seed=1):
 @pytest.mark.parametrize("count", [0, 1, 40, 300])
 def test_blocks_are_those_of_the_naive_twin(count):
     """In the middle of a longer list."""
-    room, bodies = room_for(400, BODIES, PLANES), some_contacts(320)
+    workspace, bodies = workspace_for(400, BODIES, PLANES), some_contacts(320)
     bodies[:, 1] = np.where(
         bodies[:, 1] >= SPHERES, bodies[:, 1] + 50, bodies[:, 1]
     )  # as rows that do not yield
-    found = number_blocks(bodies, 10, count, SPHERES, room, np.empty(len(room.motion), np.int32))
+    found = number_blocks(bodies, 10, count, SPHERES, workspace, np.empty(len(workspace.motion), np.int32))
     expected = blocks_in_order(bodies[10 : 10 + count], SPHERES)
     assert found == len(expected)
     for block, contacts in enumerate(expected):
-        np.testing.assert_array_equal(room.block[10:][contacts], block)
-        np.testing.assert_array_equal(room.lane[10:][contacts], np.arange(len(contacts)))
+        np.testing.assert_array_equal(workspace.block[10:][contacts], block)
+        np.testing.assert_array_equal(workspace.lane[10:][contacts], np.arange(len(contacts)))
     assert count < 300 or count / found > 0.8 * WIDTH
 
 
@@ -48,11 +48,11 @@ def test_each_slab_is_dealt_by_itself(members):
     bodies = some_contacts(200)
     pair, begin = np.random.default_rng(2).permutation(200).astype(np.int32), np.array([0, 70, 70, 160, 200])
     with Team(members) as team:
-        slabs, room = in_blocks(team, begin, pair, bodies, room_for(0, BODIES, PLANES))
-    assert room.block.size >= slabs.pair.size == WIDTH * slabs.begin[-1]
+        slabs, workspace = in_blocks(team, begin, pair, bodies, workspace_for(0, BODIES, PLANES))
+    assert workspace.block.size >= slabs.pair.size == WIDTH * slabs.begin[-1]
     rows = []
     for s in range(4):
-        _, nobody, plane = own_rows(s, room)
+        _, nobody, plane = private_rows(s, workspace)
         rows += [nobody, *range(plane, plane + PLANES)]
         mine = bodies[begin[s] : begin[s + 1]].copy()
         fixed = (mine[:, 1] >= SPHERES) & (mine[:, 1] < BODIES - 1)
@@ -68,57 +68,57 @@ def test_each_slab_is_dealt_by_itself(members):
             np.testing.assert_array_equal(slabs.pair[lanes[size:]], -1)
     assert len(set(rows)) == len(rows)
     assert min(rows) == BODIES
-    assert max(rows) < len(room.motion)
+    assert max(rows) < len(workspace.motion)
 
 
 def some_room(bodies, seed):
-    """(Slabs, Room) of contacts of all kinds, sticking, slipping, open; bodies of many masses, the wall heavy."""
+    """(Slabs, Workspace) of contacts of all kinds, sticking, slipping, open; bodies of many masses, the wall heavy."""
     rng, count = np.random.default_rng(seed), len(bodies)
     begin = np.array([0, count, count])
-    slabs, room = in_blocks(
-        Team(), begin, np.arange(count, dtype=np.int32), bodies, room_for(0, BODIES, PLANES)
+    slabs, workspace = in_blocks(
+        Team(), begin, np.arange(count, dtype=np.int32), bodies, workspace_for(0, BODIES, PLANES)
     )
-    room.motion[:BODIES, [0, 1, 2, 4, 5, 6]] = rng.normal(size=(BODIES, 6))
-    room.motion[:BODIES, 3] = rng.uniform(0.1, 3.0, BODIES)
-    room.motion[SPHERES : BODIES - 1] = 0.0
-    room.motion[:BODIES, 7] = 2.5 * room.motion[:BODIES, 3]
-    plane = own_rows(0, room)[2]
-    room.motion[plane : plane + PLANES] = room.motion[SPHERES:BODIES]
+    workspace.motion[:BODIES, [0, 1, 2, 4, 5, 6]] = rng.normal(size=(BODIES, 6))
+    workspace.motion[:BODIES, 3] = rng.uniform(0.1, 3.0, BODIES)
+    workspace.motion[SPHERES : BODIES - 1] = 0.0
+    workspace.motion[:BODIES, 7] = 2.5 * workspace.motion[:BODIES, 3]
+    plane = private_rows(0, workspace)[2]
+    workspace.motion[plane : plane + PLANES] = workspace.motion[SPHERES:BODIES]
     used = np.flatnonzero(slabs.pair >= 0)
     normal = rng.normal(size=(count, 3))
-    room.packed[used, :3] = normal / np.linalg.norm(normal, axis=1)[:, None]
-    room.packed[used, 3:6] = room.packed[used, :3] * rng.choice([0.0, 1.0, 3.0], count)[:, None]
-    room.packed[used, 6] = rng.normal(-0.3, 1.0, count)
-    room.packed[used, 7] = 1.0 / room.motion[bodies[slabs.pair[used]], 3].sum(axis=1)
-    return slabs, room
+    workspace.packed[used, :3] = normal / np.linalg.norm(normal, axis=1)[:, None]
+    workspace.packed[used, 3:6] = workspace.packed[used, :3] * rng.choice([0.0, 1.0, 3.0], count)[:, None]
+    workspace.packed[used, 6] = rng.normal(-0.3, 1.0, count)
+    workspace.packed[used, 7] = 1.0 / workspace.motion[bodies[slabs.pair[used]], 3].sum(axis=1)
+    return slabs, workspace
 
 
 @pytest.mark.parametrize("relaxation", [1.0, 1.5])
 def test_sweeps_block_by_block_are_those_one_by_one(relaxation):
     """Bit for bit: impulses, motion and what is noted, over all and over those noted; sums to rounding."""
     bodies = some_contacts(300)
-    slabs, room = some_room(bodies, 3)
+    slabs, workspace = some_room(bodies, 3)
     contact = np.argsort(slabs.pair)[-300:]  # of each pair
-    packed, motion = room.packed[contact], room.motion[:BODIES].copy()
-    rest = np.delete(room.packed, contact, axis=0)
-    last = np.empty(len(room.motion), np.int32)
+    packed, motion = workspace.packed[contact], workspace.motion[:BODIES].copy()
+    rest = np.delete(workspace.packed, contact, axis=0)
+    last = np.empty(len(workspace.motion), np.int32)
     blocks, begin, count, visits = slabs.blocks, 0, slabs.begin[1], range(300)
     for quiet, calm in ((0.3, np.inf), (np.inf, 0.5)):
-        *sums, noted = sweep_blocks(blocks, begin, count, 8, 0.3, relaxation, quiet, calm, room)
+        *sums, noted = sweep_blocks(blocks, begin, count, 8, 0.3, relaxation, quiet, calm, workspace)
         *expected, lively, kinds = sweep_one_by_one(
             bodies, packed, motion, 0.3, visits, relaxation, quiet, calm
         )
-        np.testing.assert_array_equal(room.packed[contact], packed)
-        np.testing.assert_array_equal(room.motion[:BODIES], motion)
-        np.testing.assert_array_equal(np.delete(room.packed, contact, axis=0), rest)
+        np.testing.assert_array_equal(workspace.packed[contact], packed)
+        np.testing.assert_array_equal(workspace.motion[:BODIES], motion)
+        np.testing.assert_array_equal(np.delete(workspace.packed, contact, axis=0), rest)
         np.testing.assert_allclose(sums, expected, rtol=1e-13)
-        found = slabs.pair[room.lively[8 : 8 + noted]]
+        found = slabs.pair[workspace.lively[8 : 8 + noted]]
         assert sorted(found) == sorted(lively)
-        np.testing.assert_array_equal(bodies[found, 0], room.bodies[8 : 8 + noted, 0])
+        np.testing.assert_array_equal(bodies[found, 0], workspace.bodies[8 : 8 + noted, 0])
         assert 20 < noted < len(visits) - 20
         assert min(kinds.values()) > 10
-        blocks, begin, count = room.lively_blocks, 8, deal_lively(0, 8, noted, room, last)
+        blocks, begin, count = workspace.lively_blocks, 8, deal_lively(0, 8, noted, workspace, last)
         visits = found.tolist()
-    own = own_rows(0, room)[1]
-    assert not room.motion[own].any()
-    np.testing.assert_array_equal(room.motion[own + 1 : own + 3], motion[SPHERES : SPHERES + 2])
+    own = private_rows(0, workspace)[1]
+    assert not workspace.motion[own].any()
+    np.testing.assert_array_equal(workspace.motion[own + 1 : own + 3], motion[SPHERES : SPHERES + 2])

@@ -13,7 +13,7 @@ from nscd.spheres.grains import (
 )
 
 from asphalt_nscd.nscd.team import Team
-from asphalt_nscd.specimen.granulate import Granulate
+from asphalt_nscd.specimen.granular_bed import GranularBed
 from asphalt_nscd.specimen.lattice import random_lattice
 
 
@@ -24,14 +24,14 @@ def meeting_gap(settings, velocity, plane_velocity):
     return settings.margin + settings.time_step * (fastest + max(fastest, np.abs(plane_velocity).max()))
 
 
-def slab_numbers(granulate: Granulate):
+def slab_numbers(bed: GranularBed):
     """{(i, j): slab} of every listed pair in the order of visits, -1 with the last body."""
-    slabs = granulate._slabs
+    slabs = bed._slabs
     last = slabs.begin.size - 2
     number = np.repeat(np.arange(last + 1), np.diff(8 * slabs.begin))
     number[number == last] = -1
-    first = np.repeat(np.arange(granulate._start.size - 1), np.diff(granulate._start))
-    listed = [(int(first[pair]), int(granulate._other[pair])) for pair in slabs.pair]
+    first = np.repeat(np.arange(bed._start.size - 1), np.diff(bed._start))
+    listed = [(int(first[pair]), int(bed._other[pair])) for pair in slabs.pair]
     return {pair: int(slab) for pair, slab, place in zip(listed, number, slabs.pair) if place >= 0}
 
 

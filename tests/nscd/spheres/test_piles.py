@@ -19,7 +19,7 @@ from nscd.spheres.grains import (
 )
 
 from asphalt_nscd.specimen.deposit import settle
-from asphalt_nscd.specimen.granulate import PouringNumerics
+from asphalt_nscd.specimen.granular_bed import PouringNumerics
 
 
 @pytest.mark.parametrize(("restitution", "friction"), [(0.0, 0.0), (0.0, 0.5), (0.5, 0.0), (0.5, 0.5)])

@@ -11,7 +11,7 @@ import pytest
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 from asphalt_nscd.nscd.spheres.slabs import FAIR, LAYER, MOST_SLABS, first_and_end, part_of, slabs_of
 from asphalt_nscd.nscd.team import Team
-from asphalt_nscd.specimen.granulate import Granulate, PouringNumerics
+from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 
 WALLS = np.zeros((2, 3)), np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]])
@@ -121,7 +121,7 @@ def states(members: int) -> str:
     rng = np.random.default_rng(3)
     box = (0.09, 0.014, 0.03)
     position, radius = random_lattice(np.array([2e-3, 4e-3]), np.array([500, 40]), box, rng)
-    pile = Granulate.in_box(position, radius, box, 2600.0, 0.2)
+    pile = GranularBed.in_box(position, radius, box, 2600.0, 0.2)
     pile.velocity[: radius.size] = rng.normal(0.0, 0.3, (radius.size, 6))
     numerics, told, slabs, pressed = PouringNumerics.of(radius, 4e-4), [], 0, 0
     with Team(members) as pile.team:
@@ -153,10 +153,10 @@ def test_what_earlier_steps_left_in_the_room_does_not_count():
         position, radius = random_lattice(
             np.array([2e-3, 4e-3]), np.array([80, 10]), (0.04, 0.014, 0.03), np.random.default_rng(3)
         )
-        pile = Granulate.in_box(position, radius, (0.04, 0.014, 0.03), 2600.0, 0.2)
+        pile = GranularBed.in_box(position, radius, (0.04, 0.014, 0.03), 2600.0, 0.2)
         for _ in range(60):
             pile.advance(PouringNumerics())
-            for array in pile._room:
+            for array in pile._workspace:
                 if isinstance(array, np.ndarray):
                     array[:] = left
         found.append((pile.sweeps, pile.overlap, pile.position.tobytes()))

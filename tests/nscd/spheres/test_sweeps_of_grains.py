@@ -20,7 +20,7 @@ from asphalt_nscd.nscd.spheres.gauss_seidel import (
     sweep_until,
 )
 from asphalt_nscd.nscd.spheres.granular import pack_motion, pack_place, pack_planes, pack_slab
-from asphalt_nscd.nscd.spheres.slabs import room_for
+from asphalt_nscd.nscd.spheres.slabs import workspace_for
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.deposit import settle
 
@@ -32,22 +32,22 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
     pile = cloud(3, 0.0, 0.5)
     for _ in range(150):
         pile.advance(numerics(tolerance=1e-3, most_sweeps=60))
-    slabs, room = pile._slabs, pile._room
+    slabs, workspace = pile._slabs, pile._workspace
     numbers = range(slabs.begin.size - 1)
     for most_sweeps in (2 * ROUND - 1, 100 * ROUND):
-        pack_motion(pile.velocity, pile.inverse_mass, 0, len(pile.velocity), room.motion)
-        pack_place(pile.position, pile.radius, 0, len(pile.position), room.place)
-        room.packed[:, 3:6] = 0.0  # impulses
+        pack_motion(pile.velocity, pile.inverse_mass, 0, len(pile.velocity), workspace.motion)
+        pack_place(pile.position, pile.radius, 0, len(pile.position), workspace.place)
+        workspace.packed[:, 3:6] = 0.0  # impulses
         for slab in numbers:
-            pack_planes(slab, pile.plane_point, pile.plane_normal, room)
-            pack_slab(slab, slabs, room, 1e-4, 0.0, np.inf, 3e-4)
-        room.packed[:, 6] = 0.0  # targets
+            pack_planes(slab, pile.plane_point, pile.plane_normal, workspace)
+            pack_slab(slab, slabs, workspace, 1e-4, 0.0, np.inf, 3e-4)
+        workspace.packed[:, 6] = 0.0  # targets
         sweeps, change = sweep_until(
             0,
             1,
             np.zeros(32, int),
             slabs,
-            room,
+            workspace,
             0.5,
             np.zeros(2),
             tolerance,
@@ -63,7 +63,7 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
     once_more = [
         sweep_blocks(
             slabs.blocks, slabs.begin[slab], slabs.begin[slab + 1] - slabs.begin[slab], WIDTH * slabs.begin[slab],
-            0.5, 1.0, 0.0, np.inf, room,
+            0.5, 1.0, 0.0, np.inf, workspace,
         )
         for slab in sorted(numbers, key=lambda slab: slab % 2)
     ]  # fmt: skip
@@ -75,18 +75,18 @@ def sweeps_of_a_squeezed_grain(relaxation):
     """Until a light ball on the floor has stopped one 125 times as heavy, to 1e-6 of its speed."""
     bodies = np.array([[1, 0], [0, 2]], np.int32)  # heavy and light, light and floor
     begin, pairs = np.array([0, 2, 2]), np.arange(2, dtype=np.int32)
-    slabs, room = in_blocks(Team(), begin, pairs, bodies, room_for(0, 3, 1))
-    contacts, motion = np.argsort(slabs.pair)[-2:], room.motion
-    room.packed[contacts, 2] = -1.0  # both normals point down
-    room.packed[contacts, 7] = 1.0 / (1.0 + 1.0 / 125.0), 1.0
+    slabs, workspace = in_blocks(Team(), begin, pairs, bodies, workspace_for(0, 3, 1))
+    contacts, motion = np.argsort(slabs.pair)[-2:], workspace.motion
+    workspace.packed[contacts, 2] = -1.0  # both normals point down
+    workspace.packed[contacts, 7] = 1.0 / (1.0 + 1.0 / 125.0), 1.0
     motion[:2, 3] = 1.0, 1.0 / 125.0
     motion[:, 7] = 2.5 * motion[:, 3]
     motion[1, 2] = -1.0
     for sweep in range(5000):
         if abs(motion[1, 2]) < 1e-6:
-            np.testing.assert_allclose(room.packed[contacts, 5], -125.0, rtol=1e-5)  # both stop it
+            np.testing.assert_allclose(workspace.packed[contacts, 5], -125.0, rtol=1e-5)  # both stop it
             return sweep
-        sweep_blocks(slabs.blocks, 0, slabs.begin[1], 0, 0.0, relaxation, np.inf, np.inf, room)
+        sweep_blocks(slabs.blocks, 0, slabs.begin[1], 0, 0.0, relaxation, np.inf, np.inf, workspace)
     raise AssertionError("not at rest")
 
 
@@ -102,7 +102,7 @@ def test_the_impulses_of_the_step_before_tell_what_is_quiet():
     pile = cloud(8, 0.0, 0.5)
     settle(pile, numerics(time_step=2e-4, tolerance=1e-6, most_sweeps=200), 1e-5, 3.0, lambda *_: None, "")
     sweeps, _ = pile.advance(numerics(time_step=2e-4, tolerance=1e-3, most_sweeps=60))
-    account = pile._room.account[: pile._slabs.begin.size - 1]
+    account = pile._workspace.account[: pile._slabs.begin.size - 1]
     assert sweeps == 1
     assert account[:, COUNT].sum() > 50
     assert account[:, NOTED].sum() < 0.1 * account[:, COUNT].sum()

@@ -13,7 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from asphalt_nscd.nscd.compiled import compiled
-from asphalt_nscd.nscd.lanes import WIDTH, aligned, gather, load, nothing, scatter, store, total
+from asphalt_nscd.nscd.lanes import WIDTH, aligned, gather, load, scatter, store, total, zeros
 
 SYMMETRIC = np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2])  # the order of six entries
 WINDOW = 256
@@ -186,7 +186,7 @@ def _sweep_until_still(bodies, packed, motion, mobility, even, tolerance, most_s
     change = 0.0
     blocks = packed.shape[0]
     for sweep in range(most_sweeps):
-        changed, size = nothing(), nothing()
+        changed, size = zeros(), zeros()
         for n in range(blocks):
             block = n if sweep % 2 == 0 else blocks - 1 - n
             i, j = gather(motion, bodies, block, 0), gather(motion, bodies, block, 1)

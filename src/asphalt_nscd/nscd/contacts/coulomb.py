@@ -8,14 +8,14 @@ from __future__ import annotations
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
-from asphalt_nscd.nscd.lanes import root, spread, where_above
+from asphalt_nscd.nscd.lanes import broadcast, select_greater, sqrt
 
 
 @compiled_for_teams
 def cut(x, y, z, limit):
     """Tangential reactions (x, y, z) of eight contacts (lanes.py); those above `limit` are cut to it: they slip."""
     square = x * x + y * y + z * z
-    share = where_above(square, limit * limit, limit / root(square), spread(1.0))
+    share = select_greater(square, limit * limit, limit / sqrt(square), broadcast(1.0))
     return share * x, share * y, share * z
 
 

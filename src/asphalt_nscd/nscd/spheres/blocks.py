@@ -11,18 +11,18 @@ import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled_for_teams
 from asphalt_nscd.nscd.lanes import WIDTH
-from asphalt_nscd.nscd.spheres.slabs import Room, Slabs, first_and_end, own_rows, room_for
-from asphalt_nscd.nscd.team import Team, arrive, meet
+from asphalt_nscd.nscd.spheres.slabs import Slabs, Workspace, first_and_end, private_rows, workspace_for
+from asphalt_nscd.nscd.team import Team, barrier_wait, mark_started
 
 
 @compiled_for_teams
-def number_blocks(bodies, begin, count, fixed, room, last):
+def number_blocks(bodies, begin, count, fixed, workspace, last):
     """Deal contacts between bodies[begin:begin + count] (c, 2) into blocks; returns how many there are.
 
-    room.block and room.lane then hold where each stands. Bodies from `fixed` on do not yield, so that
-    contacts of a block may share them. last (r,): room of this member alone, for the block in which each body stood.
+    workspace.block and workspace.lane then hold where each stands. Bodies from `fixed` on do not yield, so that
+    contacts of a block may share them. last (r,): of this member alone, for the block in which each body stood.
     """
-    filled, following = room.filled, room.following
+    filled, following = workspace.filled, workspace.following
     for k in range(begin, begin + count):
         last[bodies[k, 0]] = last[bodies[k, 1]] = -1
     found = 0
@@ -38,7 +38,7 @@ def number_blocks(bodies, begin, count, fixed, room, last):
         if block == found:
             found += 1
             filled[at], following[at] = 0, found
-        room.block[k], room.lane[k] = block, filled[at]
+        workspace.block[k], workspace.lane[k] = block, filled[at]
         filled[at] += 1
         last[i] = block
         if j < fixed:
@@ -47,73 +47,73 @@ def number_blocks(bodies, begin, count, fixed, room, last):
 
 
 @compiled_for_teams
-def deal_lively(s, begin, count, room, last):
-    """Deal the contacts that were noted in slab s, from `begin` on, into room.lively_blocks; returns how many."""
-    found = number_blocks(room.bodies, begin, count, room.wall + 1, room, last)
-    no_contact, nobody, _ = own_rows(s, room)
+def deal_lively(s, begin, count, workspace, last):
+    """Deal the contacts that were noted in slab s, from `begin` on, into workspace.lively_blocks; returns how many."""
+    found = number_blocks(workspace.bodies, begin, count, workspace.wall + 1, workspace, last)
+    no_contact, nobody, _ = private_rows(s, workspace)
     for block in range(begin, begin + found):
         for lane in range(WIDTH):
-            room.lively_blocks[block, 0, lane] = no_contact
-            room.lively_blocks[block, 1, lane] = room.lively_blocks[block, 2, lane] = nobody
+            workspace.lively_blocks[block, 0, lane] = no_contact
+            workspace.lively_blocks[block, 1, lane] = workspace.lively_blocks[block, 2, lane] = nobody
     for k in range(begin, begin + count):
-        block, lane = begin + room.block[k], room.lane[k]
-        room.lively_blocks[block, 0, lane] = room.lively[k]
-        room.lively_blocks[block, 1, lane], room.lively_blocks[block, 2, lane] = (
-            room.bodies[k, 0],
-            room.bodies[k, 1],
+        block, lane = begin + workspace.block[k], workspace.lane[k]
+        workspace.lively_blocks[block, 0, lane] = workspace.lively[k]
+        workspace.lively_blocks[block, 1, lane], workspace.lively_blocks[block, 2, lane] = (
+            workspace.bodies[k, 0],
+            workspace.bodies[k, 1],
         )
     return found
 
 
 def in_blocks(
-    team: Team, begin: np.ndarray, pair: np.ndarray, bodies: np.ndarray, room: Room
-) -> tuple[Slabs, Room]:
-    """Pairs in the order of slabs (slabs_of), dealt by a team; and room for them, if `room` is too small."""
-    spheres, planes = room.wall + 1 - room.planes, room.planes
-    if room.block.size < pair.size:
-        room = room_for(pair.size + pair.size // 4, spheres + planes, planes)
+    team: Team, begin: np.ndarray, pair: np.ndarray, bodies: np.ndarray, workspace: Workspace
+) -> tuple[Slabs, Workspace]:
+    """Pairs in the order of slabs (slabs_of), dealt by a team; and workspace for them, if `workspace` is too small."""
+    spheres, planes = workspace.wall + 1 - workspace.planes, workspace.planes
+    if workspace.block.size < pair.size:
+        workspace = workspace_for(pair.size + pair.size // 4, spheres + planes, planes)
     rows, counts = np.empty_like(bodies), np.empty(begin.size - 1, np.int64)
-    team.run(_number_slabs, begin, bodies, rows, counts, room)
+    team.run(_number_slabs, begin, bodies, rows, counts, workspace)
     first_block = np.concatenate([[0], counts]).cumsum()
     blocks, contacts = first_block[-1], first_block[-1] * WIDTH
     slabs = Slabs(first_block, np.empty((blocks, 3, WIDTH), np.int32), np.full(contacts, -1, np.int32))
-    team.run(_fill_slabs, begin, pair, rows, slabs, room)
-    if room.block.size < contacts:
-        room = room_for(contacts + contacts // 4, spheres + planes, planes)
-    return slabs, room
+    team.run(_fill_slabs, begin, pair, rows, slabs, workspace)
+    if workspace.block.size < contacts:
+        workspace = workspace_for(contacts + contacts // 4, spheres + planes, planes)
+    return slabs, workspace
 
 
 @compiled_for_teams
-def _number_slabs(rank, members, barrier, begin, bodies, rows, counts, room):
-    arrive(barrier)
-    last, first_plane = begin.shape[0] - 2, room.wall + 1 - room.planes
-    last_block = np.empty(room.motion.shape[0], np.int32)
+def _number_slabs(rank, members, barrier, begin, bodies, rows, counts, workspace):
+    mark_started(barrier)
+    last, first_plane = begin.shape[0] - 2, workspace.wall + 1 - workspace.planes
+    last_block = np.empty(workspace.motion.shape[0], np.int32)
     for kind in range(3):
         first, end = first_and_end(rank, members, last, kind)
         for s in range(first, end, 2):
-            own = own_rows(s, room)[2] - first_plane
+            own = private_rows(s, workspace)[2] - first_plane
             for k in range(begin[s], begin[s + 1]):
                 i, j = bodies[k, 0], bodies[k, 1]
-                rows[k, 0], rows[k, 1] = i, j if j < first_plane or j == room.wall else j + own
+                rows[k, 0], rows[k, 1] = i, j if j < first_plane or j == workspace.wall else j + own
             counts[s] = number_blocks(
-                rows, begin[s], begin[s + 1] - begin[s], room.wall + 1, room, last_block
+                rows, begin[s], begin[s + 1] - begin[s], workspace.wall + 1, workspace, last_block
             )
-        meet(barrier, members)
+        barrier_wait(barrier, members)
 
 
 @compiled_for_teams
-def _fill_slabs(rank, members, barrier, begin, pair, rows, slabs, room):
-    arrive(barrier)
+def _fill_slabs(rank, members, barrier, begin, pair, rows, slabs, workspace):
+    mark_started(barrier)
     last = begin.shape[0] - 2
     for kind in range(3):
         first, end = first_and_end(rank, members, last, kind)
         for s in range(first, end, 2):
-            nobody = own_rows(s, room)[1]
+            nobody = private_rows(s, workspace)[1]
             for block in range(slabs.begin[s], slabs.begin[s + 1]):
                 for lane in range(WIDTH):
                     slabs.blocks[block, 0, lane] = WIDTH * block + lane
                     slabs.blocks[block, 1, lane] = slabs.blocks[block, 2, lane] = nobody
             for k in range(begin[s], begin[s + 1]):
-                block, lane = slabs.begin[s] + room.block[k], room.lane[k]
+                block, lane = slabs.begin[s] + workspace.block[k], workspace.lane[k]
                 slabs.blocks[block, 1, lane], slabs.blocks[block, 2, lane] = rows[k, 0], rows[k, 1]
                 slabs.pair[WIDTH * block + lane] = pair[k]

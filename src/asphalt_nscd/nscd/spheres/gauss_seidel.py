@@ -21,17 +21,17 @@ from asphalt_nscd.nscd.contacts.coulomb import cut
 from asphalt_nscd.nscd.lanes import (
     WIDTH,
     above,
+    broadcast,
     gather,
     largest,
-    nothing,
     scatter,
-    spread,
+    select_greater,
     total,
-    where_above,
+    zeros,
 )
 from asphalt_nscd.nscd.spheres.blocks import deal_lively
 from asphalt_nscd.nscd.spheres.slabs import part_of
-from asphalt_nscd.nscd.team import meet
+from asphalt_nscd.nscd.team import barrier_wait
 
 ROUND = 9  # sweeps, the first of which visits all contacts and the others those that were not quiet
 AGAIN = 4  # the sweep of a round that leaves out contacts which have become quiet, counted from 0
@@ -58,8 +58,8 @@ def new_impulse(contact, i, j, friction, relaxation):
     excess = target - opening
     old_normal = px * nx + py * ny + pz * nz
     new_normal = old_normal + excess * mass
-    new_normal = where_above(new_normal, nothing(), new_normal, nothing())
-    softness = mass / spread(3.5)
+    new_normal = select_greater(new_normal, zeros(), new_normal, zeros())
+    softness = mass / broadcast(3.5)
     along = old_normal - softness * opening
     qx = px - softness * (vx - (sy * nz - sz * ny)) - along * nx
     qy = py - softness * (vy - (sz * nx - sx * nz)) - along * ny
@@ -82,34 +82,34 @@ def push(motion, blocks, block, contact, i, j, x, y, z):
 
 
 @compiled_for_teams
-def sweep_blocks(blocks, begin, count, noted_from, friction, relaxation, quiet, calm, room):
+def sweep_blocks(blocks, begin, count, noted_from, friction, relaxation, quiet, calm, workspace):
     """One Gauss-Seidel sweep over so many `blocks` from `begin` on; updates impulses and motion.
 
     Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than
-    they may by more than `calm` [m/s], are noted in room.lively from `noted_from` on. Returns the sums of
+    they may by more than `calm` [m/s], are noted in workspace.lively from `noted_from` on. Returns the sums of
     squares of the change of impulse and of the impulse, the largest excess of speed [m/s], how many were noted.
     """
-    packed, motion = room.packed, room.motion
-    changed, size, fastest = nothing(), nothing(), nothing()
+    packed, motion = workspace.packed, workspace.motion
+    changed, size, fastest = zeros(), zeros(), zeros()
     noted = noted_from
     for block in range(begin, begin + count):
         contact = gather(packed, blocks, block, 0)
         i, j = gather(motion, blocks, block, 1), gather(motion, blocks, block, 2)
-        x, y, z, excess = new_impulse(contact, i, j, spread(friction), spread(relaxation))
+        x, y, z, excess = new_impulse(contact, i, j, broadcast(friction), broadcast(relaxation))
         dx, dy, dz = x - contact[3], y - contact[4], z - contact[5]
         push(motion, blocks, block, contact, i, j, dx, dy, dz)
         nx, ny, nz = contact[:3]
         scatter(packed, blocks, block, 0, (nx, ny, nz, x, y, z, contact[6], contact[7]))
         moved = dx * dx + dy * dy + dz * dz
-        lively = above(moved, spread(quiet)) | above(excess, spread(calm))
+        lively = above(moved, broadcast(quiet)) | above(excess, broadcast(calm))
         if lively:
             for lane in range(WIDTH):
                 if lively >> lane & 1:
-                    room.lively[noted] = blocks[block, 0, lane]
+                    workspace.lively[noted] = blocks[block, 0, lane]
                     for side in range(2):
-                        room.bodies[noted, side] = blocks[block, 1 + side, lane]
+                        workspace.bodies[noted, side] = blocks[block, 1 + side, lane]
                     noted += 1
-        fastest = where_above(excess, fastest, excess, fastest)
+        fastest = select_greater(excess, fastest, excess, fastest)
         changed = changed + moved
         size = size + (x * x + y * y + z * z)
     return total(changed), total(size), largest(fastest), noted - noted_from
@@ -135,7 +135,7 @@ def guide_wall(motion, wall, drive, push):
 @compiled_for_teams
 def push_blocks(packed, motion, blocks, begin, count):
     """Give the impulses that contacts start with to their bodies. Returns the sum of their squares."""
-    size = nothing()
+    size = zeros()
     for block in range(begin, begin + count):
         contact = gather(packed, blocks, block, 0)
         i, j = gather(motion, blocks, block, 1), gather(motion, blocks, block, 2)
@@ -146,31 +146,31 @@ def push_blocks(packed, motion, blocks, begin, count):
 
 
 @compiled_for_teams
-def sweep_slabs(part, slabs, room, friction, relaxation, everyone, quiet, calm, last_block):
+def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, quiet, calm, last_block):
     """A sweep over every other slab from part[0] on, below part[1].
 
     Over all contacts, or over those that were noted. Notes contacts anew if `quiet` or `calm` is finite (sweep_blocks).
     """
-    account = room.account
+    account = workspace.account
     for s in range(part[0], part[1], 2):
         start, count, of_lively = slabs.begin[s], slabs.begin[s + 1] - slabs.begin[s], WIDTH * slabs.begin[s]
         blocks = slabs.blocks
         if not everyone:
-            blocks, start, count = room.lively_blocks, of_lively, int(account[s, LIVELY_BLOCKS])
+            blocks, start, count = workspace.lively_blocks, of_lively, int(account[s, LIVELY_BLOCKS])
         changed, size, fastest, noted = sweep_blocks(
-            blocks, start, count, of_lively, friction, relaxation, quiet, calm, room
+            blocks, start, count, of_lively, friction, relaxation, quiet, calm, workspace
         )
         if everyone:
             account[s, CHANGED], account[s, SIZE] = changed, size
             account[s, FASTEST] = fastest
         if quiet < np.inf or calm < np.inf:
             account[s, NOTED] = noted
-            account[s, LIVELY_BLOCKS] = deal_lively(s, of_lively, noted, room, last_block)
+            account[s, LIVELY_BLOCKS] = deal_lively(s, of_lively, noted, workspace, last_block)
 
 
 @compiled_for_teams
 def sweep_until(
-    rank, members, barrier, slabs, room, friction, drive, tolerance, calm, enough_sweeps, most_sweeps
+    rank, members, barrier, slabs, workspace, friction, drive, tolerance, calm, enough_sweeps, most_sweeps
 ):
     """Gauss-Seidel from the given impulses until their relative change is below tolerance.
 
@@ -181,7 +181,7 @@ def sweep_until(
     Returns (sweeps of either kind, relative change of the last sweep over all contacts).
     """
     begin, last = slabs.begin, slabs.begin.shape[0] - 2
-    account, motion = room.account, room.motion
+    account, motion = workspace.account, workspace.motion
     last_block = np.empty(motion.shape[0], np.int32)
     parts, lively_parts = np.empty((3, 2), np.int64), np.empty((3, 2), np.int64)
     for kind in range(3):
@@ -193,12 +193,12 @@ def sweep_until(
     for k in range(idle, 3):
         for s in range(parts[ORDER[k], 0], parts[ORDER[k], 1], 2):
             count = begin[s + 1] - begin[s]
-            account[s, PUSHED] = push_blocks(room.packed, motion, slabs.blocks, begin[s], count)
-        meet(barrier, members)
+            account[s, PUSHED] = push_blocks(workspace.packed, motion, slabs.blocks, begin[s], count)
+        barrier_wait(barrier, members)
     size = 0.0
     for s in range(last + 1 - idle):  # in one order, whoever pushed or swept them
         size += account[s, PUSHED]
-    push = guide_wall(motion, room.wall, drive, 0.0) if rank == 0 else 0.0
+    push = guide_wall(motion, workspace.wall, drive, 0.0) if rank == 0 else 0.0
     change = 0.0
     for sweep in range(most_sweeps):
         turn = sweep % ROUND
@@ -212,10 +212,10 @@ def sweep_until(
                 lively_parts[kind] = part_of(rank, members, last, kind, account[:, LIVELY_BLOCKS])
         for k in range(idle, 3):
             part = parts[ORDER[k]] if everyone else lively_parts[ORDER[k]]
-            sweep_slabs(part, slabs, room, friction, relaxation, everyone, quiet, limit, last_block)
-            meet(barrier, members)
+            sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, quiet, limit, last_block)
+            barrier_wait(barrier, members)
         if rank == 0:
-            push = guide_wall(motion, room.wall, drive, push)
+            push = guide_wall(motion, workspace.wall, drive, push)
         if everyone:
             changed, size, fastest = 0.0, 0.0, 0.0
             for s in range(last + 1 - idle):

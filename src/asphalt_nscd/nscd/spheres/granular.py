@@ -13,10 +13,20 @@ from __future__ import annotations
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
-from asphalt_nscd.nscd.lanes import WIDTH, gather, largest, nothing, root, scatter, spread, total, where_above
+from asphalt_nscd.nscd.lanes import (
+    WIDTH,
+    broadcast,
+    gather,
+    largest,
+    scatter,
+    select_greater,
+    sqrt,
+    total,
+    zeros,
+)
 from asphalt_nscd.nscd.spheres.gauss_seidel import COUNT, DEEPEST, sweep_until
-from asphalt_nscd.nscd.spheres.slabs import first_and_end, own_rows
-from asphalt_nscd.nscd.team import arrive, meet, share
+from asphalt_nscd.nscd.spheres.slabs import first_and_end, private_rows
+from asphalt_nscd.nscd.team import barrier_wait, mark_started, partition
 
 OUT_OF_REACH = 1e30  # m or m/s
 
@@ -62,7 +72,7 @@ def near_pairs(position, radius, plane_point, plane_normal, start, other, below)
 
 @compiled_for_teams
 def pack_motion(velocity, inverse_mass, begin, end, motion):
-    """Bodies begin:end of room.motion."""
+    """Bodies begin:end of workspace.motion."""
     for i in range(begin, end):
         for k in range(3):
             motion[i, k] = velocity[i, k]
@@ -73,7 +83,7 @@ def pack_motion(velocity, inverse_mass, begin, end, motion):
 
 @compiled_for_teams
 def pack_place(position, radius, begin, end, place):
-    """Spheres begin:end of room.place."""
+    """Spheres begin:end of workspace.place."""
     for i in range(begin, end):
         for k in range(3):
             place[i, k] = position[i, k]
@@ -82,17 +92,17 @@ def pack_place(position, radius, begin, end, place):
 
 
 @compiled_for_teams
-def pack_planes(s, plane_point, plane_normal, room):
-    """The rows of slab s alone (own_rows), and the place of the wall."""
-    spheres = room.wall + 1 - room.planes
-    no_contact, nobody, row = own_rows(s, room)
-    room.packed[no_contact] = room.motion[nobody] = room.place[nobody] = 0.0
-    for p in range(room.planes):
-        room.motion[row + p] = room.motion[spheres + p]
+def pack_planes(s, plane_point, plane_normal, workspace):
+    """The rows of slab s alone (private_rows), and the place of the wall."""
+    spheres = workspace.wall + 1 - workspace.planes
+    no_contact, nobody, row = private_rows(s, workspace)
+    workspace.packed[no_contact] = workspace.motion[nobody] = workspace.place[nobody] = 0.0
+    for p in range(workspace.planes):
+        workspace.motion[row + p] = workspace.motion[spheres + p]
         for at in (row + p, spheres + p):
             for k in range(3):
-                room.place[at, k], room.place[at, 4 + k] = plane_point[p, k], plane_normal[p, k]
-            room.place[at, 3], room.place[at, 7] = 0.0, 1.0
+                workspace.place[at, k], workspace.place[at, 4 + k] = plane_point[p, k], plane_normal[p, k]
+            workspace.place[at, 3], workspace.place[at, 7] = 0.0, 1.0
 
 
 @compiled_for_teams
@@ -105,85 +115,91 @@ def unpack_motion(motion, begin, end, velocity):
 
 
 @compiled_for_teams
-def lay_in(impulse, slabs, room, begin, end):
+def lay_in(impulse, slabs, workspace, begin, end):
     """The impulses of the list of pairs (pairs, 3) into contacts begin:end."""
     for c in range(begin, end):
         pair = slabs.pair[c]
         for k in range(3):
-            room.packed[c, 3 + k] = impulse[pair, k] if pair >= 0 else 0.0
+            workspace.packed[c, 3 + k] = impulse[pair, k] if pair >= 0 else 0.0
 
 
 @compiled_for_teams
-def take_out(impulse, slabs, room, begin, end):
+def take_out(impulse, slabs, workspace, begin, end):
     """The other way round."""
     for c in range(begin, end):
         pair = slabs.pair[c]
         if pair >= 0:
             for k in range(3):
-                impulse[pair, k] = room.packed[c, 3 + k]
+                impulse[pair, k] = workspace.packed[c, 3 + k]
 
 
 @compiled_for_teams
-def pack_slab(s, slabs, room, dt, recovery_speed, allowed_overlap, margin):
-    """The contacts of slab s, whose impulses stand in `room`: pairs that may touch within the step.
+def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
+    """The contacts of slab s, whose impulses stand in `workspace`: pairs that may touch within the step.
 
     A pair takes part when its gap, less the approach at the free velocity, is below `margin` [m]. Any other is
     given no impulse, no mass, and a target that it cannot miss.
     """
-    zero, one, half = nothing(), spread(1.0), spread(0.5)
+    zero, one, half = zeros(), broadcast(1.0), broadcast(0.5)
     count, deepest = zero, zero
     for block in range(slabs.begin[s], slabs.begin[s + 1]):
-        contact = gather(room.packed, slabs.blocks, block, 0)
-        i, j = gather(room.place, slabs.blocks, block, 1), gather(room.place, slabs.blocks, block, 2)
+        contact = gather(workspace.packed, slabs.blocks, block, 0)
+        i, j = (
+            gather(workspace.place, slabs.blocks, block, 1),
+            gather(workspace.place, slabs.blocks, block, 2),
+        )
         x, y, z = j[0] - i[0], j[1] - i[1], j[2] - i[2]
         square = x * x + y * y + z * z
-        distance, to_plane = root(square), zero - (x * j[4] + y * j[5] + z * j[6])
-        length = where_above(square, zero, distance, one)
-        x = where_above(j[7], half, zero - j[4], x / length)
-        y = where_above(j[7], half, zero - j[5], y / length)
-        z = where_above(square, zero, z / length, one)  # of two spheres in one place, see normal_and_gap
-        z = where_above(j[7], half, zero - j[6], z)
-        gap = where_above(j[7], half, to_plane, distance) - i[3] - j[3]
-        gap = where_above(i[3] + j[3], zero, gap, spread(OUT_OF_REACH))  # in lanes left over
-        i, j = gather(room.motion, slabs.blocks, block, 1), gather(room.motion, slabs.blocks, block, 2)
+        distance, to_plane = sqrt(square), zero - (x * j[4] + y * j[5] + z * j[6])
+        length = select_greater(square, zero, distance, one)
+        x = select_greater(j[7], half, zero - j[4], x / length)
+        y = select_greater(j[7], half, zero - j[5], y / length)
+        z = select_greater(square, zero, z / length, one)  # of two spheres in one place, see normal_and_gap
+        z = select_greater(j[7], half, zero - j[6], z)
+        gap = select_greater(j[7], half, to_plane, distance) - i[3] - j[3]
+        gap = select_greater(i[3] + j[3], zero, gap, broadcast(OUT_OF_REACH))  # in lanes left over
+        i, j = (
+            gather(workspace.motion, slabs.blocks, block, 1),
+            gather(workspace.motion, slabs.blocks, block, 2),
+        )
         opening = (j[0] - i[0]) * x + (j[1] - i[1]) * y + (j[2] - i[2]) * z
-        least = gap + spread(dt) * where_above(opening, zero, zero, opening)
+        least = gap + broadcast(dt) * select_greater(opening, zero, zero, opening)
         # an open gap may close within the step; an overlap left by an unconverged step is undone slowly
-        overlap = zero - gap - spread(allowed_overlap)
-        recovery = where_above(overlap, zero, overlap, zero) / spread(dt)
-        recovery = where_above(recovery, spread(recovery_speed), spread(recovery_speed), recovery)
-        target = where_above(gap, zero, (zero - gap) / spread(dt), recovery)
-        near, mass = spread(margin), one / (i[3] + j[3])
+        overlap = zero - gap - broadcast(allowed_overlap)
+        recovery = select_greater(overlap, zero, overlap, zero) / broadcast(dt)
+        recovery = select_greater(recovery, broadcast(recovery_speed), broadcast(recovery_speed), recovery)
+        target = select_greater(gap, zero, (zero - gap) / broadcast(dt), recovery)
+        near, mass = broadcast(margin), one / (i[3] + j[3])
         packed = (
             x, y, z,
-            where_above(near, least, contact[3], zero),
-            where_above(near, least, contact[4], zero),
-            where_above(near, least, contact[5], zero),
-            where_above(near, least, target, spread(-OUT_OF_REACH)),
-            where_above(near, least, mass, zero),
+            select_greater(near, least, contact[3], zero),
+            select_greater(near, least, contact[4], zero),
+            select_greater(near, least, contact[5], zero),
+            select_greater(near, least, target, broadcast(-OUT_OF_REACH)),
+            select_greater(near, least, mass, zero),
         )  # fmt: skip
-        scatter(room.packed, slabs.blocks, block, 0, packed)
-        count = count + where_above(near, least, one, zero)
-        deepest = where_above(zero - gap, deepest, zero - gap, deepest)
-    room.account[s, COUNT] = total(count)
-    room.account[s, DEEPEST] = largest(deepest)
+        scatter(workspace.packed, slabs.blocks, block, 0, packed)
+        count = count + select_greater(near, least, one, zero)
+        deepest = select_greater(zero - gap, deepest, zero - gap, deepest)
+    workspace.account[s, COUNT] = total(count)
+    workspace.account[s, DEEPEST] = largest(deepest)
 
 
 @compiled_for_teams
-def rebound(s, slabs, room, velocity, restitution):
+def rebound(s, slabs, workspace, velocity, restitution):
     """Targets of those contacts of slab s that would close within the step at the velocities of its start."""
-    spheres, row = room.wall + 1 - room.planes, own_rows(s, room)[2]
+    spheres, row = workspace.wall + 1 - workspace.planes, private_rows(s, workspace)[2]
     for block in range(slabs.begin[s], slabs.begin[s + 1]):
         for lane in range(WIDTH):
             c, i, j = slabs.blocks[block, 0, lane], slabs.blocks[block, 1, lane], slabs.blocks[block, 2, lane]
-            if room.packed[c, 7] == 0.0:
+            if workspace.packed[c, 7] == 0.0:
                 continue
-            j = j if j <= room.wall else j - row + spheres
+            j = j if j <= workspace.wall else j - row + spheres
             opening = 0.0
             for k in range(3):
-                opening += (velocity[j, k] - velocity[i, k]) * room.packed[c, k]
-            if opening < 0.0 and opening <= room.packed[c, 6]:
-                room.packed[c, 6] = -restitution * opening
+                opening += (velocity[j, k] - velocity[i, k]) * workspace.packed[c, k]
+            if opening < 0.0 and opening <= workspace.packed[c, 6]:
+                workspace.packed[c, 6] = -restitution * opening
 
 
 @compiled_for_teams
@@ -200,7 +216,7 @@ def step(
     gravity,
     impulse,
     slabs,
-    room,
+    workspace,
     drive,
     dt,
     friction,
@@ -218,38 +234,38 @@ def step(
     Run by all members of a team (rank, members, barrier); each does its slabs and its share of the bodies.
     position (n, 3) [m]; velocity (n + p, 6) [m/s] (linear, spin; planes last, prescribed);
     inverse_mass (n + p,) [1/kg], zero for planes; gravity (3,) [m/s2]; impulse (pairs, 3) [N s];
-    slabs: the pairs (Slabs); room: for at least as many (Room).
+    slabs: the pairs (Slabs); workspace: for at least as many (Workspace).
     Overlaps beyond allowed_overlap [m] are undone, no faster than by recovery_speed [m/s] (zero: never).
     Sweeps end as in sweep_until; penetration [m] is what a step may add to an overlap.
     drive (2,): speed [m/s] and largest impulse [N s] of the last plane where its mass is finite (guide_wall).
     Returns (sweeps, relative change of the last sweep, largest overlap at the start [m]).
     """
-    arrive(barrier)
+    mark_started(barrier)
     n, bodies, last = position.shape[0], velocity.shape[0], slabs.begin.shape[0] - 2
-    begin, end = share(rank, members, n)
-    pack_motion(velocity, inverse_mass, begin, end, room.motion)
-    pack_place(position, radius, begin, end, room.place)
+    begin, end = partition(rank, members, n)
+    pack_motion(velocity, inverse_mass, begin, end, workspace.motion)
+    pack_place(position, radius, begin, end, workspace.place)
     if rank == 0:
-        pack_motion(velocity, inverse_mass, n, bodies, room.motion)
+        pack_motion(velocity, inverse_mass, n, bodies, workspace.motion)
     for i in range(begin, end):
         for k in range(3):
-            room.motion[i, k] += dt * gravity[k]
-    meet(barrier, members)
+            workspace.motion[i, k] += dt * gravity[k]
+    barrier_wait(barrier, members)
     for kind in range(3):
         mine, others = first_and_end(rank, members, last, kind)
         for s in range(mine, others, 2):
-            pack_planes(s, plane_point, plane_normal, room)
-            lay_in(impulse, slabs, room, WIDTH * slabs.begin[s], WIDTH * slabs.begin[s + 1])
-            pack_slab(s, slabs, room, dt, recovery_speed, allowed_overlap, margin)
+            pack_planes(s, plane_point, plane_normal, workspace)
+            lay_in(impulse, slabs, workspace, WIDTH * slabs.begin[s], WIDTH * slabs.begin[s + 1])
+            pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin)
             if restitution > 0.0:
-                rebound(s, slabs, room, velocity, restitution)
-    meet(barrier, members)
+                rebound(s, slabs, workspace, velocity, restitution)
+    barrier_wait(barrier, members)
     sweeps, change = sweep_until(
         rank,
         members,
         barrier,
         slabs,
-        room,
+        workspace,
         friction,
         drive,
         tolerance,
@@ -260,14 +276,14 @@ def step(
     for kind in range(3):
         mine, others = first_and_end(rank, members, last, kind)
         for s in range(mine, others, 2):
-            take_out(impulse, slabs, room, WIDTH * slabs.begin[s], WIDTH * slabs.begin[s + 1])
-    unpack_motion(room.motion, begin, end, velocity)
+            take_out(impulse, slabs, workspace, WIDTH * slabs.begin[s], WIDTH * slabs.begin[s + 1])
+    unpack_motion(workspace.motion, begin, end, velocity)
     if rank == 0:  # who guides the wall
-        unpack_motion(room.motion, n, bodies, velocity)
+        unpack_motion(workspace.motion, n, bodies, velocity)
     for i in range(begin, end):
         for k in range(3):
             position[i, k] += dt * velocity[i, k]
     overlap = 0.0
     for s in range(last + 1):
-        overlap = max(overlap, room.account[s, DEEPEST])
+        overlap = max(overlap, workspace.account[s, DEEPEST])
     return sweeps, change, overlap

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
-from asphalt_nscd.nscd.team import Team, arrive, share
+from asphalt_nscd.nscd.team import Team, mark_started, partition
 
 PARTS = 8  # of the spheres for each member of a team, dealt in turns
 
@@ -87,7 +87,7 @@ def _partners(
     Part k lies from its bound to the next, and is that of member k % members: the first spheres in a rain have landed
     and lie dense, the last ones still fall.
     """
-    arrive(barrier)
+    mark_started(barrier)
     furthest = extra.max()
     other = np.empty(16 * (position.shape[0] // members) + 64, np.int64)
     end = 0
@@ -171,8 +171,8 @@ def _speeds_by_height(position, radius, velocity):
 def _bound_speeds(
     rank, members, barrier, position, radius, velocity, reach, bottom, thickness, least, most, bound
 ):
-    arrive(barrier)
-    begin, end = share(rank, members, position.shape[0])
+    mark_started(barrier)
+    begin, end = partition(rank, members, position.shape[0])
     for i in range(begin, end):
         away = 2.0 * radius[i] + reach
         first = max(0, int(np.floor((position[i, 2] - away - bottom) / thickness)))
@@ -215,8 +215,8 @@ def carry_reactions(team, old_start, old_other, old_reaction, start, other):
 
 @compiled_for_teams
 def _carry(rank, members, barrier, old_start, old_other, old_reaction, start, other, reaction):
-    arrive(barrier)
-    first, last_pair = share(rank, members, other.shape[0])
+    mark_started(barrier)
+    first, last_pair = partition(rank, members, other.shape[0])
     spheres = start.shape[0] - 1
     begin = np.searchsorted(start[:spheres], first)
     end = np.searchsorted(start[:spheres], last_pair) if rank < members - 1 else spheres

@@ -15,7 +15,7 @@ import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled_for_teams
 from asphalt_nscd.nscd.lanes import WIDTH, aligned
-from asphalt_nscd.nscd.team import Team, arrive, meet, share
+from asphalt_nscd.nscd.team import Team, barrier_wait, mark_started, partition
 
 MOST_SLABS = 256
 LAYER = 5e-4  # m, within which pairs stand in the order of the list
@@ -31,12 +31,12 @@ class Slabs(NamedTuple):
     """
 
     begin: np.ndarray  # (slabs + 2,)
-    blocks: np.ndarray  # (b, 3, 8) contacts, first bodies, second bodies: rows of Room.motion
+    blocks: np.ndarray  # (b, 3, 8) contacts, first bodies, second bodies: rows of Workspace.motion
     pair: np.ndarray  # (8 b,) place of each contact in the list of pairs; -1 where a lane is left over
 
 
-class Room(NamedTuple):
-    """Where the work of a step is done: on contacts (c,), blocks (b,), bodies and their rows (r,), see `own_rows`."""
+class Workspace(NamedTuple):
+    """Arrays that a step works in: contacts (c,), blocks (b,), bodies and their rows (r,), see `private_rows`."""
 
     motion: np.ndarray  # (r, 8) velocity [m/s], 1/mass [1/kg], spin as surface velocity [m/s], 5/2 of 1/mass
     place: np.ndarray  # (r, 8) [m] of a sphere: position, radius, zeros; of a plane: a point, 0, normal, 1
@@ -53,11 +53,11 @@ class Room(NamedTuple):
     planes: int  # it and those before it
 
 
-def room_for(contacts: int, bodies: int, planes: int) -> Room:
+def workspace_for(contacts: int, bodies: int, planes: int) -> Workspace:
     """For so many contacts of so many bodies, planes among them."""
     rows = bodies + (MOST_SLABS + 1) * (planes + 1)
     lively, block, lane, filled, following = np.empty((5, contacts), np.int32)
-    return Room(
+    return Workspace(
         motion=aligned((rows, WIDTH)),
         place=aligned((rows, WIDTH)),
         packed=aligned((contacts + MOST_SLABS + 1, WIDTH)),
@@ -75,13 +75,13 @@ def room_for(contacts: int, bodies: int, planes: int) -> Room:
 
 
 @compiled_for_teams
-def own_rows(s, room):
+def private_rows(s, workspace):
     """(contact, body, plane): rows of slab s alone, so that no two threads write to one.
 
     A contact and a body that stay zero, for lanes left over; its copy of the first plane, then of the others.
     """
-    body = room.wall + 1 + s * (room.planes + 1)
-    return room.packed.shape[0] - MOST_SLABS - 1 + s, body, body + 1
+    body = workspace.wall + 1 + s * (workspace.planes + 1)
+    return workspace.packed.shape[0] - MOST_SLABS - 1 + s, body, body + 1
 
 
 def slabs_of(
@@ -116,7 +116,7 @@ def slabs_of(
 @compiled_for_teams
 def _measure(rank, members, barrier, shares, position, start, other):
     """Least and most of each coordinate in a share of spheres; how far pairs are apart along each."""
-    arrive(barrier)
+    mark_started(barrier)
     found = np.empty((3, 3))
     found[0], found[1], found[2] = np.inf, -np.inf, 0.0
     n = position.shape[0]
@@ -149,13 +149,13 @@ def _deal(
     bodies,
 ):
     """Pairs into layers of slabs, in the order of the list in each. place (members, layers): zeros."""
-    arrive(barrier)
+    mark_started(barrier)
     axis, low, extent, top = box
     n, slabs = position.shape[0], begin.shape[0] - 2
     layers = place.shape[1] // (slabs + 1)
     for i in range(shares[rank], shares[rank + 1]):
         slab[i] = min(int((position[i, axis] - low) / extent * slabs), slabs - 1) if slabs > 1 else 0
-    meet(barrier, members)
+    barrier_wait(barrier, members)
     for i in range(shares[rank], shares[rank + 1]):
         for c in range(start[i], start[i + 1]):
             j = other[c]
@@ -163,7 +163,7 @@ def _deal(
             height = 0.5 * (position[i, 2] + position[j, 2]) if j < n else position[i, 2]
             layer[c] = s * layers + min(int((top - height) / LAYER), layers - 1)
             place[rank, layer[c]] += 1
-    meet(barrier, members)
+    barrier_wait(barrier, members)
     if rank == 0:
         following = 0
         for at in range(place.shape[1]):
@@ -174,7 +174,7 @@ def _deal(
                 place[member, at] = following
                 following += count
         begin[slabs + 1] = following
-    meet(barrier, members)
+    barrier_wait(barrier, members)
     for i in range(shares[rank], shares[rank + 1]):
         for c in range(start[i], start[i + 1]):
             at = place[rank, layer[c]]
@@ -191,7 +191,7 @@ def first_and_end(rank, members, slabs, kind):
     """
     if kind == 2:
         return slabs, slabs + (1 if rank == 0 else 0)
-    begin, end = share(rank, members, (slabs - kind + 1) // 2)
+    begin, end = partition(rank, members, (slabs - kind + 1) // 2)
     return kind + 2 * begin, kind + 2 * end
 
 

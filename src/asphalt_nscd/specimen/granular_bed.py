@@ -9,12 +9,12 @@ import numpy as np
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.spheres import granular, neighbours
 from asphalt_nscd.nscd.spheres.blocks import in_blocks
-from asphalt_nscd.nscd.spheres.slabs import Room, Slabs, room_for, slabs_of
+from asphalt_nscd.nscd.spheres.slabs import Slabs, Workspace, slabs_of, workspace_for
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.trimming import layer_height
 
 WALL = 5
-"""The plane that is the top of the box; the last body of a granulate."""
+"""The plane that is the top of the box; the last body of a bed."""
 WALL_REACH = 3e-3  # m, further than for spheres: a moving plane alone calls for no search
 SEARCH_EVERY = 25  # steps, for which the motion of each sphere is allowed for
 FALLING = 0.01  # m/s, mean speed
@@ -73,7 +73,7 @@ class PouringNumerics:
 
 
 @dataclass
-class Granulate:
+class GranularBed:
     """Spheres in a box, in motion. Bodies n, n + 1, ... of `velocity` are the planes."""
 
     position: np.ndarray  # (n, 3) m
@@ -95,7 +95,7 @@ class Granulate:
         self._other = np.empty(0, np.int64)
         self.impulse = np.zeros((0, 3))
         self._slabs: Slabs | None = None
-        self._room: Room | None = None
+        self._workspace: Workspace | None = None
         self.drive = np.zeros(2)  # of the top wall: speed [m/s], largest impulse of a step [N s]
         self.overlap = 0.0  # m, the largest of all steps since it was last set to zero
         self._lowest: np.ndarray | None = None  # m, of each sphere and all after it, when they began to fall
@@ -115,7 +115,7 @@ class Granulate:
         density: float,
         friction: float,
         restitution: float = 0.0,
-    ) -> Granulate:
+    ) -> GranularBed:
         """Spheres at rest in a box [0, length] x [0, width] x [0, height]; plane 5 is its top."""
         size = np.asarray(box, float)
         normal = np.concatenate([np.eye(3), -np.eye(3)])
@@ -166,7 +166,7 @@ class Granulate:
             self.gravity,
             self.impulse,
             self._slabs,
-            self._room,
+            self._workspace,
             self.drive,
             dt,
             self.friction,
@@ -248,13 +248,13 @@ class Granulate:
         return meeting
 
     def _list(self, start: np.ndarray, other: np.ndarray) -> None:
-        """Take these pairs, and room to work on them."""
+        """Take these pairs, and workspace to work on them."""
         self._start, self._other = start, other
-        if self._room is None:
-            self._room = room_for(0, self.inverse_mass.size, len(self.plane_point))
+        if self._workspace is None:
+            self._workspace = workspace_for(0, self.inverse_mass.size, len(self.plane_point))
         last_body = self.inverse_mass.size - 1
         begin, pair, bodies = slabs_of(self.team, self.position[: start.size - 1], start, other, last_body)
-        self._slabs, self._room = in_blocks(self.team, begin, pair, bodies, self._room)
+        self._slabs, self._workspace = in_blocks(self.team, begin, pair, bodies, self._workspace)
 
     def kinetic_energy(self) -> float:
         """Of the spheres [J]; spin counts with 2/5 of its surface velocity squared."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import beside, discrepancy, scatter, start
+from asphalt_nscd.diagnosis import discrepancy, scatter, start, with_discrepancy
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -47,10 +47,10 @@ def table(offset: float = 0.0, delay: float = 0.0, broken: float = 1.0, seed: in
     )
 
 
-def climbed(observed: Observations) -> tuple[list, beside.State, beside.Survey]:
+def climbed(observed: Observations) -> tuple[list, with_discrepancy.State, with_discrepancy.Survey]:
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = beside.begin(*start.fit_spectrum(observed, noise))
-    return beside.climb(begun, CATALOGUE, 1000, np.random.default_rng(0))
+    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    return with_discrepancy.climb(begun, CATALOGUE, 1000, np.random.default_rng(0))
 
 
 @pytest.mark.parametrize("hidden", [{"offset": 3.0}, {"offset": -3.0}, {"delay": 6e-4}, {"delay": -6e-4}])
@@ -62,27 +62,29 @@ def test_an_effect_of_all_tests_is_found_beside_broken_isotherms(hidden):
     found = [one.candidate.cause.name for one in taken]
     assert name in found
     candidate = next(c for c in state.fitted.active if c.cause.name == name)
-    value, error = beside.estimates(state, survey)[candidate.key]
+    value, error = with_discrepancy.estimates(state, survey)[candidate.key]
     assert abs(value - size) < 3.0 * error and error < 0.1 * abs(size)
-    assert beside.hangs_on(state, candidate) == []
+    assert with_discrepancy.hangs_on(state, candidate) == []
 
 
 def test_a_cause_of_an_isotherm_is_no_hindrance_where_that_isotherm_is_left_out():
     """Its parameter is then spoken of by no test: the sizes of the other causes stay finite."""
     observed = table(offset=3.0)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = beside.begin(*start.fit_spectrum(observed, noise))
+    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
     by_name = {cause.name: cause for cause in CATALOGUE}
     active = (
         Candidate(by_name["phase_offset"], None, (2.0,)),
         Candidate(by_name["temperature_bias"], 21.0, (0.5,)),
     )
-    state = beside._settle(begun.plain, begun.model.processes, begun.fitted, active, begun.variances)
+    state = with_discrepancy._settle(
+        begun.plain, begun.model.processes, begun.fitted, active, begun.variances
+    )
     rows = np.flatnonzero(observed.isotherm != 21.0)
     part = Joint(observed.subset(rows), state.plain.base, state.plain.noise.subset(rows))
     linear = part.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
     assert np.linalg.eigvalsh(linear.precision).min() > 1e-6
-    found = beside.of_taken(state, state.fitted.active[0], rows)
+    found = with_discrepancy.of_taken(state, state.fitted.active[0], rows)
     size, error = (x * active[0].typical[0] for x in (found.amplitude, found.std_error))
     assert error < 0.2 and abs(size - 3.0) < 4.0 * error
 
@@ -91,13 +93,13 @@ def test_broken_isotherms_alone_get_no_established_name():
     taken, state, _ = climbed(table())
     for one in taken:
         candidate = next(c for c in state.fitted.active if c.key == one.candidate.key)
-        assert beside.hangs_on(state, candidate), one.candidate.key
+        assert with_discrepancy.hangs_on(state, candidate), one.candidate.key
 
 
 def test_what_breaks_the_hot_isotherms_is_sized_there_and_nowhere_else():
     observed = table()
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    state = beside.begin(*start.fit_spectrum(observed, noise))
+    state = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
     sizes = dict(zip(state.model.processes.described, np.sqrt(state.variances), strict=True))
 
     def size(part, isotherm):
@@ -111,9 +113,9 @@ def test_limits_grow_with_the_discrepancy():
     limits = []
     for observed in (table(broken=0.0), table()):
         noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-        state = beside.begin(*start.fit_spectrum(observed, noise))
-        survey = beside.survey(state, CATALOGUE)
-        found, _, _ = beside.detection_limits(state, survey, 500, np.random.default_rng(0))
+        state = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+        survey = with_discrepancy.survey(state, CATALOGUE)
+        found, _, _ = with_discrepancy.detection_limits(state, survey, 500, np.random.default_rng(0))
         limits.append(found["phase_offset", None])
     assert limits[0] < limits[1]
 

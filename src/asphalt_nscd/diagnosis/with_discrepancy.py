@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import chance, discrepancy, limits
 from asphalt_nscd.diagnosis.causes._cause import Cause
-from asphalt_nscd.diagnosis.chance import CHANCE, Scores
+from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP, DELTA_DEVIANCE, Scores
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -28,7 +28,6 @@ RUNGS = 4
 SEVERAL_STARTS = 300  # tests up to which the sizes of the discrepancy are sought from several starts
 REFITS = 4  # candidates that are refitted at each rung
 LEAST_GAIN = 6.0  # of -2 ln likelihood over a discrepancy without a name: 20 times as likely
-AS_GOOD = 6.0  # gains closer than this are not told apart
 NEAR = 0.6  # share of what a name needs, above which a candidate is refitted
 SURVIVES = 3.0  # standard errors that an estimate must keep where something is left out
 SETTLED = 2  # rounds of fitting law and discrepancy in turn
@@ -180,7 +179,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     gains = np.array([nothing.misfit - estimate.misfit for estimate in estimates])
     by_chance = _by_chance(state, surveyed, draws, random)
     # A law fitted without the cause has followed it: what comes near is refitted before it is judged.
-    least = float(np.quantile(by_chance, 1.0 - CHANCE))
+    least = float(np.quantile(by_chance, 1.0 - ALPHA_PER_STEP))
     eligible = (z > NEAR * least) & (gains > NEAR * LEAST_GAIN)
     shortlist: dict[tuple, int] = {}
     for k in np.argsort(-np.where(eligible, gains, -np.inf)):
@@ -209,7 +208,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     if not refits:
         return None
     most = max(gain for gain, _, _ in refits)
-    as_good = [refit for refit in refits if most - refit[0] < AS_GOOD]
+    as_good = [refit for refit in refits if most - refit[0] < DELTA_DEVIANCE]
     gain, k, after = min(as_good, key=lambda refit: (len(candidates[refit[1]].values), -refit[0]))
     rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
     return Found(after.fitted.active[-1], chance.tail(by_chance, float(z[k])), state, after, rivals)
@@ -340,9 +339,9 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
     The effect is put into this table, less its own value of it: the discrepancy may take up what it can.
     """
     one, direction = surveyed.estimates[k], surveyed.pointing.column(k)
-    amplitude = (threshold + chance.POWER) * one.std_error
+    amplitude = (threshold + chance.Z_95) * one.std_error
     for _ in range(LARGER):
-        seen = amplitude - chance.POWER * one.std_error
+        seen = amplitude - chance.Z_95 * one.std_error
         model, pointing = discrepancy.moved(state.model, direction, seen - one.amplitude)
         without = min(
             discrepancy.estimate(model, start=start).misfit for start in (one.variances, state.variances)
@@ -362,20 +361,20 @@ def detection_limits(
     alike: list[tuple[Candidate, Candidate]] = []
     threshold = chance.USUAL_THRESHOLD
     if surveyed.candidates:
-        threshold = float(np.quantile(_by_chance(state, surveyed, draws, random), 1.0 - CHANCE))
+        threshold = float(np.quantile(_by_chance(state, surveyed, draws, random), 1.0 - ALPHA_PER_STEP))
         correlation, errors = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
         # A cause with shapes of its own must be carried by the whole table, which no single size says.
         simple = np.array([len(candidate.values) == 1 for candidate in surveyed.candidates])
         for k in np.flatnonzero(simple):
-            needed = _named_from(state, surveyed, int(k), threshold) / (threshold + chance.POWER)
+            needed = _named_from(state, surveyed, int(k), threshold) / (threshold + chance.Z_95)
             errors[k] = max(surveyed.estimates[k].std_error, needed)
         found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)
         sizes, unseen = limits.detection_limits(
-            state.wide, state.fitted, surveyed.candidates, found, threshold + chance.POWER
+            state.wide, state.fitted, surveyed.candidates, found, threshold + chance.Z_95
         )
         every = replace(found, seen=np.ones(errors.size, bool))
-        alike = limits.alike(surveyed.candidates, every, AS_GOOD)
+        alike = limits.alike(surveyed.candidates, every, DELTA_DEVIANCE)
     for active in state.fitted.active:
         own = of_taken(state, active)
-        sizes[active.key] = (threshold + chance.POWER) * own.std_error * float(active.typical[0])
+        sizes[active.key] = (threshold + chance.Z_95) * own.std_error * float(active.typical[0])
     return sizes, unseen, alike

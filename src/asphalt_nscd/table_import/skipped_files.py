@@ -12,7 +12,7 @@ MOST_NAMES = 3
 
 
 @dataclass(frozen=True)
-class PassedOver:
+class SkippedFile:
     """A file or a sheet, why it is passed over, and how to mend that."""
 
     name: str
@@ -20,14 +20,14 @@ class PassedOver:
     mend: str = ""
 
 
-def refused(name: str, error: InputError, path: Path) -> PassedOver:
+def refused(name: str, error: InputError, path: Path) -> SkippedFile:
     """A file that was refused; path: as the error names it."""
     said = str(error).removeprefix(f"{path}: ").removeprefix(f"{path}, ")
     reason, _, mend = said.partition("; ")
-    return PassedOver(name, reason.partition(" (found:")[0], mend)
+    return SkippedFile(name, reason.partition(" (found:")[0], mend)
 
 
-def listed(files: Sequence[PassedOver]) -> str:
+def listed(files: Sequence[SkippedFile]) -> str:
     """`a.csv, b.csv, c.csv and 9 more (the file is empty); d.pdf (neither CSV, ...)`."""
     by_reason: dict[str, list[str]] = {}
     for one in files:
@@ -39,6 +39,6 @@ def listed(files: Sequence[PassedOver]) -> str:
     return "; ".join(parts)
 
 
-def common_mend(files: Sequence[PassedOver]) -> str:
+def common_mend(files: Sequence[SkippedFile]) -> str:
     """What mends all of them, if they have one reason; else empty."""
     return files[0].mend if len({one.reason for one in files}) == 1 else ""
