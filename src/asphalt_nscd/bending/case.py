@@ -110,9 +110,8 @@ class Load(Ranged):
     and errors of the measuring channel. frames: how many instants of the last cycle to keep with the motion of all
     spheres and the forces of all bonds, for a series of ParaView.
 
-    >>> from asphalt_nscd.measurements.twopoint import Geometry
-    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
-    >>> print(f"{Load(frames=24).at(10.0, paper).amplitude:.2g} m")
+    >>> from asphalt_nscd.measurements.twopoint import PAPER
+    >>> print(f"{Load(frames=24).at(10.0, PAPER).amplitude:.2g} m")
     6.3e-05 m
     """
 

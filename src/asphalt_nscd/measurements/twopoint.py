@@ -104,7 +104,11 @@ class Geometry(Shape):
 
     def usual_amplitude(self) -> float:
         """Of the head [m], which strains it as the paper's 63 um strain its specimen: as h^2 / B."""
-        return PAPER_AMPLITUDE * (self.h**2 / self.B) / (0.25**2 / 0.056)
+        return PAPER_AMPLITUDE * (self.h**2 / self.B) / (PAPER.h**2 / PAPER.B)
+
+
+PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+"""Specimen of the paper, section 2.1."""
 
 
 def form_factor(geometry: Geometry) -> float:
@@ -114,8 +118,7 @@ def form_factor(geometry: Geometry) -> float:
     quotient tends to 1/3 as b -> B (a prismatic cantilever: 4 h^3 / (e B^3)); near that limit it
     is summed as the series 1/3 + x/4 + x^2/5 + ..., because the closed form cancels.
 
-    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
-    >>> round(form_factor(paper), 1)  # the paper prints 25.1 1/mm
+    >>> round(form_factor(PAPER), 1)  # the paper prints 25.1 1/mm
     25095.8
     """
     x = 1.0 - geometry.b / geometry.B
@@ -132,8 +135,7 @@ def bending_share(geometry: Geometry, poisson: float) -> float:
     A beam of modulus E and Poisson's ratio `poisson` has E times this by Eqs. (1)-(3). Shear: integral of F / (k G A)
     over the height, G = E / (2 (1 + nu)), k = 10 (1 + nu) / (12 + 11 nu) of a rectangle (Cowper 1966).
 
-    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
-    >>> round(bending_share(paper, 0.35), 3)
+    >>> round(bending_share(PAPER, 0.35), 3)
     0.968
     """
     x = 1.0 - geometry.b / geometry.B
@@ -146,8 +148,7 @@ def bending_share(geometry: Geometry, poisson: float) -> float:
 def mass_factor(geometry: Geometry) -> float:
     """Mass factor mu = 0.135 M + m [kg].
 
-    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
-    >>> round(mass_factor(paper), 3)
+    >>> round(mass_factor(PAPER), 3)
     0.316
     """
     return HEAD_SHARE_OF_MASS * geometry.mass + geometry.mobile_mass
@@ -165,8 +166,7 @@ def complex_modulus(
     frequency [Hz], force_amplitude F0 [N], displacement_amplitude z0 [m], phase Psi [rad];
     scalars or arrays of one shape.
 
-    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
-    >>> modulus = complex_modulus(paper, 10.0, force_amplitude=24.0, displacement_amplitude=63e-6, phase=0.3)
+    >>> modulus = complex_modulus(PAPER, 10.0, force_amplitude=24.0, displacement_amplitude=63e-6, phase=0.3)
     >>> print(f"{modulus / 1e9:.3f} GPa")
     9.165+2.825j GPa
     """
@@ -180,8 +180,7 @@ def head_response(
 
     frequency [Hz], modulus E* [Pa], displacement_amplitude z0 [m]; scalars or arrays of one shape.
 
-    >>> paper = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
-    >>> force, phase = head_response(paper, frequency=10.0, modulus=10e9, displacement_amplitude=63e-6)
+    >>> force, phase = head_response(PAPER, frequency=10.0, modulus=10e9, displacement_amplitude=63e-6)
     >>> print(f"{force:.2f} N, {phase:.1f} rad")
     25.03 N, 0.0 rad
     """

@@ -28,7 +28,6 @@ from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
 FREQUENCIES = (3.0, 6.0, 10.0, 25.0, 40.0)  # Hz, section 2.1 of the paper
-AMPLITUDE = 63e-6  # m, section 2.1
 REFERENCE_TEMPERATURE = 15.0  # degC; any choice gives the same law
 
 
@@ -39,7 +38,7 @@ class Sampling:
     seed: int
     specimens: int = 4
     frequencies: Sequence[float] = FREQUENCIES  # Hz
-    amplitude: float = AMPLITUDE  # z0, m
+    amplitude: float = twopoint.PAPER_AMPLITUDE  # z0, m
     specimen_scatter: float = 0.03  # of ln|E*| of a whole specimen
     modulus_scatter: float = 0.01  # of ln|E*| of a point
     phase_scatter_deg: float = 0.3  # of the phase of a point

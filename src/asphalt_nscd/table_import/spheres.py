@@ -11,13 +11,12 @@ import pandas as pd
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.tension import Cylinder
-from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.measurements.twopoint import PAPER
 from asphalt_nscd.reporting.tables.table2 import PERCENT, SIEVE, counts_of_grading
 from asphalt_nscd.table_import.cells import read_cells
 from asphalt_nscd.table_import.decimals import decimal_mark, number
 from asphalt_nscd.table_import.quantities import SIEVES, recognise
 
-PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
 PAPER_COUNTS = pd.Series({2.0: 11798, 4.0: 1588, 6.3: 492, 8.0: 211, 10.0: 71})
 SMALLEST_MM = 2.0  # of the paper's spheres; what is finer belongs to the mastic
 COARSER = (

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.reporting.audit import equations
 from asphalt_nscd.reporting.audit.statement import DIFFERS, HOLDS, INCONSISTENT, REPRODUCED, compared
 from asphalt_nscd.rheology.burgers import Burgers
@@ -37,7 +38,7 @@ def test_form_factor_and_strain_of_the_cantilever():
 def test_mass_factor_is_that_of_a_beam_and_of_a_prism_the_known_one(monkeypatch):
     trapezoid = by_id(equations.laboratory())["mass_factor"]
     assert trapezoid.verdict == DIFFERS and 0.14 < trapezoid.ours < 0.15
-    prism = equations.Geometry(b=0.056, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+    prism = Geometry(b=0.056, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
     monkeypatch.setattr(equations, "PAPER", prism)
     assert by_id(equations.laboratory())["mass_factor"].ours == pytest.approx(33 / 140, rel=1e-6)
 

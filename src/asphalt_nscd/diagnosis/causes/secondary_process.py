@@ -4,9 +4,7 @@ import numpy as np
 
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
 from asphalt_nscd.diagnosis.observations import Observations
-
-GAS = 8.314  # J/(mol K)
-ZERO = 273.15
+from asphalt_nscd.rheology.shift import GAS_CONSTANT, ZERO_CELSIUS
 
 
 class SecondaryProcess(Cause):
@@ -34,8 +32,8 @@ class SecondaryProcess(Cause):
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         strength, log_time, energy, exponent = values
-        middle = float(np.median(observed.table.isotherms)) + ZERO
-        kelvin = observed.temperature + ZERO
-        log_shift = energy * 1e3 / GAS * (1.0 / kelvin - 1.0 / middle)
+        middle = float(np.median(observed.table.isotherms)) + ZERO_CELSIUS
+        kelvin = observed.temperature + ZERO_CELSIUS
+        log_shift = energy * 1e3 / GAS_CONSTANT * (1.0 / kelvin - 1.0 / middle)
         power = (1j * observed.omega * 10.0**log_time * np.exp(log_shift)) ** exponent
         return modulus + strength * power / (1.0 + power)

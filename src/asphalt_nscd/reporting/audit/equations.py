@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from scipy.integrate import quad
 
-from asphalt_nscd.measurements.twopoint import Geometry, form_factor, mass_factor
+from asphalt_nscd.measurements.twopoint import PAPER, PAPER_AMPLITUDE, form_factor, mass_factor
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.reporting.audit.statement import (
     HOLDS,
@@ -23,8 +23,6 @@ from asphalt_nscd.reporting.audit.statement import (
 )
 from asphalt_nscd.rheology.burgers import Burgers
 
-PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
-AMPLITUDE = 63e-6  # m
 TIME_STEP = 5e-5  # s
 OMEGA = 2.0 * np.pi * np.array([3.0, 6.0, 10.0, 25.0, 40.0])
 DENSITIES = (2200.0, 2500.0)  # kg/m3, of compacted asphalt concrete
@@ -88,7 +86,7 @@ def _width(x: Any) -> Any:
 
 def _strain() -> Judgement:
     along = np.linspace(0.0, PAPER.h, 2001)
-    strain = AMPLITUDE / form_factor(PAPER) * (PAPER.h - along) * 6.0 / (PAPER.e * _width(along) ** 2)
+    strain = PAPER_AMPLITUDE / form_factor(PAPER) * (PAPER.h - along) * 6.0 / (PAPER.e * _width(along) ** 2)
     largest = 1e6 * float(strain.max())
     return Judgement(
         "strain",

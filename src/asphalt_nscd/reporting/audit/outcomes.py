@@ -10,7 +10,8 @@ import pandas as pd
 
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.files.words import counted, joined
-from asphalt_nscd.reporting.audit.equations import ELASTIC_TIME, PAPER, TIME_STEP, elastic_time
+from asphalt_nscd.measurements.twopoint import PAPER
+from asphalt_nscd.reporting.audit.equations import ELASTIC_TIME, TIME_STEP, elastic_time
 from asphalt_nscd.reporting.audit.statement import (
     DIFFERS,
     HOLDS,

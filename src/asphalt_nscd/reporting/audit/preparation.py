@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.reporting.audit.equations import PAPER
+from asphalt_nscd.measurements.twopoint import PAPER
 from asphalt_nscd.reporting.audit.statement import (
     DIFFERS,
     HOLDS,

@@ -1,16 +1,5 @@
 """Fig. 9: isotherms of the norm of the complex modulus, simulated and measured."""
 
-from __future__ import annotations
+from asphalt_nscd.reporting.figures import isotherms
 
-from pathlib import Path
-
-from matplotlib.figure import Figure
-
-from asphalt_nscd.reporting.figures.isotherms import draw_isotherms
-from asphalt_nscd.reporting.figures.style import journal
-
-
-@journal
-def draw(simulations: list[Path], measured: list[Path], laws: list[Path]) -> Figure:
-    """Means over samples with standard deviations, and the laws as lines."""
-    return draw_isotherms("E_MPa", simulations, measured, laws)
+draw = isotherms.figure_of("E_MPa")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -24,45 +24,55 @@ SHOWN_PER_UNIT = {"E_MPa": 1e-3, "phase_deg": 1.0}
 APART = 1.025  # factor on the frequency, so that measured and simulated points do not hide each other
 
 
-def draw_isotherms(
-    column: str, simulations: Sequence[Path], measured: Sequence[Path], laws: Sequence[Path]
-) -> Figure:
-    """One isotherm of `column` ("E_MPa" or "phase_deg") for each simulated temperature."""
-    tests, data = read_tests(simulations), read_measured(measured)
-    simulated, reference = averages(tests), averages(data)
-    burgers = {read_json(path)["temperature_C"]: read_law(path) for path in laws}
-    temperatures = sorted(tests["temperature_C"].unique())
-    figure, axes = style.new_figure(style.SINGLE, 92.0)
-    shown = data[data["temperature_C"].isin(temperatures)]
-    frequencies = np.unique(np.concatenate([tests["frequency_Hz"], shown["frequency_Hz"]]))
-    ends, colours = [], []
-    for temperature, (colour, marker) in zip(temperatures, style.series(len(temperatures)), strict=True):
-        points = simulated[simulated["temperature_C"] == temperature]
-        known = reference[reference["temperature_C"] == temperature]
-        if temperature in burgers:
-            law_line(axes, column, burgers[temperature], (frequencies[0], frequencies[-1]), colour)
-        error_bars(axes, column, known, 1.0 / APART, marker, colour, filled=False)
-        error_bars(axes, column, points, APART, marker, colour, filled=True)
-        ends.append(points[column].iloc[-1] * SHOWN_PER_UNIT[column])
-        colours.append(colour)
-    style.frequency_axis(axes, frequencies)
-    axes.set_ylabel(AXIS[column])
-    if column == "E_MPa":
-        axes.set_yscale("log")
-        style.plain_log_axis(axes.yaxis)
-    else:
-        axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
-    figure.legend(
-        handles=keys(shown, tests, bool(burgers)),
-        loc="outside upper left",
-        ncols=1,
-        borderpad=0.1,
-        labelspacing=0.3,
-    )
-    style.label_ends(
-        axes, tests["frequency_Hz"].max() * APART, ends, [numbers.celsius(t) for t in temperatures], colours
-    )
-    return figure
+def figure_of(column: str) -> Callable[..., Figure]:
+    """Draws one isotherm of `column` ("E_MPa" or "phase_deg") for each simulated temperature.
+
+    Means over samples with standard deviations, and the laws as lines.
+    """
+
+    @style.journal
+    def draw(simulations: list[Path], measured: list[Path], laws: list[Path]) -> Figure:
+        tests, data = read_tests(simulations), read_measured(measured)
+        simulated, reference = averages(tests), averages(data)
+        burgers = {read_json(path)["temperature_C"]: read_law(path) for path in laws}
+        temperatures = sorted(tests["temperature_C"].unique())
+        figure, axes = style.new_figure(style.SINGLE, 92.0)
+        shown = data[data["temperature_C"].isin(temperatures)]
+        frequencies = np.unique(np.concatenate([tests["frequency_Hz"], shown["frequency_Hz"]]))
+        ends, colours = [], []
+        for temperature, (colour, marker) in zip(temperatures, style.series(len(temperatures)), strict=True):
+            points = simulated[simulated["temperature_C"] == temperature]
+            known = reference[reference["temperature_C"] == temperature]
+            if temperature in burgers:
+                law_line(axes, column, burgers[temperature], (frequencies[0], frequencies[-1]), colour)
+            error_bars(axes, column, known, 1.0 / APART, marker, colour, filled=False)
+            error_bars(axes, column, points, APART, marker, colour, filled=True)
+            ends.append(points[column].iloc[-1] * SHOWN_PER_UNIT[column])
+            colours.append(colour)
+        style.frequency_axis(axes, frequencies)
+        axes.set_ylabel(AXIS[column])
+        if column == "E_MPa":
+            axes.set_yscale("log")
+            style.plain_log_axis(axes.yaxis)
+        else:
+            axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+        figure.legend(
+            handles=keys(shown, tests, bool(burgers)),
+            loc="outside upper left",
+            ncols=1,
+            borderpad=0.1,
+            labelspacing=0.3,
+        )
+        style.label_ends(
+            axes,
+            tests["frequency_Hz"].max() * APART,
+            ends,
+            [numbers.celsius(t) for t in temperatures],
+            colours,
+        )
+        return figure
+
+    return draw
 
 
 def law_line(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -29,44 +29,50 @@ FIELDS = {"Em": "modulus_m", "eta_m": "viscosity_m", "Ek": "modulus_k", "eta_k":
 SYMBOLS = {"Em": r"$E_m$", "eta_m": r"$\eta_m$", "Ek": r"$E_k$", "eta_k": r"$\eta_k$"}
 
 
-def draw_sensitivity(
-    parameter: str,
-    sensitivity: Sequence[Path],
-    simulations: Sequence[Path],
-    measured: Sequence[Path],
-    laws: Sequence[Path],
-) -> Figure:
-    """|E*| (a) and phase (b) against frequency for each factor on `parameter`, and unchanged."""
-    law_file = the_only(laws, "laws")
-    temperature = read_json(law_file)["temperature_C"]
-    changed = read_tests(sensitivity, numbers=["factor"], texts=["parameter"])
-    changed = changed[changed["parameter"] == parameter]
-    if changed.empty:
-        raise InputError(f"no test with another {parameter} in the sensitivity table; simulate some.")
-    base = at_temperature(read_tests(simulations), temperature).assign(factor=1.0)
-    data = at_temperature(read_measured(measured), temperature)
-    cases = {1.0: averages(base)} | {
-        factor: averages(rows) for factor, rows in at_temperature(changed, temperature).groupby("factor")
-    }
-    limits = base["frequency_Hz"].min(), base["frequency_Hz"].max()
-    figure, panels = style.new_figure(style.WIDE, 66.0, columns=2)
-    for axes, panel, column in zip(panels, "ab", ("E_MPa", "phase_deg"), strict=True):
-        ends, texts, colours = [], [], []
-        error_bars(axes, column, averages(data), 1.0 / APART, "o", style.GREY, filled=False)
-        for factor, (colour, marker) in zip(sorted(cases), style.series(len(cases)), strict=True):
-            dash = "-" if factor == 1.0 else style.DASHES[1 if factor < 1.0 else 2]
-            law_line(axes, column, _scaled(read_law(law_file), parameter, factor), limits, colour, ls=dash)
-            error_bars(axes, column, cases[factor], APART, marker, colour, filled=True)
-            ends.append(cases[factor][column].iloc[-1] * SHOWN_PER_UNIT[column])
-            texts.append(SYMBOLS[parameter] if factor == 1.0 else _change(parameter, factor))
-            colours.append(colour)
-        style.frequency_axis(axes, base["frequency_Hz"])
-        axes.set_ylabel(AXIS[column])
-        axes.set_ylim(bottom=0.0)
-        style.letter(axes, panel)
-        style.label_ends(axes, limits[1] * APART, ends, texts, colours)
-    _legend(figure, panels[0], origin_of(data), temperature)
-    return figure
+def figure_of(parameter: str) -> Callable[..., Figure]:
+    """Draws |E*| (a) and phase (b) against frequency for each factor on `parameter`, and unchanged.
+
+    The law of the temperature of the study says which base to take.
+    """
+
+    @style.journal
+    def draw(
+        sensitivity: list[Path], simulations: list[Path], measured: list[Path], laws: list[Path]
+    ) -> Figure:
+        law_file = the_only(laws, "laws")
+        temperature = read_json(law_file)["temperature_C"]
+        changed = read_tests(sensitivity, numbers=["factor"], texts=["parameter"])
+        changed = changed[changed["parameter"] == parameter]
+        if changed.empty:
+            raise InputError(f"no test with another {parameter} in the sensitivity table; simulate some.")
+        base = at_temperature(read_tests(simulations), temperature).assign(factor=1.0)
+        data = at_temperature(read_measured(measured), temperature)
+        cases = {1.0: averages(base)} | {
+            factor: averages(rows) for factor, rows in at_temperature(changed, temperature).groupby("factor")
+        }
+        limits = base["frequency_Hz"].min(), base["frequency_Hz"].max()
+        figure, panels = style.new_figure(style.WIDE, 66.0, columns=2)
+        for axes, panel, column in zip(panels, "ab", ("E_MPa", "phase_deg"), strict=True):
+            ends, texts, colours = [], [], []
+            error_bars(axes, column, averages(data), 1.0 / APART, "o", style.GREY, filled=False)
+            for factor, (colour, marker) in zip(sorted(cases), style.series(len(cases)), strict=True):
+                dash = "-" if factor == 1.0 else style.DASHES[1 if factor < 1.0 else 2]
+                law_line(
+                    axes, column, _scaled(read_law(law_file), parameter, factor), limits, colour, ls=dash
+                )
+                error_bars(axes, column, cases[factor], APART, marker, colour, filled=True)
+                ends.append(cases[factor][column].iloc[-1] * SHOWN_PER_UNIT[column])
+                texts.append(SYMBOLS[parameter] if factor == 1.0 else _change(parameter, factor))
+                colours.append(colour)
+            style.frequency_axis(axes, base["frequency_Hz"])
+            axes.set_ylabel(AXIS[column])
+            axes.set_ylim(bottom=0.0)
+            style.letter(axes, panel)
+            style.label_ends(axes, limits[1] * APART, ends, texts, colours)
+        _legend(figure, panels[0], origin_of(data), temperature)
+        return figure
+
+    return draw
 
 
 def _legend(figure: Figure, axes: Axes, origin: str, temperature: float) -> None:
