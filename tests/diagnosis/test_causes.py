@@ -42,7 +42,9 @@ def reduced(stiffness):
     return complex_modulus(GEOMETRY, OMEGA / (2 * np.pi), np.abs(stiffness), 1.0, np.angle(stiffness))
 
 
-ROOT = (1j * OMEGA * 0.1 * np.exp(40e3 / 8.314462618 * (1 / (TABLE.temperature + 273.15) - 1 / 278.15))) ** 0.5
+ROOT = (
+    1j * OMEGA * 0.1 * np.exp(40e3 / 8.314462618 * (1 / (TABLE.temperature + 273.15) - 1 / 278.15))
+) ** 0.5
 EXPECTED = {
     "channel_delay": (2e-4, reduced(force(E) * np.exp(2e-4j * OMEGA))),
     "phase_offset": (2.0, reduced(force(E) * np.exp(1j * np.pi / 90))),
