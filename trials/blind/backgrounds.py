@@ -33,6 +33,7 @@ from .rig import Rig, warmed
 COLUMNS = ("specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg")
 SYNONYMS = {"T_C": "temperature_C", "f_Hz": "frequency_Hz", "phi_deg": "phase_deg", "replicate": "specimen"}
 CYLINDERS = "tension-compression"
+SHIPPED = Path(__file__).parents[2] / "data/ncat"  # tables of cylinders
 AMPLITUDE = 63e-6  # m at the head, where the table gives none
 ISOTHERM = 1.5  # K: temperatures closer than this to their neighbour belong to one isotherm
 
@@ -43,7 +44,7 @@ class Background:
 
     table: COLUMNS, and amplitude_m [m], order, cycles where known; known_law: of a drawn table; geometry: of
     the specimens, in the keys of a geometry file, for effects at the head of a two-point bending bench;
-    test_type: "bending", or "tension-compression" of tables in a folder of that name.
+    test_type: "bending", or "tension-compression" of shipped tables and of those in a folder of that name.
     """
 
     table: pd.DataFrame
@@ -73,10 +74,10 @@ class Background:
         missing = [name for name in COLUMNS if name not in table.columns]
         if missing:
             raise ValueError(f"{Path(path).name} is no table of moduli: no column {', '.join(missing)}")
-        cylinders = Path(path).resolve().parent.name == CYLINDERS
+        folder = Path(path).resolve().parent
         return cls(
             table.assign(specimen=table["specimen"].astype(str)),
-            test_type=CYLINDERS if cylinders else "bending",
+            test_type=CYLINDERS if folder == SHIPPED.resolve() or folder.name == CYLINDERS else "bending",
         )
 
     @cached_property
