@@ -184,7 +184,9 @@ class CondensedStepper:
         if excess:  # contacts resist motion, so the answer lies between
             from scipy.optimize import brentq  # takes as long to import as a test to run
 
-            velocity = brentq(yields, velocity, velocity + excess, xtol=1e-14 * abs(excess))
+            unresisted, velocity = velocity, velocity + excess
+            if excess * yields(velocity) < 0.0:  # else the answer is that end, but for rounding
+                velocity = brentq(yields, unresisted, velocity, xtol=1e-14 * abs(excess))
             velocity, slider = follow(self._move(impulse, velocity)[1])
             motion, contact_force = self._move(impulse, velocity)
         return motion, contact_force, slider
