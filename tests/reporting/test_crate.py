@@ -43,6 +43,13 @@ def test_what_made_which_files_can_be_read_again(study):
     run = crate.dereference("#run")
     assert run["instrument"] == crate.mainEntity and run["object"].id == "provenance.json"
     assert {result.id for result in run["result"]} == {"table.csv", "figures/fig.png"}
+    assert crate.get("table.csv")["encodingFormat"] == "text/csv"
+    assert crate.version == "1.1" and crate.license["name"] == "MIT License"
+    assert [profile.id.split("/")[-2] for profile in crate.root_dataset["conformsTo"]] == [
+        "process",
+        "workflow",
+        "workflow-ro-crate",
+    ]
     crate.write(study / "unpacked")
     assert (study / "unpacked/figures/fig.png").read_bytes() == b"picture"
 
