@@ -17,7 +17,7 @@ MODULES = [
     "bending.fatigue", "bending.rig", "diagnosis.run", "files.errors", "files.words", "measurements.signals",
     "measurements.twopoint",
     "nscd.contacts.friction", "rheology.burgers", "rheology.chain", "rheology.fitting", "rheology.shift",
-    "rheology.spectrum", "specimen.preparation",
+    "rheology.spectrum", "specimen.deposit",
 ]  # fmt: skip
 
 
