@@ -1,6 +1,6 @@
 """Faults put into a copy of the sources, one at a time, and the tests that must then fail: do the tests notice?
 
-    PYTHONPATH=trials python -m mutants [WORDS] [--output mutants.csv]
+    PYTHONPATH=trials python -m mutants [WORDS] [--output results/mutants]
 
 `mutants.csv` lists them: what is wrong, `right` made `wrong` in a file of the package, and the tests that must notice.
 `asphalt-nscd verify mutations` does the same to the equations of the core.
@@ -56,9 +56,24 @@ class Copy:
             file.write_text(text, encoding="utf-8")
 
 
+def summary(table: pd.DataFrame) -> pd.DataFrame:
+    """How many mutants of each room were noticed, and those that live."""
+    alive = table.what.where(table.noticed_by == "")
+    rooms = table.assign(alive=alive).groupby(table.file.str.partition("/")[0].rename("room"))
+    return rooms.agg(
+        mutants=("what", "size"),
+        noticed=("alive", lambda names: names.isna().sum()),
+        alive=("alive", lambda names: "; ".join(names.dropna())),
+    ).reset_index()
+
+
 @click.command()
 @click.argument("words", nargs=-1)
-@click.option("--output", type=click.Path(path_type=Path), help="Table of mutants and what noticed them.")
+@click.option(
+    "--output",
+    type=click.Path(path_type=Path),
+    help="Folder for the table of mutants, and their number in each room.",
+)
 def main(words: tuple[str, ...], output: Path | None) -> None:
     """Try the mutants, or those of which WORDS say something."""
     rows = []
@@ -72,7 +87,10 @@ def main(words: tuple[str, ...], output: Path | None) -> None:
     alive = sum(not row["noticed_by"] for row in rows)
     click.echo(f"{len(rows) - alive} of {len(rows)} mutants were noticed.")
     if output is not None:
-        pd.DataFrame(rows).to_csv(output, index=False)
+        output.mkdir(parents=True, exist_ok=True)
+        table = pd.DataFrame(rows)
+        table.to_csv(output / "mutants.csv", index=False)
+        summary(table).to_csv(output / "summary.csv", index=False)
     sys.exit(alive > 0)
 
 

@@ -64,6 +64,8 @@ def test_an_effect_of_all_tests_is_found_beside_broken_isotherms(hidden):
     candidate = next(c for c in state.fitted.active if c.cause.name == name)
     value, error = with_discrepancy.estimates(state, survey)[candidate.key]
     assert abs(value - size) < 3.0 * error and error < 0.1 * abs(size)
+    sizes_known = with_discrepancy.of_taken(state, candidate).std_error * candidate.typical[0]
+    assert sizes_known < error < 2.0 * sizes_known
     assert with_discrepancy.hangs_on(state, candidate) == []
 
 
@@ -152,3 +154,25 @@ def test_a_size_that_rounding_cannot_bear_ends_the_estimate_and_no_more():
     absurd = np.full(len(model.processes.described), 1e40)
     assert not np.isfinite(discrepancy._point(model, None, np.log(absurd)).objective)
     assert np.isfinite(discrepancy.estimate(model, start=absurd).misfit)
+
+
+def test_the_limit_of_a_cause_in_the_fit_is_its_standard_error_times_what_chance_reaches():
+    _, state, survey = climbed(table(delay=6e-4))
+    (candidate,) = (c for c in state.fitted.active if c.cause.name == "channel_delay")
+    found, _, _ = with_discrepancy.detection_limits(state, survey, 500, np.random.default_rng(0))
+    own = with_discrepancy.of_taken(state, candidate).std_error * candidate.typical[0]
+    assert 4.0 < found[candidate.key] / own < 7.0
+
+
+def test_a_discrepancy_that_may_take_a_cause_up_raises_its_limit():
+    observed = table()
+    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+    state = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    survey = with_discrepancy.survey(state, CATALOGUE)
+    found, _, _ = with_discrepancy.detection_limits(state, survey, 500, np.random.default_rng(0))
+    ratio = {
+        one.key: found[one.key] / (estimate.std_error * one.typical[0])
+        for one, estimate in zip(survey.candidates, survey.estimates, strict=True)
+        if one.key in found
+    }
+    assert ratio["temperature_bias", 37.0] > 1.25 * ratio["phase_offset", None]
