@@ -5,7 +5,8 @@ import pytest
 
 from asphalt_nscd.formulation.levels import levels_of
 from asphalt_nscd.formulation.recipe import Grading, recipe_of
-from asphalt_nscd.formulation.rivals import PSI, hirsch, mori_tanaka, self_consistent, witczak
+from asphalt_nscd.formulation.rivals import hirsch, mori_tanaka, self_consistent, witczak
+from asphalt_nscd.measurements.units import PSI
 
 
 def test_dilute_grains_stiffen_a_flowing_matrix_as_einstein_says(content):

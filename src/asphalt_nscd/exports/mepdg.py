@@ -17,11 +17,11 @@ from asphalt_nscd import __version__
 from asphalt_nscd.exports.card import WIDTH
 from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.units import PSI, celsius_of_fahrenheit
 
 TEMPERATURES_F = (14.0, 40.0, 70.0, 100.0, 130.0)
 FREQUENCIES = (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)  # Hz
 REFERENCE_F = 70.0
-PSI = 6894.757293168  # Pa
 ROUNDING = 1e-6  # relative, of the ends of the tested band
 FIRST = (4.0, 2.5, -1.0, 0.5)  # delta, alpha, beta, gamma
 
@@ -57,7 +57,7 @@ def make_table(law: ExportedLaw) -> Table:
             f"{law.path}: a law of one temperature, {law.temperature:g} degC, but this table has five; "
             "give a law of all temperatures, such as law.json of a diagnosis."
         )
-    celsius = (np.array(TEMPERATURES_F) - 32.0) / 1.8
+    celsius = celsius_of_fahrenheit(np.array(TEMPERATURES_F))
     frequency = np.array(FREQUENCIES)
     defined = law.defined(celsius)
     if not defined[TEMPERATURES_F.index(REFERENCE_F)]:

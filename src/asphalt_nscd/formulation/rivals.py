@@ -8,8 +8,8 @@ import numpy as np
 
 from asphalt_nscd.formulation.levels import Level, levels_of
 from asphalt_nscd.formulation.recipe import Recipe
+from asphalt_nscd.measurements.units import PSI
 
-PSI = 6894.757  # Pa
 BINDER_BULK = 2.5e9  # Pa
 ROUNDS = 2000  # of the self-consistent iteration
 

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.measurements.limits import LIMITS, least_modulus
+from asphalt_nscd.measurements.units import MEGAPASCAL, celsius_of_fahrenheit
 
 # What |E*| in another unit is of |E*| in MPa.
-FACTORS = {"psi": 145.038, "ksi": 0.145038, "GPa": 1e-3, "kPa": 1e3, "kgf/cm2": 10.1972}
+FACTORS = {unit: 1.0 / MEGAPASCAL[unit] for unit in ("psi", "ksi", "GPa", "kPa", "kgf/cm2")}
 NEAR = 0.25  # of ln |E*|: a specimen is within a quarter of the others
 ALIKE = 0.35  # of ln |E*|: how far that ratio may vary over conditions
 STIFFER = np.log(1.8)  # by which no mix grows stiffer as it warms, whatever else is wrong with a test
@@ -56,7 +57,7 @@ def slips(table: pd.DataFrame) -> Iterator[str]:
 
 def _units_of_labels(table: pd.DataFrame) -> Iterator[str]:
     temperature = np.sort(table["temperature_C"].unique())
-    celsius = (temperature - 32.0) / 1.8
+    celsius = celsius_of_fahrenheit(temperature)
     if temperature.size >= LEAST and _whole(celsius).all() and (~_whole(temperature)).sum() >= 2:
         yield (
             f"the temperatures {_listed(temperature)} are {_listed(np.round(celsius))} degC in degrees "

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from asphalt_nscd.measurements.units import celsius_of_fahrenheit
+
 _TEMPERATURE = re.compile(  # not the grade of a binder, `PG64-28C`
     r"(?<!PG\d\d)(?<!PG \d\d)(?:[-_ ,]+?(?=[-−]\d)|([-_ ,]+)|(?=−))([-−]?\d+(?:[.,]\d+)?)"
     r"\s*(?:[°º]\s*|deg\s*)?([CF])(?![A-Za-z0-9])"
@@ -82,4 +84,4 @@ def _degrees(match: re.Match[str]) -> float:
 def celsius(text: str, unit: str) -> float:
     """A temperature in C, F or K [degC]."""
     value = float(text.replace(",", "."))
-    return {"C": value, "F": (value - 32.0) / 1.8, "K": value - 273.15}[unit]
+    return {"C": value, "F": celsius_of_fahrenheit(value), "K": value - 273.15}[unit]

@@ -10,22 +10,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.units import MEGAPASCAL
 
 # Spellings as `_spelled` leaves them: factor and offset that lead to the unit of our tables.
 _CELSIUS = {"C": (1.0, 0.0), "K": (1.0, -273.15), "F": (5 / 9, -160 / 9)}
 _HERTZ = {"Hz": (1.0, 0.0), "rad/s": (0.5 / math.pi, 0.0)}
-_PSI = 6.894757293e-3
-_MEGAPASCAL = {
-    "Pa": (1e-6, 0.0),
-    "kPa": (1e-3, 0.0),
-    "MPa": (1.0, 0.0),
-    "GPa": (1e3, 0.0),
-    "N/mm2": (1.0, 0.0),
-    "MN/m2": (1.0, 0.0),
-    "kgf/cm2": (0.0980665, 0.0),
-    "psi": (_PSI, 0.0),
-    "ksi": (1e3 * _PSI, 0.0),
-}
+_MEGAPASCAL = {unit: (factor, 0.0) for unit, factor in MEGAPASCAL.items()}
 _DEGREE = {"deg": (1.0, 0.0), "rad": (180 / math.pi, 0.0), "mrad": (0.18 / math.pi, 0.0)}
 _NEWTON = {"N": (1.0, 0.0), "kN": (1e3, 0.0)}
 _METRE = {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "um": (1e-6, 0.0)}
