@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 import asphalt_nscd as an
+from asphalt_nscd.diagnosis.reported import mix_modulus
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import HuetSayegh
 
@@ -47,6 +48,17 @@ def test_the_mix_at_15_degrees_and_10_hertz(diagnosis):
     assert (
         not far["within_the_tests"] and far["E_high_MPa"] / far["E_MPa"] > said["E_high_MPa"] / said["E_MPa"]
     )
+
+
+def test_few_specimens_widen_the_interval(diagnosis):
+    """Three specimens and what is usual, worth eight degrees of freedom: Student's t of ten, 2.228, and not 1.96."""
+    made = diagnosis.outcome.diagnosis
+    here = mix_modulus(made, np.array([15.0]), np.array([10.0]))
+    said = diagnosis.content["reported"]
+    factor = np.log(said["E_high_MPa"] / said["E_MPa"]) / here.std_error.real[0]
+    assert factor == pytest.approx(2.228, abs=1e-3)
+    of_phase = np.radians(said["phase_high_deg"] - said["phase_deg"]) / here.std_error.imag[0]
+    assert 1.96 < of_phase < 2.01
 
 
 def test_the_master_curve_is_that_of_the_mix(diagnosis):

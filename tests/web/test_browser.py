@@ -105,6 +105,7 @@ def test_from_drop_to_download(page, address, tmp_path):
     row = "[...document.querySelectorAll('#columns tr')].find(r => r.textContent.startsWith('Result [GPa]'))"
     choose(page, f"{row}.querySelector('select')", "E_GPa")
     until(page, "!document.getElementById('go').hidden && document.getElementById('error').hidden")
+    assert page.evaluate(f"{row}.cells[2].textContent") == "E in GPa, as you chose"
     assert page.evaluate("document.getElementById('what').textContent") == "60 tests in t.xlsx"
     choose(page, "document.getElementById('kind')", "tension-compression")
     until(page, "document.getElementById('notes').textContent.length > 0")
@@ -121,5 +122,13 @@ def test_from_drop_to_download(page, address, tmp_path):
     for width in (1280, 390):
         for dark in (False, True):
             look(page, "result", width, dark)
+    page.open(f"{address}results/diagnosis.html", 1280)
+    assert page.evaluate("document.querySelector('svg').getBoundingClientRect().bottom") < 900
+    one = "[...document.querySelectorAll('circle')].find(c => c.dataset.test === 'B|12|5')"
+    page.evaluate(f"{one}.dispatchEvent(new Event('click', {{bubbles: true}}))")
+    marked = page.evaluate("[...document.querySelectorAll('.on')].map(m => m.tagName + m.dataset.test)")
+    # Three plots of specimens, three of isotherms; the specimen's map, and the condition in four maps.
+    assert sorted(marked) == ["circleB|12|5"] * 6 + ["gB|12|5"] + ["g|12|5"] * 4
+    page.open(address, 1280)
     assert page.evaluate("document.title") == "asphalt-nscd"  # HTML in cells stayed text
     assert "MPa" in page.evaluate("document.getElementById('value').textContent")

@@ -87,6 +87,7 @@ def test_files_are_read_and_said(client, app):
     assert content["files"] == ["t.csv"]
     held = {one["name"]: (one["quantity"], one["unit"]) for one in content["columns"]}
     assert held["E (MPa)"] == ("E_MPa", "MPa") and held["T (°C)"] == ("temperature_C", "C")
+    assert held["specimen"] == ("specimen", "")
     assert not any(str(app.config["DESK"].folder) in note for note in content["notes"])
     assert client.post(f"{PAGE}read", json={"measured_in": "torsion"}).status_code == 400
 

@@ -88,8 +88,9 @@ class Page:
             deviceScaleFactor=1,
             mobile=width < 600,
         )
+        before = len(self.events)
         self.call("Page.navigate", url=address)
-        while not any(event.get("method") == "Page.loadEventFired" for event in self.events):
+        while not any(event.get("method") == "Page.loadEventFired" for event in self.events[before:]):
             self.events.append(self._read())
 
     def press(self, key: str, code: int) -> None:

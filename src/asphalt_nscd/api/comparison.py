@@ -13,6 +13,7 @@ from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.diagnosis import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.reported import EN_12697_26, master_curve
 from asphalt_nscd.diagnosis.run import Draws
+from asphalt_nscd.diagnosis.written import CONFIDENCE
 from asphalt_nscd.files.errors import InputError
 
 DRAWS = 20_000  # of the moduli, for the ranks
@@ -69,7 +70,7 @@ class Comparison:
 
 def _ranks(table: pd.DataFrame) -> tuple[list[int], list[int]]:
     """95 % interval of the rank of each row, 1 for the stiffest."""
-    size = np.log(table["E_high_MPa"] / table["E_low_MPa"]).to_numpy() / (2.0 * 1.96)
+    size = np.log(table["E_high_MPa"] / table["E_low_MPa"]).to_numpy() / (2.0 * CONFIDENCE)
     random = np.random.default_rng(0)
     drawn = np.log(table["E_MPa"].to_numpy()) + size * random.standard_normal((DRAWS, len(table)))
     ranks = 1 + np.argsort(np.argsort(-drawn, axis=1), axis=1)

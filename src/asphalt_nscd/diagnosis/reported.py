@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
+from scipy.special import stdtrit
 
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.extension import effect_taken_off
-from asphalt_nscd.diagnosis.written import CONFIDENCE
+from asphalt_nscd.diagnosis.scatter import SCALE_FREEDOM
 
 EN_12697_26 = (15.0, 10.0)  # degC, Hz
 # AASHTO R 84, the input of MEPDG programs.
@@ -23,19 +24,24 @@ LEFT_OUT = "left out"
 
 @dataclass(frozen=True)
 class Reported:
-    """|E*| and phase of the mix at some conditions: estimates and standard errors of ln |E*| and the phase [rad]."""
+    """|E*| and phase of the mix at some conditions: estimates and standard errors of ln |E*| and the phase [rad].
+
+    freedom: degrees of freedom of the two standard errors.
+    """
 
     temperature: NDArray[np.float64]
     frequency: NDArray[np.float64]
     logarithm: NDArray[np.complex128]
     std_error: NDArray[np.complex128]
     tested: NDArray[np.bool_]  # whether the tests reach there
+    freedom: tuple[float, float]
 
     def table(self) -> pd.DataFrame:
         """One row for each condition, with the 95 % intervals."""
         e, p = np.exp(self.logarithm.real) * 1e-6, np.degrees(self.logarithm.imag)
-        spread = np.exp(CONFIDENCE * self.std_error.real)
-        off = CONFIDENCE * np.degrees(self.std_error.imag)
+        of_modulus, of_phase = (float(stdtrit(freedom, 0.975)) for freedom in self.freedom)
+        spread = np.exp(of_modulus * self.std_error.real)
+        off = of_phase * np.degrees(self.std_error.imag)
         return pd.DataFrame(
             {
                 "temperature_C": self.temperature,
@@ -57,11 +63,13 @@ def mix_modulus(
     """E* of the mix without the named causes, by the last fit of the free curve.
 
     Its covariance holds the scatter of single tests, that between specimens, and what the causes leave open; errors
-    by propagation of first order. temperature [degC], frequency [Hz]: vectors (n,).
+    by propagation of first order. |E*| is as uncertain as few specimens leave it, so that its intervals are of
+    Student's t with their degrees of freedom. temperature [degC], frequency [Hz]: vectors (n,).
     """
     ladder, observed = diagnosis.ladder, diagnosis.observed
     base, law = ladder.joint.spectrum, ladder.fitted.law
     modulus, slope = base.modulus(law, 2.0 * np.pi * frequency, temperature)
+    freedom = diagnosis.noise.freedom
     along = slope / modulus[:, None]
     covariance = ladder.fitted.covariance[: law.size, : law.size]
     variance = [np.einsum("ij,jk,ik->i", part, covariance, part) for part in (along.real, along.imag)]
@@ -77,6 +85,7 @@ def mix_modulus(
         np.log(np.abs(modulus)) + 1j * np.angle(modulus),
         np.sqrt(variance[0]) + 1j * np.sqrt(variance[1]),
         within,
+        (min(freedom, SCALE_FREEDOM + len(observed.names) - 1), freedom),
     )
 
 

@@ -148,12 +148,19 @@ def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
                     {
                         "name": cells.header[n],
                         "quantity": "" if column is None else column.quantity,
-                        "unit": "" if column is None else column.unit or "not said",
+                        "unit": "" if column is None else column.unit or _not_said(column.quantity),
                         "condition": ", ".join(heading.at.values()),
                         "cells": ", ".join(sample),
                     },
                 )
     return list(found.values())[:60]
+
+
+def _not_said(quantity: str) -> str:
+    """In place of a unit that a column does not say; empty where the quantity has none."""
+    from asphalt_nscd.table_import.quantities import MEASURED
+
+    return "not said" if quantity in MEASURED and MEASURED[quantity][1] else ""
 
 
 def _without_folder(text: str, paths: Sequence[Path]) -> str:
@@ -168,7 +175,6 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
     """Diagnose, and write everything into the folder: what the first screen says, and the names of the files."""
     from asphalt_nscd.api.diagnosis import diagnose
     from asphalt_nscd.api.tables import campaign_in
-    from asphalt_nscd.diagnosis.brief import rows
     from asphalt_nscd.exports.workbook import corrected_workbook
     from asphalt_nscd.reporting.pages.handout import write_handout
     from asphalt_nscd.reporting.pages.laboratory import write_page
@@ -186,7 +192,6 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
     write_handout(output, title)
     write_page(output, title)
     return {
-        "answer": [[label, list(said)] for label, said in rows(diagnosis.content)],
         "reported": diagnosis.content["reported"],
         "files": sorted(path.name for path in output.iterdir() if path.is_file()),
     }

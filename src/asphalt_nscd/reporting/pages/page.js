@@ -65,11 +65,17 @@ addEventListener("DOMContentLoaded", () => {
     (table.closest(".wide") || table).before(button);
   }
 
+  // The same test, or a condition, which has no specimen, and a test at it.
+  const same = (a, b) => a === b || a.startsWith("|") && b.endsWith(a) || b.startsWith("|") && a.endsWith(b);
   for (const figure of document.querySelectorAll("figure.chart")) {
     const said = figure.querySelector(".said"), hint = said.textContent;
+    let chosen = null;
     const choose = (svg, point) => {
-      for (const other of figure.querySelectorAll(".on")) other.classList.remove("on");
+      for (const other of document.querySelectorAll(".on")) other.classList.remove("on");
+      chosen = point;
       if (point) point.classList.add("on");
+      if (point?.dataset.test) for (const other of document.querySelectorAll("[data-test]"))
+        if (same(other.dataset.test, point.dataset.test)) other.classList.add("on");
       said.textContent = point ? point.querySelector("title").textContent : hint;
     };
     for (const svg of figure.querySelectorAll("svg")) {
@@ -78,7 +84,7 @@ addEventListener("DOMContentLoaded", () => {
       for (const kind of ["pointerover", "click"])
         svg.addEventListener(kind, event => { if (under(event)) choose(svg, under(event)); });
       svg.addEventListener("keydown", event => {
-        const at = points.findIndex(point => point.classList.contains("on")), last = points.length - 1;
+        const at = points.indexOf(chosen), last = points.length - 1;
         const to = {ArrowRight: at + 1, ArrowDown: at + 1, ArrowLeft: at - 1, ArrowUp: at - 1, Home: 0, End: last}[event.key];
         if (event.key === "Escape") return choose(svg, null);
         if (to === undefined) return;

@@ -29,6 +29,7 @@ from asphalt_nscd.reporting.pages.svg import (
     Frame,
     cells,
     colours,
+    key,
     signed,
     svg,
     test,
@@ -118,7 +119,8 @@ def _curves(title: str, tests: pd.DataFrame, means: pd.DataFrame, x: Axis, y: Ax
         path = "L".join(f"{a:.1f} {b:.1f}" for a, b in frame.points(line, "_after"))
         parts.append(f'<g style="--light:{light};--dark:{dark}"><path class="law" d="M{path}"/>')
         parts += [
-            test(at, _words(row)) for at, row in zip(frame.points(rows), rows.to_dict("records"), strict=True)
+            test(at, _words(row), key(row["specimen"], temperature, row["frequency_Hz"]))
+            for at, row in zip(frame.points(rows), rows.to_dict("records"), strict=True)
         ]
         parts.append("</g>")
     return svg(f"{title}, {counted(len(tests), 'test')}", parts)

@@ -19,6 +19,7 @@ from asphalt_nscd.reporting.pages.svg import (
     Frame,
     cells,
     colours,
+    key,
     signed,
     svg,
     test,
@@ -73,7 +74,12 @@ def _points(title: str, tests: pd.DataFrame, looks: dict[str, tuple[str, str]], 
         own = tests[tests["specimen"] == name]
         parts.append(f'<g style="--light:{light};--dark:{dark}">')
         parts += [
-            test(at, _words(row), "test" if row["reasons"] else "test full")
+            test(
+                at,
+                _words(row),
+                key(name, row["temperature_C"], row["frequency_Hz"]),
+                "test" if row["reasons"] else "test full",
+            )
             for at, row in zip(frame.points(own), own.to_dict("records"), strict=True)
         ]
         parts.append("</g>")
@@ -118,6 +124,7 @@ def _cell(row: dict) -> Cell:
         row["frequency_Hz"],
         value,
         _words(row),
+        str(row["specimen"]),
         abs(value) < CLEAR * row["std_error_deg"],
         mark + FLAG * bool(row["quality_flag"]),
     )

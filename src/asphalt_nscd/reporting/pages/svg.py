@@ -127,9 +127,17 @@ class Frame:
         return list(zip(*columns, strict=True))
 
 
-def test(at: tuple[float, float], words: str, look: str = "test") -> str:
+def key(specimen: object, isotherm: float, frequency: float) -> str:
+    """What is the same wherever a page shows a test, or, without a specimen, all tests of a condition."""
+    return f"{specimen}|{isotherm:g}|{frequency:.4g}"
+
+
+def test(at: tuple[float, float], words: str, key: str, look: str = "test") -> str:
     """A circle that says which test it is."""
-    return f'<circle class="{look}" cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="4"><title>{escape(words)}</title></circle>'
+    return (
+        f'<circle class="{look}" data-test="{escape(key)}" cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="4">'
+        f"<title>{escape(words)}</title></circle>"
+    )
 
 
 @dataclass(frozen=True)
@@ -140,6 +148,7 @@ class Cell:
     frequency: float
     value: float
     words: str
+    specimen: str = ""  # the only one in it
     quiet: bool = False  # its number says little
     mark: str = ""
 
@@ -170,7 +179,8 @@ def cells(title: str, label: str, every: Sequence[Cell], largest: float) -> str:
         top = HEIGHT - BOTTOM - (temperatures.index(cell.temperature) + 1) * height
         strength = STRONGEST * min(abs(cell.value) / largest, 1.0)
         parts.append(
-            f'<g><title>{escape(cell.words)}</title><rect class="cell" x="{left:.1f}" y="{top:.1f}" '
+            f'<g data-test="{escape(key(cell.specimen, cell.temperature, cell.frequency))}">'
+            f'<title>{escape(cell.words)}</title><rect class="cell" x="{left:.1f}" y="{top:.1f}" '
             f'width="{width:.1f}" height="{height:.1f}" fill="var(--{"more" if cell.value > 0.0 else "less"})" '
             f'fill-opacity="{strength:.2f}"/>'
         )
