@@ -8,9 +8,8 @@ import numpy as np
 
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.nscd.bonds.implicit_operator import factors
+from asphalt_nscd.nscd.bonds.implicit_operator import factorise
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
-from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis
 from asphalt_nscd.specimen.network import Network
 from asphalt_nscd.specimen.trimming import Specimen, held
 
@@ -92,7 +91,7 @@ def _drawn(system: BondedSystem) -> np.ndarray:
     """Static motion (d,) of a system whose driven degree of freedom moves by one."""
     free, k = system.free, system.stiffness()
     matrix, coupling = k[free][:, free].tocsc(), k[free][:, [system.driven]].toarray()[:, 0]
-    factor, motion = factors(matrix), np.ones(system.mass.size)
+    factor, motion = factorise(matrix, system), np.ones(system.mass.size)
     motion[free] = -factor.solve(coupling)
     motion[free] -= factor.solve(matrix @ motion[free] + coupling)  # digits lost where films are soft
     return motion
@@ -100,7 +99,7 @@ def _drawn(system: BondedSystem) -> np.ndarray:
 
 def static_ratio(system: BondedSystem, shape: Shape) -> float:
     """c: static |E*| of a test by its form factor, over the modulus of the bonds."""
-    return shape.form_factor() * stiffness(system, ritz_basis(system, 0)[:, 0])
+    return shape.form_factor() * stiffness(system, _drawn(system))
 
 
 def stiffness(system: BondedSystem, motion: np.ndarray) -> float:
