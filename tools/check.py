@@ -41,6 +41,7 @@ PUBLISHED = (
     "benchmark",
     "blind",
     "cluster",
+    "fatigue",
     "faults",
     "film",
     "forecast",

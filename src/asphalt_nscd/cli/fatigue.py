@@ -33,16 +33,20 @@ _LAW = "bending.fatigue.Tiring"
     type=_options.File,
     help="Law of the bonds, JSON: step through every cycle with it, instead of jumps. For a few dozen cycles.",
 )
+@click.option(
+    "--finer", default=1.0, type=_options.POSITIVE, help="How many times shorter jumps are than usual."
+)
 @click.option("--frequency-hz", default=25.0, type=_options.POSITIVE, help="Frequency, with --every-cycle.")
 @click.option("--profile", default=None, type=_options.File, help="File for the damage over the height.")
 @_options.output
 @_options.gather("tiring", endured="endured", exponent="exponent")
+@_options.gather("stepped", law="every_cycle", frequency="frequency_hz")
 def command(
     specimen: Path,
     strain: float,
     tiring: dict[str, Any],
-    every_cycle: Path | None,
-    frequency_hz: float,
+    stepped: dict[str, Any],
+    finer: float,
     profile: Path | None,
     output: Path,
 ) -> None:
@@ -50,14 +54,17 @@ def command(
     from asphalt_nscd.bending.bending_test import bond_law
     from asphalt_nscd.bending.fatigue import Tiring, cycle_by_cycle, fatigue, profile_of, table_of
     from asphalt_nscd.files.store import write_table
+    from asphalt_nscd.nscd.bonds.fatigue import Jumps
     from asphalt_nscd.rheology.laws_io import read_bond_law
     from asphalt_nscd.specimen.preparation import read_specimen
 
     given, law = read_specimen(specimen), Tiring(**tiring)
-    if every_cycle is None:
-        course = fatigue(given, strain, law)
+    if stepped["law"] is None:
+        course = fatigue(given, strain, law, jumps=Jumps().finer(finer))
     else:
-        course = cycle_by_cycle(given, strain, law, bond_law(read_bond_law(every_cycle)), frequency_hz)
+        course = cycle_by_cycle(
+            given, strain, law, bond_law(read_bond_law(stepped["law"])), stepped["frequency"]
+        )
     write_table(output, table_of(course))
     if profile is not None:
         write_table(profile, profile_of(given, course))

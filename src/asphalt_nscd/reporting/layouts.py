@@ -172,6 +172,10 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
     ],
     "blind_real": [Layout(_CRITERIA)],
     "attack": [Layout({"what": "what", "target": "target", "percent_before": "before"} | _CRITERIA)],
+    "fatigue": [Layout({"sample": "sample", "strain_1e-6": "strain, 10⁻⁶", "cycles": "cycles"}, figures=3)],
+    "fatigue_summary": [
+        Layout({"what": "what", "here": "here", "beside": "beside", "beside_is": "which is"}, figures=3)
+    ],
     "mapping": [
         Layout(
             {

@@ -14,11 +14,11 @@ from asphalt_nscd.specimen.preparation import read_specimen
 
 
 def make(course: list[Path], profile: list[Path], check: list[Path], specimen: list[Path]) -> pd.DataFrame:
-    """what, here, beside; check: courses of a small sample at a large strain, by jumps and by every cycle."""
+    """what, here, beside; check: courses of a small sample, by jumps, by finer ones and by every cycle."""
     geometry = read_specimen(specimen[0]).geometry
     assert isinstance(geometry, Geometry)
     logs = np.log10([fatigue.life(path) for path in course])
-    jumped, stepped = map(fatigue.life, check)
+    jumped, fine, stepped = map(fatigue.life, check)
     heights = [table.loc[table["damage"].idxmax(), "height_share"] for table in map(pd.read_csv, profile)]
     theory = largest_strain_at(geometry) / geometry.h
     rows = [
@@ -29,5 +29,6 @@ def make(course: list[Path], profile: list[Path], check: list[Path], specimen: l
         ("height of most damage over h, lowest sample", min(heights), theory, "largest strain of bending theory"),
         ("height of most damage over h, highest sample", max(heights), theory, "largest strain of bending theory"),
         ("cycles of a small sample at a large strain", jumped, stepped, "every cycle stepped"),
+        ("the same by jumps ten times as fine", fine, stepped, "every cycle stepped"),
     ]  # fmt: skip
     return pd.DataFrame(rows, columns=["what", "here", "beside", "beside_is"])
