@@ -15,13 +15,18 @@ from matplotlib.patches import FancyArrowPatch
 
 # Rules of one kind are one box, else half of them would be figures and pages.
 KINDS = [
-    (r"fig\w+|table\d|samples|preparation|ladder|fracture|families|audit", "figures and tables"),
+    (
+        r"fig\w+|table\d|samples|preparation|ladder|fracture|families|audit|smoothness|ensemble|time_steps|levels",
+        "figures and tables",
+    ),
     (r"export_\w+", "export_abaqus, ..."),
     (r"(draw|reduce|diagnose)_family", "draw_, reduce_,\ndiagnose_family"),
     (r"\w+_page|pages|report|workflow_report|timings|provenance", "pages, report"),
     (r"simulate_(packed\w*|blocked|pascal)", "simulate_packed,\n_blocked, _pascal"),
     (r"(trim|condense)_facets", "trim_facets,\ncondense_facets"),
-    (r"simulate_(step|sweeps)", "simulate_step,\n_sweeps"),
+    (r"(trim|condense)_(part|likely)", "trim_part, _likely,\ncondense_part, ..."),
+    (r"simulate_(step|part|sweeps)", "simulate_step,\n_part, _sweeps"),
+    (r"simulate_likely|likely_simulations", "simulate_likely"),
     (r"packing|readings", "packing, readings"),
     (r"deposit_loose", "deposit"),
     (r"(published|pascal)_law", "published_law"),

@@ -191,9 +191,8 @@ def test_packings_are_numbered_as_if_by_seeds(config, tmp_path):
     steps = {
         "temperature_C": 15,
         "frequency_Hz": 3,
-        "sweeps_frequency_Hz": 10,
         "time_steps_s": [1e-4],
-        "sweeps": 5,
+        "tolerances": [1e-4],
     }
     assert "is not in specimens.seeds" in refusal(
         packed(config, tmp_path) | {"time_step_study": steps | {"seed": 3}}

@@ -16,7 +16,7 @@ ALL = "report.html"
 READ = {
     DEPOSIT: "specimens/s1.h5",
     "specimens/s1.h5": MODEL,
-    MODEL: "time_step/sweeps/s1/T20/f10/dt0.0002.h5",  # most tests read the excerpt
+    MODEL: "time_steps.csv",  # tests read the excerpt
     EXCERPT: TEST,
     TEST: "simulations.csv",
     "laws/published/T20.json": TEST,

@@ -4,6 +4,11 @@ AUDIT = STUDY.get("audit", {"seed": 0, "temperature_C": 0})
 PACKING = STUDY.get("packing_study", {"frictions": [], "seed": 0, "temperature_C": 0, "frequency_Hz": 0})
 PACKED = [f"s{PACKING['seed']}", *(f"s{PACKING['seed']}-friction{label(value)}" for value in PACKING["frictions"])]
 PACKED_TEST = "<results>/packing/{sample}/T{temperature}/f{frequency}.h5"
+LIKELY = "likeliest_friction" in AUDIT
+LIKELY_SAMPLE = f"s{AUDIT['seed']}-friction{label(AUDIT['likeliest_friction'])}" if LIKELY else ""
+LIKELY_MODEL = f"<results>/likely/models/{HEAD}/{{sample}}"
+LIKELY_TESTS = "<results>/likely/tests/{sample}/T{temperature}/f{frequency}.h5"
+LIKELY_SIMULATIONS = ["<results>/likely.csv"] if LIKELY else []
 AUDITED = expand(
     "<results>/{{reading}}/s{seed}/T{temperature}/f{frequency}.h5",
     seed=AUDIT["seed"],
@@ -112,6 +117,73 @@ if REMAPPED:
             "<results>/benchmarks/simulate_packed_facets/{sample}/T{temperature}/f{frequency}.tsv"
         message:
             "Test sample {wildcards.sample} with facets for its packing"
+
+
+if LIKELY:
+    BONDS = STUDY["specimens"]["bonds"]
+
+    use rule trim as trim_likely with:
+        # Pairs within dmin of the spheres as they are once reduced.
+        output:
+            "<results>/likely/specimens/{sample}.h5",
+        params:
+            geometry=text(STUDY["specimens"]["geometry"]),
+            bonds=options(BONDS, "volume_reduction")
+            + f" --gap-max-mm {BONDS['gap_max_mm'] * (1.0 - BONDS['volume_reduction']) ** (1.0 / 3.0)}",
+        log:
+            "<results>/logs/trim_likely/{sample}.log",
+        benchmark:
+            "<results>/benchmarks/trim_likely/{sample}.tsv"
+        message:
+            "Trim sample {wildcards.sample} as the authors most likely did"
+
+    use rule condense as condense_likely with:
+        input:
+            compiled="<results>/compiled/simulate",
+            specimen="<results>/likely/specimens/{sample}.h5",
+            code=code("condense"),
+        output:
+            model="<results>/likely/models/{head}/{sample}.h5",
+            excerpt="<results>/likely/models/{head}/{sample}.excerpt.h5",
+        params:
+            bonds=options(BONDS, "poisson", "kt_over_kn", "yield_Pa", "friction"),
+            ready="",
+        log:
+            "<results>/logs/condense_likely/{head}/{sample}.log",
+        benchmark:
+            "<results>/benchmarks/condense_likely/{head}/{sample}.tsv"
+        message:
+            "Condense the bonds of sample {wildcards.sample} as the authors most likely read them"
+
+    use rule simulate as simulate_likely with:
+        # All frequencies of a temperature in one job.
+        input:
+            compiled="<results>/compiled/simulate",
+            model=f"{LIKELY_MODEL}.h5",
+            excerpt=f"{LIKELY_MODEL}.excerpt.h5",
+            law=f"<results>/laws/{LAWS}/T{{temperature}}.json",
+            code=code("simulate"),
+        output:
+            expand(LIKELY_TESTS, frequency=FREQUENCIES, allow_missing=True),
+        log:
+            "<results>/logs/simulate_likely/{sample}/T{temperature}.log",
+        benchmark:
+            "<results>/benchmarks/simulate_likely/{sample}/T{temperature}.tsv"
+        message:
+            "Test sample {wildcards.sample} as the authors most likely did, at {wildcards.temperature} degC"
+
+    use rule simulations as likely_simulations with:
+        input:
+            tests=expand(LIKELY_TESTS, sample=LIKELY_SAMPLE, temperature=TEMPERATURES, frequency=FREQUENCIES),
+            code=code("collect"),
+        output:
+            LIKELY_SIMULATIONS,
+        log:
+            "<results>/logs/likely_simulations.log",
+        benchmark:
+            "<results>/benchmarks/likely_simulations.tsv"
+        message:
+            "Collect the tests under the likeliest reading"
 
 
 rule packing:

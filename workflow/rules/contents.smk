@@ -65,6 +65,7 @@ TABLES = {
     },
     "ladder": {
         "simulations": SIMULATIONS,
+        "likely": LIKELY_SIMULATIONS,
         "facets": FACET_SIMULATIONS,
         "extended": EXTENDED_SIMULATIONS,
         "measured": MEASURED,
@@ -112,10 +113,12 @@ if "published" in STUDY:
                 "errors": [STUDY["published"]["errors_table"]],
             }
 if "time_step_study" in STUDY:
-    FIGURES["fig06"] = (
-        "4 Time step",
-        {"converged": SOLVED, "stopped": STOPPED},
-    )
+    FIGURES["fig06"] = ("4 Time step", {"solved": SOLVED, "part": [PART_SOLVED], "stopped": STOPPED})
+    PAGES["time_steps"] = "4 Time step"
+    TABLES["time_steps"] = FIGURES["fig06"][1] | {
+        "law": [f"<results>/laws/{LAWS}/T{label(STEPPING['temperature_C'])}.json"],
+        "model": [MODEL.format(sample=f"s{STEPPING['seed']}")],
+    }
 if "sensitivity" in STUDY:
     PAGES["sensitivity"] = "5 Sensitivity"
     for name, parameter in {"fig11": "Em", "fig12": "eta_m", "fig13": "Ek", "fig14": "eta_k"}.items():
@@ -140,6 +143,13 @@ if "audit" in STUDY:
         "packing": ["<results>/packing.csv"] if "packing_study" in STUDY else [],
         "blocked": expand(AUDITED[:1], reading="blocked"),
     }
+if LIKELY and "published" in STUDY:
+    PAGES["levels"] = "6 Audit"
+    TABLES["levels"] = {
+        "simulations": SIMULATIONS,
+        "likely": LIKELY_SIMULATIONS,
+        "errors": [STUDY["published"]["errors_table"]],
+    }
 if "packing_study" in STUDY:
     PAGES["packing"] = "2 Preparation"
     FIGURES["fig_packing"] = ("2 Preparation", {"packing": ["<results>/packing.csv"]})
@@ -162,7 +172,7 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
         "table4": ["<results>/table4.csv"],
         "deposits": DEPOSITS,
         "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
-        "converged": SOLVED,
+        "time_steps": ["<results>/time_steps.csv"],
         "stopped": STOPPED,
         "waveform": FIGURES["fig07"][1]["test"],
         "profile": FIGURES["fig08"][1]["test"],
@@ -252,7 +262,7 @@ if FAMILIES:
         expand(rules.diagnose_family.output, family=FAMILIES),
     ]
 if "time_step_study" in STUDY:
-    KEPT += [SOLVED, STOPPED]
+    KEPT += [SOLVED, PART_SOLVED, STOPPED]
 if "sensitivity" in STUDY:
     KEPT += [
         expand(
@@ -268,6 +278,13 @@ if "audit" in STUDY:
         f"<results>/laws/pascal/T{label(AUDIT['temperature_C'])}.json",
         expand("<results>/models/blocked/s{seed}.{kind}", seed=AUDIT["seed"], kind=["h5", "excerpt.h5"]),
         rules.readings.input.tests,
+    ]
+if LIKELY:
+    KEPT += [
+        f"<results>/likely/specimens/{LIKELY_SAMPLE}.h5",
+        expand([f"{LIKELY_MODEL}.{kind}" for kind in ("h5", "excerpt.h5")], sample=LIKELY_SAMPLE),
+        rules.likely_simulations.input.tests,
+        LIKELY_SIMULATIONS,
     ]
 if "packing_study" in STUDY:
     KEPT += [

@@ -4,7 +4,7 @@
 BLOCKS = {"samples": "<results>/samples.csv", "table4": "<results>/table4.csv", "timings": "<results>/timings.md"}
 BLOCKS |= {name: "<results>/ladder.csv" for name in ("ladder", "gain")} if COMMON_LAW else {}
 BLOCKS |= {"families": "<results>/families.csv"} if FAMILIES else {}
-BLOCKS |= {name: f"<results>/{name}.csv" for name in ("bond_readings", "reconstructions", "smoothness", "ensemble", "rivals") if name in TABLES}
+BLOCKS |= {name: f"<results>/{name}.csv" for name in ("bond_readings", "levels", "reconstructions", "smoothness", "ensemble", "time_steps", "rivals") if name in TABLES}
 BLOCKS |= {"outputs": "<results>/outputs.csv"} if "outputs" in TABLES else {}
 
 

@@ -203,6 +203,8 @@ rule report:
         diagnosis=DIAGNOSED[0],
         ladder="<results>/ladder.csv",
         pictures=[f"<results>/figures/{name}.png" for name in ("fig_residual_map", "fig10_extended" if COMMON_LAW else "fig10")],
+        rivals=["<results>/rivals.csv"] if FAMILIES else [],
+        ensemble=["<results>/ensemble.csv"] if "ensemble" in TABLES else [],
         code=code("report"),
         template=page_files("report.html"),
     output:
@@ -214,6 +216,7 @@ rule report:
             f"diagnosis={input.diagnosis}",
             f"ladder={input.ladder}",
             *(f"pictures={path}" for path in input.pictures),
+            *(f"{Path(path).stem}={path}" for path in [*input.rivals, *input.ensemble]),
         ],
         entries=lambda wildcards, input: [
             f"--entry={PARTS[Path(path).stem]}={path}" for path in [*input.pages, *input.figures]

@@ -80,6 +80,7 @@ wildcard_constraints:
     family=r"[\w.-]+",
     friction=r"[\d.]+(e[+-]?\d+)?",
     time_step=r"[\d.]+(e[+-]?\d+)?",
+    tolerance=r"[\d.]+(e[+-]?\d+)?",
 
 
 def code(step, *modules):

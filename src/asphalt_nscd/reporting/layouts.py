@@ -245,6 +245,35 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             figures=3,
         )
     ],
+    "levels": [
+        Layout(
+            {
+                "reading": "reading",
+                "temperature_C": "T, °C",
+                "broken_bonds": "broken bonds",
+                "unbroken": "without strength",
+                "E_over_law": "with it",
+                "expected": "expected",
+                "published_E_percent": "printed, %",
+                "allowed": "allowed",
+            },
+            shorter={"dmin after the reduction of volume, looser layer": "likeliest"},
+        )
+    ],
+    "time_steps": [
+        Layout(
+            {
+                "scheme": "scheme",
+                "tolerance": "tolerance",
+                "time_step_s": "time step, s",
+                "sweeps_per_step": "sweeps a step",
+                "E_over_solution": "over solution",
+                "phase_difference_deg": "phase off, °",
+                "right": "right",
+            },
+            figures=3,
+        )
+    ],
     "smoothness": [
         Layout(
             {

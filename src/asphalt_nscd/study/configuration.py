@@ -216,7 +216,6 @@ def _check(study: dict[str, Any], source: str) -> None:
         "seed": ("specimens.seeds", study["specimens"]["seeds"]),
         "temperature_C": ("temperatures_C", study["temperatures_C"]),
         "frequency_Hz": ("frequencies_Hz", study["frequencies_Hz"]),
-        "sweeps_frequency_Hz": ("frequencies_Hz", study["frequencies_Hz"]),
     }
     for section in _OPTIONAL:
         for key, (where, allowed) in choices.items():

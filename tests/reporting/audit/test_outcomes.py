@@ -10,7 +10,14 @@ import pytest
 
 from asphalt_nscd.reporting.audit import outcomes, preparation
 from asphalt_nscd.reporting.audit.equations import PAPER
-from asphalt_nscd.reporting.audit.statement import DIFFERS, HOLDS, INCONSISTENT, REPRODUCED, UNCHECKED
+from asphalt_nscd.reporting.audit.statement import (
+    DIFFERS,
+    HOLDS,
+    INCONSISTENT,
+    LEFT_OPEN,
+    REPRODUCED,
+    UNCHECKED,
+)
 
 COUNTS = np.array([2, 4, 6.3, 8, 10]) * 1e-3, np.array([11798, 1588, 492, 211, 71])
 
@@ -107,16 +114,21 @@ def test_an_overtone_is_no_sinusoid():
 
 def test_time_step_matters_only_where_gauss_seidel_stops():
     rows = by_id(outcomes.numerics(*time_steps()))
-    assert rows["time_step"].verdict == DIFFERS and "0.01 to 0.10 of the law" in rows["time_step"].evidence
+    assert rows["time_step"].verdict == DIFFERS and "0.01 to 0.1 of the solved" in rows["time_step"].evidence
     assert rows["steps"].verdict == HOLDS
-    assert rows["time_divided"].published == pytest.approx(2.5) and rows["time_divided"].ours > 50
+    assert rows["time_divided"].published == pytest.approx(2.5)
+    assert (
+        rows["time_divided"].ours == pytest.approx(250.0)
+        and "70 to 300 of them" in rows["time_divided"].evidence
+    )
+    assert rows["stable_reactions"].verdict == LEFT_OPEN and "0.01 of" in rows["stable_reactions"].evidence
 
 
 def test_the_audit_holds_no_time_that_differs_from_run_to_run():
-    tests, solved, stopped = time_steps()
-    one, two = (list(outcomes.numerics(tests, solved, stopped.assign(cpu_s=cpu))) for cpu in (1.0, 1.7))
+    tests, table, stopped = time_steps()
+    one, two = (list(outcomes.numerics(tests, table, stopped.assign(cpu_s=cpu))) for cpu in (1.0, 1.7))
     assert one == two and one[-1].verdict == DIFFERS
-    slow = list(outcomes.numerics(tests, solved, stopped.assign(cpu_s=3000.0)))
+    slow = list(outcomes.numerics(tests, table, stopped.assign(cpu_s=3000.0)))
     assert slow[-1].verdict == REPRODUCED
 
 
@@ -124,11 +136,17 @@ def time_steps():
     tests = pd.DataFrame(
         {"frequency_Hz": [3.0, 40.0], "steps": [33333, 2500], "cpu_s": 1.0, "spheres": 9000, "residual": 1e-8}
     )
-    solved = pd.DataFrame(
-        {"E_MPa": [100.0, 100.1], "E_law_MPa": 100.0, "residual": 1e-8, "time_step_s": [5e-5, 2e-4]}
-    )
-    stopped = {"E_MPa": [1.0, 10.0], "E_law_MPa": 100.0, "most_sweeps": 50, "frequency_Hz": 40.0}
-    return tests, solved, pd.DataFrame(stopped | {"cpu_s": 1.0, "steps": 500, "spheres": 9000})
+    rows = [
+        ("solved", np.nan, 5e-5, np.nan, 1.0, True),
+        ("solved", np.nan, 2e-4, np.nan, 1.0001, True),
+        ("Gauss-Seidel", 1e-4, 5e-5, 70.0, 0.01, False),
+        ("Gauss-Seidel", 1e-5, 5e-5, 300.0, 0.1, False),
+        ("solved, longest", np.nan, 6e-3, np.nan, np.nan, np.nan),
+        ("explicit, as in DEM, longest", np.nan, 2e-7, np.nan, np.nan, np.nan),
+    ]
+    columns = ["scheme", "tolerance", "time_step_s", "sweeps_per_step", "E_over_solution", "right"]
+    table = pd.DataFrame(rows, columns=columns).assign(spheres=359.0)
+    return tests, table, pd.DataFrame({"cpu_s": [1.0], "steps": 500, "spheres": 9000})
 
 
 @pytest.mark.parametrize(("bulge", "verdict"), [(0.0, REPRODUCED), (0.05, DIFFERS)])

@@ -50,37 +50,26 @@ def test_last_cycle_where_the_time_step_does_not_divide_it(frequency, step):
     assert displacement == pytest.approx(np.sin(2.0 * np.pi * frequency * cycle), abs=1e-9)
 
 
-def steps_of(results, name, tests):
-    return [results.test(f"{name}{step}", force=force, time_step_s=step)[0] for step, force in tests.items()]
+def steps_of(results, name, tests, **attributes):
+    return [
+        results.test(f"{name}{step}", force=force, time_step_s=step, E_MPa=100.0 * force, **attributes)[0]
+        for step, force in tests.items()
+    ]
 
 
-def test_time_steps_one_line_each_named_and_compared(results):
-    converged = steps_of(results, "c", {2e-4: 40.0, 2e-5: 40.4})
-    figure = fig06.draw(converged=converged, stopped=steps_of(results, "s", {2e-5: 20.0, 1e-4: 12.0}))
-    left, right = figure.axes
-    assert left.get_ylabel() == "force at the head (N)" and left.get_xlabel() == "time in the last cycle (ms)"
-    steps = [rf"$dt$ = ${n}\times10^{{{power}}}$ s" for n, power in ((2, -4), (1, -4), (2, -5))]
-    assert legend_of(left) == [steps[0], steps[2]]
-    assert legend_of(right) == [steps[1], steps[2], "solved, finest $dt$"]
-    assert left.texts[0].get_text() == "amplitudes agree to 1 %"
-    assert right.texts[0].get_text() == "amplitudes agree to 67 %"
-    assert left.get_ylim() == right.get_ylim()
-    assert right.lines[-1].get_ydata().max() == pytest.approx(40.4, rel=1e-4)
-
-
-def test_forces_that_are_not_comparable_have_a_scale_of_their_own(results):
-    stopped = steps_of(results, "s", {2e-5: 2.0, 1e-4: 0.5})
-    figure = fig06.draw(converged=steps_of(results, "c", {2e-5: 40.0}), stopped=stopped)
-    left, right = figure.axes
-    assert right.texts[0].get_text() == "amplitudes differ by a factor of 4"
-    assert right.get_ylim()[1] < 3.0 and left.get_ylim()[1] > 40.0
-    assert len(legend_of(right)) == 2
-
-
-def test_one_panel_or_none(results):
-    assert len(fig06.draw(stopped=steps_of(results, "s", {2e-5: 2.0})).axes) == 1
-    with pytest.raises(InputError, match="no test to draw"):
-        fig06.draw()
+def test_time_steps_solved_and_swept_each_over_its_own_solution(results):
+    part = steps_of(results, "p", {5e-5: 20.0})
+    stopped = steps_of(results, "a", {1e-4: 2.0, 2e-4: 1.0}, tolerance=1e-4)
+    stopped += steps_of(results, "b", {1e-4: 10.0, 2e-4: 5.0}, tolerance=1e-5)
+    figure = fig06.draw(solved=steps_of(results, "c", {2e-4: 40.0, 2e-5: 40.4}), part=part, stopped=stopped)
+    left, middle, right = figure.axes
+    assert legend_of(left) == [rf"${n}\times10^{{{power}}}$" for n, power in ((2, -4), (2, -5))]
+    # the finest tolerance alone, over the amplitude of the solved smaller specimen
+    largest = [line.get_ydata().max() for line in middle.lines[:2]]
+    assert largest == pytest.approx([0.25, 0.5], rel=1e-4)
+    assert left.lines[1].get_ydata().max() == pytest.approx(1.0, rel=1e-4)
+    of_tolerances = [(line.get_xdata().tolist(), line.get_ydata().tolist()) for line in right.lines[:2]]
+    assert of_tolerances == [([1e-4, 2e-4], [0.1, 0.05]), ([1e-4, 2e-4], [0.5, 0.25])]
 
 
 def test_displacement_and_force_with_their_amplitudes(results):

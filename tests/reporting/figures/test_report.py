@@ -58,6 +58,48 @@ def test_first_page_says_what_was_done_and_found(page):
     assert said["held_out"] is None, "two temperatures have none between them"
 
 
+def test_gains_on_tests_left_out_and_on_other_data_stand_beside(results, tmp_path):
+    """Left out between the ends and at them; and what the one law gains on data that meet the paper's tables."""
+    kinds = ("inner_temperatures", "end_temperatures", "inner_frequencies", "end_frequencies")
+    row = {
+        f"{kind}_{q}_percent": [n + 10.0 * (q == "phase")]
+        for n, kind in enumerate(kinds)
+        for q in ("E", "phase")
+    }
+    pd.DataFrame(row).to_csv(tmp_path / "rivals.csv", index=False)
+    errors = {"mean_E": 1.5, "mean_phase": 10.8, "burgers_E": 2.6, "burgers_phase": 10.7}
+    pd.DataFrame({f"{name}_percent": [value] for name, value in errors.items()}).to_csv(
+        tmp_path / "ensemble.csv", index=False
+    )
+    (picture := tmp_path / "map.png").write_bytes(b"picture")
+    (tmp_path / "samples.csv").write_text("sample,spheres,E_over_law\ns1,90,1.1\n")
+    (path,) = results.ladder()
+    ladder = pd.read_csv(path)
+    below = ladder[ladder["rung"] == "as in the paper"].assign(rung="likeliest", mre_E_percent=3.0)
+    pd.concat([below, ladder]).to_csv(path, index=False)
+    said = first_page(
+        results.measured(),
+        results.simulations(),
+        [tmp_path / "samples.csv"],
+        results.diagnosis()["diagnosis"],
+        [picture],
+        [path],
+        [tmp_path / "rivals.csv"],
+        [tmp_path / "ensemble.csv"],
+    )
+    assert said["left_out"][1] == ("coldest and warmest", "1", "11") and said["held_out"] is None
+    assert (
+        "|E*| by 1.5 % and the phase by 10.8 %, the paper's Burgers laws by 2.6 % and 10.7 %"
+        in said["elsewhere"]
+    )
+    assert said["wrong"][0].startswith("Our simulated tests miss") and "by 11.1 %" in said["wrong"][0]
+    assert said["wrong"][-1].startswith(
+        "Read as its authors most likely did, in one sample, it misses 3 % and 5 %"
+    )
+    html = assemble("mine", said, [], tmp_path)
+    assert "<td>coldest and warmest</td>" in html and "gained on invented data" in html
+
+
 def test_packings_of_another_program_are_named(page, results, tmp_path):
     table = pd.read_csv(tmp_path / "samples.csv").assign(packing=["a.csv", "b.csv"])
     table.to_csv(given := tmp_path / "given.csv", index=False)

@@ -1,4 +1,4 @@
-"""Fig. 6: force at the head over one cycle for several time steps, converged and stopped early."""
+"""Fig. 6: force at the head for several time steps, solved, and by sweeps that end when reactions seem stable."""
 
 from __future__ import annotations
 
@@ -9,88 +9,68 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, load
+from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.reporting.figures.records import last_cycle
 
-COMPARABLE = 5.0  # ratio of forces up to which the panels share one scale
-JOLT = 0.05  # of a cycle: where it begins from rest, the scale does not follow the first few steps
-
 
 @style.journal
-def draw(converged: Sequence[Path] = (), stopped: Sequence[Path] = ()) -> Figure:
-    """(a) Every step solved to the end; (b) Gauss-Seidel on the bonds stopped before it converged."""
-    panels = [
-        (sorted((load(path, "test") for path in paths), key=_step, reverse=True), text)
-        for paths, text in ((converged, "each step solved"), (stopped, "Gauss-Seidel stopped"))
-        if paths
-    ]
-    if not panels:
-        raise InputError("no test to draw; give converged, stopped, or both.")
-    figure, axes = style.new_figure(
-        style.WIDE if len(panels) == 2 else style.SINGLE, 70.0, columns=len(panels), squeeze=False
-    )
-    extents = [max(map(_extent, records)) for records, _ in panels]
-    frequencies = {record.attributes["frequency_Hz"] for records, _ in panels for record in records}
-    comparable = len(frequencies) == 1 and max(extents) < COMPARABLE * min(extents)
-    for place, name, (records, text), extent in zip(axes[0], "ab", panels, extents, strict=False):
-        if comparable:
-            extent = max(extents)
-        _panel(place, records, extent)
-        style.letter(place, name, f"{text}, {records[0].attributes['frequency_Hz']:g} Hz")
-    if comparable and len(panels) == 2:
-        time, _, force = last_cycle(panels[0][0][-1])
-        axes[0, 1].plot(1e3 * time, force, color=style.GREY, lw=0.6, zorder=1, label="solved, finest $dt$")
-    for place in axes[0]:
-        place.legend(loc="upper right", borderpad=0.1)
+def draw(solved: list[Path], part: list[Path], stopped: list[Path]) -> Figure:
+    """(a) Every step solved; (b) swept to the finest tolerance; (c) |E*| of all sweeps over that of the solution.
+
+    solved: tests of a sample; stopped: of a smaller specimen, by Gauss-Seidel; part: the same specimen, solved.
+    """
+    true = load(the_only(part, "part"), "test")
+    swept = [load(path, "test") for path in stopped]
+    tolerances = sorted({_tolerance(one) for one in swept}, reverse=True)
+    figure, (left, middle, right) = style.new_figure(style.WIDE, 62.0, columns=3)
+    whole = sorted((load(path, "test") for path in solved), key=_step, reverse=True)
+    _forces(left, whole, whole[-1])
+    finest = sorted((one for one in swept if _tolerance(one) == tolerances[-1]), key=_step, reverse=True)
+    _forces(middle, finest, true)
+    spheres = f"{int(true.attributes['spheres'])} spheres"
+    style.letter(left, "a", "each step solved")
+    style.letter(middle, "b", f"swept to {numbers.power(tolerances[-1])}, {spheres}")
+    style.letter(right, "c", f"all tolerances, {spheres}")
+    for tolerance, (colour, marker) in zip(tolerances, style.series(len(tolerances)), strict=True):
+        rows = sorted((_step(one), _ratio(one, true)) for one in swept if _tolerance(one) == tolerance)
+        right.plot(*np.transpose(rows), color=colour, marker=marker, label=numbers.power(tolerance))
+    right.axhline(1.0, color=style.GREY, lw=0.8, label="solved")
+    right.set(xscale="log", yscale="log", xlabel="time step $dt$ (s)", ylabel="$|E^*|$ over solved")
+    right.set_ylim(0.5 * min(_ratio(one, true) for one in swept), 3.0)
+    right.legend(title="tolerance", loc="center left", title_fontsize=7.0, borderpad=0.1)
     return figure
 
 
-def _panel(axes: Axes, records: list[Record], extent: float) -> None:
-    """Coarse steps thick and light below fine ones thin and dark: curves that coincide stay visible."""
-    amplitudes = []
+def _forces(axes: Axes, records: Sequence[Record], reference: Record) -> None:
+    """Over the amplitude of the reference. Coarse steps thick and light, fine ones thin and dark: all stay visible."""
+    scale = np.ptp(last_cycle(reference)[2]) / 2.0
     for rank, (record, (colour, _)) in enumerate(zip(records, style.series(len(records))[::-1], strict=True)):
         time, _, force = last_cycle(record)
-        amplitudes.append(np.ptp(_settled(record)) / 2.0)
-        dash = style.DASHES[-rank % len(records) % len(style.DASHES)]
         axes.plot(
-            1e3 * time,
-            force,
+            1e3 * (time - time[0]),
+            force / scale,
             color=colour,
-            ls=dash,
             lw=3.0 - 2.2 * rank / max(1, len(records) - 1),
-            label=f"$dt$ = {numbers.power(_step(record))} s",
+            label=numbers.power(_step(record)),
             zorder=2 + rank,
         )
     axes.axhline(0.0, color=style.PALE, lw=0.5, zorder=0)
-    axes.set_xlabel("time in the last cycle (ms)")
-    axes.set_ylabel("force at the head (N)")
-    axes.set_xlim(0.0, 1e3 / records[0].attributes["frequency_Hz"])
-    axes.set_ylim(-1.4 * extent, 1.15 * extent)
-    axes.text(0.03, 0.03, _agreement(amplitudes), transform=axes.transAxes, fontsize=7.0)
+    largest = max(np.abs(last_cycle(record)[2]).max() for record in records) / scale
+    axes.set(xlabel="time in the last cycle (ms)", ylabel="force over solved amplitude")
+    axes.set_ylim(-2.4 * largest, 1.15 * largest)
+    axes.legend(
+        title="$dt$ (s)", loc="lower right", title_fontsize=7.0, borderpad=0.1, ncols=2, columnspacing=0.8
+    )
 
 
-def _settled(record: Record) -> np.ndarray:
-    """Force of the last cycle [N] without its first steps."""
-    time, _, force = last_cycle(record)
-    return force[time > JOLT / record.attributes["frequency_Hz"]]
+def _ratio(record: Record, true: Record) -> float:
+    return float(record.attributes["E_MPa"] / true.attributes["E_MPa"])
 
 
-def _extent(record: Record) -> float:
-    return float(np.abs(_settled(record)).max())
-
-
-def _agreement(amplitudes: list[float]) -> str:
-    ratio = max(amplitudes) / min(amplitudes)
-    if ratio < 2.0:
-        return f"amplitudes agree to {_rounded(100.0 * (ratio - 1.0))} %"
-    return f"amplitudes differ by a factor of {_rounded(ratio)}"
-
-
-def _rounded(value: float) -> str:
-    """Two digits, without a power of ten."""
-    return f"{float(f'{value:.2g}'):g}"
+def _tolerance(record: Record) -> float:
+    return float(record.attributes["tolerance"])
 
 
 def _step(record: Record) -> float:

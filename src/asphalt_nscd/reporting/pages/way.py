@@ -10,6 +10,7 @@ import pandas as pd
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.tables import the_only
 
+LIKELIEST = "likeliest"  # the rung of the likeliest reading of the paper, below all others
 QUANTITIES = {"E": "|E*|", "phase": "phase"}
 
 

@@ -43,7 +43,7 @@ class Results:
     table4: list[Path]
     deposits: list[Path]
     specimens: list[Path]
-    converged: list[Path]
+    time_steps: list[Path]
     stopped: list[Path]
     waveform: list[Path]
     profile: list[Path]
@@ -76,7 +76,9 @@ def make(results: Results) -> pd.DataFrame:
             [load(path, "specimen").attributes for path in results.specimens],
             [preparation.moved_above(deposit.arrays) for deposit in deposits],
         ),
-        outcomes.numerics(tests, collect(results.converged), collect(results.stopped)),
+        outcomes.numerics(
+            tests, pd.read_csv(the_only(results.time_steps, "time_steps")), collect(results.stopped)
+        ),
         outcomes.profile(load(the_only(results.profile, "profile"), "test").arrays),
         outcomes.laws_and_samples(
             tests,

@@ -21,6 +21,7 @@ from asphalt_nscd.measurements.tables import (
     read_tests,
     the_only,
 )
+from asphalt_nscd.reporting.pages.way import LIKELIEST
 from asphalt_nscd.reporting.tables.table4 import ERRORS, name_of, named, read_errors
 
 PAPER, FACETS = "as in the paper", "facets"
@@ -30,20 +31,21 @@ def make(
     simulations: list[Path],
     measured: list[Path],
     diagnosis: list[Path],
+    likely: Sequence[Path] = (),
     facets: Sequence[Path] = (),
     extended: Sequence[Path] = (),
     published: Sequence[Path] = (),
 ) -> pd.DataFrame:
     """Mean relative errors (Table 4) of each campaign of simulated tests at each temperature.
 
+    likely: tests of one sample, packed and bonded as the authors most likely did; a rung below all others.
     facets: the tests of `simulations` with bonds that are facets; where there are none, those have them already.
     extended: with what the diagnosis named as well. law: the error of the law that this campaign has in its bonds;
     held_out: of the law of all temperatures, fitted without this one; scatter: of one measured test.
     """
     data, content = read_measured(measured), read_json(the_only(diagnosis, "diagnosis"))
-    campaigns: dict[str, Sequence[Path]] = (
-        {PAPER: simulations, FACETS: facets} if facets else {FACETS: simulations}
-    )
+    campaigns: dict[str, Sequence[Path]] = {LIKELIEST: likely} if likely else {}
+    campaigns |= {PAPER: simulations, FACETS: facets} if facets else {FACETS: simulations}
     if extended:
         campaigns[_extension(diagnosis)] = extended
     rungs = []

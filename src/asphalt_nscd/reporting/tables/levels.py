@@ -1,0 +1,58 @@
+"""|E*| over that of the law at each temperature, with the strength of 2.7 MPa and without, under two readings."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.reporting.tables.bond_readings import OURS
+from asphalt_nscd.reporting.tables.table4 import read_errors
+
+LIKELIEST = "dmin after the reduction of volume, looser layer"
+
+
+def make(simulations: list[Path], likely: list[Path], errors: list[Path]) -> pd.DataFrame:
+    """One row for each reading and temperature.
+
+    simulations: the tests of the study; likely: those of one of its samples, packed and bonded as the authors most
+    likely did. unbroken: mean ratio of all tests of the reading that break no bond, as if the strength had no end: then
+    geometry and law separate, and one ratio holds at all temperatures. E_over_law: mean at this temperature, breaks and
+    all; expected: of all samples, where the reading was tested in one. allowed: whether the authors' mean of as many
+    samples could be one within the printed error and twice both standard errors, as in bond_readings.csv.
+    """
+    printed = read_errors(the_only(errors, "errors")).set_index("temperature_C")["mre_E_percent"]
+    ours, theirs = (
+        _with_ratio(the_only(paths, name))
+        for paths, name in ((simulations, "simulations"), (likely, "likely"))
+    )
+    by_sample = ours.groupby("specimen")["ratio"].mean()
+    error = 100.0 * by_sample.std() / np.sqrt(len(by_sample))
+    others = by_sample.mean() / by_sample[str(theirs["specimen"].iloc[0]).partition("-")[0]]
+    rows = []
+    for reading, tests, scale in ((OURS, ours, 1.0), (LIKELIEST, theirs, others)):
+        unbroken = float(tests.loc[tests["broken_bonds"] == 0, "ratio"].mean())
+        for temperature, some in tests.groupby("temperature_C"):
+            ratio = float(some["ratio"].mean())
+            far = 100.0 * abs(scale * ratio - 1.0)
+            rows.append(
+                {
+                    "reading": reading,
+                    "temperature_C": temperature,
+                    "samples": some["specimen"].nunique(),
+                    "broken_bonds": int(some["broken_bonds"].sum()),
+                    "unbroken": unbroken,
+                    "E_over_law": ratio,
+                    "expected": scale * ratio,
+                    "published_E_percent": printed[temperature],
+                    "allowed": bool(far <= printed[temperature] + 2.0 * np.sqrt(2.0) * error),
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def _with_ratio(path: Path) -> pd.DataFrame:
+    tests = pd.read_csv(path)
+    return tests.assign(ratio=tests["E_MPa"] / tests["E_law_MPa"])
