@@ -29,6 +29,7 @@ BOUNDS = {
 }
 ORIGINS = {
     "measured": "No file says that the data are synthetic or reconstructed: they are taken for measurements.",
+    "digitised": "The data were read off figures; what is found may be an error of that reading.",
     "reconstructed": (
         "This diagnosis rests on reconstructed data. They are not measurements: they were drawn about one smooth "
         "law fitted to the published Burgers parameters, so that a cause found here is one of this reconstruction."

@@ -20,7 +20,7 @@ from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.limits import LIMITS, least_modulus
 
 LEAST_TESTS, LEAST_FREQUENCIES = 4, 2  # that a diagnosis takes
-ORIGINS = ("measured", "reconstructed", "synthetic")
+ORIGINS = ("measured", "digitised", "reconstructed", "synthetic")
 LABELS = ("replicate",)  # told apart, not measured
 KEYS = ("temperature_C", "frequency_Hz")
 FORMS = {"peaks": ("F0_N", "z0_m", "psi_deg"), "moduli": ("E_MPa", "phase_deg"), "records": ("record",)}

@@ -73,7 +73,9 @@ def first_page(
 
 
 def _heading(origin: str) -> str:
-    return "What was measured" if origin == "measured" else f"The data: {origin}, not measured"
+    if origin in ("measured", "digitised"):
+        return "What was measured" + (", read off figures" if origin == "digitised" else "")
+    return f"The data: {origin}, not measured"
 
 
 def _typed(value: Any) -> Any:
