@@ -8,7 +8,7 @@ import pytest
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.reporting.figures import fig_causality_map, style
+from asphalt_nscd.reporting.figures import fig_causality_map
 
 
 def drawn(results, causality=None):
@@ -42,9 +42,9 @@ def test_marks_stand_where_tests_are_suspect_or_flagged(results):
     assert places(first, fig_causality_map.IN_USE) == [(3, 1)]
 
 
-def test_numbers_within_two_standard_errors_are_grey(results):
+def test_numbers_beyond_two_standard_errors_are_bold(results):
     _, second, _ = drawn(results).axes
-    clear = {text.get_text() for text in second.texts if text.get_color() != style.GREY}
+    clear = {text.get_text() for text in second.texts if text.get_fontweight() == "bold"}
     assert clear == {"4.8"}
 
 

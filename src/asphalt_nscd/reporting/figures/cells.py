@@ -27,16 +27,15 @@ def banded(largest: float) -> BoundaryNorm:
 
 
 def draw_table(
-    axes: Axes, table: pd.DataFrame, norm: BoundaryNorm, faint: NDArray[np.bool_] | None = None
+    axes: Axes, table: pd.DataFrame, norm: BoundaryNorm, bold: NDArray[np.bool_] | None = None
 ) -> QuadMesh:
-    """Cells of a table (index degC, columns Hz) with numbers where they are few; grey ones where `faint`."""
+    """Cells of a table (index degC, columns Hz) with numbers where they are few; heavy ones where `bold`."""
     axes.set_facecolor(style.PALE)  # shows where nothing was tested
     image = axes.pcolormesh(table.to_numpy(), cmap=COLOURS, norm=norm, edgecolors="white", linewidth=0.5)
     for (i, k), value in np.ndenumerate(table.to_numpy()):
         if np.isfinite(value) and table.shape[1] <= MOST_NUMBERED:
             red, green, blue, _ = image.cmap(norm(value))
             dark = 0.3 * red + 0.6 * green + 0.1 * blue < 0.5
-            colour = style.GREY if faint is not None and faint[i, k] else style.INK
             digits = 0 if abs(value) >= 9.95 else 1
             axes.text(
                 k + 0.5,
@@ -45,7 +44,8 @@ def draw_table(
                 ha="center",
                 va="center",
                 fontsize=5.5,
-                color="white" if dark else colour,
+                color="white" if dark else style.INK,
+                fontweight="bold" if bold is not None and bold[i, k] else "normal",
             )
     for axis, values in ((axes.xaxis, table.columns), (axes.yaxis, table.index)):
         every = -(-len(values) // MOST_LABELS)

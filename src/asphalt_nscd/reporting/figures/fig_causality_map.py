@@ -19,7 +19,7 @@ from asphalt_nscd.reporting.figures import cells, numbers, style
 
 ACROSS = 3  # panels of a row
 HEAD, CELL = 30.0, 5.5  # mm: what stands around the panels of a row, and an isotherm
-CLEAR = 2.0  # standard errors, below which a number is grey
+CLEAR = 2.0  # standard errors, from which a number is bold
 OUT: dict[str, Any] = {"marker": "X", "mfc": "white", "mec": style.INK, "ms": 6.0, "mew": 0.8, "ls": "none"}
 IN_USE: dict[str, Any] = {
     "marker": "o",
@@ -79,10 +79,10 @@ def draw(causality: list[Path], diagnosis: list[Path]) -> Figure:
             [],
             [],
             ls="none",
-            marker="$0.0$",
-            color=style.GREY,
+            marker=r"$\mathbf{0.0}$",
+            color=style.INK,
             ms=9.0,
-            label=f"within {CLEAR:g} standard errors",
+            label=f"beyond {CLEAR:g} standard errors",
         ),
     ]
     figure.legend(
@@ -108,8 +108,8 @@ def _panel(axes: Axes, own: pd.DataFrame, tests: pd.DataFrame, norm: BoundaryNor
         worst.pivot(values=name, **places).reindex(index=temperatures, columns=frequencies)
         for name in ("difference", "std_error_deg")
     )
-    unclear = (table.abs() < CLEAR * error).to_numpy()
-    image = cells.draw_table(axes, table, norm, unclear)
+    clear = (table.abs() >= CLEAR * error).to_numpy()
+    image = cells.draw_table(axes, table, norm, clear)
     suspect = own["reasons"].ne("")
     for chosen, at, look in (
         (suspect & ~own["used"], SUSPECT_AT, OUT),
