@@ -83,7 +83,6 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
         ("bond_readings", "paper/bond_readings"),
         ("reconstructions", "paper/reconstructions"),
         ("smoothness", "paper/smoothness"),
-        ("time_steps", "paper/time_steps"),
         ("ensemble", "paper/ensemble"),
         ("rivals", "paper/rivals"),
         ("attack", "attack/summary"),

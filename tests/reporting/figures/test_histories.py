@@ -63,7 +63,7 @@ def test_time_steps_solved_and_swept_each_over_its_own_solution(results):
     stopped += steps_of(results, "b", {1e-4: 10.0, 2e-4: 5.0}, tolerance=1e-5)
     figure = fig06.draw(solved=steps_of(results, "c", {2e-4: 40.0, 2e-5: 40.4}), part=part, stopped=stopped)
     left, middle, right = figure.axes
-    assert legend_of(left) == [rf"${n}\times10^{{{power}}}$" for n, power in ((2, -4), (2, -5))]
+    assert legend_of(left) == ["200 µs", "20 µs"]
     # the finest tolerance alone, over the amplitude of the solved smaller specimen
     largest = [line.get_ydata().max() for line in middle.lines[:2]]
     assert largest == pytest.approx([0.25, 0.5], rel=1e-4)

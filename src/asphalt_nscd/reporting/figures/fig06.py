@@ -29,17 +29,19 @@ def draw(solved: list[Path], part: list[Path], stopped: list[Path]) -> Figure:
     _forces(left, whole, whole[-1])
     finest = sorted((one for one in swept if _tolerance(one) == tolerances[-1]), key=_step, reverse=True)
     _forces(middle, finest, true)
-    spheres = f"{int(true.attributes['spheres'])} spheres"
     style.letter(left, "a", "each step solved")
-    style.letter(middle, "b", f"swept to {numbers.power(tolerances[-1])}, {spheres}")
-    style.letter(right, "c", f"all tolerances, {spheres}")
+    style.letter(middle, "b", f"swept to {numbers.power(tolerances[-1])}")
+    style.letter(right, "c", "swept")
     for tolerance, (colour, marker) in zip(tolerances, style.series(len(tolerances)), strict=True):
         rows = sorted((_step(one), _ratio(one, true)) for one in swept if _tolerance(one) == tolerance)
         right.plot(*np.transpose(rows), color=colour, marker=marker, label=numbers.power(tolerance))
     right.axhline(1.0, color=style.GREY, lw=0.8, label="solved")
-    right.set(xscale="log", yscale="log", xlabel="time step $dt$ (s)", ylabel="$|E^*|$ over solved")
-    right.set_ylim(0.5 * min(_ratio(one, true) for one in swept), 3.0)
-    right.legend(title="tolerance", loc="center left", title_fontsize=7.0, borderpad=0.1)
+    right.set(xscale="log", yscale="log", xlabel="time step $dt$ (µs)", ylabel="|E*| over solved")
+    right.minorticks_off()
+    steps = sorted({_step(one) for one in swept})
+    right.set_xticks(steps, [f"{1e6 * step:g}" for step in steps])
+    right.set_ylim(0.02 * min(_ratio(one, true) for one in swept), 3.0)
+    right.legend(title="tolerance", loc="lower left", title_fontsize=7.0, borderpad=0.1)
     return figure
 
 
@@ -53,16 +55,14 @@ def _forces(axes: Axes, records: Sequence[Record], reference: Record) -> None:
             force / scale,
             color=colour,
             lw=3.0 - 2.2 * rank / max(1, len(records) - 1),
-            label=numbers.power(_step(record)),
+            label=f"{1e6 * _step(record):g} µs",
             zorder=2 + rank,
         )
     axes.axhline(0.0, color=style.PALE, lw=0.5, zorder=0)
     largest = max(np.abs(last_cycle(record)[2]).max() for record in records) / scale
     axes.set(xlabel="time in the last cycle (ms)", ylabel="force over solved amplitude")
     axes.set_ylim(-2.4 * largest, 1.15 * largest)
-    axes.legend(
-        title="$dt$ (s)", loc="lower right", title_fontsize=7.0, borderpad=0.1, ncols=2, columnspacing=0.8
-    )
+    axes.legend(title="$dt$", loc="lower left", title_fontsize=7.0, borderpad=0.1, handlelength=1.5)
 
 
 def _ratio(record: Record, true: Record) -> float:

@@ -29,7 +29,8 @@ def make(simulations: list[Path], likely: list[Path], errors: list[Path]) -> pd.
         for paths, name in ((simulations, "simulations"), (likely, "likely"))
     )
     by_sample = ours.groupby("specimen")["ratio"].mean()
-    error = 100.0 * by_sample.std() / np.sqrt(len(by_sample))
+    several = len(by_sample) > 1
+    error = 100.0 * by_sample.std() / np.sqrt(len(by_sample)) if several else 0.0
     others = by_sample.mean() / by_sample[str(theirs["specimen"].iloc[0]).partition("-")[0]]
     rows = []
     for reading, tests, scale in ((OURS, ours, 1.0), (LIKELIEST, theirs, others)):

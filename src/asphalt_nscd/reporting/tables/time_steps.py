@@ -27,21 +27,16 @@ def make(
     """One row for each scheme, tolerance and time step: |E*| over that of the solution, and the phase less its own.
 
     solved: tests of a sample, each step solved; stopped: of a smaller specimen, by Gauss-Seidel until a sweep changes
-    the reactions by less than a tolerance; part: the same specimen, solved. A solved test is compared with the law,
-    times the ratio at the shortest step. Behind them two rows without a test: the longest step at which implicit Euler
+    the reactions by less than a tolerance; part: the same specimen, solved. The solution of
+    `solved` is that of its shortest step. Behind them two rows without a test: the longest step at which implicit Euler
     is right, from the law alone; and the longest at which explicit steps of the sample in `model` are stable, whose
     bonds then have the stiffness Em. right: within RIGHT of ln E*.
     """
     whole, true = collect(solved), collect(part).iloc[0]
     swept = collect(stopped)
-    ratio = whole.loc[whole["time_step_s"].idxmin(), "E_MPa"] / whole["E_law_MPa"].iloc[0]
-    rows = [
-        _row(SOLVED, np.nan, one, one["E_law_MPa"] * ratio, one["phase_law_deg"])
-        for _, one in whole.iterrows()
-    ]
-    rows += [
-        _row(SWEPT, one["tolerance"], one, true["E_MPa"], true["phase_deg"]) for _, one in swept.iterrows()
-    ]
+    finest = whole.loc[whole["time_step_s"].idxmin()]
+    rows = [_row(SOLVED, np.nan, one, finest) for _, one in whole.iterrows()]
+    rows += [_row(SWEPT, one["tolerance"], one, true) for _, one in swept.iterrows()]
     bonds = bond_law(read_bond_law(the_only(law, "law")))
     frequency = float(whole["frequency_Hz"].iloc[0])
     rows.append({"scheme": f"{SOLVED}, longest", "time_step_s": longest_step(bonds, 2.0 * np.pi * frequency)})
@@ -50,8 +45,8 @@ def make(
     return pd.DataFrame(rows)
 
 
-def _row(scheme: str, tolerance: float, test: pd.Series, modulus: float, phase: float) -> dict[str, object]:
-    ratio, apart = test["E_MPa"] / modulus, test["phase_deg"] - phase
+def _row(scheme: str, tolerance: float, test: pd.Series, solution: pd.Series) -> dict[str, object]:
+    ratio, apart = test["E_MPa"] / solution["E_MPa"], test["phase_deg"] - solution["phase_deg"]
     return {
         "scheme": scheme,
         "tolerance": tolerance,
