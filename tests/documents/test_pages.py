@@ -84,6 +84,7 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
         ("reconstructions", "paper/reconstructions"),
         ("smoothness", "paper/smoothness"),
         ("ensemble", "paper/ensemble"),
+        ("time_steps", "paper/time_steps"),
         ("rivals", "paper/rivals"),
         ("attack", "attack/summary"),
         ("blind", "blind/summary"),
