@@ -50,7 +50,7 @@ PUBLISHED = (
     "paper",
     "verification",
 )
-TAKEN = ("simulations.csv", "facets.csv", "extended.csv")  # of full simulations
+TAKEN = ("simulations.csv", "likely.csv", "facets.csv", "extended.csv")  # of full simulations
 
 
 def main(published: Path) -> int:

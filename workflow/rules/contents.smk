@@ -144,7 +144,7 @@ if "audit" in STUDY:
         "blocked": expand(AUDITED[:1], reading="blocked"),
     }
 if LIKELY and "published" in STUDY:
-    PAGES["levels"] = "6 Audit"
+    PAGES["likely"] = PAGES["levels"] = "6 Audit"
     TABLES["levels"] = {
         "simulations": SIMULATIONS,
         "likely": LIKELY_SIMULATIONS,

@@ -142,7 +142,7 @@ def time_steps():
         ("Gauss-Seidel", 1e-4, 5e-5, 70.0, 0.01, False),
         ("Gauss-Seidel", 1e-5, 5e-5, 300.0, 0.1, False),
         ("solved, longest", np.nan, 6e-3, np.nan, np.nan, np.nan),
-        ("explicit, as in DEM, longest", np.nan, 2e-7, np.nan, np.nan, np.nan),
+        ("explicit (DEM), longest", np.nan, 2e-7, np.nan, np.nan, np.nan),
     ]
     columns = ["scheme", "tolerance", "time_step_s", "sweeps_per_step", "E_over_solution", "right"]
     table = pd.DataFrame(rows, columns=columns).assign(spheres=359.0)

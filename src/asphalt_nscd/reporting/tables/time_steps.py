@@ -16,7 +16,7 @@ from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.rheology.laws_io import read_bond_law
 
-SOLVED, SWEPT, EXPLICIT = "solved", "Gauss-Seidel", "explicit, as in DEM"
+SOLVED, SWEPT, EXPLICIT = "solved", "Gauss-Seidel", "explicit (DEM)"
 RIGHT = 0.01  # of ln E*: 1 % of |E*|, 0.6 deg
 ITERATIONS = 60  # of the power method
 
