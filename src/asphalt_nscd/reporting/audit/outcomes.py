@@ -151,7 +151,8 @@ def agreement(
         f"gives {_list(table, 'mre_phase_law_percent')} %, the simulation "
         f"{_list(table, 'mre_phase_simulated_percent')}, the paper prints "
         f"{_list(table, 'mre_phase_published_percent')}. That they are of one size says only that Burgers' law is so "
-        "far from a smooth law of many relaxation times. No smooth data meet both tables (smoothness.csv). A Burgers law refitted to the same data misses them by "
+        "far from a smooth law of many relaxation times. No smooth data meet Tables 3 and 4 (smoothness.csv). "
+        f"A Burgers law refitted to the same data misses them by "
         f"{refitted:.1f} % at {coldest:g} degC.",
         "The points of Fig. 10.",
     )
