@@ -147,8 +147,8 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         _errors("phase", _TABLE4, sentence="Phase angle, mean relative error in percent:"),
     ],
     "gain": [
-        Rungs("E", {"law": "Burgers law", "held_out": "held out"}, "Modulus |E\\*|, percent:", scatter=True),
-        Rungs("phase", {"law": "Burgers law", "held_out": "held out"}, "Phase angle, percent:", scatter=True),
+        Rungs("E", {"law": "Burgers", "held_out": "held out"}, "Modulus |E\\*|, percent:", scatter=True),
+        Rungs("phase", {"law": "Burgers", "held_out": "held out"}, "Phase angle, percent:", scatter=True),
     ],
     "outputs": [
         Layout({"in the paper": "in the paper", "files": "files", "minutes": "minutes"}, figures=3),
@@ -250,7 +250,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             {
                 "reading": "reading",
                 "temperature_C": "T, °C",
-                "broken_bonds": "broken bonds",
+                "broken_bonds": "broken",
                 "unbroken": "without strength",
                 "E_over_law": "with it",
                 "expected": "expected",
