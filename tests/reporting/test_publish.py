@@ -109,7 +109,7 @@ def test_rungs_stand_beside_each_other():
     assert rows[2] == "|T,°C|printed|asinthepaper|spectrum|"
     assert rows[4:6] == ["|15|7|4|2|", "|30|6|3|1|"]
     rows = [line.replace(" ", "") for line in shown("gain", table).splitlines()]
-    assert rows[2] == "|T,°C|printed|asinthepaper|spectrum|Burgerslaw|heldout|scatter|"
+    assert rows[2] == "|T,°C|printed|asinthepaper|spectrum|Burgers|heldout|scatter|"
     assert rows[4] == "|15|7|4|2|0.4|0.9|0.5|"
 
 
