@@ -203,8 +203,7 @@ rule report:
         diagnosis=DIAGNOSED[0],
         ladder="<results>/ladder.csv",
         pictures=[f"<results>/figures/{name}.png" for name in ("fig_residual_map", "fig10_extended" if COMMON_LAW else "fig10")],
-        rivals=["<results>/rivals.csv"] if FAMILIES else [],
-        ensemble=["<results>/ensemble.csv"] if "ensemble" in TABLES else [],
+        beside=[f"<results>/{name}.csv" for name in ("rivals", "ensemble") if name in TABLES],
         code=code("report"),
         template=page_files("report.html"),
     output:
@@ -216,7 +215,7 @@ rule report:
             f"diagnosis={input.diagnosis}",
             f"ladder={input.ladder}",
             *(f"pictures={path}" for path in input.pictures),
-            *(f"{Path(path).stem}={path}" for path in [*input.rivals, *input.ensemble]),
+            *(f"beside={path}" for path in input.beside),
         ],
         entries=lambda wildcards, input: [
             f"--entry={PARTS[Path(path).stem]}={path}" for path in [*input.pages, *input.figures]

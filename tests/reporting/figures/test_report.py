@@ -84,8 +84,7 @@ def test_gains_on_tests_left_out_and_on_other_data_stand_beside(results, tmp_pat
         results.diagnosis()["diagnosis"],
         [picture],
         [path],
-        [tmp_path / "rivals.csv"],
-        [tmp_path / "ensemble.csv"],
+        [tmp_path / "rivals.csv", tmp_path / "ensemble.csv"],
     )
     assert said["left_out"][1] == ("coldest and warmest", "1", "11") and said["held_out"] is None
     assert (

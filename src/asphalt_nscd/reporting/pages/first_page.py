@@ -41,18 +41,18 @@ def first_page(
     diagnosis: list[Path],
     pictures: list[Path],
     ladder: Sequence[Path],
-    rivals: Sequence[Path] = (),
-    ensemble: Sequence[Path] = (),
+    beside: Sequence[Path] = (),
 ) -> dict[str, Any]:
     """Sentences of each part, and rows of the gain.
 
     measured, simulations, samples: one CSV table each, as the workflow makes them; diagnosis: diagnosis.json;
-    pictures: PNG, with which the page opens; ladder: ladder.csv, the errors of each campaign; rivals: rivals.csv, with
-    the errors of tests left out; ensemble: ensemble.csv, the gain on data that meet the paper's tables.
+    pictures: PNG, with which the page opens; ladder: ladder.csv, the errors of each campaign; beside:
+    rivals.csv, the errors of tests left out, and ensemble.csv, the gain on data that meet the paper's tables.
     """
     content = read_diagnosis(diagnosis)
     told = first(content, ladder)
     way = read_ladder(ladder)
+    left_out = _left_out([path for path in beside if path.stem == "rivals"])
     moduli, tests = _frame(measured, "measured"), _frame(simulations, "simulations")
     return {
         "data": _heading(content.get("origin", "measured")),
@@ -65,9 +65,9 @@ def first_page(
         "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in told["orders"]],
         "notes": _typed(content["notes"]),
         "gained": _gained(way),
-        "left_out": _left_out(rivals),
-        "held_out": None if rivals else _held_out(way),
-        "elsewhere": _on_other_data(ensemble),
+        "left_out": left_out,
+        "held_out": None if left_out else _held_out(way),
+        "elsewhere": _on_other_data([path for path in beside if path.stem == "ensemble"]),
         "pictures": [b64encode(path.read_bytes()).decode() for path in pictures],
     }
 
