@@ -25,12 +25,12 @@ ELSEWHERE = (
     "Not visible",
     "Next tests",
 )  # parts of the answer with a card of their own
-LEFT_OUT = {
-    "inner_temperatures": "temperatures between the ends",
-    "end_temperatures": "coldest and warmest",
-    "inner_frequencies": "frequencies between the ends",
-    "end_frequencies": "lowest and highest",
-}
+LEFT_OUT = (
+    "temperatures between the ends",
+    "coldest and warmest",
+    "frequencies between the ends",
+    "lowest and highest",
+)
 TOO_FEW = "No specimen this small was measured. Laws, phase and diagnosis are final; simulated |E*| is not."
 
 
@@ -52,7 +52,7 @@ def first_page(
     content = read_diagnosis(diagnosis)
     told = first(content, ladder)
     way = read_ladder(ladder)
-    left_out = _left_out([path for path in beside if path.stem == "rivals"])
+    left_out = _left_out(way, [path for path in beside if path.stem == "rivals"])
     moduli, tests = _frame(measured, "measured"), _frame(simulations, "simulations")
     return {
         "data": _heading(content.get("origin", "measured")),
@@ -162,16 +162,20 @@ def _gained(way: pd.DataFrame) -> list[tuple[str, ...]]:
     return [*rows, ("scatter of one test", *scatter)]
 
 
-def _left_out(rivals: Sequence[Path]) -> list[tuple[str, ...]]:
-    """Errors of the one law at tests left out of its fit: first between the ends, then at them."""
-    if not rivals:
+def _left_out(way: pd.DataFrame, rivals: Sequence[Path]) -> list[tuple[str, ...]]:
+    """Errors of the one law at tests left out of its fit: temperatures from the ladder, frequencies from the rivals."""
+    temperatures = [held_out(way, ends) for ends in (False, True)]
+    if not rivals or not all(temperatures):
         return []
     table = read_csv(the_only(rivals, "rivals"))
-    rows: list[tuple[str, ...]] = []
-    for kind, words in LEFT_OUT.items():
-        errors = (table.numbers_or_nan(f"{kind}_{quantity}_percent")[0] for quantity in ("E", "phase"))
-        rows.append((words, *(three_digits(error) for error in errors)))
-    return rows
+    frequencies = [
+        {name: table.numbers_or_nan(f"{kind}_frequencies_{name}_percent")[0] for name in ("E", "phase")}
+        for kind in ("inner", "end")
+    ]
+    return [
+        (words, *(three_digits(errors[name]) for name in ("E", "phase")))
+        for words, errors in zip(LEFT_OUT, [*temperatures, *frequencies], strict=True)
+    ]
 
 
 def _on_other_data(ensemble: Sequence[Path]) -> str | None:
