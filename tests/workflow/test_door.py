@@ -156,7 +156,9 @@ def test_lint_finds_only_what_is_accepted():
         if place := re.search(r"^Lints for (?:rule (publish|\w+).*|.*/(\w+)\.smk):$", line):
             where = place[1] or place[2]
         elif finding := re.search(r"^    \* (.*)", line):
-            found |= {(kind, where) for kind in ACCEPTED if finding[1].startswith(kind)} or {(finding[1], where)}
+            found |= {(kind, where) for kind in ACCEPTED if finding[1].startswith(kind)} or {
+                (finding[1], where)
+            }
     assert found == {(kind, where) for kind, places in ACCEPTED.items() for where in places}
 
 
