@@ -156,10 +156,9 @@ def test_lint_finds_only_what_is_accepted():
         if place := re.search(r"^Lints for (?:rule (publish|\w+).*|.*/(\w+)\.smk):$", line):
             where = place[1] or place[2]
         elif finding := re.search(r"^    \* (.*)", line):
-            found |= {(kind, where) for kind in ACCEPTED if finding[1].startswith(kind)} or {
-                (finding[1], where)
-            }
-    assert found == {(kind, where) for kind, places in ACCEPTED.items() for where in places}
+            kind = next((kind for kind in ACCEPTED if finding[1].startswith(kind)), finding[1])
+            found.add((kind, where))
+    assert found == {(kind, place) for kind, places in ACCEPTED.items() for place in places}
 
 
 CONDA = """\
