@@ -208,7 +208,7 @@ def pour(
 
 @checked
 def read_packing(path: str | Path, *, unit: str | None = None, up: str = "z") -> Packing:
-    """Spheres that another program poured or a scanner saw, as a packing.
+    r"""Spheres that another program poured or a scanner saw, as a packing.
 
     path: CSV with columns x, y, z, radius (or diameter), with or without their unit; text of YADE; dump of LIGGGHTS or
     LAMMPS, of which the last snapshot is taken; VTK points with an array radius. unit: m, cm, mm or um, where the file
@@ -218,7 +218,7 @@ def read_packing(path: str | Path, *, unit: str | None = None, up: str = "z") ->
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
     ...     table = Path(folder, "pile.csv")
-    ...     _ = table.write_text("x_mm,y_mm,z_mm,diameter_mm\\n5,5,5,10\\n5,5,15,10\\n")
+    ...     _ = table.write_text("x_mm,y_mm,z_mm,diameter_mm\n5,5,5,10\n5,5,15,10\n")
     ...     read_packing(table).radius_m.tolist()
     [0.005, 0.005]
     """

@@ -14,6 +14,7 @@ class Test(click.ParamType):
     name = "T,f,file"
 
     def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
+        """A temperature [degC], a frequency [Hz] and a path of `T,f,file`."""
         try:
             temperature, frequency, path = value.split(",", 2)
             return float(temperature), float(frequency), Path(path)

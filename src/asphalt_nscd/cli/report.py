@@ -14,6 +14,7 @@ class Part(click.ParamType):
     name = "part=path"
 
     def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
+        """A part of a page and a path of `part=path`."""
         part, equals, path = value.partition("=")
         if not equals or not part or not path:
             self.fail(f"{value!r} is not of the form part=path.", param, context)
@@ -50,7 +51,8 @@ def command(
     output: Path,
 ) -> None:
     """Put all results of a study into one HTML file. Its first page is made from measured=CSV
-    simulations=CSV samples=CSV diagnosis=JSON pictures=PNG."""
+    simulations=CSV samples=CSV diagnosis=JSON pictures=PNG.
+    """
     from asphalt_nscd.files.store import atomic_path
     from asphalt_nscd.reporting.pages.assemble import Entry, assemble
     from asphalt_nscd.reporting.pages.first_page import first_page

@@ -62,6 +62,7 @@ class FlexibleSpectrum:
 
     @property
     def parameters(self) -> int:
+        """Number p of parameters: strengths, static modulus and shift."""
         return self.times.size + 4
 
     @property
@@ -90,6 +91,7 @@ class FlexibleSpectrum:
         return wlf + x[-1] * cubic, np.column_stack([wlf, -wlf * bent * change, cubic])
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
+        """E* (n,) [Pa] and its derivative (n, p) with respect to the parameters."""
         m = self.times.size
         shift, shift_slopes = self.log_shift(x, temperature)
         z = 1j * (omega * np.exp(shift))[:, None] * self.times
@@ -110,6 +112,7 @@ class FlexibleSpectrum:
         return float(away @ away)
 
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
+        """Residuals (k,) of the prior in standard deviations, and their derivative (k, p)."""
         m = self.times.size
         rows = np.zeros((m + 2, self.parameters))
         rows[: m - 2, :m] = np.diff(np.eye(m), 2, axis=0) / self.roughness
@@ -135,9 +138,11 @@ class BurgersAtEach:
 
     @property
     def parameters(self) -> int:
+        """Number p of parameters: four for each isotherm."""
         return 4 * self.isotherms.size
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
+        """E* (n,) [Pa] and its derivative (n, p) with respect to the parameters."""
         at = np.abs(temperature[:, None] - self.isotherms).argmin(axis=1)
         em, eta_m, ek, eta_k = np.exp(x.reshape(-1, 4))[at].T
         i_omega = 1j * omega
@@ -151,5 +156,6 @@ class BurgersAtEach:
         return modulus, slope
 
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
+        """Residuals (k,) of the prior in standard deviations, and their derivative (k, p)."""
         # Keeps a parameter that the data do not see where it is.
         return np.zeros(x.size), 1e-3 * np.eye(x.size)

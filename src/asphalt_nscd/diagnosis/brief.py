@@ -79,6 +79,7 @@ def text(content: Content) -> str:
 
 
 def sure(rung: Content) -> bool:
+    """Whether a cause is established; an older diagnosis does not say, and then it is."""
     return bool(rung.get("established", True))
 
 

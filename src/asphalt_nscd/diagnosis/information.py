@@ -160,6 +160,7 @@ class Inquiry:
                 self._known[one.kept.tobytes()] = Knowledge(linear, [_some(old, one.kept)])
 
     def known(self, one: Asked) -> Knowledge:
+        """What is known under one answer's set of causes."""
         return self._known[one.kept.tobytes()]
 
     def gains(self, tests: Sequence[Tested]) -> Matrix:
@@ -177,6 +178,7 @@ class Inquiry:
         )
 
     def strengths(self) -> list[float]:
+        """`strength` of each question by now."""
         return [float(one.question.strength(self.known(one).information)) for one in self.asked]
 
     def take(self, tests: Tested) -> None:

@@ -248,6 +248,7 @@ def _amplitude(candidate: Candidate) -> float:
 
 
 def words_of(candidate: Candidate) -> str:
+    """`loose clamp of 2`, `temperature bias at 30 degC`."""
     words, place = candidate.cause.name.replace("_", " "), candidate.place
     if place is None:
         return words

@@ -36,13 +36,16 @@ class Candidate:
 
     @property
     def key(self) -> tuple[str, Place]:
+        """Name and place, which tell candidates apart."""
         return self.cause.name, self.place
 
     @property
     def typical(self) -> Vector:
+        """Usual size (p,) of each parameter, in its unit."""
         return np.array([parameter.typical for parameter in self.cause.parameters])
 
     def with_values(self, values: Vector) -> Candidate:
+        """The same candidate with these parameters (p,)."""
         return replace(self, values=tuple(float(v) for v in values))
 
 
@@ -104,7 +107,8 @@ class Noise:
     @cached_property
     def _beside(self) -> tuple[NDArray, Vector]:
         """T (2n, q) and s^2 (q,): with F the discrepancy's factor whitened by the scatter alone and s its singular
-        values, 1 - T T^T is the inverse root of 1 + F F^T."""
+        values, 1 - T T^T is the inverse root of 1 + F F^T.
+        """
         assert self.discrepancy is not None
         modulus, phase = np.split(self.discrepancy, 2)
         factor = np.concatenate([self._whitened(0, modulus), self._whitened(1, phase)])
@@ -141,6 +145,7 @@ class Fitted:
 
     @property
     def covariance(self) -> NDArray:
+        """Covariance (q, q) of the parameters."""
         return np.linalg.inv(self.precision)
 
 

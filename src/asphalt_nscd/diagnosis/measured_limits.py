@@ -49,6 +49,7 @@ class Trials:
 
     @property
     def workers(self) -> int:
+        """How many processes: as asked, else one a core."""
         return self.processes or cores()
 
 

@@ -53,6 +53,7 @@ class Observations:
 
     @property
     def size(self) -> int:
+        """Number n of tests."""
         return self.temperature.size
 
     @property

@@ -57,6 +57,7 @@ class Steps:
     done: int = 0
 
     def step(self) -> None:
+        """One more step is done."""
         self.done += 1
         self.progress("Diagnose", self.done, STEPS)
 

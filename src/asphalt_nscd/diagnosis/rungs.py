@@ -22,6 +22,7 @@ def name_of(candidate: Candidate) -> str:
 
 
 def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
+    """What a rung gains in sample and on tests left out, as diagnosis.json has it."""
     joint, observed = diagnosis.ladder.joint, diagnosis.observed
     before, after = (simulated_by(joint, fitted, specimen) for fitted in (rung.before, rung.after))
     gain: dict[str, Any] = {"in_sample": before_and_after(diagnosis, before, after)}

@@ -110,6 +110,7 @@ def _changed(content: Content, key: str, when: str) -> str:
 
 
 def place_of_test(one: Content) -> str:
+    """`specimen 2, 30 degC, 10 Hz`."""
     return f"{specimen_named(one['specimen'])}, {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
 
 
@@ -296,6 +297,7 @@ def estimate(one: Content, factor: float = 1.0) -> str:
 
 
 def typed(unit: str) -> str:
+    """A unit as it is typed without a degree sign."""
     return {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
 
 
@@ -308,6 +310,7 @@ def cause_words(rung: Content) -> str:
 
 
 def an(words: str) -> str:
+    """The words with their article."""
     return f"{'an' if words[0] in 'aeiou' else 'a'} {words}"
 
 

@@ -66,6 +66,7 @@ class BrokenIsotherm:
 
     @property
     def sentence(self) -> str:
+        """Where the phase leaves the curve, for a reader."""
         low, high = sorted([self.difference.argmin(), self.difference.argmax()])
         ends = " and ".join(
             f"{abs(self.difference[k]):.1f} deg {'above' if self.difference[k] > 0.0 else 'below'} it at "

@@ -35,12 +35,14 @@ class Costs:
     pause: float = 1.0 / 60.0  # at each frequency
 
     def hours(self, specimen: str, temperature: float, frequencies: Sequence[float]) -> float:
+        """Hours of a sweep of one specimen at a temperature [degC] and frequencies [Hz]."""
         away = specimen != METAL and not self.room[0] <= temperature <= self.room[1]
         fixed = self.mounting + self.conditioning * away + self.new_specimen * (specimen == NEW)
         return fixed + sum(self.cycles / f / 3600.0 + self.pause for f in frequencies)
 
     @property
     def sentence(self) -> str:
+        """What was assumed of the hours, for a reader."""
         return (
             f"Hours: {self.mounting:g} h to mount a specimen, {self.conditioning:g} h to bring it to a temperature "
             f"outside {self.room[0]:g} to {self.room[1]:g} degC, {self.new_specimen:g} h to prepare a new one, "

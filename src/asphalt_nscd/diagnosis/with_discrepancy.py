@@ -138,7 +138,8 @@ def _settle(
 
 def _likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
     """The likeliest of several answers: which of three specimens is odd, or a phase that is off at every
-    frequency for a modulus that is, may be told in two ways."""
+    frequency for a modulus that is, may be told in two ways.
+    """
     uncommon = np.where(
         [one.kind == "all" for one in model.processes.described], discrepancy.LEAST, variances
     )

@@ -15,13 +15,13 @@ RESULTS, PUBLISHED = "results", "published"
 
 
 class InputError(Exception):
-    """Input that cannot be used.
+    r"""Input that cannot be used.
 
     The message is one sentence that names the file, the row or key, and the mend. The command
     line prints it alone, without a traceback, and exits with status 2. What it quotes from a file
     may hold anything: it stays one line, and of a length to be read.
 
-    >>> raise InputError("mix.csv, line 3: E_MPa = -5;\\n give a modulus greater than zero.")
+    >>> raise InputError("mix.csv, line 3: E_MPa = -5;\n give a modulus greater than zero.")
     Traceback (most recent call last):
     asphalt_nscd.files.errors.InputError: mix.csv, line 3: E_MPa = -5; give a modulus greater than zero.
     """

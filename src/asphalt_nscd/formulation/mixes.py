@@ -50,6 +50,7 @@ class Pair:
 
     @property
     def omega(self) -> np.ndarray:
+        """Angular frequencies (n,) [rad/s] of the recipe."""
         return 2.0 * np.pi * self.recipe.frequency
 
     @property

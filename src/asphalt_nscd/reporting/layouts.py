@@ -25,6 +25,7 @@ class Layout:
     shorter: Mapping[str, str] = field(default_factory=dict)
 
     def markdown(self, table: pd.DataFrame) -> str:
+        """The table for a page of the documents, its sentence above it."""
         columns = [column for column in self.columns if column in table]
         shown = table[columns].rename(columns=dict(self.columns)).replace(dict(self.shorter))
         return (f"{self.sentence}\n\n" if self.sentence else "") + _grid(shown, self.figures)
@@ -60,6 +61,7 @@ class Rungs:
     scatter: bool = False
 
     def markdown(self, table: pd.DataFrame) -> str:
+        """The table for a page of the documents, a column for each rung."""
         error, rungs = f"mre_{self.quantity}", list(dict.fromkeys(table["rung"]))
         by = {rung: rows.set_index("temperature_C") for rung, rows in table.groupby("rung", sort=False)}
         first, last = by[rungs[0]], by[rungs[-1]]

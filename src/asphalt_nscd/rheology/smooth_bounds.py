@@ -46,6 +46,7 @@ class Printed:
 
     @property
     def modulus(self) -> NDArray[np.complex128]:
+        """E* (n,) [Pa] of the law."""
         return self.law.complex_modulus(self.omega)
 
 

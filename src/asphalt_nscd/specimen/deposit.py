@@ -44,11 +44,13 @@ class PouringHistory:
     touched: list[int] = field(default_factory=list)  # grains touched by the wall in each period
 
     def note(self, bed: GranularBed, wall: float = np.nan) -> None:
+        """Add the present state of the bed, and the height [m] of the wall."""
         self.time.append(bed.time)
         self.height.append(bed.layer_height())
         self.wall.append(wall)
 
     def arrays(self) -> dict[str, np.ndarray]:
+        """What is written of the history, by name in the file."""
         return {
             "course/time": np.array(self.time),
             "course/height": np.array(self.height),

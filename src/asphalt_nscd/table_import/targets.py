@@ -31,6 +31,7 @@ class Header:
 
     @property
     def value(self) -> float:
+        """The temperature [degC]."""
         return celsius(self.text, self.unit)
 
 

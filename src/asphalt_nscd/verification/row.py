@@ -39,6 +39,7 @@ class Checks(list[Check]):
     """The checks of one theme; used as a decorator it adds one."""
 
     def __call__(self, check: Check) -> Check:
+        """Add this check."""
         self.append(check)
         return check
 

@@ -37,17 +37,21 @@ class Desk:
 
     @property
     def output(self) -> Path:
+        """Folder of the results."""
         return self.folder / "results"
 
     def busy(self) -> bool:
+        """Whether a job runs."""
         return self.job is not None and self.job.look() == "running"
 
     def clear(self) -> None:
+        """Forget files and job."""
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(mode=0o700)
         self.files, self.job = [], None
 
     def close(self) -> None:
+        """Stop the job and remove the folder."""
         if self.job is not None:
             self.job.stop()
         shutil.rmtree(self.folder, ignore_errors=True)

@@ -76,6 +76,7 @@ class Job:
             pass
 
     def stop(self, state: str = "cancelled", why: str = "") -> None:
+        """End a running job, and say in which state and why."""
         if self.state == "running":
             self._process.kill()
             self._process.join(5.0)

@@ -26,7 +26,8 @@ MOST_ITERATIONS = 15  # of a solution; the matrix is factorised anew after one t
 @dataclass(frozen=True)
 class Jumps:
     """How far a jump goes: until the fastest bond has lost `bond` of itself or, further, until the cycles have grown
-    by `growth`; at any rate no further than until the specimen has lost `stiffness` of itself."""
+    by `growth`; at any rate no further than until the specimen has lost `stiffness` of itself.
+    """
 
     bond: float = 0.1
     growth: float = 1e-3

@@ -172,7 +172,8 @@ def _bond(law: Burgers) -> BondLaw:
 
 def calibration(laws: dict[float, Burgers], pascal: dict[float, float]) -> Iterator[Judgement]:
     """Section 3.2.2. laws: Table 3 by temperature [degC], in kPa; pascal: |E*| over its law by frequency [Hz], read in
-    Pa, relative to the reading in kPa."""
+    Pa, relative to the reading in kPa.
+    """
     law, coldest = laws[15.0], laws[min(laws)]
     kelvin = law.modulus_k**2 + (OMEGA * law.viscosity_k) ** 2
     storage = 1.0 / law.modulus_m + law.modulus_k / kelvin

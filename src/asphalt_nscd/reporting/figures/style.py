@@ -77,6 +77,7 @@ class RepeatableLayout(ConstrainedLayoutEngine):
     """
 
     def execute(self, fig: Figure) -> Any:
+        """Lay out, then round places so that all processors draw alike."""
         solved = super().execute(fig)
         for axes in fig.axes:
             if axes.get_in_layout():

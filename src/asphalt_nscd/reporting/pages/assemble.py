@@ -28,6 +28,7 @@ class Entry:
 
     @property
     def name(self) -> str:
+        """Name of the figure or table."""
         return self.path.stem
 
 

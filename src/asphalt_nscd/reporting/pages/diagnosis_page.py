@@ -141,6 +141,7 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
 
 
 def scatter(content: dict[str, Any]) -> str:
+    """How large the scatter of one test is taken to be, as a paragraph."""
     scatter = content["scatter"]
     sizes = (
         f"The scatter of one test is taken as {scatter['modulus_percent']:.2g} % of |E*| and "

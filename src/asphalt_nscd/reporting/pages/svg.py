@@ -47,6 +47,7 @@ class Axis:
     log: bool = False
 
     def place(self, values: Sequence[float] | np.ndarray) -> np.ndarray:
+        """Places of values along the axis: their logarithms, where it is logarithmic."""
         of = np.asarray(values, float)
         return np.log10(of) if self.log else of
 
@@ -209,15 +210,18 @@ def _plasma(place: float) -> str:
 
 
 def signed(value: float) -> str:
+    """A number with its sign and two digits."""
     digits = 0 if abs(value) >= 9.95 else 1
     return minus(f"{round(value, digits) + 0.0:+.{digits}f}")
 
 
 def text(x: float, y: float, words: str, anchor: str = "middle", look: str = "") -> str:
+    """Words at a point [px]."""
     return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{look}>{escape(words)}</text>'
 
 
 def svg(label: str, parts: Sequence[str]) -> str:
+    """A chart of these parts, with a label for those who hear it."""
     return (
         f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="group" aria-roledescription="chart" tabindex="0" '
         f'aria-label="{escape(label)}">{"".join(parts)}</svg>'
