@@ -34,6 +34,12 @@ def test_one_phase_with_the_wrong_sign(place):
     assert said.endswith("deg: the sign is wrong; remove the minus sign.") and "specimen B at 21 degC" in said
 
 
+def test_the_phase_below_the_lowest_lies_on_a_line_over_ln_f():
+    phases = 30.0 - 3.0 * np.log(FREQUENCIES / FREQUENCIES[0])
+    _, said = wrong_sign(with_phases(np.where(FREQUENCIES == FREQUENCIES[0], -phases, phases)))
+    assert "is -30 deg, " in said and "say about +30 deg" in said
+
+
 def test_all_phases_of_one_sweep_with_the_wrong_sign():
     row, said = wrong_sign(with_phases([-20.0, -19.0, -18.0, -18.0, -17.0, -16.0]))
     assert campaign().eval(SWEEP)[row]

@@ -7,6 +7,7 @@ from scipy.integrate import quad
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import (
     Geometry,
+    bending_share,
     complex_modulus,
     form_factor,
     head_response,
@@ -37,6 +38,27 @@ def test_form_factor_is_the_deflection_of_a_tapered_cantilever(foot):
 
     deflection, _ = quad(lambda x: x**2 / second_moment(x), 0, geometry.h, epsrel=1e-13)
     assert form_factor(geometry) == pytest.approx(deflection, rel=1e-11)
+
+
+@pytest.mark.parametrize("foot", [0.056, 0.025])
+def test_what_is_not_bending_is_the_shear_of_a_timoshenko_beam(foot):
+    """E z/F of shear = integral of 2 (1 + nu) / (k area) dx, k of a rectangle by Cowper."""
+    geometry, nu = with_foot(foot), 0.35
+    k = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu)
+
+    def compliance(x: float) -> float:
+        width = geometry.b + (geometry.B - geometry.b) * x / geometry.h
+        return 2.0 * (1.0 + nu) / (k * geometry.e * width)
+
+    shear, _ = quad(compliance, 0, geometry.h, epsrel=1e-13)
+    bending = form_factor(geometry)
+    assert bending_share(geometry, nu) == pytest.approx(bending / (bending + shear), rel=1e-11)
+
+
+def test_a_specimen_of_twice_the_size_is_moved_twice_as_far():
+    twice = Geometry(b=50e-3, B=112e-3, e=50e-3, h=500e-3, mass=4.8, mobile_mass=0.235)
+    assert twice.usual_amplitude() == pytest.approx(2.0 * PAPER.usual_amplitude(), rel=1e-12)
+    assert PAPER.usual_amplitude() == pytest.approx(63e-6, rel=1e-12)
 
 
 def test_prismatic_limit():
