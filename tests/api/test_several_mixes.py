@@ -48,6 +48,7 @@ def test_mixes_are_ranked_with_what_the_tests_leave_open(mixes, tmp_path):
         "tension-compression",
         "--draws",
         "500",
+        "--same-machine",
         "--output",
         str(tmp_path),
     ]
@@ -59,6 +60,8 @@ def test_mixes_are_ranked_with_what_the_tests_leave_open(mixes, tmp_path):
         "2-3",
         "2-3",
     ]  # 0.4 % apart, of specimens that differ by 3 %
+    assert any(line.startswith("Nothing common to the campaigns") for line in lines)
+    assert pd.read_csv(tmp_path / "machine.csv").empty
     book = openpyxl.load_workbook(tmp_path / "comparison.xlsx")
     assert book.sheetnames == ["Ranking", "Curves at 15 degC"]
     header, first, *_ = book["Ranking"].iter_rows(values_only=True)

@@ -11,6 +11,7 @@ import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.diagnosis import Diagnosis, diagnose
+from asphalt_nscd.diagnosis.pooled import Pooled, pool
 from asphalt_nscd.diagnosis.reported import EN_12697_26, master_curve
 from asphalt_nscd.diagnosis.run import Draws
 from asphalt_nscd.diagnosis.written import CONFIDENCE
@@ -28,6 +29,17 @@ class Comparison:
     """
 
     diagnoses: Mapping[str, Diagnosis]
+
+    def same_machine(self, draws: Draws = Draws()) -> Pooled:  # noqa: B008  frozen
+        """What one machine does to all of these campaigns; for campaigns that it alone has tested.
+
+        `str` of the answer says it; `answer.table` has the sizes from each campaign, isotherm and frequency.
+        """
+        made = {name: one.outcome.diagnosis for name, one in self.diagnoses.items()}
+        known = {name: one for name, one in made.items() if one is not None}
+        if len(known) < len(made):
+            raise InputError("These diagnoses were read from files; compare the measurements again.")
+        return pool(known, draws.number, draws.seed)
 
     @property
     def table(self) -> pd.DataFrame:

@@ -16,14 +16,20 @@ from asphalt_nscd.cli._progress import bars
     type=click.Choice(["bending", "tension-compression"]),
     help="Test that gave the moduli; else what the files say.",
 )
+@click.option(
+    "--same-machine", is_flag=True, help="One machine tested all: say what it does to all of them, too."
+)
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
-def command(mixes: tuple[Path, ...], output: Path, measured_in: str | None, draws: int) -> None:
+def command(
+    mixes: tuple[Path, ...], output: Path, measured_in: str | None, same_machine: bool, draws: int
+) -> None:
     """Diagnose several mixes and rank them: one workbook, one page, and a folder for each.
 
     MIXES: a file or a folder for each mix, two or more.
     """
     from asphalt_nscd.api.comparison import compare
     from asphalt_nscd.api.diagnosis import Draws
+    from asphalt_nscd.files.store import write_table
 
     with bars("mix", on_terminal=True) as progress:
         made = compare(mixes, measured_in=measured_in, draws=Draws(draws), progress=progress)
@@ -41,4 +47,10 @@ def command(mixes: tuple[Path, ...], output: Path, measured_in: str | None, draw
             f"{place:>6}  {row.mix}: |E*|(15 degC, 10 Hz) = {row.E_MPa:.0f} MPa "
             f"({row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}); {row.causes.replace('_', ' ') or 'no cause named'}"
         )
-    click.echo(f"\nWritten to {output}: comparison.html, comparison.xlsx, and a folder for each mix.")
+    names = ["comparison.html", "comparison.xlsx"]
+    if same_machine:
+        machine = made.same_machine(Draws(draws))
+        write_table(output / "machine.csv", machine.table)
+        names.append("machine.csv")
+        click.echo(f"\n{machine}")
+    click.echo(f"\nWritten to {output}: {', '.join(names)}, and a folder for each mix.")

@@ -342,9 +342,15 @@ def _factor(model: Reduced, s: Vector) -> tuple[NDArray, bool]:
 
 def correlation(model: Reduced, all_directions: Direction, variances: Vector) -> tuple[NDArray, Vector]:
     """Correlation (k, k) of the z of directions where nothing is hidden, and their standard errors (k,)."""
+    information, _ = weighed(model, all_directions, variances)
+    size = np.sqrt(np.maximum(np.diag(information), 1e-300))
+    return information / size[:, None] / size, 1.0 / size
+
+
+def weighed(model: Reduced, all_directions: Direction, variances: Vector) -> tuple[NDArray, Vector]:
+    """Information (k, k) of the amplitudes of directions, law and discrepancy integrated out, and their score (k,)."""
     s = np.sqrt(variances)[model.processes.block]
     lower, _ = _factor(model, s)
     half = solve_triangular(lower, s[:, None] * all_directions.cross, lower=True, check_finite=False)
-    information = all_directions.own - half.T @ half
-    size = np.sqrt(np.maximum(np.diag(information), 1e-300))
-    return information / size[:, None] / size, 1.0 / size
+    data = solve_triangular(lower, s * model.along, lower=True, check_finite=False)
+    return all_directions.own - half.T @ half, all_directions.along - half.T @ data

@@ -84,10 +84,24 @@ class Survey:
 
 
 def begin(plain: Joint, fitted: Fitted) -> State:
-    """Law and discrepancy without any cause."""
+    """Law and discrepancy with the causes of the fit, mostly none."""
     found = discrepancy.processes(plain, fitted)
     start = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances
-    return _smoothed(_settle(plain, found, fitted, (), start))
+    return _smoothed(_settle(plain, found, fitted, fitted.active, start))
+
+
+def without_discrepancy(plain: Joint, fitted: Fitted) -> State:
+    """The same of a table that holds no more than its scatter."""
+    found = discrepancy.processes(plain, fitted)
+    none = np.full(len(found.described), discrepancy.LEAST)
+    return State(plain, plain, fitted, fitted, discrepancy.reduce(found, fitted), none)
+
+
+def with_causes(state: State, active: tuple[Candidate, ...]) -> State:
+    """Fitted anew with these causes."""
+    if (state.variances > discrepancy.LEAST).any():
+        return _settle(state.plain, state.model.processes, state.fitted, active, state.variances)
+    return without_discrepancy(state.plain, state.plain.fit(state.fitted.law, state.fitted.scales, active))
 
 
 def climb(

@@ -1,0 +1,488 @@
+"""Several campaigns of one machine: what its channels and its head do to all of them, the mixes free.
+
+Each campaign has its own law, specimens, scatter and discrepancy. Near its fit the amplitudes a of the machine's causes
+enter as -2 ln L = a^T I a - 2 a^T s, I and s with the law, the specimens and the discrepancy integrated out. Campaigns
+are independent, so I and s add up (a meta-analysis of individual data). Where campaigns differ by more than their
+errors, that widens the answer (DerSimonian and Laird 1986); one that is astray does not carry it. A name has rivals
+without one: the same effect with a size of its own on each isotherm, or at each frequency.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.special import chdtrc
+
+from asphalt_nscd.diagnosis import beside, chance, discrepancy
+from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause
+from asphalt_nscd.diagnosis.diagnose import Diagnosis
+from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.sentences import an
+from asphalt_nscd.diagnosis.written import CONFIDENCE, shown, three_digits, widening, with_interval
+from asphalt_nscd.files.words import joined
+
+UNITS = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
+Vector = NDArray[np.float64]
+MOST = 3  # causes of one machine
+AS_GOOD = 6.0  # gains closer than this are not told apart
+CHANCE = 0.01  # of naming anything common to campaigns of a machine without a fault
+# Of 100 drawn campaigns without fault some tell an offset which their error does not allow: z is 1.05 rms, at most 3.8.
+ASTRAY, LARGER = 0.1, 2.5
+FARTHEST = 30.0  # standard errors, beyond which a campaign is as far
+ITERATIONS = 30
+SETTLED = 2  # fits with the causes of the machine at their pooled size
+SHOWS = 5.0  # times the error of the whole, up to which a part is told
+DIFFERENT = 0.003  # chance below which sizes are said to differ; three times looked at
+
+
+@dataclass(frozen=True)
+class Part:
+    """An amplitude in one campaign, isotherm or frequency, in the unit of its cause; NaN where nothing shows it."""
+
+    where: str
+    value: float
+    std_error: float
+
+
+@dataclass(frozen=True)
+class Common:
+    """A cause that all campaigns share. value, std_error, between: in the unit of its amplitude.
+
+    between: standard deviation of what campaigns differ by beyond their errors; p_value: of the largest of all causes;
+    campaigns, isotherms, frequencies: the same amplitude from each alone; differs: what it differs between by more than
+    chance, of "campaigns", "isotherms" and "frequencies"; as_good: causes that fit as well.
+    """
+
+    cause: Cause
+    value: float
+    std_error: float
+    between: float
+    p_value: float
+    campaigns: tuple[Part, ...]
+    isotherms: tuple[Part, ...]
+    frequencies: tuple[Part, ...]
+    as_good: tuple[str, ...] = ()
+    differs: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def named(self) -> bool:
+        """Whether one size fits all; else it is common, but not known to be this cause."""
+        return not self.differs
+
+
+@dataclass(frozen=True)
+class Pooled:
+    """What the campaigns of a machine have in common; limits: amplitude of each cause that they would show together."""
+
+    found: tuple[Common, ...]
+    limits: Mapping[str, float]
+    left_out: tuple[str, ...]  # campaigns that one law does not describe
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """A row for each cause that is common, and for the same from each campaign, isotherm and frequency alone."""
+        rows = []
+        for one in self.found:
+            whole = Part("all campaigns", one.value, one.std_error)
+            for part in (whole, *one.campaigns, *one.isotherms, *one.frequencies):
+                value, unit = shown(part.value, one.cause.parameters[0].unit)
+                error, _ = shown(part.std_error, one.cause.parameters[0].unit)
+                rows.append((one.cause.name, one.named, part.where, value, error, unit))
+        return pd.DataFrame(rows, columns=["cause", "named", "where", "value", "std_error", "unit"])
+
+    def __str__(self) -> str:
+        """What the campaigns have in common, for a reader: sentences, one a line."""
+        said = [_sentence(one) for one in self.found]
+        if not self.found:
+            said.append("Nothing common to the campaigns stands out.")
+        rest = [
+            f"{name.replace('_', ' ')} of {three_digits(value)} {unit}"
+            for name, size in self.limits.items()
+            if name not in {one.cause.name for one in self.found}
+            for value, unit in [shown(size, UNITS[name])]
+        ]
+        if rest:
+            said.append(f"Together they would mostly show a common {joined(rest, 'or')}.")
+        if self.left_out:
+            said.append(
+                f"Not used for this: {joined(self.left_out)}; one isotherm, or no law common to its isotherms."
+            )
+        return "\n".join(said)
+
+
+def _sentence(one: Common) -> str:
+    """A cause with its 95 % interval; or how its size differs, and that it is then not this cause alone."""
+    unit = one.cause.parameters[0].unit
+    value, name = shown(one.value, unit)
+    half = CONFIDENCE * shown(one.std_error, unit)[0]
+    size, words = f"{with_interval(value, half)} {name}", one.cause.name.replace("_", " ")
+    if one.named:
+        others = joined([an(other.replace("_", " ")) for other in one.as_good], "or")
+        or_else = f"; {others} would fit as well" if others else ""
+        return f"Machine: {words} in all campaigns, {size} (95 % interval){or_else}."
+    parts = {"campaigns": one.campaigns, "isotherms": one.isotherms, "frequencies": one.frequencies}
+    differ = []
+    for group in one.differs:
+        known = [part for part in parts[group] if part.std_error < SHOWS * one.std_error]
+        low, high = min(known, key=lambda part: part.value), max(known, key=lambda part: part.value)
+        ends = [f"{three_digits(shown(part.value, unit)[0])} {name} ({part.where})" for part in (low, high)]
+        differ.append(f"between {group} from {ends[0]} to {ends[1]}")
+    return (
+        f"Common to the campaigns, without a name: they look as with {an(words)} of {size}, but its size differs "
+        f"{joined(differ)}. So it is no {words} of the machine alone."
+    )
+
+
+@dataclass(frozen=True)
+class _Campaign:
+    name: str
+    state: beside.State
+    sizes: bool  # whether it has a discrepancy
+    spread: float  # factor on its errors, as its own diagnosis tells them
+
+    def with_causes(self, causes: Sequence[Cause], amplitudes: Vector) -> _Campaign:
+        """Fitted with the causes at these amplitudes [typical units] as a start."""
+        own = tuple(one for one in self.state.fitted.active if not of_machine(one.cause))
+        added = tuple(
+            Candidate(cause, None, (amplitude * cause.parameters[0].typical,))
+            for cause, amplitude in zip(causes, amplitudes, strict=True)
+            if cause.places(self.state.plain.observed)
+        )
+        return replace(self, state=beside.with_causes(self.state, (*own, *added)))
+
+
+@dataclass(frozen=True)
+class _Evidence:
+    """information (k, k) and score (k,) of k directions, amplitudes in typical units from zero."""
+
+    information: NDArray
+    score: Vector
+
+    def at(self, kept: Sequence[int], held: Mapping[int, float]) -> _Evidence:
+        """Of some of them, others held at a value."""
+        at = list(kept)
+        score = self.score[at].copy()
+        for k, value in held.items():
+            score -= self.information[at, k] * value
+        return _Evidence(self.information[np.ix_(at, at)], score)
+
+
+def of_machine(cause: Cause) -> bool:
+    """Whether a cause sits in the head or the channels, the same in all tests of a machine."""
+    return cause.stage >= HEAD and not cause.confined_to and len(cause.parameters) == 1
+
+
+def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -> Pooled:
+    """Find what the campaigns, by name, have in common."""
+    random = np.random.default_rng(seed)
+    begun = {name: _begin(name, diagnosis) for name, diagnosis in campaigns.items()}
+    states = [one for one in begun.values() if one is not None]
+    found: list[Common] = []
+    causes: list[Cause] = []
+    amplitudes = np.zeros(0)
+    limits: dict[str, float] = {}
+    while states:
+        open_ = [
+            cause
+            for cause in CATALOGUE
+            if of_machine(cause)
+            and cause not in causes
+            and any(cause.places(one.state.plain.observed) for one in states)
+        ]
+        if not open_:
+            break
+        each = {cause: [_evidence(one, [*causes, cause]) for one in states] for cause in open_}
+        pooled = {cause: _together(each[cause], amplitudes) for cause in open_}
+        by_chance = _by_chance(states, [*causes, *open_], len(causes), draws, random)
+        threshold = float(np.quantile(by_chance, 1.0 - CHANCE))
+        for cause in open_:
+            size = (threshold + chance.POWER) * pooled[cause].std_error * cause.parameters[0].typical
+            limits.setdefault(cause.name, size)
+        z_of = {cause: _z(cause, pooled[cause]) for cause in open_}
+        common = [cause for cause in open_ if z_of[cause] > threshold]
+        if not common or len(causes) == MOST:
+            break
+        gains = {cause: _gain(each[cause], amplitudes) for cause in common}
+        best = _likeliest(pooled, gains)
+        as_good = tuple(
+            cause.name
+            for cause in common
+            if cause is not best and z_of[best] ** 2 - z_of[cause] ** 2 < AS_GOOD
+        )
+        z = z_of[best]
+        causes.append(best)
+        amplitudes = np.append(amplitudes, pooled[best].value)
+        p_value = chance.tail(by_chance, z)
+        for _ in range(SETTLED):
+            states = [one.with_causes(causes, amplitudes) for one in states]
+            amplitudes = _all_together([_evidence(one, causes) for one in states], amplitudes)
+        found.append(Common(best, 0.0, 0.0, 0.0, p_value, (), (), (), as_good))
+    last = [_evidence(one, causes) for one in states]
+    found = [_told(one, k, states, last, causes, amplitudes) for k, one in enumerate(found)]
+    return Pooled(tuple(found), limits, tuple(name for name, one in begun.items() if one is None))
+
+
+def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
+    """A campaign without any cause of the machine; what it holds of its own stays."""
+    ladder = diagnosis.ladder
+    base = ladder.joint.base
+    if not isinstance(base, FlexibleSpectrum) or diagnosis.observed.isotherms.size < 2:
+        return None
+    plain = Joint(diagnosis.observed, base, replace(ladder.joint.noise, discrepancy=None))
+    own = tuple(one for one in ladder.fitted.active if not of_machine(one.cause))
+    fitted = plain.fit(ladder.fitted.law, ladder.fitted.scales, own)
+    sizes = bool(ladder.discrepancy)
+    begin = beside.begin if sizes else beside.without_discrepancy
+    return _Campaign(name, begin(plain, fitted), sizes, widening(ladder.estimates_spread))
+
+
+def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | None = None) -> _Evidence:
+    """Of causes, the last one with the discrepancy's sizes estimated beside it; parts (n, k): shares of it apart."""
+    state, observed = campaign.state, campaign.state.plain.observed
+    shown = [k for k, cause in enumerate(causes) if cause.places(observed)]
+    columns, stands, inside = [], np.zeros(len(causes)), []
+    for k in shown:
+        column, value, place = _direction(state, causes[k])
+        columns.append(column)
+        stands[k] = value
+        inside += [] if place is None else [place]
+    size = len(causes)
+    if not columns:
+        return _Evidence(np.zeros((size, size)), np.zeros(size))
+    rest = _without(state.linear, inside)
+    model = discrepancy.reduce(state.model.processes, rest)
+    pointing = discrepancy.directions(model, rest, state.plain.noise.whiten(np.column_stack(columns)))
+    variances = state.variances
+    if campaign.sizes:
+        # Those before the last are held at where they stand: their size is common and known far better.
+        variances = discrepancy.estimate(model, pointing.column(len(shown) - 1), variances).variances
+    if parts is not None:
+        apart = columns[-1][:, None] * parts
+        pointing = discrepancy.directions(model, rest, state.plain.noise.whiten(apart))
+        information, score = discrepancy.weighed(model, pointing, variances)
+        information, score = information / campaign.spread**2, score / campaign.spread**2
+        return _Evidence(information, score + information @ np.full(parts.shape[1], stands[shown[-1]]))
+    information, score = discrepancy.weighed(model, pointing, variances)
+    information, score = information / campaign.spread**2, score / campaign.spread**2
+    whole = np.zeros((size, size))
+    whole[np.ix_(shown, shown)] = information
+    out = np.zeros(size)
+    out[shown] = score
+    return _Evidence(whole, out + whole @ stands)
+
+
+def _direction(state: beside.State, cause: Cause) -> tuple[NDArray, float, int | None]:
+    """Derivative (n,) of ln E* along a cause, its value in the fit [typical units] and its place in the Jacobian."""
+    fitted, joint = state.fitted, state.plain
+    first = fitted.law.size + fitted.scales.size
+    for k, one in enumerate(fitted.active):
+        if one.key == (cause.name, None):
+            column = joint.direction(fitted.law, fitted.scales, fitted.active, k, 0)
+            return column, one.values[0] / cause.parameters[0].typical, first
+        first += len(one.values)
+    absent = (*fitted.active, Candidate(cause, None, (0.0,)))
+    return joint.direction(fitted.law, fitted.scales, absent, len(absent) - 1, 0), 0.0, None
+
+
+def _without(linear: Fitted, places: Sequence[int]) -> Fitted:
+    """A fit of which some parameters are none of its own."""
+    return replace(
+        linear,
+        jacobian=np.delete(linear.jacobian, places, axis=1),
+        precision=np.delete(np.delete(linear.precision, places, axis=0), places, axis=1),
+        gradient=np.delete(linear.gradient, places),
+    )
+
+
+def _all_together(each: Sequence[_Evidence], start: Vector) -> Vector:
+    """Amplitudes (k,) of all causes at once; one that no campaign shows stays."""
+    information = np.sum([one.information for one in each], axis=0)
+    score = np.sum([one.score for one in each], axis=0)
+    seen = np.diag(information) > 0.0
+    out = start.copy()
+    out[seen] = np.linalg.solve(information[np.ix_(seen, seen)], score[seen])
+    return out
+
+
+@dataclass(frozen=True)
+class _Whole:
+    """One amplitude of all campaigns [typical units]; z: its size in standard errors, by the likelihood ratio."""
+
+    value: float = 0.0
+    std_error: float = np.inf
+    z: float = 0.0
+    between: float = 0.0
+    differ: float = 1.0  # chance that campaigns differ so much
+
+
+def _together(each: Sequence[_Evidence], taken: Vector) -> _Whole:
+    """The last cause from all campaigns; taken (k - 1,): amplitudes of those before it.
+
+    Where campaigns differ by more than chance, that widens the error; else one in ten may be in error by more than it
+    says.
+    """
+    last = taken.size
+    alone = [one.at([last], dict(enumerate(taken))) for one in each]
+    weight = np.array([float(one.information[0, 0]) for one in alone])
+    shown = weight > 0.0
+    if not shown.any():
+        return _Whole()
+    value = np.array([float(one.score[0]) for one in alone])[shown] / weight[shown]
+    weight = weight[shown]
+    # The others are free too: what they leave of the information of this one.
+    whole = np.sum([one.information for one in each], axis=0)
+    free = float(1.0 / np.linalg.inv(whole)[last, last]) / whole[last, last] if last else 1.0
+    mean = float(weight @ value / weight.sum())
+    square, freedom = float(weight @ (value - mean) ** 2), weight.size - 1
+    differ = float(chdtrc(freedom, square)) if freedom else 1.0
+    if differ < DIFFERENT:
+        excess = (square - freedom) / (weight.sum() - float(weight @ weight) / weight.sum())
+        wide = 1.0 / (1.0 / weight + excess)
+        mean, error = float(wide @ value / wide.sum()), float((wide.sum() * free) ** -0.5)
+        return _Whole(mean, error, mean / error, float(np.sqrt(excess)), differ)
+    for _ in range(ITERATIONS):
+        pulled = weight * (1.0 - _astray(value - mean, weight) * (1.0 - LARGER**-2))
+        mean = float(pulled @ value / pulled.sum())
+    error = float((pulled.sum() * free) ** -0.5)
+    ratio = 2.0 * free * (_log_likelihood(value - mean, weight) - _log_likelihood(value, weight))
+    return _Whole(mean, error, float(np.sign(mean) * np.sqrt(max(ratio, 0.0))), 0.0, differ)
+
+
+def _log_likelihood(left: Vector, weight: Vector) -> float:
+    return float(np.log(_densities(left, weight).sum(axis=0)).sum())
+
+
+def _astray(left: Vector, weight: Vector) -> Vector:
+    """Probability (n,) that a campaign is in error by more than it says."""
+    sound, wrong = _densities(left, weight)
+    return wrong / (sound + wrong)
+
+
+def _densities(left: Vector, weight: Vector) -> Vector:
+    """Of errors (n,) of sound campaigns and of those in larger error, up to a factor: (2, n)."""
+    z = np.minimum(np.sqrt(weight) * np.abs(left), FARTHEST)
+    return np.array(
+        [(1.0 - ASTRAY) * np.exp(-0.5 * z**2), ASTRAY / LARGER * np.exp(-0.5 * (z / LARGER) ** 2)]
+    )
+
+
+def _likeliest(pooled: Mapping[Cause, _Whole], gains: Mapping[Cause, float]) -> Cause:
+    """The cause of one size for all; if none has one, that of most likelihood with a size in each campaign."""
+    of_one_size = [cause for cause in gains if pooled[cause].differ >= DIFFERENT]
+    if of_one_size:
+        return max(of_one_size, key=lambda cause: abs(pooled[cause].z))
+    return max(gains, key=lambda cause: gains[cause])
+
+
+def _gain(each: Sequence[_Evidence], taken: Vector) -> float:
+    """Of -2 ln likelihood, by the last cause with an amplitude of its own in each campaign."""
+    alone = [one.at([taken.size], dict(enumerate(taken))) for one in each]
+    return sum(
+        float(one.score[0] ** 2 / one.information[0, 0]) for one in alone if one.information[0, 0] > 0.0
+    )
+
+
+def _z(cause: Cause, found: _Whole) -> float:
+    """Standard errors, with the sign that a one-sided cause cannot have counted as nothing."""
+    return max(found.z, 0.0) if cause.parameters[0].low >= 0.0 else abs(found.z)
+
+
+def _by_chance(
+    states: Sequence[_Campaign],
+    causes: Sequence[Cause],
+    taken: int,
+    draws: int,
+    random: np.random.Generator,
+) -> Vector:
+    """The largest z of the causes after the first `taken` that chance alone gives."""
+    information = np.sum([_evidence(one, causes).information for one in states], axis=0)
+    own = information[taken:, taken:]
+    if taken:
+        cross = information[taken:, :taken]
+        own = own - cross @ np.linalg.solve(information[:taken, :taken], cross.T)
+    size = np.sqrt(np.maximum(np.diag(own), 1e-300))
+    one_sided = np.array([cause.parameters[0].low >= 0.0 for cause in causes[taken:]])
+    scores = chance.Scores(np.zeros(size.size), size**2, np.ones(size.size, bool), own / size[:, None] / size)
+    freedom = sum(one.state.plain.noise.freedom for one in states)
+    return chance.largest_by_chance(scores, one_sided, freedom, draws, random)
+
+
+def _told(
+    one: Common,
+    k: int,
+    states: Sequence[_Campaign],
+    last: Sequence[_Evidence],
+    causes: Sequence[Cause],
+    amplitudes: Vector,
+) -> Common:
+    """A cause with its size beside all others, and from each campaign, isotherm and frequency alone."""
+    order = [*(j for j in range(len(causes)) if j != k), k]
+    each = [one_.at(order, {}) for one_ in last]
+    others = amplitudes[order[:-1]]
+    whole = _together(each, others)
+    unit = one.cause.parameters[0].typical
+    alone = [one_.at([len(order) - 1], dict(enumerate(others))) for one_ in each]
+    campaigns = tuple(
+        _part(campaign.name, evidence, unit) for campaign, evidence in zip(states, alone, strict=True)
+    )
+    ordered = [causes[j] for j in order]
+    isotherms, by_isotherm = _apart(states, ordered, lambda of: of.isotherm, "degC")
+    frequencies, by_frequency = _apart(states, ordered, lambda of: of.frequency, "Hz")
+    tested = {"campaigns": whole.differ, "isotherms": by_isotherm, "frequencies": by_frequency}
+    return Common(
+        one.cause,
+        whole.value * unit,
+        whole.std_error * unit,
+        whole.between * unit,
+        one.p_value,
+        campaigns,
+        isotherms,
+        frequencies,
+        one.as_good,
+        {name: p_value for name, p_value in tested.items() if p_value < DIFFERENT},
+    )
+
+
+def _part(name: str, evidence: _Evidence, unit: float) -> Part:
+    weight = float(evidence.information[0, 0])
+    if weight <= 0.0:
+        return Part(name, np.nan, np.nan)
+    return Part(name, float(evidence.score[0]) / weight * unit, weight**-0.5 * unit)
+
+
+def _apart(
+    states: Sequence[_Campaign],
+    causes: Sequence[Cause],
+    label: Callable[[Observations], Vector],
+    word: str,
+) -> tuple[tuple[Part, ...], float]:
+    """The last cause with an amplitude of its own at each label, and the chance that one amplitude differs so much."""
+    labels = np.unique(np.concatenate([label(one.state.plain.observed) for one in states]))
+    size = labels.size
+    information, score = np.zeros((size, size)), np.zeros(size)
+    for one in states:
+        if causes[-1].places(one.state.plain.observed):
+            parts = (label(one.state.plain.observed)[:, None] == labels).astype(float)
+            evidence = _evidence(one, causes, parts)
+            information, score = information + evidence.information, score + evidence.score
+    seen = np.diag(information) > 0.0
+    precision = information[np.ix_(seen, seen)]
+    covariance = np.linalg.pinv(precision, hermitian=True)
+    value = covariance @ score[seen]
+    unit = causes[-1].parameters[0].typical
+    told = tuple(
+        Part(f"{name:g} {word}", float(v * unit), float(np.sqrt(max(c, 0.0)) * unit))
+        for name, v, c in zip(labels[seen], value, np.diag(covariance), strict=True)
+    )
+    together = np.ones(value.size)
+    whole = float(together @ precision @ together)
+    mean = float(together @ score[seen]) / whole if whole > 0.0 else 0.0
+    square = float((value - mean) @ precision @ (value - mean))
+    return told, float(chdtrc(value.size - 1, square)) if value.size > 1 else 1.0
