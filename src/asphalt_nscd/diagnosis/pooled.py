@@ -17,7 +17,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.special import chdtrc
 
-from asphalt_nscd.diagnosis import beside, chance, discrepancy
+from asphalt_nscd.diagnosis import chance, discrepancy, with_discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause
@@ -31,7 +31,6 @@ from asphalt_nscd.files.words import joined
 UNITS = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
 Vector = NDArray[np.float64]
 MOST = 3  # causes of one machine
-AS_GOOD = 6.0  # gains closer than this are not told apart
 CHANCE = 0.01  # of naming anything common to campaigns of a machine without a fault
 # Of 100 drawn campaigns without fault some tell an offset which their error does not allow: z is 1.05 rms, at most 3.8.
 ASTRAY, LARGER = 0.1, 2.5
@@ -143,7 +142,7 @@ def _sentence(one: Common) -> str:
 @dataclass(frozen=True)
 class _Campaign:
     name: str
-    state: beside.State
+    state: with_discrepancy.State
     sizes: bool  # whether it has a discrepancy
     spread: float  # factor on its errors, as its own diagnosis tells them
 
@@ -155,7 +154,7 @@ class _Campaign:
             for cause, amplitude in zip(causes, amplitudes, strict=True)
             if cause.places(self.state.plain.observed)
         )
-        return replace(self, state=beside.with_causes(self.state, (*own, *added)))
+        return replace(self, state=with_discrepancy.with_causes(self.state, (*own, *added)))
 
 
 @dataclass(frozen=True)
@@ -203,7 +202,7 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
         by_chance = _by_chance(states, [*causes, *open_], len(causes), draws, random)
         threshold = float(np.quantile(by_chance, 1.0 - CHANCE))
         for cause in open_:
-            size = (threshold + chance.POWER) * pooled[cause].std_error * cause.parameters[0].typical
+            size = (threshold + chance.Z_95) * pooled[cause].std_error * cause.parameters[0].typical
             limits.setdefault(cause.name, size)
         z_of = {cause: _z(cause, pooled[cause]) for cause in open_}
         common = [cause for cause in open_ if z_of[cause] > threshold]
@@ -214,7 +213,7 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
         as_good = tuple(
             cause.name
             for cause in common
-            if cause is not best and z_of[best] ** 2 - z_of[cause] ** 2 < AS_GOOD
+            if cause is not best and z_of[best] ** 2 - z_of[cause] ** 2 < chance.DELTA_DEVIANCE
         )
         z = z_of[best]
         causes.append(best)
@@ -239,7 +238,7 @@ def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
     own = tuple(one for one in ladder.fitted.active if not of_machine(one.cause))
     fitted = plain.fit(ladder.fitted.law, ladder.fitted.scales, own)
     sizes = bool(ladder.discrepancy)
-    begin = beside.begin if sizes else beside.without_discrepancy
+    begin = with_discrepancy.begin if sizes else with_discrepancy.without_discrepancy
     return _Campaign(name, begin(plain, fitted), sizes, widening(ladder.estimates_spread))
 
 
@@ -278,7 +277,7 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
     return _Evidence(whole, out + whole @ stands)
 
 
-def _direction(state: beside.State, cause: Cause) -> tuple[NDArray, float, int | None]:
+def _direction(state: with_discrepancy.State, cause: Cause) -> tuple[NDArray, float, int | None]:
     """Derivative (n,) of ln E* along a cause, its value in the fit [typical units] and its place in the Jacobian."""
     fitted, joint = state.fitted, state.plain
     first = fitted.law.size + fitted.scales.size
