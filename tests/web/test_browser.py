@@ -61,6 +61,19 @@ def workbook(path):
     return path
 
 
+def test_moduli_without_a_phase_give_a_curve(page, address, tmp_path):
+    path = tmp_path / "flat.csv"
+    rows = [f"{t},{f},{3e4 / (1 + 0.05 * t * t / f**0.4):.1f}" for t in (4, 21, 37) for f in (0.1, 1, 10)]
+    path.write_text("Temperature (C),Frequency (Hz),E* (MPa)\n" + "\n".join(rows), encoding="utf-8")
+    page.open(address, 1280)
+    drop(page, path)
+    until(page, "!document.getElementById('go').hidden")
+    page.evaluate("document.getElementById('go').click()")
+    until(page, "!document.getElementById('result').hidden")
+    assert page.evaluate("document.getElementById('value').textContent").endswith("), no phase")
+    look(page, "no-phase", 390, dark=True)
+
+
 def until(page, condition):
     end = time.monotonic() + SECONDS
     while not page.evaluate(condition):
@@ -122,6 +135,8 @@ def test_from_drop_to_download(page, address, tmp_path):
     for width in (1280, 390):
         for dark in (False, True):
             look(page, "result", width, dark)
+    assert page.evaluate("document.title") == "asphalt-nscd"  # HTML in cells stayed text
+    assert "MPa" in page.evaluate("document.getElementById('value').textContent")
     page.open(f"{address}results/diagnosis.html", 1280)
     assert page.evaluate("document.querySelector('svg').getBoundingClientRect().bottom") < 900
     one = "[...document.querySelectorAll('circle')].find(c => c.dataset.test === 'B|12|5')"
@@ -129,6 +144,3 @@ def test_from_drop_to_download(page, address, tmp_path):
     marked = page.evaluate("[...document.querySelectorAll('.on')].map(m => m.tagName + m.dataset.test)")
     # Three plots of specimens, three of isotherms; the specimen's map, and the condition in four maps.
     assert sorted(marked) == ["circleB|12|5"] * 6 + ["gB|12|5"] + ["g|12|5"] * 4
-    page.open(address, 1280)
-    assert page.evaluate("document.title") == "asphalt-nscd"  # HTML in cells stayed text
-    assert "MPa" in page.evaluate("document.getElementById('value').textContent")

@@ -102,12 +102,24 @@ def command(
         )
     from asphalt_nscd.api.diagnosis import Draws, Known, Simulated, diagnose
     from asphalt_nscd.api.tables import campaign_in
+    from asphalt_nscd.diagnosis.stiffness_only import fit_stiffness, has_no_phase
 
     output, measurements = written["output"], table["measurements"]
+    campaign = campaign_in(measurements, table["sheet"], dict(table["columns"]), table["measured_in"])
+    # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
+    title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
+    if has_no_phase(campaign):
+        curve = fit_stiffness(campaign)
+        names = curve.write(output)
+        if written["page"]:
+            page = _data.part("reporting.pages", "stiffness_page")
+            names.append(page.write_page(output, title, str(curve)).name)
+        click.echo(f"{curve}\n\nWritten to {output}: {', '.join(names)}.")
+        return
     stated = None if scatter["modulus"] is None else (scatter["modulus"], scatter["phase"])
     with bars("step", on_terminal=True) as progress:
         diagnosis = diagnose(
-            campaign_in(measurements, table["sheet"], dict(table["columns"]), table["measured_in"]),
+            campaign,
             geometry=known["geometry"],
             known=Known(known["static_modulus_MPa"], stated),
             simulated=Simulated(**simulated),
@@ -118,8 +130,6 @@ def command(
             diagnosis = diagnosis.verify_limits(limits["jobs"], progress)
     names = diagnosis.outcome.write(output)
     if written["page"]:
-        # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
-        title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
         names.append(_data.part("exports", "workbook").corrected_workbook(output).name)
         if find_spec("matplotlib"):
             names.append(_data.part("reporting.pages", "handout").write_handout(output, title).name)

@@ -56,6 +56,11 @@ def read_observations(
     campaign = measurements if isinstance(measurements, Campaign) else None
     table = _renamed(measurements.table if isinstance(measurements, Campaign) else read_csv(measurements))
     path = table.path
+    if "E_MPa" in table.columns and "phase_deg" not in table.columns:
+        raise InputError(
+            f"{path}: |E*| without a phase, of which nothing can be diagnosed; add the phase, or take the master curve "
+            "that `asphalt-nscd diagnose` gives of such a table."
+        )
     reduced = set(REDUCED_COLUMNS) <= set(table.columns)  # before: peaks stand beside the moduli
     if reduced:
         table = _without(table, (name for name in PEAKS if not any(table.columns[name])))

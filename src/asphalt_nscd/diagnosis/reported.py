@@ -127,10 +127,14 @@ def corrected(diagnosis: Diagnosis) -> pd.DataFrame:
     after[used] = diagnosis.observed.modulus / effect_taken_off(diagnosis)
     named = [rung.candidate for rung in diagnosis.ladder.rungs if diagnosis.taken_off(rung)]
     applied = [
-        "; ".join(one.cause.name for one in named if used[row] and one.cause.rows(whole, one.place)[row])
+        " + ".join(one.cause.name for one in named if used[row] and one.cause.rows(whole, one.place)[row])
         for row in range(whole.size)
     ]
-    reasons = ["; ".join(doubts[row].reasons) if row in doubts else "" for row in range(whole.size)]
+    # No semicolon, which a reader of the file might take for the mark between columns.
+    reasons = [
+        ", ".join(doubts[row].reasons).replace("; ", ", ") if row in doubts else ""
+        for row in range(whole.size)
+    ]
     shift = diagnosis.ladder.joint.spectrum.log_shift(diagnosis.ladder.fitted.law, whole.temperature)[0]
     return pd.DataFrame(
         {

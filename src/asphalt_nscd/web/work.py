@@ -176,17 +176,24 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
     """Diagnose, and write everything into the folder: what the first screen says, and the names of the files."""
     from asphalt_nscd.api.diagnosis import diagnose
     from asphalt_nscd.api.tables import campaign_in
+    from asphalt_nscd.diagnosis.stiffness_only import fit_stiffness, has_no_phase
     from asphalt_nscd.exports.workbook import corrected_workbook
+    from asphalt_nscd.reporting.pages import stiffness_page
     from asphalt_nscd.reporting.pages.handout import write_handout
     from asphalt_nscd.reporting.pages.laboratory import write_page
 
+    title = f"Diagnosis of {', '.join(path.name for path in paths)}"
     campaign = campaign_in(list(paths), None, choices.columns, choices.measured_in)
+    if has_no_phase(campaign):
+        curve = fit_stiffness(campaign)
+        curve.write(output)
+        stiffness_page.write_page(output, title, str(curve))
+        return {"reported": curve.reported, "files": _names(output)}
     diagnosis = diagnose(
         campaign,
         measured_in=choices.measured_in,
         progress=lambda stage, done, total: progress(stage, 0.9 * done / total),
     )
-    title = f"Diagnosis of {', '.join(path.name for path in paths)}"
     diagnosis.outcome.write(output)
     progress("Write", 0.95)
     corrected_workbook(output)
@@ -194,5 +201,9 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
     write_page(output, title)
     return {
         "reported": diagnosis.content["reported"],
-        "files": sorted(path.name for path in output.iterdir() if path.is_file()),
+        "files": _names(output),
     }
+
+
+def _names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir() if path.is_file())
