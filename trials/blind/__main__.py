@@ -82,6 +82,23 @@ def real_tables(lines: tuple[Path, ...], folder: Path) -> None:
 
 
 @main.command()
+@click.argument("number", type=int)
+@click.option("--seed", required=True, type=int, help="Of the campaign.")
+@click.option("--folder", required=True, type=File)
+def reported(number: int, seed: int, folder: Path) -> None:
+    """What is reported of NUMBER tables, against the mix that was drawn: each table, and the rates."""
+    import pandas as pd
+
+    from asphalt_nscd.files.store import write_table
+
+    from . import reported
+
+    rows = pd.DataFrame(reported.run(number, seed))
+    write_table(folder / "reported.csv", rows)
+    write_table(folder / "reported_summary.csv", reported.summary(rows))
+
+
+@main.command()
 @click.argument("lines", nargs=-1, required=True, type=File)
 @click.option("--folder", required=True, type=File)
 def tables(lines: tuple[Path, ...], folder: Path) -> None:

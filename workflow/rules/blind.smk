@@ -120,6 +120,26 @@ rule blind_tables:
         BLIND + " tables {input.lines} --folder {params.folder} > {log} 2>&1"
 
 
+rule blind_reported:
+    # Drawn tables whose mix is known: what is reported of it, and the corrected tests diagnosed again.
+    input:
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=blind_code("reported", *GENERATOR),
+    output:
+        "<results>/reported.csv",
+        summary="<results>/reported_summary.csv",
+    params:
+        seed=plan.SEED,
+        tables=120,
+        folder=lambda wildcards, output: os.path.dirname(output[0]),
+    log:
+        "<results>/logs/blind_reported.log",
+    message:
+        "Compare what is reported of blind tables with their mixes"
+    shell:
+        BLIND + " reported {params.tables} --seed {params.seed} --folder {params.folder} > {log} 2>&1"
+
+
 rule blind_figure:
     input:
         table="<results>/{name}.csv",
@@ -143,7 +163,10 @@ rule blind:
     input:
         summary="<results>/summary.csv",
         real="<results>/real_summary.csv",
+        reported=rules.blind_reported.output.summary,
         files=[
+            "<results>/reported.csv",
+            "<results>/reported_summary.csv",
             *(f"<results>/{name}.csv" for name in [*RATES, *REAL_RATES]),
             *(f"<results>/figures/{name}.png" for name in BLIND_FIGURES),
             "<results>/campaign.json",
@@ -156,4 +179,4 @@ rule blind:
     message:
         "Copy what is committed of the blind tests, and fill their table in docs"
     shell:
-        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document docs --block blind={input.summary} --block blind_real={input.real}"
+        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document docs --block blind={input.summary} --block blind_real={input.real} --block blind_reported={input.reported}"
