@@ -84,6 +84,8 @@ def test_one_temperature_is_not_enough_for_aashtoware_nor_takes_others(tmp_path)
         ((-10.0, 21.0, 38.0), {130}),
         ((4.0, 21.0, 54.4), {14}),
         ((-10.0, 54.4), set()),
+        ((-10.0, 53.0), {130}),
+        ((-9.0, 54.4), {14}),
     ],
 )
 def test_temperatures_of_the_shift_are_told_at_either_end(tmp_path, tested, extrapolated):
