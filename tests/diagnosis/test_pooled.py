@@ -96,7 +96,7 @@ def test_an_effect_of_two_sizes_is_common_but_has_no_name():
     found = pooled.pool(
         {f"{k}": diagnose(warm(campaign(k)), SCATTER, draws=500) for k in range(4)}, draws=1000
     )
-    (one, *_) = found.found
+    (one,) = found.found
     assert not one.named and "isotherms" in one.differs
     assert "without a name" in str(found)
     assert set(found.table["where"]) > {"all campaigns", "50 degC", "25 Hz", "3"}

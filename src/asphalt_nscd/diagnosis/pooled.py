@@ -225,7 +225,11 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
         found.append(Common(best, 0.0, 0.0, 0.0, p_value, (), (), (), as_good))
     last = [_evidence(one, causes) for one in states]
     found = [_told(one, k, states, last, causes, amplitudes) for k, one in enumerate(found)]
-    return Pooled(tuple(found), limits, tuple(name for name, one in begun.items() if one is None))
+    # What was found beside a cause that has no one size hangs on it: it is not told.
+    nameless = next((k for k, one in enumerate(found) if not one.named), len(found))
+    return Pooled(
+        tuple(found[: nameless + 1]), limits, tuple(name for name, one in begun.items() if one is None)
+    )
 
 
 def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
