@@ -90,13 +90,13 @@ def summary(rows: pd.DataFrame) -> pd.DataFrame:
     """Rates in percent with their 95 % intervals, as the summary of the campaign has them."""
     out = []
     for what, target, hits, met in (
-        ("|E*| of the mix at 15 degC, 10 Hz within its 95 % interval", "90 - 98 %", rows["E_covered"], (90.0, 98.0)),
+        ("modulus of the mix at 15 degC, 10 Hz within its 95 % interval", "90 - 98 %", rows["E_covered"], (90.0, 98.0)),
         ("phase of the mix at 15 degC, 10 Hz within its 95 % interval", "90 - 98 %", rows["phase_covered"],
          (90.0, 98.0)),
         ("corrected tests diagnosed again: no new name", ">= 95 %", ~rows["new"], (95.0, 100.0)),
     ):  # fmt: skip
         low, high = score.clopper_pearson(int(hits.sum()), hits.size)
-        percent = 100.0 * float(hits.mean())
+        percent = round(100.0 * float(hits.mean()), 1)
         out.append(
             {
                 "what": what,
