@@ -10,7 +10,7 @@ from scipy.optimize import minimize
 
 from asphalt_nscd.diagnosis import scatter, start
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.joint import Candidate, Joint, Noise
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import HuetSayegh
@@ -148,3 +148,19 @@ def test_the_noise_of_some_rows_is_that_part_of_the_whole(table):
     white = shared.subset(rows).whiten(values)
     dense = (1e-4 * np.eye(table.size) + 4e-4 * same)[np.ix_(rows, rows)]
     assert white.T @ white == pytest.approx(values.real.T @ np.linalg.solve(dense, values.real), rel=1e-9)
+
+
+def test_noise_with_a_discrepancy_is_that_of_the_dense_covariance():
+    """The squares of whitened values, and the determinant, of one block with a common share and two processes."""
+    random = np.random.default_rng(3)
+    n = 5
+    within, shared = np.full((2, n), 0.02), np.full((2, n), 0.03)
+    factor = 0.1 * random.standard_normal((2 * n, 2))
+    noise = Noise(within, shared, np.zeros(n, int), (0.02, 0.02), 0.1, 9, factor)
+    values = random.standard_normal(n) + 1j * random.standard_normal(n)
+    own = np.kron(np.eye(2), 0.02**2 * np.eye(n) + 0.03**2)
+    covariance = own + factor @ factor.T
+    stacked = np.concatenate([values.real, values.imag])
+    white = noise.whiten(values)
+    assert white @ white == pytest.approx(stacked @ np.linalg.solve(covariance, stacked), rel=1e-9)
+    assert noise.log_determinant == pytest.approx(np.linalg.slogdet(covariance)[1], rel=1e-9)
