@@ -1,0 +1,301 @@
+"""Bonded and loose spheres in one world: bonds turn with their spheres, and whatever meets is a contact with friction.
+
+The bonds of `stepping` are those of small displacements. Here a bond's opening is measured in axes that turn with its
+two spheres (the mean of their rotations), so a rigid motion, however large, opens none:
+
+    U = T(q) (p_j - p_i),   p = x + R a,   a: from a sphere's centre to the bond, in the axes of the sphere
+
+A step is that of `stepping/condensed`, with the operator G of the configuration half a step ahead; contacts are solved
+on the Delassus operator of the bonded system, so a fragment stops as a whole. Stresses follow the openings U of the
+new configuration: G v plus a part of second order, which a few solutions with the same factors find. Its work has a
+line of its own in the account.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import SuperLU
+from scipy.spatial.transform import Rotation
+
+from asphalt_nscd.nscd.bonds.implicit_operator import factors
+from asphalt_nscd.nscd.bonds.law import AnyLaw
+from asphalt_nscd.nscd.bonds.strength import utilisations
+from asphalt_nscd.nscd.bonds.system import opening_operator
+from asphalt_nscd.nscd.contacts.friction import solve_contacts
+from asphalt_nscd.nscd.spheres.granular import near_pairs
+from asphalt_nscd.nscd.spheres.neighbours import find_pairs
+
+CLOSED = 1e-12  # m, by which a gap in contact may differ from zero
+TOLERANCE = 1e-10  # of the contacts
+MOST_TURNS = 6  # of a step, in which it learns how far bonds turn
+
+
+@dataclass(frozen=True)
+class WorldBonds:
+    """Bonds between spheres, as they are where no sphere has turned and none is stressed."""
+
+    first: np.ndarray  # (b,) sphere
+    second: np.ndarray  # (b,) sphere
+    frame: np.ndarray  # (b, 3, 3) rows: normal from first to second, two tangents
+    point: np.ndarray  # (b, 3) m, where the bond acts
+    weight: np.ndarray  # (3 b,) m, as of a BondedSystem
+    strength: np.ndarray  # (b,) N
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What the spheres meet."""
+
+    plane_point: np.ndarray  # (p, 3) m
+    plane_normal: np.ndarray  # (p, 3), pointing to the spheres
+    friction: float  # of spheres on spheres
+    wall_friction: float  # of spheres on planes
+    gravity: tuple[float, float, float] = (0.0, 0.0, -9.81)  # m/s2
+
+
+@dataclass
+class WorldEnergies:
+    """All in J; stores at the present, less what they were at the beginning; the rest summed since."""
+
+    kinetic: float = 0.0
+    springs: float = 0.0  # stored in the springs of the bonds
+    load: float = 0.0  # potential of gravity
+    dashpots: float = 0.0  # dissipated in the dashpots of the bonds
+    friction: float = 0.0  # dissipated by tangential forces of contacts
+    impact: float = 0.0  # dissipated by normal forces of contacts
+    fracture: float = 0.0  # stored by bonds when they broke
+    numerical: float = 0.0  # dissipated by implicit Euler
+    turning: float = 0.0  # work of the bonds on that part of their openings which is not linear in the motion
+
+    @property
+    def error(self) -> float:
+        """Sum of all [J]: rounding."""
+        return sum(asdict(self).values())
+
+
+class World:
+    """Spheres (n,), some bonded, which advance by steps of dt [s]. Rotations are those since the beginning."""
+
+    def __init__(
+        self,
+        position: np.ndarray,
+        radius: np.ndarray,
+        mass: np.ndarray,
+        bonds: WorldBonds,
+        law: AnyLaw,
+        around: Surroundings,
+        dt: float,
+    ) -> None:
+        """position (n, 3) [m], radius (n,) [m]; mass (n, 6) [kg, kg m2] of translations and rotations."""
+        self.position, self.radius, self.mass = position.copy(), radius, mass.ravel()
+        self.bonds, self.law, self.around, self.dt = bonds, law, around, dt
+        self.rotation = Rotation.from_quat(np.tile([0.0, 0.0, 0.0, 1.0], (radius.size, 1)))
+        self.velocity = np.zeros(self.mass.size)
+        self.sigma = np.zeros(bonds.weight.size)
+        self.kelvin = np.zeros((len(law.kelvin_springs), bonds.weight.size))
+        self.broken = np.zeros(bonds.first.size, bool)
+        self.energies = WorldEnergies()
+        self.time = 0.0
+        self._arms = tuple(bonds.point - position[body] for body in (bonds.first, bonds.second))
+        self._step_law = law.step(dt)
+        self._load = (mass * [*around.gravity, 0.0, 0.0, 0.0]).ravel()
+
+    @property
+    def weight(self) -> np.ndarray:
+        """w (3 b,) [m] of the bonds, zero for the broken ones."""
+        return np.where(np.repeat(self.broken, 3), 0.0, self.bonds.weight)
+
+    def opening(self) -> np.ndarray:
+        """U (3 b,) [m] of the bonds since the beginning, in axes that turn with them."""
+        return self._openings(self.position, self.rotation)[0]
+
+    def cut(self, bonds: np.ndarray) -> None:
+        """Break bonds (b,), a mask, as with a saw: what they store is lost."""
+        now = self._stored()
+        self.broken |= bonds
+        self._lose(now)
+
+    def advance(self) -> int:
+        """One step; how many contacts held. Bonds break one after another, the most overstressed first."""
+        dt, law, before = self.dt, self._step_law, self.velocity
+        ahead = self._moved(0.5 * dt * before)
+        opening, frame, point = self._openings(*ahead)
+        operator = opening_operator(self.bonds.first, self.bonds.second, frame, point, ahead[0])
+        opening = self.opening()
+        explicit = law.explicit_part(self.sigma, self.kelvin)
+        contacts = _Contacts.near(self, ahead[0])
+        stored = self._stored()
+        while True:
+            weight = self.weight
+            scaled = dt * weight / law.compliance
+            matrix = sparse.diags_array(self.mass) + operator.T @ (sparse.diags_array(scaled) @ operator)
+            factor = factors(matrix.tocsc())
+            push = self.mass * before + dt * self._load
+            beyond = np.zeros_like(explicit)  # of the openings, what is not linear in the motion [m/s]
+            for _ in range(MOST_TURNS):
+                start = factor.solve(push + operator.T @ (scaled * (explicit - beyond)))
+                velocity = contacts.meet(start, factor, dt)
+                position, rotation = self._moved(dt * velocity)
+                rate = (self._openings(position, rotation)[0] - opening) / dt
+                last, beyond = beyond, rate - operator @ velocity
+                if dt * np.abs(beyond - last).max(initial=0.0) <= CLOSED:
+                    break
+            sigma, kelvin = law.update(explicit, rate, self.kelvin)
+            used = utilisations(weight * sigma, self.bonds.strength)
+            worst = int(np.argmax(used)) if used.size else -1
+            if worst < 0 or used[worst] <= 1.0:
+                break
+            self.broken[worst] = True
+        if not np.isfinite(velocity).all():
+            raise ArithmeticError("the motion of a step is not finite")
+        self._lose(stored)
+        foreseen = law.update(explicit - last, operator @ velocity, self.kelvin)[0]
+        taken = -dt * float((weight * foreseen) @ (operator @ velocity))
+        self._count(velocity, weight, sigma, kelvin, taken, contacts)
+        self.position, self.rotation, self.velocity = position, rotation, velocity
+        self.sigma, self.kelvin = sigma, kelvin
+        self.time += dt
+        return contacts.impulse.size // 3
+
+    def fragments(self) -> np.ndarray:
+        """Number (n,) of the fragment that each sphere belongs to, the largest being 0."""
+        left, n = ~self.broken, self.radius.size
+        joined = sparse.coo_array(
+            (np.ones(left.sum()), (self.bonds.first[left], self.bonds.second[left])), (n, n)
+        )
+        number = sparse.csgraph.connected_components(joined, directed=False)[1]
+        order = np.argsort(-np.bincount(number), kind="stable")
+        return np.asarray(np.argsort(order)[number])
+
+    def _moved(self, motion: np.ndarray) -> tuple[np.ndarray, Rotation]:
+        """Positions and rotations after motions (6 n,) [m, rad]."""
+        by_body = motion.reshape(-1, 6)
+        return self.position + by_body[:, :3], Rotation.from_rotvec(by_body[:, 3:]) * self.rotation
+
+    def _openings(
+        self, position: np.ndarray, rotation: Rotation
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(U (3 b,) [m], axes (b, 3, 3), place (b, 3) [m]) of the bonds where spheres stand so."""
+        first, second = self.bonds.first, self.bonds.second
+        if not first.size:
+            return np.empty(0), np.empty((0, 3, 3)), np.empty((0, 3))
+        half = (rotation[second] * rotation[first].inv()).as_rotvec() / 2.0
+        mean = (Rotation.from_rotvec(half) * rotation[first]).as_matrix()
+        frame = self.bonds.frame @ mean.transpose(0, 2, 1)
+        here = position[first] + rotation[first].apply(self._arms[0])
+        there = position[second] + rotation[second].apply(self._arms[1])
+        return (frame @ (there - here)[:, :, None]).ravel(), frame, 0.5 * (here + there)
+
+    def _stored(self) -> float:
+        return self._product(self.weight, self.sigma, self.kelvin)
+
+    def _product(self, weight: np.ndarray, sigma: np.ndarray, kelvin: np.ndarray) -> float:
+        """Energy [J] of springs under these stresses and elongations."""
+        springs = np.asarray(self.law.kelvin_springs).reshape(len(kelvin), -1)
+        return 0.5 * float(weight @ (sigma**2 / self.law.spring + (springs * kelvin**2).sum(axis=0)))
+
+    def _lose(self, stored: float) -> None:
+        """Account for bonds that broke since this was stored."""
+        self.energies.fracture += stored - self._stored()
+        self.energies.springs = self._stored()
+
+    def _count(
+        self,
+        velocity: np.ndarray,
+        weight: np.ndarray,
+        sigma: np.ndarray,
+        kelvin: np.ndarray,
+        taken: float,
+        contacts: _Contacts,
+    ) -> None:
+        """Add a step whose bonds took the work `taken` [J]."""
+        sums, dt = self.energies, self.dt
+        sums.load -= dt * float(self._load @ velocity)
+        sums.kinetic = 0.5 * float(self.mass @ velocity**2)
+        numerical = self._product(weight, sigma - self.sigma, kelvin - self.kelvin)
+        sums.numerical += 0.5 * float(self.mass @ (velocity - self.velocity) ** 2) + numerical
+        dashpots = dt * float(weight @ (sigma**2 / self.law.dashpot))
+        viscosity = np.asarray(self.law.kelvin_dashpots).reshape(len(kelvin), -1)
+        dashpots += float(weight @ (viscosity * (kelvin - self.kelvin) ** 2).sum(axis=0)) / dt
+        sums.dashpots += dashpots
+        stored = self._product(weight, sigma, kelvin)
+        sums.turning += taken - (stored - sums.springs) - dashpots - numerical
+        sums.springs = stored
+        work = (contacts.impulse * contacts.velocity).reshape(-1, 3)
+        sums.impact -= float(work[:, 0].sum())
+        sums.friction -= float(work[:, 1:].sum())
+
+
+@dataclass
+class _Contacts:
+    """Pairs that may meet within a step, and what they did in it."""
+
+    rows: sparse.csr_matrix  # (3 c, 6 n) opening of each: normal, two tangents
+    gap: np.ndarray  # (c,) m, at the start of the step
+    friction: np.ndarray  # (c,)
+    impulse: np.ndarray  # (3 c',) N s
+    velocity: np.ndarray  # (3 c',) m/s, of those with an impulse
+    _kept: tuple[SuperLU, bytes, np.ndarray] | None = None
+
+    @classmethod
+    def near(cls, world: World, ahead: np.ndarray) -> _Contacts:
+        """Those of spheres that no bond joins; normals are those half a step ahead, where spheres are at `ahead`."""
+        around, radius, n = world.around, world.radius, world.radius.size
+        speed = np.linalg.norm(world.velocity.reshape(-1, 6)[:, :3], axis=1).max()
+        reach = 4.0 * world.dt * (speed + world.dt * np.linalg.norm(around.gravity)) + 0.05 * radius.min()
+        planes = around.plane_point, around.plane_normal
+        found = find_pairs(world.position, radius, *planes, reach)
+        first, second, gap = near_pairs(world.position, radius, *planes, *found, reach)  # type: ignore[call-arg]  # compiled
+        left = ~world.broken
+        joined = np.sort(np.stack([world.bonds.first[left], world.bonds.second[left]]), axis=0)
+        free = ~np.isin(first * (n + len(planes[0])) + second, joined[0] * (n + len(planes[0])) + joined[1])
+        first, second, gap = first[free], second[free], gap[free]
+        normal = np.empty((first.size, 3))
+        spheres = second < n
+        normal[~spheres] = -around.plane_normal[second[~spheres] - n]
+        apart = ahead[second[spheres]] - ahead[first[spheres]]
+        normal[spheres] = apart / np.linalg.norm(apart, axis=1, keepdims=True)
+        point = ahead[first] + radius[first, None] * normal
+        rows = opening_operator(first, second, _frames(normal), point, ahead)
+        friction = np.where(spheres, around.friction, around.wall_friction)
+        return cls(rows, gap, friction, np.empty(0), np.empty(0))
+
+    def meet(self, velocity: np.ndarray, factor: SuperLU, dt: float) -> np.ndarray:
+        """The velocity (6 n,) after the impulses of all that would close within the step."""
+        gap, touching = np.maximum(self.gap, 0.0), np.zeros(self.gap.size, bool)
+        corrected = velocity
+        self.impulse = self.velocity = np.empty(0)
+        while True:
+            closing = gap + dt * (self.rows[::3] @ corrected) < -CLOSED
+            if not (closing & ~touching).any():
+                return corrected
+            touching |= closing
+            rows = self.rows[np.repeat(touching, 3)]
+            response = self._response(touching, rows, factor)
+            free = rows @ velocity
+            free[::3] += gap[touching] / dt
+            delassus = rows @ response
+            solved = solve_contacts(
+                0.5 * (delassus + delassus.T), free, self.friction[touching], tolerance=TOLERANCE
+            )
+            self.impulse = solved.require_converged().reactions
+            corrected = velocity + response @ self.impulse
+            self.velocity = rows @ corrected
+
+    def _response(self, touching: np.ndarray, rows: sparse.csr_matrix, factor: SuperLU) -> np.ndarray:
+        """Velocities (6 n, 3 c') for unit impulses at these contacts; the last ones are kept."""
+        asked = factor, touching.tobytes()
+        if self._kept is None or self._kept[0] is not factor or self._kept[1] != asked[1]:
+            self._kept = *asked, factor.solve(rows.T.toarray())
+        return self._kept[2]
+
+
+def _frames(normal: np.ndarray) -> np.ndarray:
+    """Axes (c, 3, 3), rows: normals (c, 3) and two tangents."""
+    least = np.eye(3)[np.argmin(np.abs(normal), axis=1)] if len(normal) else normal
+    tangent = np.cross(normal, least)
+    tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
+    return np.stack([normal, tangent, np.cross(normal, tangent)], axis=1)
