@@ -10,9 +10,9 @@ from asphalt_nscd.reporting.audit.statement import DIFFERS, LEFT_OPEN, REPRODUCE
 from asphalt_nscd.reporting.tables.bond_readings import AFTER, BARYCENTRES, MEAN_RADIUS, OURS
 
 
-def judged(said=1.1):
+def judged(said=1.1, allowed=1.0):
     names = [OURS, AFTER, OURS, BARYCENTRES, MEAN_RADIUS]
-    ratios = [said, 1.05, 1.0, 80.0, 2.4]
+    ratios = [said, 1.05, allowed, 80.0, 2.4]
     table = pd.DataFrame(
         {
             "reading": names,
@@ -42,6 +42,7 @@ def test_each_reading_stands_beside_that_of_the_study():
 def test_the_smallest_radius_is_conservative_only_where_it_makes_too_soft_a_specimen():
     assert judged(said=1.1)["conservative"].verdict == DIFFERS
     assert judged(said=0.9)["conservative"].verdict == REPRODUCED
+    assert judged(said=1.1, allowed=0.99)["conservative"].verdict == LEFT_OPEN
 
 
 def test_the_poisson_ratio_is_that_of_a_network_and_not_the_printed_one():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -30,11 +30,15 @@ STABLE = 0.002  # relative change of |E*| with dt that counts as none
 
 
 def laws_and_samples(
-    tests: pd.DataFrame, packing: pd.DataFrame, facets: pd.DataFrame | None = None
+    tests: pd.DataFrame,
+    packing: pd.DataFrame,
+    facets: pd.DataFrame | None = None,
+    allowed: Sequence[float] = (),
 ) -> Iterator[Judgement]:
     """How the simulation returns the law it was given.
 
-    tests: simulations.csv; packing: packing.csv; facets: the tests of simulations.csv with bonds that are facets.
+    tests: simulations.csv; packing: packing.csv; facets: the tests of simulations.csv with bonds that are facets;
+    allowed: |E*| over its law of the readings of the bonds that the printed errors allow.
     """
     whole = tests[tests["broken_bonds"] == 0]
     ratio = whole["E_MPa"] / whole["E_law_MPa"]
@@ -50,11 +54,12 @@ def laws_and_samples(
         1.0,
         mean,
         "|E*| over that of the law",
-        judged(abs(mean - 1.0) < 0.05),
+        LEFT_OPEN if abs(mean - 1.0) >= 0.05 and len(allowed) else judged(abs(mean - 1.0) < 0.05),
         f"Mean over tests without breakage; {spanned(by_sample.mean(), '.3f')} by sample; {seen} by solid fraction "
         "(one seed, poured with friction 0.2 and more). Nothing makes this ratio one: the areas do not fill the "
-        "specimen, so its size and packing decide (docs/mapping.md). The printed error of 0.56 % at -10 degC says that "
-        f"the authors' ratio was near one: theirs was another packing or another reading (readings.csv)."
+        "specimen, so its size and packing decide (docs/mapping.md). If the authors' simulation returned its law, the "
+        "printed error of 0.56 % at -10 degC says that their ratio was near one: another packing or another reading "
+        f"(bond_readings.csv).{_given(allowed)}"
         f"{_with_facets(facets)}",
         "A mean within 5 % of one." if abs(mean - 1.0) >= 0.05 else "A mean beyond 5 % of one.",
     )
@@ -92,6 +97,13 @@ def laws_and_samples(
     )
 
 
+def _given(allowed: Sequence[float]) -> str:
+    """The readings that printed errors allow, in a sentence."""
+    if not len(allowed):
+        return ""
+    return f" Readings that the printed errors allow, and that were chosen by them, give {spanned(allowed, '.3f')}."
+
+
 def _lost(tests: pd.DataFrame) -> str:
     """What the breaks cost a sample, if any broke: |E*| over its law, whole and most broken."""
     if not (tests["broken_bonds"] > 0).any():
@@ -114,11 +126,15 @@ def _with_facets(facets: pd.DataFrame | None) -> str:
 
 
 def agreement(
-    table: pd.DataFrame, tests: pd.DataFrame, refit: pd.DataFrame, head: str = ""
+    table: pd.DataFrame,
+    tests: pd.DataFrame,
+    refit: pd.DataFrame,
+    head: str = "",
+    allowed: Sequence[float] = (),
 ) -> Iterator[Judgement]:
     """Table 4. table: table4.csv; tests: simulations.csv; refit: errors of Burgers laws refitted to the same data.
 
-    head: what a head that cannot turn would do to |E*|, in a sentence.
+    head: what a head that cannot turn would do to |E*|, in a sentence; allowed: see laws_and_samples.
     """
     data = joined(sorted(table["compared_with"].unique()))
     coldest = table["temperature_C"].min()
@@ -131,10 +147,10 @@ def agreement(
         float(cold["mre_E_published_percent"]),
         100.0 * level,
         f"% of |E*| at {coldest:g} degC: printed error, and how far our samples lie above the law of their bonds",
-        DIFFERS if excluded else UNCHECKED,
-        "Table 3 is a fit to the measurements, so that a simulation so far from it at all frequencies cannot be "
-        f"within {cold['mre_E_published_percent']:g} % of them. {head}Against {data} data our errors are "
-        f"{_list(table, 'mre_E_simulated_percent')} % (the paper: {_list(table, 'mre_E_published_percent')}), the "
+        (LEFT_OPEN if len(allowed) else DIFFERS) if excluded else UNCHECKED,
+        "Table 3 is a fit to the measurements, so that a simulation as far from it as ours cannot be "
+        f"within {cold['mre_E_published_percent']:g} % of them.{_given(allowed)} {head}Against {data} data our errors "
+        f"are {_list(table, 'mre_E_simulated_percent')} % (the paper: {_list(table, 'mre_E_published_percent')}), the "
         f"law's own {_list(table, 'mre_E_law_percent')}.",
         f"A level within {2.0 * cold['mre_E_published_percent']:g} % of the law."
         if excluded
@@ -151,15 +167,16 @@ def agreement(
         f"gives {_list(table, 'mre_phase_law_percent')} %, the simulation "
         f"{_list(table, 'mre_phase_simulated_percent')}, the paper prints "
         f"{_list(table, 'mre_phase_published_percent')}. That they are of one size says only that Burgers' law is so "
-        "far from a smooth law of many relaxation times. No smooth data meet Tables 3 and 4 (smoothness.csv). "
+        "far from a smooth law of many relaxation times. No smooth data meet Tables 3 and 4, if the authors' law is a "
+        "fit of least squares and their simulation returned it (smoothness.csv). "
         f"A Burgers law refitted to the same data misses them by "
         f"{refitted:.1f} % at {coldest:g} degC.",
         "The points of Fig. 10.",
     )
     yield Judgement(
         "burgers_describes",
-        "finely",
         float(np.mean(table["mre_phase_published_percent"])),
+        "not known",
         "% of the phase, mean of the errors printed in Table 4",
         UNCHECKED,
         "The simulation returns its law, so that Table 4 gives the errors of the law, if the authors' simulation did "
@@ -296,8 +313,9 @@ def numerics(tests: pd.DataFrame, table: pd.DataFrame, stopped: pd.DataFrame) ->
         100.0 * change,
         "% spread of |E*|, each step solved",
         judged(change > STABLE),
-        f"Solved, the force does not depend on dt, and is right within 1 % up to {longest[time_steps.SOLVED]:.2g} s. "
-        f"{_swept(swept)}",
+        f"The paper asks for a step below its time scale of {ELASTIC_TIME:g} s and takes {TIME_STEP:g} s. Implicit "
+        "steps have no such bound. Solved, the force does not depend on dt, and is right within 1 % up to "
+        f"{longest[time_steps.SOLVED]:.2g} s. {_swept(swept)}",
         f"A spread of {100.0 * STABLE:g} %.",
     )
     yield Judgement(
@@ -330,11 +348,11 @@ def numerics(tests: pd.DataFrame, table: pd.DataFrame, stopped: pd.DataFrame) ->
         PAPER_COST,
         "less than a tenth of it" if swept < 0.1 * PAPER_COST else "a tenth of it or more",
         "s, Gauss-Seidel as in the paper, stopped early",
-        judged(0.1 < swept / PAPER_COST < 10.0),
+        UNCHECKED,
         "Another machine, another program and sweeps that have not converged: a bound on what a step costs, no test of "
         f"theirs. The reduced form of all other tests costs {'less' if cost < swept else 'more'} than sweeps do, and "
         f"each of its steps is checked against the full equations (largest residual {tests['residual'].max():.0e}).",
-        "A tenth to ten times the paper's number.",
+        "The authors' program on their machine.",
     )
 
 

@@ -59,13 +59,15 @@ def make(results: Results) -> pd.DataFrame:
     pascal, blocked = _relative(pd.read_csv(the_only(results.readings, "readings")), tests)
     diameter, count = read_counts(the_only(results.counts, "counts"))
     deposits = [load(path, "deposit") for path in results.deposits]
+    readings = pd.read_csv(the_only(results.bond_readings, "bond_readings"))
+    allowed = list(readings.loc[readings["possible"], "expected"])
     rows = chain(
         equations.laboratory(),
         equations.contact_law(published[15.0]),
         equations.calibration(published, pascal),
         equations.table_4(published, read_errors(the_only(results.errors, "errors"))),
         equations.typical_numbers(diameter, count, preparation.DENSITY),
-        preparation.bonds(pd.read_csv(the_only(results.bond_readings, "bond_readings"))),
+        preparation.bonds(readings),
         [
             preparation.lattice(count),
             preparation.grading(table2.make(results.grading, results.counts, results.counts)),
@@ -84,12 +86,14 @@ def make(results: Results) -> pd.DataFrame:
             tests,
             pd.read_csv(the_only(results.packing, "packing")),
             pd.read_csv(the_only(results.facets, "facets")) if results.facets else None,
+            allowed,
         ),
         outcomes.agreement(
             pd.read_csv(the_only(results.table4, "table4")),
             tests,
             _refit_errors(results.fitted, results.measured),
             equations.head(blocked),
+            allowed,
         ),
         [
             outcomes.reduction(tests),
