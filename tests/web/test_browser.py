@@ -67,7 +67,9 @@ def test_moduli_without_a_phase_give_a_curve(page, address, tmp_path):
     path.write_text("Temperature (C),Frequency (Hz),E* (MPa)\n" + "\n".join(rows), encoding="utf-8")
     page.open(address, 1280)
     drop(page, path)
-    until(page, "!document.getElementById('go').hidden")
+    until(
+        page, "document.getElementById('go').offsetParent !== null"
+    )  # the part that holds it is hidden at first
     page.evaluate("document.getElementById('go').click()")
     until(page, "!document.getElementById('result').hidden")
     assert page.evaluate("document.getElementById('value').textContent").endswith("), no phase")
