@@ -83,6 +83,27 @@ rule forecast_voids:
         "asphalt-nscd forecast-voids {input.recipe} --campaign data/ncat --packings {input.packings} --output {output} > {log} 2>&1"
 
 
+rule forecast_wrong_recipes:
+    # Recipes with one wrong input, drawn by models that are not the forecast's. Only on request.
+    input:
+        recipe=RECIPE,
+        packings="results/forecast/packings",
+        program=shipped("trials/wrong_recipes.py"),
+        code=code("forecast_inputs", "formulation.wrong_inputs"),
+    output:
+        "results/forecast/wrong_recipes.csv",
+    params:
+        program=f"env PYTHONPATH={os.path.relpath(CLONE / 'trials')} python -m wrong_recipes",
+    conda:
+        ENVIRONMENT
+    log:
+        "results/forecast/logs/wrong_recipes.log",
+    message:
+        "Name the wrong inputs of drawn recipes"
+    shell:
+        "{params.program} --recipe {input.recipe} --packings {input.packings} --output {output} > {log} 2>&1"
+
+
 rule forecast_figure:
     input:
         points="results/forecast/mixes/points.csv",
@@ -132,6 +153,7 @@ rule publish_forecast:
         overall="results/forecast/mixes/overall.csv",
         errors="results/forecast/mixes/errors.csv",
         voids="results/forecast/voids.csv",
+        wrong="results/forecast/wrong_recipes.csv",
         figure="results/forecast/figures/fig_forecast.png",
         provenance="results/forecast/provenance.json",
         code=code("publish"),
@@ -140,4 +162,4 @@ rule publish_forecast:
     message:
         "Copy the table of forecasts and its figure, and fill the table of docs/forecast.md"
     shell:
-        "asphalt-nscd publish {input.overall} {input.errors} {input.voids} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block voids={input.voids}"
+        "asphalt-nscd publish {input.overall} {input.errors} {input.voids} {input.wrong} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block voids={input.voids} --block wrong_recipes={input.wrong}"

@@ -396,6 +396,22 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             },
         )
     ],
+    "wrong_recipes": [
+        Layout(
+            {
+                "truth": "truth",
+                "densities": "densities",
+                "wrong": "wrong input",
+                "limits": "limits",
+                "size": "off by",
+                "recipes": "recipes",
+                "named": "named",
+                "among_several": "among several",
+                "not_noticed": "not noticed",
+                "named_wrongly": "wrong name",
+            },
+        )
+    ],
     "threads": [
         Layout(
             {

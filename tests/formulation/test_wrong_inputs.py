@@ -1,0 +1,83 @@
+"""Which input of a recipe is wrong: each is named from the forecast's own changes, and nothing from scatter."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.formulation import wrong_inputs
+from asphalt_nscd.formulation.forecast import Networks
+from asphalt_nscd.formulation.wrong_inputs import changed, changes_of, densities, find, limits, read_ratio
+
+
+@pytest.fixture(scope="module")
+def changes(recipe, packing):
+    return changes_of(recipe, Networks(lambda level, seed: packing))
+
+
+def test_densities_by_hand(recipe):
+    maximum = 100.0 / (5.4 / 1040.0 + 94.6 / 2670.0)
+    assert densities(recipe) == pytest.approx([0.94 * maximum, maximum], rel=1e-12)
+
+
+def test_more_air_and_more_binder_soften_and_a_stiffer_binder_stiffens(changes):
+    signs = {"air voids": -1, "binder content": -1, "binder stiffness": 1, "dry contacts": 1}
+    for name, sign in signs.items():
+        up = changes.log[name][changes.size[name] > 0.0]
+        assert (sign * up.real > 0.0).all(), name
+    assert (changes.density["air voids"][-1] < [0.0, 1e-12]).all()
+
+
+@pytest.mark.parametrize("name", wrong_inputs.SIZES)
+def test_a_large_error_is_named_with_its_sign_and_about_its_size(changes, name):
+    found = find(changes, changes.log[name][-1], changes.density[name][-1])
+    assert found.inputs[0] == name
+    assert found.size[name] == pytest.approx(changes.size[name][-1], rel=0.55)
+
+
+def test_densities_tell_voids_from_binder(changes):
+    k = np.flatnonzero(changes.size["air voids"] > 0.02)[0]
+    ratio = changes.log["air voids"][k]
+    assert find(changes, ratio, changes.density["air voids"][k]).inputs == ("air voids",)
+    assert find(changes, ratio).inputs != ("air voids",)
+
+
+def test_nothing_is_named_where_only_the_level_differs(changes):
+    ratio = np.full(changes.omega.size, 0.06 + 0.005j)
+    assert find(changes, ratio).inputs == ()
+
+
+def test_half_a_limit_is_not_noticed(changes):
+    for name, limit in limits(changes, weighed=True).items():
+        if np.isfinite(limit):
+            k = int(np.abs(changes.size[name] - 0.2 * limit).argmin())
+            assert find(changes, changes.log[name][k], changes.density[name][k]).inputs == (), name
+
+
+def test_tables_are_compared_where_both_have_points(tmp_path, recipe):
+    rows = {
+        "temperature_C": [15] * 4,
+        "frequency_Hz": [1, 2, 4, 8],
+        "E_MPa": [1e3, 2e3, 3e3, 4e3],
+        "phase_deg": 20,
+    }
+    pd.DataFrame(rows).to_csv(tmp_path / "one.csv", index=False)
+    pd.DataFrame(rows | {"E_MPa": 1e3, "phase_deg": 15}).iloc[1:].to_csv(tmp_path / "two.csv", index=False)
+    asked, ratio = read_ratio(tmp_path / "one.csv", tmp_path / "two.csv", recipe)
+    assert asked.frequency.tolist() == [2, 4, 8]
+    assert np.exp(ratio.real) == pytest.approx([2, 3, 4])
+    assert np.degrees(ratio.imag) == pytest.approx(5.0)
+    with pytest.raises(InputError, match="one.csv: temperature_C differs from 30 degC.*add binder.shift"):
+        law = replace(recipe.binder, shift=replace(recipe.binder.shift, reference_temperature=30.0))
+        read_ratio(tmp_path / "one.csv", tmp_path / "two.csv", replace(recipe, binder=law))
+    pd.DataFrame(rows).iloc[:2].to_csv(tmp_path / "two.csv", index=False)
+    with pytest.raises(InputError, match="shares 2 points"):
+        read_ratio(tmp_path / "one.csv", tmp_path / "two.csv", recipe)
+
+
+def test_the_recipe_changes_by_what_is_named(recipe):
+    assert changed(recipe, "air voids", 0.01).voids == pytest.approx(0.07)
+    assert changed(recipe, "binder content", 0.01).binder_share == pytest.approx(0.064)
+    assert changed(recipe, "dry contacts", 1.0) == recipe
