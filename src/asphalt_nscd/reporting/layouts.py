@@ -400,15 +400,14 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         Layout(
             {
                 "truth": "truth",
-                "densities": "densities",
-                "wrong": "wrong input",
+                "densities": "weighed",
+                "wrong": "input",
                 "limits": "limits",
                 "size": "off by",
-                "recipes": "recipes",
                 "named": "named",
-                "among_several": "among several",
-                "not_noticed": "not noticed",
-                "named_wrongly": "wrong name",
+                "among_several": "in a group",
+                "not_noticed": "missed",
+                "named_wrongly": "wrong",
             },
         )
     ],
