@@ -103,7 +103,7 @@ def test_gains_on_tests_left_out_and_on_other_data_stand_beside(results, tmp_pat
     )
     assert said["wrong"][0].startswith("Our simulated tests miss") and "by 10.8 %" in said["wrong"][0]
     assert said["wrong"][-1].startswith(
-        "Read as its authors most likely did, in one sample, it misses 3 % and 5 %"
+        "By the likeliest of the readings tried, in one sample, it misses 3 % and 5 %"
     )
     html = assemble("mine", said, [], tmp_path)
     assert "<td>coldest and warmest</td>" in html and "gained on invented data" in html

@@ -135,7 +135,7 @@ def _likeliest(way: pd.DataFrame) -> list[str]:
     """What the reading of the paper that its authors most likely had misses."""
     mean = way[way["rung"] == LIKELIEST].mean(numeric_only=True)
     return [
-        f"Read as its authors most likely did, in one sample, it misses {three_digits(mean['mre_E_percent'])} % and "
+        f"By the likeliest of the readings tried, in one sample, it misses {three_digits(mean['mre_E_percent'])} % and "
         f"{three_digits(mean['mre_phase_percent'])} %: the level of |E*| depends on how bonds and packing are read."
     ]
 

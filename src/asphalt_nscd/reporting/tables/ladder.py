@@ -38,10 +38,10 @@ def make(
 ) -> pd.DataFrame:
     """Mean relative errors (Table 4) of each campaign of simulated tests at each temperature.
 
-    likely: tests of one sample, packed and bonded as the authors most likely did; a rung below all others.
+    likely: tests of one sample, by the likeliest reading of the paper; a rung below all others.
     facets: the tests of `simulations` with bonds that are facets; where there are none, those have them already.
     extended: with what the diagnosis named as well. law: the error of the law that this campaign has in its bonds;
-    held_out: of the law of all temperatures, fitted without this one; scatter: of one measured test.
+    held_out: of the law of all temperatures, fitted without this one; scatter: of one test.
     """
     data, content = read_measured(measured), read_json(the_only(diagnosis, "diagnosis"))
     campaigns: dict[str, Sequence[Path]] = {LIKELIEST: likely} if likely else {}
