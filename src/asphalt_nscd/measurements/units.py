@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-import numpy as np
+if TYPE_CHECKING:  # the help of the command line reads this table, and must not wait for numpy
+    import numpy as np
 
-Degrees = TypeVar("Degrees", float, np.ndarray)
+Degrees = TypeVar("Degrees", float, "np.ndarray")
 
 PSI = 6894.757293168  # Pa
 MEGAPASCAL = {
