@@ -98,7 +98,7 @@ def test_where_the_printed_errors_allow_another_reading_ours_refutes_nothing():
     rows = by_id(outcomes.laws_and_samples(some_tests(1.1), PACKING, allowed=[0.99, 1.04]))
     rows |= by_id(outcomes.agreement(table4(), some_tests(1.1), refit, allowed=[0.99, 1.04]))
     for name in ("macro_is_micro", "fig9"):
-        assert rows[name].verdict == LEFT_OPEN and "give 0.990 to 1.040." in rows[name].evidence
+        assert rows[name].verdict == LEFT_OPEN and "give 0.990 to 1.040 of the law." in rows[name].evidence
     same = by_id(outcomes.laws_and_samples(some_tests(1.0), PACKING, allowed=[0.99, 1.04]))
     assert same["macro_is_micro"].verdict == REPRODUCED
 

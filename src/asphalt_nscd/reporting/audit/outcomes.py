@@ -101,7 +101,9 @@ def _given(allowed: Sequence[float]) -> str:
     """The readings that printed errors allow, in a sentence."""
     if not len(allowed):
         return ""
-    return f" Readings that the printed errors allow, and that were chosen by them, give {spanned(allowed, '.3f')}."
+    return (
+        f" Readings that the printed errors allow, chosen by them, give {spanned(allowed, '.3f')} of the law."
+    )
 
 
 def _lost(tests: pd.DataFrame) -> str:
