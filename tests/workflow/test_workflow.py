@@ -146,8 +146,9 @@ def test_bonds_are_made_ready_to_break_only_where_the_campaign_tests(workspace):
         re.search(r"--output results/paper/(\S+).h5", line)[1] for line in lines if "--stand-by 0" in line
     }
     loose = [f"models/free/s1-friction{value}" for value in ("0.3", "0.5")]
-    assert without == {"models/blocked/s1", *loose, *(f"facets/{model}" for model in loose)}
-    assert len(lines) == 13
+    other = {"models/blocked/s1", "time_step/models/free/s1"}
+    assert without == {*other, *loose, *(f"facets/{model}" for model in loose)}
+    assert len(lines) == 15
 
 
 def test_rungs_above_the_paper_s_are_simulated_with_facets_and_nothing_is_divided_out(workspace):

@@ -262,7 +262,13 @@ if FAMILIES:
         expand(rules.diagnose_family.output, family=FAMILIES),
     ]
 if "time_step_study" in STUDY:
-    KEPT += [SOLVED, PART_SOLVED, STOPPED]
+    KEPT += [
+        SOLVED,
+        expand(rules.trim_part.output, sample=f"s{STEPPING['seed']}"),
+        expand(rules.condense_part.output, sample=f"s{STEPPING['seed']}", head=HEAD),
+        PART_SOLVED,
+        STOPPED,
+    ]
 if "sensitivity" in STUDY:
     KEPT += [
         expand(

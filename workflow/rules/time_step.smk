@@ -103,7 +103,7 @@ use rule simulate_part as simulate_sweeps with:
     params:
         source=LAWS,
         tests=tests,
-        test=PART_TEST + "{time_step} --method sweeps --most-sweeps 20000 --tolerance {tolerance}",
+        test=f"{PART_TEST}{{time_step}} --method sweeps --most-sweeps 20000 --tolerance {{tolerance}}",
     priority: 5
     log:
         "<results>/logs/simulate_sweeps/{sample}/T{temperature}/f{frequency}/tolerance{tolerance}/dt{time_step}.log",

@@ -54,6 +54,7 @@ def test_report_has_nothing_to_complain_of(tmp_path, width):
         "found": [("Data", ["Good."]), ("Simulation", ["Right."]), ("Unexplained", sentence)],
         "causes": [("a cause", "Established.")],
         "notes": sentence, "gained": [("error of |E*|, %", "2", "1")], "held_out": None,
+        "left_out": [("coldest and warmest", "1.9", "16")], "elsewhere": sentence,
         "pictures": [b64encode(png()).decode()], "data": "What was measured",
     }  # fmt: skip
     entries = [
