@@ -18,6 +18,9 @@ from pathlib import Path
 
 import click
 import pandas as pd
+import pytest
+
+from asphalt_nscd.files.store import provenance, write_json, write_table
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = "src/asphalt_nscd"
@@ -33,27 +36,42 @@ class Copy:
         shutil.copy(ROOT / "pyproject.toml", folder)
         (folder / "data").symlink_to(ROOT / "data")
         self.folder = folder
-        self.passes = cache(lambda tests: not self.failed(tests))
+        self.passes = cache(lambda *part: not self.failed(*part))
 
-    def failed(self, tests: str) -> str:
-        """What pytest says of a file of tests; empty if they pass."""
-        command = [sys.executable, "-m", "pytest", "-x", "-p", "no:cacheprovider", f"tests/{tests}"]
+    def failed(self, tests: str, mark: str) -> str:
+        """What pytest says of the tests in a file that are marked so; empty if they pass, or if there are none."""
+        command = [
+            sys.executable,
+            "-m",
+            "pytest",
+            "-x",
+            "-p",
+            "no:cacheprovider",
+            "-m",
+            mark,
+            f"tests/{tests}",
+        ]
         environment = os.environ | {"PYTHONPATH": str(self.folder / "src")}
         done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True)
         failed = [line for line in done.stdout.splitlines() if line.startswith("FAILED")]
-        return "" if not done.returncode else (failed or [done.stdout[-300:] + done.stderr[-300:]])[0]
+        fine = done.returncode in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED)
+        return "" if fine else (failed or [done.stdout[-300:] + done.stderr[-300:]])[0]
 
     def noticed(self, mutant) -> str:
-        """By which test; empty if the mutant lives."""
-        if not self.passes(mutant.tests):
-            raise click.ClickException(f"tests/{mutant.tests} fails without a mutant; mend it first.")
+        """By which test, the quick ones first; empty if the mutant lives."""
         file = self.folder / PACKAGE / mutant.file
         text = file.read_text(encoding="utf-8")
-        file.write_text(text.replace(mutant.right, mutant.wrong), encoding="utf-8")
-        try:
-            return self.failed(mutant.tests)
-        finally:
-            file.write_text(text, encoding="utf-8")
+        for mark in ("not slow", "slow"):
+            if not self.passes(mutant.tests, mark):
+                raise click.ClickException(f"tests/{mutant.tests} fails without a mutant; mend it first.")
+            file.write_text(text.replace(mutant.right, mutant.wrong), encoding="utf-8")
+            try:
+                found = self.failed(mutant.tests, mark)
+            finally:
+                file.write_text(text, encoding="utf-8")
+            if found:
+                return found
+        return ""
 
 
 def summary(table: pd.DataFrame) -> pd.DataFrame:
@@ -87,10 +105,10 @@ def main(words: tuple[str, ...], output: Path | None) -> None:
     alive = sum(not row["noticed_by"] for row in rows)
     click.echo(f"{len(rows) - alive} of {len(rows)} mutants were noticed.")
     if output is not None:
-        output.mkdir(parents=True, exist_ok=True)
         table = pd.DataFrame(rows)
-        table.to_csv(output / "mutants.csv", index=False)
-        summary(table).to_csv(output / "summary.csv", index=False)
+        write_table(output / "mutants.csv", table)
+        write_table(output / "summary.csv", summary(table))
+        write_json(output / "provenance.json", provenance())
     sys.exit(alive > 0)
 
 

@@ -88,6 +88,20 @@ def test_a_layout_chooses_columns_and_lists_what_is_long():
     assert shown("a block without a layout", table[["case"]]).splitlines()[0].replace(" ", "") == "|case|"
 
 
+def test_a_page_shows_some_rows_and_one_quantity_in_two_directions():
+    table = pd.DataFrame(
+        {"data": ["reconstructed", "other"], "law": ["a", "b"], "fitted_E_percent": [1.0, 2.0]}
+    )
+    assert "|reconstructed|a|1|" in shown("rivals", table).replace(" ", "") and "other" not in shown(
+        "rivals", table
+    )
+    grid = pd.DataFrame({"phase_weight": [1, 0.3, 1, 0.3], "temperature_C": [0, 0, -10, -10]})
+    lines = (
+        shown("smoothness", grid.assign(scatter_percent=[4.0, 3.0, 2.0, 1.0])).replace(" ", "").splitlines()
+    )
+    assert lines[2] == "|T,°C|0.3|1|" and lines[4:] == ["|-10|1|2|", "|0|3|4|"]
+
+
 def test_rungs_stand_beside_each_other():
     """As ladder.csv has them: a row for each rung and temperature; the law was held out on the last rung only."""
     table = pd.DataFrame(

@@ -1,7 +1,7 @@
 # What is committed of a study: figures, tables, and the tables of README and docs. Only on request:
 #   snakemake --cores 1 publish
 
-BLOCKS = {"samples": "<results>/samples.csv", "table4": "<results>/table4.csv", "timings": "<results>/timings.md"}
+BLOCKS = {"samples": "<results>/samples.csv", "timings": "<results>/timings.md"}
 BLOCKS |= {name: "<results>/ladder.csv" for name in ("ladder", "gain")} if COMMON_LAW else {}
 BLOCKS |= {"families": "<results>/families.csv"} if FAMILIES else {}
 BLOCKS |= {name: f"<results>/{name}.csv" for name in ("bond_readings", "levels", "reconstructions", "smoothness", "ensemble", "time_steps", "rivals") if name in TABLES}
@@ -126,6 +126,19 @@ rule publish_fuzz:
         "Copy how wild tables ended, and fill the table into docs"
     shell:
         "asphalt-nscd publish {input.table} {input.files} --root results/fuzz --output results/published/fuzz --document docs --block wild={input.table}"
+
+
+rule publish_mutants:
+    # After a run of trials/mutants.py --output results/mutants, whose tables these are. Only on request:
+    #   snakemake --cores 1 publish_mutants
+    input:
+        summary="results/mutants/summary.csv",
+        files=["results/mutants/mutants.csv", "results/mutants/provenance.json"],
+        code=code("publish"),
+    message:
+        "Copy which mutants the tests noticed, and fill their number into CONTRIBUTING.md"
+    shell:
+        "asphalt-nscd publish {input.files} --root results/mutants --output results/published/mutants --document CONTRIBUTING.md --block mutants={input.summary}"
 
 
 rule publish_cluster:

@@ -17,15 +17,19 @@ class Layout:
     """One table of a block: its columns with their headings, below a sentence. A column the table lacks is left out.
 
     figures: significant figures. shorter: cells that are too long for a page, and what stands there instead.
+    where: by column, the values of the rows that a page shows; all if empty.
     """
 
     columns: Mapping[str, str]
     sentence: str = ""
     figures: int = 4
     shorter: Mapping[str, str] = field(default_factory=dict)
+    where: Mapping[str, Sequence[object]] = field(default_factory=dict)
 
     def markdown(self, table: pd.DataFrame) -> str:
         """The table for a page of the documents, its sentence above it."""
+        for column, values in self.where.items():
+            table = table[table[column].isin(values)]
         columns = [column for column in self.columns if column in table]
         shown = table[columns].rename(columns=dict(self.columns)).replace(dict(self.shorter))
         return (f"{self.sentence}\n\n" if self.sentence else "") + _grid(shown, self.figures)
@@ -45,6 +49,28 @@ class Notes:
 
     def _rows(self, table: pd.DataFrame) -> list[tuple[str, ...]]:
         return [tuple(map(str, row)) for row in table[[*self.names, self.text]].itertuples(index=False)]
+
+
+@dataclass(frozen=True)
+class Pivot:
+    """One quantity in two directions: a row for each value of one column, a column for each value of another."""
+
+    down: str
+    heading: str
+    across: str
+    value: str
+    sentence: str = ""
+
+    @property
+    def columns(self) -> tuple[str, str, str]:
+        """What the table must hold."""
+        return self.down, self.across, self.value
+
+    def markdown(self, table: pd.DataFrame) -> str:
+        """The table for a page of the documents, rows and columns in the order of their values."""
+        grid = table.pivot(index=self.down, columns=self.across, values=self.value)
+        shown = grid.rename(columns="{:g}".format).rename_axis(self.heading).reset_index()
+        return f"{self.sentence}\n\n" + _grid(shown, figures=3)
 
 
 @dataclass(frozen=True)
@@ -89,14 +115,6 @@ def _grid(table: pd.DataFrame, figures: int) -> str:
     return filled.to_markdown(index=False, floatfmt=f".{figures}g", missingval="") + "\n"
 
 
-def _errors(quantity: str, kinds: Mapping[str, str], sentence: str, scatter: str = "") -> Layout:
-    """Mean relative errors of a quantity, a row for each temperature."""
-    columns = {f"mre_{quantity}_{kind}_percent": heading for kind, heading in kinds.items()}
-    columns |= {scatter: "scatter"} if scatter else {}
-    return Layout({"temperature_C": "T, °C", **columns}, sentence, figures=3)
-
-
-_TABLE4 = {"published": "published", "simulated": "simulated", "law": "law of the bonds"}
 _CRITERIA = {
     "what": "what",
     "target": "target",
@@ -105,7 +123,7 @@ _CRITERIA = {
     "of": "of",
     "met": "met",
 }
-BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
+BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
     "ladder": [
         Rungs("E", sentence="Modulus |E\\*|, mean relative error in percent:"),
         Rungs("phase", sentence="Phase angle, mean relative error in percent:"),
@@ -130,23 +148,13 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "spheres": "spheres",
                 "bonds": "bonds",
                 "solid_fraction": "solid fraction",
-                "tests": "tests",
-                "tests_with_broken_bonds": "tests that broke a bond",
-            }
-        ),
-        Layout(
-            {
-                "sample": "sample",
+                "tests_with_broken_bonds": "breaks",
                 "E_over_law": "E over law",
-                "E_over_law_lowest": "lowest",
-                "E_over_law_highest": "highest",
-                "largest_phase_difference_deg": "largest phase difference, deg",
+                "E_over_law_lowest": "least",
+                "E_over_law_highest": "most",
+                "largest_phase_difference_deg": "phase off, °",
             }
         ),
-    ],
-    "table4": [
-        _errors("E", _TABLE4, sentence="Modulus |E\\*|, mean relative error in percent:"),
-        _errors("phase", _TABLE4, sentence="Phase angle, mean relative error in percent:"),
     ],
     "gain": [
         Rungs("E", {"law": "Burgers", "held_out": "held out"}, "Modulus |E\\*|, percent:", scatter=True),
@@ -154,7 +162,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
     ],
     "outputs": [
         Layout({"in the paper": "in the paper", "files": "files", "minutes": "minutes"}, figures=3),
-        Notes(["in the paper"], "rules"),
     ],
     "blind": [
         Layout(
@@ -191,7 +198,8 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "largest": "largest",
                 "in tension": "in tension",
                 "Poisson's ratio": "ν",
-            }
+            },
+            where={"spheres": (1000, 14160)},
         )
     ],
     "outside": [
@@ -261,6 +269,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "allowed": "allowed",
             },
             shorter={"dmin after the reduction of volume, looser layer": "likeliest"},
+            where={"temperature_C": (-10, 30)},
         )
     ],
     "time_steps": [
@@ -278,17 +287,12 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         )
     ],
     "smoothness": [
-        Layout(
-            {
-                "phase_weight": "weight",
-                "temperature_C": "T, °C",
-                "published_phase_percent": "published",
-                "smallest_phase_percent": "smallest",
-                "largest_phase_percent": "largest",
-                "scatter_percent": "scatter",
-            },
-            "Phase angle, mean relative error of Table 3's laws in percent:",
-            figures=3,
+        Pivot(
+            "temperature_C",
+            "T, °C",
+            "phase_weight",
+            "scatter_percent",
+            "Scatter that meets both errors at T, for a weight of the phase of:",
         )
     ],
     "ensemble": [
@@ -311,7 +315,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
     ],
     "rivals": [
         Layout(
-            {"data": "data", "law": "law", "parameters": "parameters"}
+            {"data": "data", "law": "law"}
             | {
                 f"{kind}_{quantity}_percent": heading
                 for kind, heading in (
@@ -324,6 +328,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             },
             sentence,
             figures=3,
+            where={"data": ("reconstructed", "ncat_N2-1_RH")},
         )
         for quantity, sentence in (
             ("E", "Modulus |E\\*|, mean relative error in percent:"),
@@ -482,20 +487,13 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         Layout(
             {
                 "stage": "stage",
-                "from": "from",
-                "to": "to",
+                "to": "spheres",
                 "exponent_of_time": "exponent of time",
                 "last_exponent_of_time": "last",
-                "cpu_s_of_largest": "CPU time of largest, s",
-            }
-        ),
-        Layout(
-            {
-                "stage": "stage",
-                "exponent_of_memory": "exponent of memory",
-                "last_exponent_of_memory": "last",
-                "memory_MB_of_largest": "memory of largest, MB",
-            }
+                "cpu_s_of_largest": "CPU time, s",
+                "last_exponent_of_memory": "of memory, last",
+                "memory_MB_of_largest": "MB",
+            },
         ),
     ],
 }

@@ -65,8 +65,8 @@ def _number(text: str) -> float:
 
 
 def as_markdown(table: pd.DataFrame, elapsed_s: float) -> str:
-    """The rules that take a hundredth of the time or more, the others in one line, the sum, and how long it took."""
-    long = table["share_percent"] >= 1.0
+    """The rules that take a twentieth of the time or more, the others in one line, the sum, and how long it took."""
+    long = table["share_percent"] >= 5.0
     lines = [
         "| rule | jobs | wall time, s | CPU time, s | longest job, s | memory, MB | share, % |",
         "|---|" + "---:|" * 6,
