@@ -228,7 +228,6 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
                 "memory_MB": "memory, MB",
             }
         ),
-        Notes(["topic", "case"], "remark"),
     ],
     "bond_readings": [
         Layout(
@@ -351,7 +350,7 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
     ],
     "diagnosis_times": [
         Layout(
-            {"case": "table", "cpu_s": "CPU time, s", "memory_MB": "memory, MB", "remark": "remark"},
+            {"case": "table", "cpu_s": "CPU time, s", "memory_MB": "memory, MB"},
         )
     ],
     "layer": [
