@@ -22,7 +22,7 @@ from asphalt_nscd.api.specimens import specimen as specimen
 from asphalt_nscd.bending.case import Load as Load
 from asphalt_nscd.bending.case import Numerics as Numerics
 from asphalt_nscd.bending.condensing import Bonds as Bonds
-from asphalt_nscd.bending.fatigue import Tiring as Tiring
+from asphalt_nscd.bending.fatigue import FatigueLaw as FatigueLaw
 from asphalt_nscd.bending.rig import Rig as Rig
 from asphalt_nscd.diagnosis.run import Draws as Draws
 from asphalt_nscd.diagnosis.run import Simulated as Simulated

@@ -10,7 +10,7 @@ from scipy import sparse
 
 from asphalt_nscd.bending.bending_test import bond_law
 from asphalt_nscd.bending.fatigue import (
-    Tiring,
+    FatigueLaw,
     cycle_by_cycle,
     fatigue,
     largest_strain,
@@ -26,7 +26,7 @@ from asphalt_nscd.rheology.burgers import Burgers
 
 PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
 FINE = Jumps(bond=0.001, growth=0.0, stiffness=0.002)
-LAW = Tiring(endured=1e-3, exponent=4.0)
+LAW = FatigueLaw(endured=1e-3, exponent=4.0)
 
 
 def along_a_line(operator, strength) -> BondedSystem:

@@ -8,10 +8,10 @@ from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending import fatigue as test
 from asphalt_nscd.bending.condensing import Bonds
-from asphalt_nscd.bending.fatigue import Tiring
+from asphalt_nscd.bending.fatigue import FatigueLaw
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range
-from asphalt_nscd.nscd.bonds.fatigue import Course
+from asphalt_nscd.nscd.bonds.fatigue import FatigueHistory
 
 
 @checked
@@ -19,12 +19,12 @@ def fatigue(
     specimen: Specimen | str | Path,
     strain: float,
     *,
-    law: Tiring = Tiring(),  # noqa: B008  frozen, and the next
+    law: FatigueLaw = FatigueLaw(),  # noqa: B008  frozen, and the next
     bonds: Bonds = Bonds(),  # noqa: B008
-) -> Course:
+) -> FatigueHistory:
     """Tire a trapezoid at constant displacement of its head until half of its stiffness is left (docs/fatigue.md).
 
-    strain: largest amplitude in bending theory, as 100e-6. law: Tiring(endured, exponent) of a bond. Of the result:
+    strain: largest amplitude in bending theory, as 100e-6. law: FatigueLaw(endured, exponent) of a bond. Of the result:
     life() in cycles; cycles, stiffness (over the first) and lost bonds of each jump; damage of the bonds at the end.
 
     >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen

@@ -11,7 +11,7 @@ from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Ranged, within
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.nscd.bonds.fatigue import Course, Jumps, kept, strain, tire
+from asphalt_nscd.nscd.bonds.fatigue import FatigueHistory, Jumps, remaining_stiffness, strain, tire
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
@@ -28,13 +28,13 @@ MOST_CYCLES = 10_000  # one by one
 
 
 @dataclass(frozen=True)
-class Tiring(Ranged):
+class FatigueLaw(Ranged):
     """The law of a bond: of its damage, which is 1 when it is lost, each cycle adds 1e-6 (e / endured)^exponent.
 
     e: amplitude of its opening over its length. endured: the e that uses a bond up in a million cycles. The exponent
     is minus one over the slope b of the Wöhler line of specimens, log e = log e6 + b log (N / 1e6).
 
-    >>> law = Tiring(endured=100e-6, exponent=5.0)
+    >>> law = FatigueLaw(endured=100e-6, exponent=5.0)
     >>> float(law.rate(np.array([200e-6]))[0]).__round__(9)
     3.2e-05
     """
@@ -68,8 +68,12 @@ def largest_strain_at(geometry: Geometry) -> float:
 
 
 def fatigue(
-    specimen: Specimen, strain_amplitude: float, law: Tiring, bonds: Bonds = Bonds(), jumps: Jumps = Jumps()
-) -> Course:
+    specimen: Specimen,
+    strain_amplitude: float,
+    law: FatigueLaw,
+    bonds: Bonds = Bonds(),
+    jumps: Jumps = Jumps(),
+) -> FatigueHistory:
     """The course of a test at this strain, largest of bending theory, until FAILURE.
 
     Bonds to the plates do not tire, as a test that fails at its glue does not count.
@@ -81,11 +85,11 @@ def fatigue(
 def cycle_by_cycle(
     specimen: Specimen,
     strain_amplitude: float,
-    law: Tiring,
+    law: FatigueLaw,
     bond_law: BondLaw,
     frequency: float,
     bonds: Bonds = Bonds(),
-) -> Course:
+) -> FatigueHistory:
     """The same by full time steps at frequency [Hz], every cycle of them: with inertia and the law of the bonds.
 
     After each cycle bonds take the damage of the harmonics of their openings in it. The stiffness is |E*| by Eqs.
@@ -102,7 +106,7 @@ def cycle_by_cycle(
     wave = np.exp(-1j * omega * time_step * np.arange(1, STEPS_PER_CYCLE + 1)) * 2.0 / STEPS_PER_CYCLE
     damage, rows = np.zeros(length.size), []
     for cycle in range(MOST_CYCLES):
-        tired = replace(system, weight=system.weight * kept(damage))
+        tired = replace(system, weight=system.weight * remaining_stiffness(damage))
         stepper = CondensedStepper(tired, bond_law, time_step / scheme.a, state)
         if march is None:
             march = March(stepper, scheme, bond_law, time_step)
@@ -120,15 +124,15 @@ def cycle_by_cycle(
         openings = strain(system.operator @ motion, length)
         damage = np.minimum(damage + np.where(tires, law.rate(openings), 0.0), 1.0)
     table = np.array(rows)
-    return Course(table[:, 0], table[:, 1] / table[2, 1], table[:, 2].astype(int), damage)
+    return FatigueHistory(table[:, 0], table[:, 1] / table[2, 1], table[:, 2].astype(int), damage)
 
 
-def table_of(course: Course) -> pd.DataFrame:
+def table_of(course: FatigueHistory) -> pd.DataFrame:
     """cycles, stiffness over the first one, lost_bonds."""
     return pd.DataFrame({"cycles": course.cycles, "stiffness": course.stiffness, "lost_bonds": course.lost})
 
 
-def profile_of(specimen: Specimen, course: Course) -> pd.DataFrame:
+def profile_of(specimen: Specimen, course: FatigueHistory) -> pd.DataFrame:
     """Of the bonds in each of LAYERS layers: height_share of its middle, mean damage, share of them lost."""
     layer = np.minimum(LAYERS * specimen.network.point[:, 2] / specimen.geometry.h, LAYERS - 1).astype(int)
     damage = pd.Series(course.damage)

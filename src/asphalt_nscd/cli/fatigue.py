@@ -7,7 +7,7 @@ import click
 
 from asphalt_nscd.cli import _options
 
-_LAW = "bending.fatigue.Tiring"
+_LAW = "bending.fatigue.FatigueLaw"
 
 
 @click.command()
@@ -39,12 +39,12 @@ _LAW = "bending.fatigue.Tiring"
 @click.option("--frequency-hz", default=25.0, type=_options.POSITIVE, help="Frequency, with --every-cycle.")
 @click.option("--profile", default=None, type=_options.File, help="File for the damage over the height.")
 @_options.output
-@_options.gather("tiring", endured="endured", exponent="exponent")
+@_options.gather("fatigue_law", endured="endured", exponent="exponent")
 @_options.gather("stepped", law="every_cycle", frequency="frequency_hz")
 def command(
     specimen: Path,
     strain: float,
-    tiring: dict[str, Any],
+    fatigue_law: dict[str, Any],
     stepped: dict[str, Any],
     finer: float,
     profile: Path | None,
@@ -52,13 +52,13 @@ def command(
 ) -> None:
     """Tire a trapezoid at constant strain until half of its stiffness is left, as EN 12697-24 does."""
     from asphalt_nscd.bending.bending_test import bond_law
-    from asphalt_nscd.bending.fatigue import Tiring, cycle_by_cycle, fatigue, profile_of, table_of
+    from asphalt_nscd.bending.fatigue import FatigueLaw, cycle_by_cycle, fatigue, profile_of, table_of
     from asphalt_nscd.files.store import write_table
     from asphalt_nscd.nscd.bonds.fatigue import Jumps
     from asphalt_nscd.rheology.laws_io import read_bond_law
     from asphalt_nscd.specimen.preparation import read_specimen
 
-    given, law = read_specimen(specimen), Tiring(**tiring)
+    given, law = read_specimen(specimen), FatigueLaw(**fatigue_law)
     if stepped["law"] is None:
         course = fatigue(given, strain, law, jumps=Jumps().finer(finer))
     else:

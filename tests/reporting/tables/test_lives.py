@@ -28,7 +28,7 @@ def courses(tmp_path):
 def test_bonds_are_set_on_the_mean_of_log_life(courses):
     assert [fatigue.life(path) for path in courses] == pytest.approx([2e6, 8e6])
     # 4e6 in the mean becomes a million: bonds that endure less strain, as the fifth root
-    assert fatigue.tiring(courses).endured == pytest.approx(100e-6 * 0.25**0.2)
+    assert fatigue.fatigue_law(courses).endured == pytest.approx(100e-6 * 0.25**0.2)
 
 
 def test_lives_at_three_strains_follow_the_slope(courses):

@@ -39,7 +39,7 @@ class Jumps:
 
 
 @dataclass(frozen=True)
-class Course:
+class FatigueHistory:
     """What became of the bonds; a row for each jump, its start."""
 
     cycles: np.ndarray  # (j,)
@@ -52,7 +52,7 @@ class Course:
         return float(np.interp(-share, -self.stiffness, self.cycles, right=np.nan))
 
 
-def kept(damage: np.ndarray) -> np.ndarray:
+def remaining_stiffness(damage: np.ndarray) -> np.ndarray:
     """Share (3 b,) of the stiffness of the components of bonds of damage (b,)."""
     return np.repeat(np.maximum(1.0 - damage, LEFT), 3)
 
@@ -69,7 +69,7 @@ def tire(
     amplitude: float,
     until: float = 0.5,
     jumps: Jumps = Jumps(),
-) -> Course:
+) -> FatigueHistory:
     """Drive the head by amplitude [m] until this share of its stiffness is left.
 
     length (b,) [m] of bonds; rate: damage per cycle (b,) at strain (b,). Bonds of infinite strength do not tire.
@@ -78,7 +78,7 @@ def tire(
     damage, cycles = np.zeros(length.size), 0.0
     statics, rows = _Statics(system), []
     while True:
-        opening, stiffness = statics.opening(kept(damage))
+        opening, stiffness = statics.opening(remaining_stiffness(damage))
         rows.append((cycles, stiffness, np.count_nonzero(damage >= 1.0)))
         if stiffness <= until * rows[0][1]:
             break
@@ -91,7 +91,7 @@ def tire(
         damage = np.minimum(damage + step * speed, 1.0)
         cycles += step
     table = np.array(rows, float)
-    return Course(table[:, 0], table[:, 1] / table[0, 1], table[:, 2].astype(int), damage)
+    return FatigueHistory(table[:, 0], table[:, 1] / table[0, 1], table[:, 2].astype(int), damage)
 
 
 def _step_that_takes(lost: float, energy: np.ndarray, speed: np.ndarray, damage: np.ndarray) -> float:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.bending.fatigue import FAILURE, MILLION, Tiring
+from asphalt_nscd.bending.fatigue import FAILURE, MILLION, FatigueLaw
 
 STRAINS = (90e-6, 120e-6, 150e-6)
 EPSILON6, SLOPE, SCATTER = 100e-6, -1 / 5, 0.25
@@ -27,9 +27,9 @@ def factor(courses: list[Path]) -> float:
     return float(MILLION / np.exp(np.log(lives).mean()) * (REFERENCE / EPSILON6) ** (1 / SLOPE))
 
 
-def tiring(courses: list[Path]) -> Tiring:
+def fatigue_law(courses: list[Path]) -> FatigueLaw:
     """The law of the bonds that does."""
-    return Tiring(endured=REFERENCE * factor(courses) ** -SLOPE, exponent=-1 / SLOPE)
+    return FatigueLaw(endured=REFERENCE * factor(courses) ** -SLOPE, exponent=-1 / SLOPE)
 
 
 def make(course: list[Path]) -> pd.DataFrame:

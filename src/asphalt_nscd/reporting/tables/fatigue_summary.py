@@ -22,7 +22,7 @@ def make(course: list[Path], profile: list[Path], check: list[Path], specimen: l
     heights = [table.loc[table["damage"].idxmax(), "height_share"] for table in map(pd.read_csv, profile)]
     theory = largest_strain_at(geometry) / geometry.h
     rows = [
-        ("strain that a bond endures a million times, 1e-6", 1e6 * fatigue.tiring(course).endured, np.nan, "set"),
+        ("strain that a bond endures a million times, 1e-6", 1e6 * fatigue.fatigue_law(course).endured, np.nan, "set"),
         ("epsilon6 of the samples, 1e-6", 1e6 * fatigue.EPSILON6, 1e6 * fatigue.EPSILON6, "set on what is published"),
         ("slope of the Wöhler line", fatigue.SLOPE, fatigue.SLOPE, "set on what is published"),
         ("standard deviation of log N between samples", logs.std(ddof=1), fatigue.SCATTER, "published"),
