@@ -30,15 +30,15 @@ def test_blue_and_orange_differ_in_grey():
 @pytest.mark.parametrize("seed", range(5))
 def test_spread_keeps_distance_order_and_mean(seed):
     places = np.random.default_rng(seed).uniform(0.0, 10.0, 7)
-    moved = style.spread(places, 1.5)
+    moved = style.separate(places, 1.5)
     assert np.diff(np.sort(moved)).min() > 1.5 - 1e-9
     assert (np.argsort(moved) == np.argsort(places)).all()
     assert moved.mean() == pytest.approx(places.mean())
 
 
 def test_spread_leaves_alone_what_is_apart():
-    assert style.spread([5.0, 1.0, 3.0], 1.5) == pytest.approx([5.0, 1.0, 3.0])
-    assert style.spread([1.0, 1.0], 2.0) == pytest.approx([0.0, 2.0])
+    assert style.separate([5.0, 1.0, 3.0], 1.5) == pytest.approx([5.0, 1.0, 3.0])
+    assert style.separate([1.0, 1.0], 2.0) == pytest.approx([0.0, 2.0])
 
 
 def test_frequency_ticks_are_the_tested_frequencies_where_few():

@@ -15,6 +15,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 from numpy.typing import ArrayLike
+from scipy.optimize import isotonic_regression
 
 from asphalt_nscd.reporting.figures import numbers
 
@@ -149,7 +150,7 @@ def label_ends(
     figure.draw_without_rendering()  # settles the size of the axes
     points = 72.0 / axes.figure.dpi
     at = np.array([axes.transData.transform((x, y))[1] for y in ends]) * points
-    for y, text, colour, shift in zip(ends, texts, colours, spread(at.tolist(), 8.5) - at, strict=True):
+    for y, text, colour, shift in zip(ends, texts, colours, separate(at.tolist(), 8.5) - at, strict=True):
         axes.annotate(
             text,
             (x, y),
@@ -162,18 +163,9 @@ def label_ends(
         )
 
 
-def spread(places: Sequence[float], least: float) -> np.ndarray:
-    """Places moved as little as needed so that neighbours are `least` apart, in unchanged order."""
-    wanted = np.asarray(places, float)
-    order = np.argsort(wanted, kind="stable")
-    # Pool adjacent violators: clusters of touching labels are centred on their mean.
-    clusters: list[list[float]] = []
-    for rank, place in enumerate(wanted[order]):
-        clusters.append([place - rank * least, 1.0])
-        while len(clusters) > 1 and clusters[-2][0] > clusters[-1][0]:
-            (mean, size), (last, more) = clusters[-2], clusters.pop()
-            clusters[-1] = [(mean * size + last * more) / (size + more), size + more]
-    base = np.repeat([mean for mean, _ in clusters], [int(size) for _, size in clusters])
-    result = np.empty_like(wanted)
-    result[order] = base + least * np.arange(wanted.size)
+def separate(places: Sequence[float], least: float) -> np.ndarray:
+    """Places moved as little as possible, in the mean square, until neighbours are `least` apart; order is kept."""
+    wanted, steps = np.asarray(places, float), least * np.arange(len(places))
+    order, result = np.argsort(wanted, kind="stable"), np.empty_like(wanted)
+    result[order] = isotonic_regression(wanted[order] - steps).x + steps
     return result
