@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -11,11 +12,13 @@ from scipy import sparse
 from scipy.sparse.linalg import SuperLU
 
 from asphalt_nscd.bending.layers import Layers
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, load
+from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.geometry import shape_of
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
-from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.bonds.system import BondedSystem, clusters
 from asphalt_nscd.nscd.stepping.break_modes import StandBy
 from asphalt_nscd.nscd.stepping.harmonic import static_factor
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
@@ -67,6 +70,22 @@ class Model:
     def along(self) -> np.ndarray:
         """Coordinates of velocity to means over the layers (k, l)."""
         return (self.layers.mean @ self.basis).T
+
+    def require_whole(self, broken: Sequence[int]) -> None:
+        """Raise InputError where no path of the bonds that are left joins all plates."""
+        if not self.shape:  # of a file of an older version
+            return
+        left = np.ones(self.bonds, bool)
+        left[broken] = False
+        plates = len(self.geometry.plates)
+        plate = clusters(self.shape["first"][left], self.shape["second"][left], self.spheres + plates)[
+            -plates:
+        ]
+        if (plate != plate[0]).any():
+            raise InputError(
+                f"{self.name}: the specimen is in two pieces, {len(broken)} of {counted(self.bonds, 'bond')} broke; "
+                "lower the amplitude or raise the strength of the bonds."
+            )
 
     @cached_property
     def static_factor(self) -> SuperLU | Multigrid:

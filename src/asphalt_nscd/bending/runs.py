@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from asphalt_nscd.bending.checkpoint import Checkpoint
     from asphalt_nscd.bending.excerpt import ModelExcerpt
     from asphalt_nscd.bending.model import Model
+    from asphalt_nscd.nscd.bonds.head import HeadDevices
     from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
     from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
     from asphalt_nscd.nscd.stepping.integrator import March
@@ -76,6 +77,8 @@ def reduced(
     else:
         stepper = _reduced_stepper(model.whole, law, numerics.time_step / _scheme(case, numerics).a, case)
         run = _one_by_one(stepper, model.whole, law, (case, numerics), options)
+    if run.broken:
+        model.whole.require_whole(run.broken)
     certificate = stepper.certificate()
     run.residual = certificate.largest_residual
     run.details = {
@@ -91,13 +94,13 @@ def condensed(
     model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions
 ) -> Histories:
     """By the full system, its bonds condensed, with the energy account."""
-    from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+    from asphalt_nscd.nscd.stepping.condensed import CondensedState
 
     state = CondensedState.at_rest(model.system, law)
     if options.checkpoint and (kept := options.checkpoint.resume()):
         state.broken = kept["march/broken"].tolist()
     dt = numerics.time_step / _scheme(case, numerics).a
-    stepper = CondensedStepper(model.system, law, dt, state, case.rig)
+    stepper = _full_stepper(model, law, dt, state, case.rig)
     return _one_by_one(stepper, model, law, (case, numerics), options)
 
 
@@ -126,6 +129,22 @@ def _reduced_stepper(
     return ReducedStepper(small, law, time_step, RESIDUAL_TOLERANCE, devices=case.rig, stand_by=stand_by)
 
 
+def _full_stepper(
+    model: Model,
+    law: BondLaw,
+    dt: float,
+    state: CondensedState,
+    devices: HeadDevices,
+    actuator: float = 0.0,
+) -> CondensedStepper:
+    """Steps the full system until the specimen is in two pieces."""
+    from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
+
+    stepper = CondensedStepper(model.system, law, dt, state, devices, actuator)
+    stepper.on_break = model.require_whole
+    return stepper
+
+
 def _in_one_call(
     stepper: ReducedStepper, model: Model | ModelExcerpt, law: BondLaw, driven: Vector, options: RunOptions
 ) -> Histories:
@@ -134,12 +153,10 @@ def _in_one_call(
         force, coordinates = stepper.run(driven)
         run = Histories(force, coordinates @ along, stepper.state.broken)
     except FullSystemNeeded as accepted:
-        from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
-
         whole, done = model.whole, accepted.force.size
         state = stepper.full_state()
         path = np.concatenate([[0.0], driven])[done:]
-        full = CondensedStepper(whole.system, law, stepper.dt, state, stepper.devices, path[0])
+        full = _full_stepper(whole, law, stepper.dt, state, stepper.devices, path[0])
         rest = _follow(full, path, whole.layers, options, lambda: stepper.certify(full))
         force = np.concatenate([accepted.force, rest.force])
         velocity = np.concatenate([accepted.velocity @ along, rest.velocity])
@@ -176,7 +193,7 @@ def _one_by_one(
     options: RunOptions,
 ) -> Histories:
     """Steps of any scheme with their energy account, from rest or from the checkpoint."""
-    from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+    from asphalt_nscd.nscd.stepping.condensed import CondensedState
     from asphalt_nscd.nscd.stepping.integrator import March
 
     case, numerics = what
@@ -190,7 +207,7 @@ def _one_by_one(
             if kept["full_steps"] > 0:
                 state = CondensedState.at_rest(model.system, law)
                 state.broken = kept["march/broken"].tolist()
-                march.stepper = CondensedStepper(model.system, law, stepper.dt, state, case.rig)
+                march.stepper = _full_stepper(model, law, stepper.dt, state, case.rig)
         march.put(_below("march/", kept))
         run.done, run.full_steps = kept["force"].size, kept["full_steps"].item()
         run.force[: run.done], run.velocity[: run.done] = kept["force"], kept["velocity"]
@@ -202,7 +219,7 @@ def _one_by_one(
         except FullSystemNeeded:
             assert small is not None, "the full system makes every step"
             state = small.full_state()
-            march.go_on_with(CondensedStepper(model.system, law, stepper.dt, state, case.rig))
+            march.go_on_with(_full_stepper(model, law, stepper.dt, state, case.rig))
             run.force[n] = march.move_to(driven[n])
         if small is None:
             run.velocity[n] = layers.mean @ stepper.state.velocity

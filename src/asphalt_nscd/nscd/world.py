@@ -23,7 +23,7 @@ from scipy.spatial.transform import Rotation
 from asphalt_nscd.nscd.bonds.implicit_operator import factors
 from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.bonds.strength import utilisations
-from asphalt_nscd.nscd.bonds.system import opening_operator
+from asphalt_nscd.nscd.bonds.system import clusters, opening_operator
 from asphalt_nscd.nscd.contacts.friction import solve_contacts
 from asphalt_nscd.nscd.spheres.granular import near_pairs
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
@@ -162,11 +162,8 @@ class World:
 
     def fragments(self) -> np.ndarray:
         """Number (n,) of the fragment that each sphere belongs to, the largest being 0."""
-        left, n = ~self.broken, self.radius.size
-        joined = sparse.coo_array(
-            (np.ones(left.sum()), (self.bonds.first[left], self.bonds.second[left])), (n, n)
-        )
-        number = sparse.csgraph.connected_components(joined, directed=False)[1]
+        left = ~self.broken
+        number = clusters(self.bonds.first[left], self.bonds.second[left], self.radius.size)
         order = np.argsort(-np.bincount(number), kind="stable")
         return np.asarray(np.argsort(order)[number])
 

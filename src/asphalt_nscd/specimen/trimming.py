@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.geometry import require_joined
 from asphalt_nscd.measurements.shape import Shape
+from asphalt_nscd.nscd.bonds.system import clusters
 from asphalt_nscd.specimen.network import Network, bond_network, facet_network
 
 FEWEST_BONDS = 3
@@ -94,7 +93,6 @@ def held(network: Network, n: int, plates: int = 2) -> tuple[np.ndarray, bool]:
     """(n,) which of n spheres are held fast by bonds, and whether all plates hang together."""
     ends = network.first, network.second
     count = np.bincount(np.concatenate(ends), minlength=n + plates)[:n]
-    graph = sparse.coo_array((np.ones(network.first.size), ends), shape=(n + plates, n + plates))
-    cluster = connected_components(graph, directed=False)[1]
+    cluster = clusters(*ends, n + plates)
     joined = bool((cluster[n:] == cluster[n]).all())
     return (count >= FEWEST_BONDS) & (cluster[:n] == cluster[n + 1]), joined

@@ -24,10 +24,8 @@ def test_a_contact_force_that_only_the_solvers_tolerance_changes_is_met(seed):
         actuator=0.0,
         _follow_head=lambda: following,
         _coupling=lambda: np.array([1.0, 0.3]),
-        _move=lambda impulse, velocity: (
-            np.array([velocity, 0.0]),
-            force * (1.0 + 1e-12 * np.sin(1e12 * velocity)),
-        ),
+        _velocity=lambda impulse, head: np.array([head, 0.0]),
+        _meet_contacts=lambda velocity: (velocity, force * (1.0 + 1e-12 * np.sin(1e12 * velocity[0]))),
     )
     impulse = 1e-3 * rng.normal(size=2)
     motion, contact_force, _ = CondensedStepper._move_by_clamp(stepper, impulse, 1e-3)

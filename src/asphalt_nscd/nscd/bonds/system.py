@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 
 from asphalt_nscd.nscd.bonds.strength import utilisations
 from asphalt_nscd.nscd.compiled import compiled
@@ -72,6 +73,12 @@ class BondedSystem:
     def utilisation(self, reaction: np.ndarray) -> np.ndarray:
         """Yield measure (b,): tension or tangential force over strength; above one a bond breaks."""
         return utilisations(reaction, self.strength)
+
+
+def clusters(first: np.ndarray, second: np.ndarray, n: int) -> np.ndarray:
+    """Number (n,) of the cluster that each of n bodies belongs to; bonds join bodies first (b,) and second (b,)."""
+    graph = sparse.coo_array((np.ones(first.size), (first, second)), shape=(n, n))
+    return np.asarray(connected_components(graph, directed=False)[1])
 
 
 def opening_operator(

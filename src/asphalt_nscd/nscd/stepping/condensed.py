@@ -10,6 +10,7 @@ contacts, solved by Gauss-Seidel on their Delassus operator.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -47,7 +48,8 @@ class CondensedStepper:
 
     Of the last step: `missing` (d,) [N, N m], what the equations of motion lack, which is the driving
     force where the motion is driven and rounding elsewhere; `utilisation`, the largest of a bond;
-    `contact`, (reactions [N], openings [m/s]) (3 c,) of the gaps that closed, or None.
+    `contact`, (reactions [N], openings [m/s]) (3 c,) of the gaps that closed, or None. `on_break` is called with
+    the broken bonds when one more breaks; an error that it raises ends the step.
     """
 
     def __init__(
@@ -65,6 +67,8 @@ class CondensedStepper:
         self._operator = ShiftedOperator(system, dt / self.step_law.compliance)
         self._operator.remove(state.broken)
         self._following = np.empty(0), -1
+        self._responses: tuple[dict[int, np.ndarray], int] = {}, -1
+        self.on_break: Callable[[list[int]], None] = lambda broken: None
 
     @property
     def weight(self) -> np.ndarray:
@@ -96,6 +100,7 @@ class CondensedStepper:
             if utilisation[worst] <= 1.0:
                 break
             state.broken.append(worst)
+            self.on_break(state.broken)
             self._operator.remove(state.broken)
         inertia = system.mass * (velocity - state.velocity) / dt
         reaction = system.operator.T @ (self._operator.weight * sigma)
@@ -128,11 +133,14 @@ class CondensedStepper:
 
     def _move(self, impulse: np.ndarray, head_velocity: float) -> tuple[np.ndarray, np.ndarray]:
         """(velocity, contact forces) under an impulse (d,) with the head moving at head_velocity."""
+        return self._meet_contacts(self._velocity(impulse - head_velocity * self._coupling(), head_velocity))
+
+    def _velocity(self, impulse: np.ndarray, head_velocity: float) -> np.ndarray:
+        """That (d,) under an impulse (d,), of the head given, without contacts."""
         velocity = np.empty_like(impulse)
         velocity[self.system.driven] = head_velocity
-        free = self.system.free
-        velocity[free] = self._operator.solve((impulse - head_velocity * self._coupling())[free])
-        return self._meet_contacts(velocity)
+        velocity[self.system.free] = self._operator.solve(impulse[self.system.free])
+        return velocity
 
     def _coupling(self) -> np.ndarray:
         """Impulse (d,) that a unit velocity of the head alone takes by its bonds."""
@@ -147,9 +155,7 @@ class CondensedStepper:
         """Velocities (d,) for one of the head, all else at rest before; kept until bonds break."""
         following, broken = self._following
         if broken != len(self.state.broken):
-            following = np.zeros(self.system.mass.size)
-            following[self.system.driven] = 1.0
-            following[self.system.free] = -self._operator.solve(self._coupling()[self.system.free])
+            following = self._velocity(-self._coupling(), 1.0)
             self._following = following, len(self.state.broken)
         return following
 
@@ -160,6 +166,10 @@ class CondensedStepper:
         system, state, dt = self.system, self.state, self.dt
         head, following = system.driven, self._follow_head()
         impedance = (system.mass[head] + float(self._coupling() @ following)) / dt
+        held = self._velocity(impulse, 0.0)
+
+        def move(head_velocity: float) -> tuple[np.ndarray, np.ndarray]:
+            return self._meet_contacts(held + head_velocity * following)
 
         def follow(contact_force: np.ndarray) -> tuple[float, float]:
             free_force = -float(following @ (impulse / dt + contact_force))
@@ -175,10 +185,10 @@ class CondensedStepper:
 
         def yields(head_velocity: float) -> float:
             """How much faster the head would go under the contact forces of this head velocity."""
-            return follow(self._move(impulse, head_velocity)[1])[0] - head_velocity
+            return follow(move(head_velocity)[1])[0] - head_velocity
 
         velocity, _ = follow(np.zeros_like(impulse))
-        motion, contact_force = self._move(impulse, velocity)
+        motion, contact_force = move(velocity)
         resisted, slider = follow(contact_force)
         excess = resisted - velocity
         if excess:  # contacts resist motion, so the answer lies between
@@ -187,8 +197,8 @@ class CondensedStepper:
             unresisted, velocity = velocity, velocity + excess
             if excess * yields(velocity) < 0.0:  # else the answer is that end, but for rounding
                 velocity = brentq(yields, unresisted, velocity, xtol=1e-14 * abs(excess))
-            velocity, slider = follow(self._move(impulse, velocity)[1])
-            motion, contact_force = self._move(impulse, velocity)
+            velocity, slider = follow(move(velocity)[1])
+            motion, contact_force = move(velocity)
         return motion, contact_force, slider
 
     def _meet_contacts(self, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -204,7 +214,7 @@ class CondensedStepper:
             touching = sorted({*touching, *closing.tolist()})
             rows = (3 * np.asarray(touching)[:, None] + np.arange(3)).ravel()
             normal = system.operator[rows]
-            response = self._operator.solve(normal[:, system.free].T.toarray())
+            response = self._response(touching)
             delassus = normal[:, system.free] @ response
             free_velocity = normal @ velocity
             free_velocity[::3] += np.maximum(gap[touching], 0.0) / dt
@@ -216,3 +226,14 @@ class CondensedStepper:
             self.contact = impulse / dt, normal @ corrected
             closing = np.flatnonzero(gap + dt * (opening_rows @ corrected) < -CLOSED)
         return corrected, force
+
+    def _response(self, bonds: list[int]) -> np.ndarray:
+        """Velocities (f, 3 n) for unit impulses at these bonds; each is kept until one more breaks."""
+        known, broken = self._responses
+        if broken != len(self.state.broken):
+            known, _ = self._responses = {}, len(self.state.broken)
+        for bond in bonds:
+            if bond not in known:  # each apart: its digits do not depend on what was asked with it
+                rows = self.system.operator[3 * bond : 3 * bond + 3][:, self.system.free]
+                known[bond] = self._operator.solve(rows.T.toarray())
+        return np.hstack([known[bond] for bond in bonds])

@@ -1,0 +1,48 @@
+"""A specimen that breaks in two ends its test with one sentence."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.bending.bending_test import run_test
+from asphalt_nscd.bending.case import LoadCase, Numerics
+from asphalt_nscd.bending.condensing import Bonds, condensed
+from asphalt_nscd.bending.model import Model, model_of
+from asphalt_nscd.bending.rig import Rig
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import Record
+from asphalt_nscd.measurements.fourpoint import Beam
+from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.verification.specimens import QUICK_LAW
+
+
+def model(make_beam, test: str = Geometry.test, **bonds: float) -> Model:
+    area = "facets" if test == Beam.test else "paper"
+    return model_of(
+        Record(*condensed(make_beam(test=test, area=area), "beam", Bonds(**bonds), stand_by=0), "")
+    )
+
+
+@pytest.mark.parametrize(("test", "share"), [(Geometry.test, 0.5), (Beam.test, 0.5), (Beam.test, 0.15)])
+def test_all_bonds_across_a_section_and_no_fewer_part_it(make_beam, test, share):
+    beam = model(make_beam, test)
+    plates = np.array([plate.height for plate in beam.geometry.plates])
+    height = np.concatenate([beam.sphere_height, plates])
+    below = height < share * beam.geometry.h
+    across = np.flatnonzero(below[beam.shape["first"]] != below[beam.shape["second"]]).tolist()
+    beam.require_whole([])
+    beam.require_whole(across[1:])
+    with pytest.raises(
+        InputError, match=rf"beam: the specimen is in two pieces, {len(across)} of .*lower the"
+    ):
+        beam.require_whole(across)
+
+
+@pytest.mark.parametrize("method", ["reduced", "condensed"])
+@pytest.mark.parametrize("clamp", [0.0, 1e-8])
+def test_a_test_that_breaks_all_bonds_ends(make_beam, method, clamp):
+    beam = model(make_beam, yield_Pa=7.5)
+    case = LoadCase(40.0, 2e-5, cycles=1.0, rig=Rig(clamp_compliance=clamp))
+    with pytest.raises(InputError, match="in two pieces"):
+        run_test(beam, QUICK_LAW, case, Numerics(time_step=5e-4, method=method))
