@@ -12,7 +12,7 @@
 #   make verify     the core against theory: results/verification/verification.csv
 #   make check      published results made again where that is cheap, and compared: minutes
 #   make faults     what must not lose or falsify a result: results/faults/faults.csv, half an hour
-#   make fuzz       a hundred thousand inputs to everything that reads a file, a thousand wild tables to the diagnosis
+#   make fuzz       a hundred thousand inputs to all readers, a thousand wild tables to the diagnosis, ten thousand calls
 #   make cluster    the smoke study through a Slurm started here, where Debian's is installed
 #   make docs       these documents and the reference of all modules as a site: site/index.html
 #   make api        the reference alone, from docstrings: docs/api
@@ -86,6 +86,7 @@ fuzz: $(READY)
 	@PYTHONPATH=trials:tests .venv/bin/python -m fuzz
 	@OPENBLAS_NUM_THREADS=1 PYTHONPATH=trials:tests .venv/bin/python -m fuzz.diagnoses 1000 \
 		$(if $(filter all,$(CORES)),,--jobs $(CORES)) --output results/fuzz
+	@OPENBLAS_NUM_THREADS=1 PYTHONPATH=trials:tests .venv/bin/python -m fuzz.calls --output results/fuzz
 
 cluster: $(READY)
 	@PYTHONPATH=trials .venv/bin/python -m cluster

@@ -4,11 +4,14 @@ PYTHONPATH=trials:tests python -m fuzz.calls [NUMBER] [--first SEED] [--output F
 
 writes `calls.csv`, a row for each function, and `call_failures.csv`, a row for each call that ended otherwise. Calls
 run in a process of their own, one after another; one that takes more than LONGEST s of CPU ends that process and
-counts as without end. The call of a seed is `draw(seed)`.
+counts as without end. The call of a seed is `draw(seed)`. `outcomes.csv` there keeps what was called; the same command
+goes on from it as long as the commit is the same.
 """
 
 from __future__ import annotations
 
+import csv
+import json
 import resource
 import sys
 import tempfile
@@ -396,10 +399,9 @@ class Trial:
         self._process.join()
 
 
-def counted(outcomes: list[Outcome]) -> pd.DataFrame:
+def counted(outcomes: pd.DataFrame) -> pd.DataFrame:
     """A row for each function and one for all: calls, how many ended how, CPU seconds."""
-    table = pd.DataFrame([asdict(outcome) for outcome in outcomes])
-    groups = [*table.groupby("function"), ("all", table)]
+    groups = [*outcomes.groupby("function"), ("all", outcomes)]
     return pd.DataFrame(
         [
             {
@@ -420,23 +422,36 @@ def counted(outcomes: list[Outcome]) -> pd.DataFrame:
 @click.option("--output", type=click.Path(path_type=Path), help="Folder for the tables.")
 def main(number: int, first: int, output: Path | None) -> None:
     """Try NUMBER calls, of seeds that follow one another."""
-    trial, outcomes = Trial(), []
-    for seed in range(first, first + number):
-        outcomes.append(found := trial.of(seed))
-        if found.ended not in ("result", "sentence"):
-            click.echo(f"seed {seed}, {found.function}: {found.ended}: {found.said} [{found.where}]")
-    trial.end()
-    table = counted(outcomes)
-    failures = pd.DataFrame(
-        [asdict(o) for o in outcomes if o.ended not in ("result", "sentence")],
-        columns=[*Outcome.__annotations__],
-    )
-    if output is not None:
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder) if output is None else output
+        outcomes = all_tried(range(first, first + number), output)
+        table = counted(outcomes)
+        failed = outcomes[~outcomes["ended"].isin(ENDS[:2])].drop(columns="cpu_s")
         write_table(output / "calls.csv", table)
-        write_table(output / "call_failures.csv", failures.drop(columns="cpu_s"))
-        write_json(output / "calls_provenance.json", provenance() | {"calls": number, "first_seed": first})
+        write_table(output / "call_failures.csv", failed)
     click.echo(table.to_string(index=False))
-    sys.exit(int(len(failures) > 0))
+    sys.exit(int(len(failed) > 0))
+
+
+def all_tried(seeds: range, folder: Path) -> pd.DataFrame:
+    """An `Outcome` in each row; those that `folder` holds of this commit are not tried again."""
+    made, origin = folder / "outcomes.csv", folder / "calls_provenance.json"
+    told = provenance() | {"calls": len(seeds), "first_seed": seeds.start}
+    if not (origin.exists() and json.loads(origin.read_text(encoding="utf-8")) == told):
+        folder.mkdir(parents=True, exist_ok=True)
+        made.write_text(",".join(Outcome.__annotations__) + "\n", encoding="utf-8")
+        write_json(origin, told)
+    known = len(pd.read_csv(made))
+    with made.open("a", encoding="utf-8", newline="") as rows:
+        trial = Trial()
+        for seed in seeds[known:]:
+            found = trial.of(seed)
+            csv.writer(rows).writerow(asdict(found).values())
+            rows.flush()
+            if found.ended not in ENDS[:2]:
+                click.echo(f"seed {seed}, {found.function}: {found.ended}: {found.said} [{found.where}]")
+        trial.end()
+    return pd.read_csv(made, keep_default_na=False)
 
 
 if __name__ == "__main__":

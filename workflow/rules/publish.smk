@@ -121,11 +121,13 @@ rule publish_fuzz:
     input:
         table="results/fuzz/wild.csv",
         files=["results/fuzz/wild_failures.csv", "results/fuzz/provenance.json"],
+        calls="results/fuzz/calls.csv",
+        of_calls=["results/fuzz/call_failures.csv", "results/fuzz/calls_provenance.json"],
         code=code("publish"),
     message:
-        "Copy how wild tables ended, and fill the table into docs"
+        "Copy how wild tables and drawn calls ended, and fill the tables into docs"
     shell:
-        "asphalt-nscd publish {input.table} {input.files} --root results/fuzz --output results/published/fuzz --document docs --block wild={input.table}"
+        "asphalt-nscd publish {input.table} {input.files} {input.calls} {input.of_calls} --root results/fuzz --output results/published/fuzz --document docs --block wild={input.table} --block calls={input.calls}"
 
 
 rule publish_mutants:

@@ -84,6 +84,29 @@ def test_a_call_without_end_is_ended_and_the_next_one_made(monkeypatch):
     assert trial.of(0).ended == "no end"
     monkeypatch.setattr(calls, "_serve", serve)
     trial.end()
-    table = calls.counted([calls.Outcome(0, "law", "no end"), calls.Outcome(1, "fit", "result", cpu_s=2.0)])
-    rows = table.set_index("function")
-    assert rows.loc["law", "no_end"] == 1 and rows.loc["fit", "result"] == 1 and rows.loc["all", "calls"] == 2
+
+
+def test_a_trial_goes_on_where_it_stopped_and_counts_all(monkeypatch, tmp_path):
+    asked = []
+
+    class Asked:
+        def of(self, seed):
+            asked.append(seed)
+            return calls.Outcome(seed, "law", "no end" if seed == 4 else "result", "said, so", cpu_s=2.0)
+
+        def end(self):
+            pass
+
+    monkeypatch.setattr(calls, "Trial", Asked)
+    monkeypatch.setattr(calls, "provenance", lambda: {"git_commit": "a"})
+    calls.all_tried(range(3, 6), tmp_path)
+    rows = (tmp_path / "outcomes.csv").read_text(encoding="utf-8").splitlines()
+    (tmp_path / "outcomes.csv").write_text("\n".join(rows[:-1]) + "\n", encoding="utf-8")
+    table = calls.counted(calls.all_tried(range(3, 6), tmp_path)).set_index("function")
+    assert asked == [3, 4, 5, 5]
+    assert (
+        table.loc["all", "calls"] == 3 and table.loc["law", "no_end"] == 1 and table.loc["law", "result"] == 2
+    )
+    monkeypatch.setattr(calls, "provenance", lambda: {"git_commit": "b"})
+    calls.all_tried(range(3, 6), tmp_path)
+    assert asked[4:] == [3, 4, 5]
