@@ -92,7 +92,7 @@ cluster: $(READY)
 	@PYTHONPATH=trials .venv/bin/python -m cluster
 
 api: $(READY)
-	@.venv/bin/pdoc --output-directory docs/api asphalt_nscd $(ROOMS)
+	@.venv/bin/pdoc --docformat numpy --output-directory docs/api asphalt_nscd $(ROOMS)
 	@echo "Reference: $(CURDIR)/docs/api/index.html"
 
 docs: $(READY) api

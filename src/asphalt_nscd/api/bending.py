@@ -117,10 +117,38 @@ def bend(
 
     A cylinder is pulled and pushed along its axis instead, a prism bent between four clamps (docs/geometries.md).
 
-    law: of one temperature, or of all; bonds then follow its Kelvin chain within 0.1 %. load: Load(amplitude_m,
-    cycles, rig, frames); with frames=24 the test goes out as a series for ParaView, `export(test, "test.pvd", "vtk")`.
-    numerics: Numerics(time_step [s], rest_steps, method, scheme). If bonds break, a warning says so.
+    Parameters
+    ----------
+    specimen : Specimen or path
+        Bonded spheres.
+    law : Law or path
+        Of the bonds. Of a law of all temperatures, bonds follow a Kelvin chain that is within 0.1 % of it.
+    frequency_Hz, temperature_C : float
+        Of the test [Hz], [degC].
+    load : Load
+        Amplitude of the head, cycles, rig; frames=24 keeps 24 instants of the last cycle for ParaView.
+    bonds : Bonds
+        Poisson's ratio, strength and friction of bonds, and how the head is held.
+    numerics : Numerics
+        Time step [s], method and scheme.
 
+    Returns
+    -------
+    Test
+        E*, and the record of force and displacement behind it.
+
+    Raises
+    ------
+    InputError
+        With one sentence, where the law does not hold at this temperature, or the specimen cannot be tested so.
+
+    Warns
+    -----
+    UserWarning
+        If bonds break: E* is then that of a damaged specimen.
+
+    Examples
+    --------
     >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
     >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
     >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}

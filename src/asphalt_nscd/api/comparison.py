@@ -33,7 +33,20 @@ class Comparison:
     def same_machine(self, draws: Draws = Draws()) -> Pooled:  # noqa: B008  frozen
         """What one machine does to all of these campaigns; for campaigns that it alone has tested.
 
-        `str` of the answer says it; `answer.table` has the sizes from each campaign, isotherm and frequency.
+        Parameters
+        ----------
+        draws : Draws
+            Of the chance level.
+
+        Returns
+        -------
+        Pooled
+            `str` of it says what was found; its `table` has the sizes from each campaign, isotherm and frequency.
+
+        Raises
+        ------
+        InputError
+            For diagnoses that were read from files.
         """
         made = {name: one.outcome.diagnosis for name, one in self.diagnoses.items()}
         known = {name: one for name, one in made.items() if one is not None}
@@ -100,9 +113,29 @@ def compare(
 ) -> Comparison:
     """Diagnose several mixes, each a file or a folder, and set them beside each other.
 
-    mixes: paths by the name of the mix; of a list the names are those of files and folders. measured_in, draws: as
-    in `diagnose`. Raises InputError, with the name of the mix, where one cannot be diagnosed.
+    Parameters
+    ----------
+    mixes : mapping or list of paths
+        By the name of the mix; of a list the names are those of files and folders.
+    measured_in : str, optional
+        "bending" or "tension-compression"; else what the files say.
+    draws : Draws
+        Of the chance level, as in `diagnose`.
+    progress : callable
+        progress(stage, done, total), called after each mix.
 
+    Returns
+    -------
+    Comparison
+        Whose `table` ranks the mixes.
+
+    Raises
+    ------
+    InputError
+        With the name of the mix, where one cannot be diagnosed.
+
+    Examples
+    --------
     >>> compare(["mix.csv"])
     Traceback (most recent call last):
     asphalt_nscd.files.errors.InputError: one mix is no comparison; give the files or folders of two or more.

@@ -25,13 +25,37 @@ def solve_contacts(
 ) -> ContactSolution:
     """Reactions r with u = W r + q: Signorini's condition along the normals, Coulomb friction across them.
 
-    W (3 c, 3 c) [1/kg], dense or sparse, positive semidefinite; q (3 c,) or (c, 3) [m/s], positive opening; mu: one
-    number or (c,). order: how the normal n and the tangents t, s of each contact stand: "nts" (here, in Siconos and
-    FCLIB), "tns" (LMGC90) or "tsn" (normal last). Reactions and velocities of the solution stand in the same order.
-    Look at `converged`, or call `require_converged()`.
+    Parameters
+    ----------
+    W : array or sparse matrix
+        Delassus operator (3 c, 3 c) [1/kg], positive semidefinite.
+    q : array_like
+        Free velocities (3 c,) or (c, 3) [m/s], positive opening.
+    mu : float or array_like
+        Friction, one for all or (c,).
+    order : str
+        How the normal n and the tangents t, s of each contact stand: "nts" (here, in Siconos and FCLIB), "tns" (LMGC90)
+        or "tsn" (normal last).
+    tolerance : float
+        Largest error of the natural map, relative to the whole of what W couples.
 
-    Input in another order than stated is another problem; where it looks like one, a warning says so.
+    Returns
+    -------
+    ContactSolution
+        Reactions [N s] and velocities [m/s] in the order of q. Look at `converged`, or call `require_converged()`.
 
+    Raises
+    ------
+    InputError
+        With one sentence, for shapes that do not fit, or a W that is no Delassus operator.
+
+    Warns
+    -----
+    UserWarning
+        Where q looks like another order than stated: that is another problem.
+
+    Examples
+    --------
     >>> W, q = np.eye(3) / 2.0, [-9.81e-3, 2e-3, 0.0]  # a body of 2 kg, after 1 ms of gravity, slides at 2 mm/s
     >>> solve_contacts(W, q, mu=0.5).require_converged().reactions.round(12).tolist()
     [0.01962, -0.004, 0.0]

@@ -138,8 +138,24 @@ class Diagnosis:
     def verify_limits(self, processes: int | None = None, progress: Progress = lambda *_: None) -> Diagnosis:
         """The same with measured limits: each cause put into the tests at 1, 2 and 3 times its stated limit.
 
-        processes: at once, one for each core if None; progress(stage, done, total): called after each. The table
-        stands in limits.csv and in `content["measured_limits"]`. Takes minutes; equal on any number of processes.
+        Takes minutes.
+
+        Parameters
+        ----------
+        processes : int, optional
+            At once; one for each core if None. They change no number.
+        progress : callable
+            progress(stage, done, total), called after each.
+
+        Returns
+        -------
+        Diagnosis
+            With the table in `content["measured_limits"]`, which `write` writes as limits.csv.
+
+        Raises
+        ------
+        InputError
+            For a diagnosis that was read from files.
         """
         made, stated = self.outcome.diagnosis, self.content["provenance"]["scatter_stated"]
         if made is None:
@@ -280,14 +296,36 @@ def diagnose(
 ) -> Diagnosis:
     """Say which tests can be trusted, what is wrong with the others, which law they follow and what to test next.
 
-    measurements: a file, a folder, several of them, or a DataFrame, read as `read` says. measured_in: "bending" or
-    "tension-compression"; else what the files say, and bending of a DataFrame of one's own. geometry: b_mm, B_mm,
-    e_mm, h_mm, mass_kg, mobile_mass_kg of the specimens, or a table of them; of ready moduli only the form factor
-    counts. known: Known(static_modulus_MPa, scatter). simulated: what was simulated of the same tests.
-    progress(stage, done, total): called as the work goes on.
+    Parameters
+    ----------
+    measurements : path, folder, several of them, or DataFrame
+        The tests, read as `read` says.
+    measured_in : str, optional
+        "bending" or "tension-compression"; else what the files say, and bending of a DataFrame of one's own.
+    geometry : mapping or path
+        b_mm, B_mm, e_mm, h_mm, mass_kg, mobile_mass_kg of the specimens, or a table of them; of ready moduli only the
+        form factor counts.
+    known : Known
+        Static modulus and scatter, where they are known beside the table.
+    simulated : Simulated
+        What was simulated of the same tests.
+    draws : Draws
+        Of the chance level: how many, and their seed.
+    progress : callable
+        progress(stage, done, total), called as the work goes on.
 
-    Raises InputError, with one sentence, for tables that cannot be diagnosed.
+    Returns
+    -------
+    Diagnosis
+        `str` of it is what the command line prints.
 
+    Raises
+    ------
+    InputError
+        With one sentence, for tables that cannot be diagnosed.
+
+    Examples
+    --------
     >>> diagnosis = diagnose("data/tutorial/exports", draws=Draws(500))
     >>> diagnosis
     Diagnosis(explained: channel_delay 0.000792 s (established); 71 tests used, 1 not used)

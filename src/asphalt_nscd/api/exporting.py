@@ -57,13 +57,35 @@ def export(
     temperatures_C: tuple[float, ...] | None = None,
     frequencies_Hz: tuple[float, ...] | None = None,
 ) -> str:
-    """Write a law, or spheres and bonds, for another program; one line that says what and how well.
+    """Write a law, or spheres and bonds, for another program.
 
-    law: a Law, a Diagnosis (whose law is taken), or a law file. form: abaqus, ansys, comsol, csv, xlsx or mepdg. Or a
-    Packing, a Specimen or a Test, or a file of one; form: vtk (.vtp, for ParaView; bonds in a file beside) or csv.
-    temperatures_C, frequencies_Hz: the tested ones, over which the series holds; else those of the diagnosis, or
-    usual ones, which the file says.
+    Parameters
+    ----------
+    law : Law, Diagnosis, Packing, Specimen, Test or path
+        What is written; of a diagnosis, its law.
+    output : path
+        File to write.
+    form : str
+        Of a law abaqus, ansys, comsol, csv, xlsx or mepdg; of spheres and bonds vtk (.vtp, for ParaView; bonds in a
+        file beside) or csv.
+    settings : ExportSettings
+        Largest errors of the Prony series, Poisson's ratio, units, name of the material.
+    temperatures_C, frequencies_Hz : tuple of float, optional
+        The tested ones [degC], [Hz], over which the series holds; else those of the diagnosis, or usual ones, and the
+        file says which.
 
+    Returns
+    -------
+    str
+        One line that says what was written and how well it follows the law.
+
+    Raises
+    ------
+    InputError
+        With one sentence, for a form that this cannot be written in, or settings that cannot be met.
+
+    Examples
+    --------
     >>> law = Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
     >>> with TemporaryDirectory() as folder:  # doctest: +ELLIPSIS
     ...     print(export(law, f"{folder}/T15.csv", "csv", frequencies_Hz=(3.0, 40.0)))

@@ -24,9 +24,30 @@ def fatigue(
 ) -> FatigueHistory:
     """Tire a trapezoid at constant displacement of its head until half of its stiffness is left (docs/fatigue.md).
 
-    strain: largest amplitude in bending theory, as 100e-6. law: FatigueLaw(endured, exponent) of a bond. Of the result:
-    life() in cycles; cycles, stiffness (over the first) and lost bonds of each jump; damage of the bonds at the end.
+    Parameters
+    ----------
+    specimen : Specimen or path
+        A trapezoid of bonded spheres.
+    strain : float
+        Largest amplitude of strain in bending theory, as 100e-6.
+    law : FatigueLaw
+        How fast a bond tires.
+    bonds : Bonds
+        Poisson's ratio of bonds, and how the head is held.
 
+    Returns
+    -------
+    FatigueHistory
+        life() in cycles; cycles, stiffness (over the first) and lost bonds at each jump (j,); damage of the bonds (b,)
+        at the end.
+
+    Raises
+    ------
+    InputError
+        With one sentence, for a strain out of range or a specimen that is no trapezoid.
+
+    Examples
+    --------
     >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
     >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
     >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}

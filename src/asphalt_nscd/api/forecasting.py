@@ -89,10 +89,29 @@ def forecast(
 ) -> Forecast:
     """Forecast |E*| and phase of a mix from its binder and recipe.
 
-    recipe: path of a YAML file as data/forecast/recipe.yaml, or its content. packings: folder of packings to use and to
-    fill; else one in the user's cache. seeds: packings of each level, at least one; the forecast is their mean.
-    InputError names the key of a recipe that cannot be used. See docs/forecast.md.
+    Parameters
+    ----------
+    recipe : path or mapping
+        A YAML file as data/forecast/recipe.yaml, or its content (docs/forecast.md).
+    packings : path, optional
+        Folder of packings to use and to fill; else one in the user's cache.
+    seeds : int
+        Packings of each level, at least one; the forecast is their mean.
+    progress : callable
+        progress(stage, done, total), called as the work goes on.
 
+    Returns
+    -------
+    Forecast
+        |E*| and phase with their doubt, the law of the mix, and what rivals forecast.
+
+    Raises
+    ------
+    InputError
+        Names the key of a recipe that cannot be used.
+
+    Examples
+    --------
     >>> forecast({"name": "a mix"})
     Traceback (most recent call last):
     asphalt_nscd.files.errors.InputError: recipe: 'binder' is a required property; see data/forecast/recipe.yaml.

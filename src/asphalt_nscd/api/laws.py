@@ -58,7 +58,22 @@ class Law:
     def burgers(
         cls, *, Em_Pa: float, eta_m_Pa_s: float, Ek_Pa: float, eta_k_Pa_s: float, temperature_C: float
     ) -> Law:
-        """A Burgers law of one temperature, Eqs. (27)-(29): moduli [Pa], viscosities [Pa s]."""
+        """A Burgers law of one temperature, Eqs. (27)-(29).
+
+        Parameters
+        ----------
+        Em_Pa, eta_m_Pa_s : float
+            Spring [Pa] and dashpot [Pa s] of the Maxwell element.
+        Ek_Pa, eta_k_Pa_s : float
+            Spring [Pa] and dashpot [Pa s] of the Kelvin element.
+        temperature_C : float
+            At which it holds [degC].
+
+        Returns
+        -------
+        Law
+            Of this temperature alone.
+        """
         law = Burgers(Em_Pa, eta_m_Pa_s, Ek_Pa, eta_k_Pa_s)
         return cls(law_content(law, source="stated", temperature=temperature_C))
 
@@ -96,9 +111,24 @@ class Law:
     def complex_modulus(
         self, frequency_Hz: ArrayLike, temperature_C: ArrayLike | None = None
     ) -> NDArray[np.complex128]:
-        """E* [Pa] at frequencies [Hz] and temperatures [degC], broadcast together.
+        """Complex modulus.
 
-        temperature_C is left out for a law of one temperature, and needed for a law of all.
+        Parameters
+        ----------
+        frequency_Hz : array_like
+            Frequencies [Hz], above zero.
+        temperature_C : array_like, optional
+            Temperatures [degC], broadcast with the frequencies; left out for a law of one temperature.
+
+        Returns
+        -------
+        ndarray of complex
+            E* [Pa].
+
+        Raises
+        ------
+        InputError
+            Where a law of all temperatures is given none, or a law of one temperature another.
         """
         frequencies = _numbers(frequency_Hz, "frequency_Hz")
         if not (frequencies > 0.0).all():
@@ -125,9 +155,17 @@ class Law:
         write_json(path, dict(self.content))
 
     def of_bonds(self, frequency_Hz: float, temperature_C: float) -> Law:
-        """The law that bonds follow in a test: itself, or a Kelvin chain of it at a temperature [degC].
+        """The law that bonds follow in a test: itself, or a Kelvin chain of it.
 
-        The chain is within 0.1 % of the law from half to twice the frequency [Hz].
+        Parameters
+        ----------
+        frequency_Hz, temperature_C : float
+            Of the test [Hz], [degC].
+
+        Returns
+        -------
+        Law
+            Within 0.1 % of this law from half to twice the frequency.
         """
         if self.temperature_C is not None:
             require_holds(self.source, dict(self.content), temperature_C, [frequency_Hz])
@@ -172,11 +210,32 @@ def _numbers(values: ArrayLike, name: str) -> NDArray[np.float64]:
 def fit(table: Any, law: str = "2s2p1d", *, temperature_C: float | None = None, shift: str = "wlf") -> Law:
     """Fit a law to the moduli of a table.
 
-    table: path, folder or DataFrame with columns temperature_C, frequency_Hz, E_MPa and phase_deg (or what `read`
-    understands as these). law: "burgers" at one temperature_C [degC], Eqs. (27)-(29), or "2s2p1d" or "huet-sayegh"
-    at all, with shift "wlf" or "arrhenius". Laws of all temperatures stand under priors of what asphalt concrete can
-    be; `parameters` says what the tests do not determine. Errors of |E*| and of the phase count alike.
+    Laws of all temperatures stand under priors of what asphalt concrete can be; `Law.parameters` says what the tests do
+    not determine. Errors of |E*| and of the phase count alike.
 
+    Parameters
+    ----------
+    table : path, folder or DataFrame
+        Tests: temperature_C, frequency_Hz, E_MPa and phase_deg, or what `read` understands as these.
+    law : str
+        "burgers" at one temperature, Eqs. (27)-(29); "2s2p1d" or "huet-sayegh" at all.
+    temperature_C : float, optional
+        Of a Burgers law [degC].
+    shift : str
+        "wlf" or "arrhenius", of a law of all temperatures.
+
+    Returns
+    -------
+    Law
+        With the standard errors of its parameters.
+
+    Raises
+    ------
+    InputError
+        With one sentence that names the file and what it lacks.
+
+    Examples
+    --------
     >>> made = Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
     >>> f = np.array([3.0, 10.0, 25.0, 40.0])
     >>> E = made.complex_modulus(f)

@@ -38,10 +38,29 @@ def read(
     * A law (JSON): a Law.
     * A result file of the simulation (HDF5): a Packing, a Specimen or a Test.
 
-    sheet: of an XLSX file. columns: what a column holds, where its name does not say, {"E_GPa": "Steifigkeit"}.
-    measured_in: "bending" or "tension-compression"; else what the files say.
-    Raises InputError, with one sentence that names file, row and mend.
+    Parameters
+    ----------
+    source : path, folder, several of them, or DataFrame
+        What is read.
+    sheet : str, optional
+        Of an XLSX file; else every sheet that holds tests.
+    columns : mapping, optional
+        What a column holds where its name does not say it, {"E_GPa": "Steifigkeit"}.
+    measured_in : str, optional
+        "bending" or "tension-compression"; else what the files say.
 
+    Returns
+    -------
+    DataFrame, Law, Diagnosis, Packing, Specimen or Test
+        By what the source holds, as above.
+
+    Raises
+    ------
+    InputError
+        With one sentence that names file, row and mend.
+
+    Examples
+    --------
     >>> table = read("data/tutorial/exports")
     >>> len(table), table.attrs["test_type"]
     (72, 'tension-compression')

@@ -190,11 +190,40 @@ def pour(
 ) -> Packing:
     """Pour spheres from a random lattice by gravity, then vibrate the layer with the top wall.
 
-    counts: number of spheres by diameter in mm, {6.0: 120, 10.0: 30}, or a table diameter_mm,count. box_m: length,
-    width and height [m]. friction: of spheres and walls. vibration: Vibration(stroke [m], frequency [Hz],
-    duration [s]); a duration of 0 is none. threads: to compute on, at most as many as the cores granted; they change
-    no number. Raises InputError where the box cannot hold the spheres. If the layer is not at rest, a warning says so.
+    Parameters
+    ----------
+    counts : mapping, path or DataFrame
+        Number of spheres by diameter in mm, {6.0: 120, 10.0: 30}, or a table diameter_mm,count.
+    box_m : tuple of float
+        Length, width and height [m].
+    seed : int
+        Of the lattice. The same seed gives the same packing.
+    friction : float
+        Of spheres and walls.
+    vibration : Vibration
+        Stroke [m], frequency [Hz], duration [s]; a duration of 0 is none.
+    time_step_s : float
+        Time step [s].
+    threads : int
+        To compute on, at most as many as the cores granted; they change no number.
 
+    Returns
+    -------
+    Packing
+        Spheres at rest.
+
+    Raises
+    ------
+    InputError
+        With one sentence, where the box cannot hold the spheres.
+
+    Warns
+    -----
+    UserWarning
+        If the layer is not at rest.
+
+    Examples
+    --------
     >>> packing = pour({8.0: 40}, (0.04, 0.03, 0.12), vibration=Vibration(duration=0.0))
     >>> packing.radius_m.size, 0.4 < packing.attributes["solid_fraction"] < 0.7
     (40, True)
@@ -210,11 +239,28 @@ def pour(
 def read_packing(path: str | Path, *, unit: str | None = None, up: str = "z") -> Packing:
     r"""Spheres that another program poured or a scanner saw, as a packing.
 
-    path: CSV with columns x, y, z, radius (or diameter), with or without their unit; text of YADE; dump of LIGGGHTS or
-    LAMMPS, of which the last snapshot is taken; VTK points with an array radius. unit: m, cm, mm or um, where the file
-    does not say it; else m or mm, whichever makes aggregate of the radii. up: the axis against gravity. `notes` says
-    what was understood. Raises InputError, with one sentence, for what is no packing.
+    Parameters
+    ----------
+    path : path
+        CSV with columns x, y, z, radius (or diameter), with or without their unit; text of YADE; dump of LIGGGHTS or
+        LAMMPS, of which the last snapshot is taken; VTK points with an array radius.
+    unit : str, optional
+        m, cm, mm or um, where the file does not say it; else m or mm, whichever makes aggregate of the radii.
+    up : str
+        The axis against gravity.
 
+    Returns
+    -------
+    Packing
+        Whose `notes` say what was understood.
+
+    Raises
+    ------
+    InputError
+        With one sentence, for what is no packing.
+
+    Examples
+    --------
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
     ...     table = Path(folder, "pile.csv")
@@ -265,12 +311,33 @@ def specimen(
 ) -> Specimen:
     """Cut a specimen from a packing, turn it upright, shrink its spheres and bond them.
 
-    geometry: mass_kg, mobile_mass_kg, and of a trapezoid in two-point bending b_mm, B_mm, e_mm, h_mm, of a cylinder in
-    tension-compression d_mm, h_mm, of a prism in four-point bending L_mm, H_mm, B_mm. h, or L, lies along x of the
-    packing, the thickness along y, the direction in which it is bent along z. area of a bond: "paper", pi rmin^2
-    between spheres with a gap below gap_max_mm, or "facets", those of the cells that fill the specimen
-    (docs/mapping.md). volume_reduction: part of each sphere's volume that makes room for the mastic.
+    Parameters
+    ----------
+    packing : Packing or path
+        Its length x becomes the height (or span) of the specimen, its width y the thickness; it is bent along z.
+    geometry : mapping or path
+        mass_kg, mobile_mass_kg, and of a trapezoid in two-point bending b_mm, B_mm, e_mm, h_mm, of a cylinder in
+        tension-compression d_mm, h_mm, of a prism in four-point bending L_mm, H_mm, B_mm.
+    area : str
+        Of a bond: "paper", pi rmin^2 between spheres with a gap below gap_max_mm, or "facets", those of the cells that
+        fill the specimen (docs/mapping.md).
+    volume_reduction : float
+        Part of each sphere's volume that makes room for the mastic.
+    gap_max_mm : float
+        Largest gap of a bond by the paper [mm].
 
+    Returns
+    -------
+    Specimen
+        Bonded spheres.
+
+    Raises
+    ------
+    InputError
+        With one sentence, where the packing cannot hold the specimen.
+
+    Examples
+    --------
     >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
     >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}
     >>> specimen(packing, g, area="facets").bonded.area
