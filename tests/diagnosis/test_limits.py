@@ -57,6 +57,15 @@ def test_what_cannot_be_seen_has_no_limit_and_is_told(fit):  # noqa: F811
     assert [one.key for one in unseen] == [absent[1].key] and set(sizes) == {absent[0].key}
 
 
+def test_a_limit_beyond_any_size_of_its_cause_is_none(table, fit):  # noqa: F811
+    """A common offset of 280 deg was once told as a limit."""
+    joint, fitted = fit
+    absent = ACTIVE[0].with_values(np.zeros(1))
+    blurred = Joint(table, joint.base, replace(joint.noise, within=1e4 * joint.noise.within))
+    sizes, unseen = limits_of(blurred, blurred.linearise(fitted.law, fitted.scales, ()), [absent])
+    assert not sizes and unseen == [absent]
+
+
 def test_twice_the_scatter_doubles_a_limit(table, fit):  # noqa: F811
     joint, fitted = fit
     absent = [one.with_values(np.zeros(1)) for one in ACTIVE[:2]]

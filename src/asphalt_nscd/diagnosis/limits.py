@@ -36,7 +36,7 @@ def detection_limits(
         if found.seen[k]:
             size = threshold / np.sqrt(found.information[k]) * candidate.typical[0]
             size *= _by_refit(joint, fitted, candidate, size, threshold) if share[k] < CLOSE else 1.0
-            if np.isfinite(size):
+            if size <= candidate.cause.parameters[0].high:  # no cause is larger
                 sizes.setdefault(candidate.key, []).append(size)
                 continue
         hidden = _hidden_bias(joint, fitted, candidate, threshold)

@@ -11,7 +11,7 @@ class ChannelDelay(Cause):
 
     name = "channel_delay"
     stage = CHANNEL
-    parameters = (Parameter("delay", "s", -5e-3, 5e-3, 1e-4),)
+    parameters = (Parameter("delay", "s", -2e-2, 2e-2, 1e-4),)
     sentence = "the displacement channel lags the force channel by a fixed time"
     signs = (
         "The displacement is recorded after the force.",
