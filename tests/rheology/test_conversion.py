@@ -39,6 +39,13 @@ def test_elements_are_few():
     assert number[2] < len(kelvin_chain(at(15.0), 0.01 * LOW, HIGH, 1e-3)[0].kelvin_springs) <= 10
 
 
+def test_retardation_times_reach_no_further_than_ten_times_beyond_the_band():
+    low = 1e-4 * LOW
+    chain, _ = kelvin_chain(at(15.0), low, HIGH, 1e-4)
+    times = np.divide(chain.kelvin_dashpots, chain.kelvin_springs)
+    assert 0.1 / HIGH < times.min() and times.max() < 10.0 / low
+
+
 def test_a_chain_comes_back():
     """A spring, a dashpot, one element where the conversion puts it first."""
     given = KelvinChain(24.3e9, 3.71e9, (48.4e9,), (48.4e9 / np.sqrt(LOW * HIGH),))

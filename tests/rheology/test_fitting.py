@@ -43,6 +43,17 @@ def test_standard_errors_are_those_of_linear_regression():
     assert fit.rms_log_residual == pytest.approx(noise * np.sqrt(2), rel=0.03)
 
 
+def test_an_interval_is_student_s_on_the_logarithm():
+    """Five frequencies are ten residuals and leave six; t is 2.4469 at 95 % and 1.4398 at 80 %."""
+    fit = fit_burgers(OMEGA, LAWS[30].complex_modulus(OMEGA) * np.exp(1e-2j * np.array([1, -1, 0, 1, -1])))
+    value, error = fit.law.modulus_m, fit.std_error["modulus_m"]
+    for level, t in ((0.95, 2.44691), (0.80, 1.43976)):
+        low, high = fit.interval("modulus_m", level)
+        assert np.log([low / value, high / value]) == pytest.approx(
+            np.array([-t, t]) * error / value, rel=1e-5
+        )
+
+
 @pytest.mark.parametrize("lowest", [-2.0, 2.0])
 def test_the_lowest_of_several_minima_is_found(lowest):
     """(x^2 - 4)^2 + (x - lowest)^2 / 10 has a minimum near -2 and one near 2; one start sees one."""

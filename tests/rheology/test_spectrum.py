@@ -51,6 +51,8 @@ def test_wlf_ends_at_its_pole():
     SHIFT.factor([-60.0, 15.0])
     with pytest.raises(InputError, match="79.9 K below 15 degC"):
         SHIFT.factor([-65.0, 15.0])
+    with pytest.raises(InputError, match="64 K below 0 degC"):
+        WLF(11.7, 64.0, 0.0).factor(-64.0)  # the pole itself
 
 
 def test_parameters_by_name():

@@ -52,6 +52,8 @@ def test_what_a_prior_decided_is_written(tmp_path):
         ({"tau_s": float("nan")}, "key 'tau_s' is missing or not a number"),
         ({"wlf_C1": -20.0}, "wlf_C1 = -20; give one above zero, with which a warmer mix is softer"),
         ({"h": 0.1}, "needs 0 < k <= h < 1"),
+        ({"h": 1.0}, "needs 0 < k <= h < 1"),
+        ({"k": 0.0}, "needs 0 < k <= h < 1"),
         ({"E_static_Pa": 50e9}, "E_static_Pa < E_glassy_Pa"),
     ],
 )
