@@ -9,7 +9,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import MaxwellSeries, of_chain
-from asphalt_nscd.rheology.maxwell_fitting import REACH, Miss, _spaced, fit_series, miss
+from asphalt_nscd.rheology.maxwell_fitting import REACH, Miss, _merged, _size, _spaced, fit_series, miss
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
@@ -90,6 +90,15 @@ def test_a_series_is_found_again():
     assert len(series.moduli) == 3
     np.testing.assert_allclose(series.times, known.times, rtol=1e-4)
     np.testing.assert_allclose(series.moduli, known.moduli, rtol=1e-4)
+
+
+def test_merged_neighbours_stand_at_the_mean_of_their_log_times_weighed_by_moduli():
+    merged = _merged(MaxwellSeries(1e8, (3e9, 1e9, 5e9), (1.0, 16.0, 1e3)), 2)
+    assert merged.moduli == (4e9, 5e9) and merged.times == pytest.approx((2.0, 1e3))
+
+
+def test_a_series_is_as_far_off_as_the_worse_of_its_two_errors():
+    assert _size(Miss(2.0, 0.1), Miss(1.0, 0.5)) == _size(Miss(0.1, 1.0), Miss(1.0, 0.5)) == 2.0
 
 
 def test_what_no_series_follows_is_refused():
