@@ -1,7 +1,5 @@
 """The law of a film against elasticity: two spheres by finite elements, many by FFT.
 
-    python benchmarks/film_law.py packing PACKING --output SPHERES.csv
-    python benchmarks/film_law.py cell SPHERES.csv FRACTION VOXELS --output CELL.csv
     python benchmarks/film_law.py cells --rows CELL.csv... --output CELLS.csv
     python benchmarks/film_law.py pairs --output PAIRS.csv
     python benchmarks/film_law.py summaries PAIRS.csv CELLS.csv --output PAIRS_SUMMARY.csv CELLS_SUMMARY.csv
@@ -18,8 +16,8 @@ from itertools import product
 
 import numpy as np
 import pandas as pd
-from film_packings import MANDEL, isotropic, jammed, network
-from film_voxels import VoxelCell
+from film_cells import GRAIN, LOADS, MODULI, poisson, shrunk
+from film_packings import MANDEL, isotropic, network
 
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.formulation.film import (
@@ -32,57 +30,12 @@ from asphalt_nscd.formulation.film import (
     pair_stiffness,
 )
 
-PACKINGS = {"two": (32, 2.0, 1), "four": (48, 4.0, 3)}  # spheres, largest radius over smallest, seed
-GRAIN = Solid(1.0, 0.2)
-BITUMEN = 2.5 / 60.0  # bulk modulus over Young's modulus of the grains
-MODULI = [0.2, 0.05, 1e-2, 1e-3, 1e-4]
-LOADS = {
-    "shear": np.array([[0.0, 0.5, 0.0], [0.5, 0.0, 0.0], [0.0, 0.0, 0.0]]),
-    "stretch": np.diag([0.5, -0.5, 0.0]),
-    "volume": np.eye(3) / 3.0,
-}
-TOLERANCE = 2e-3
 RATIOS, GAPS, SIDE = [1.0, 0.3, 0.1], [0.3, 0.1, 0.03, 0.01, 0.003], 0.9
 FREE_SIDES = 0.2  # of Young's modulus of a film between rigid grains that its sides do not lower
 
 
-def poisson(modulus: float) -> float:
-    """Of the matrix: that of bitumen, 0.3 where its bulk modulus would make it less."""
-    return max(0.5 - modulus / (6.0 * BITUMEN), 0.3)
-
-
 def matrix(modulus: float) -> Matrix:
     return Matrix(np.array(modulus), Solid(modulus, poisson(modulus)).bulk)
-
-
-def packing(name: str) -> pd.DataFrame:
-    """Spheres that just touch."""
-    position, radius = jammed(*PACKINGS[name])
-    return pd.DataFrame(np.column_stack([position, radius]), columns=["x", "y", "z", "radius"])
-
-
-def shrunk(spheres: pd.DataFrame, fraction: float) -> tuple[np.ndarray, np.ndarray]:
-    """Positions and radii of the spheres at a volume fraction."""
-    radius = spheres["radius"].to_numpy()
-    return spheres[["x", "y", "z"]].to_numpy(), radius * (
-        fraction / (4.0 / 3.0 * np.pi * (radius**3).sum())
-    ) ** (1.0 / 3.0)
-
-
-def cell(path: str, fraction: float, voxels: int) -> pd.DataFrame:
-    """Stiffness of the cell for each mean strain and modulus, in voxels."""
-    position, radius = shrunk(pd.read_csv(path), fraction)
-    solved, rows = VoxelCell(position, radius, voxels), []
-    for load, strain in LOADS.items():
-        start = None
-        for modulus in MODULI:
-            found, start, steps = solved.solve(
-                GRAIN, Solid(modulus, poisson(modulus)), strain, TOLERANCE, start
-            )
-            rows.append((path, fraction, voxels, solved.fraction, load, modulus, found, steps))
-            print(*rows[-1], flush=True)
-    columns = ["packing", "fraction", "voxels", "voxel_fraction", "load", "M_over_Ea", "stiffness", "steps"]
-    return pd.DataFrame(rows, columns=columns)
 
 
 def cells(paths: Sequence[str]) -> pd.DataFrame:
@@ -197,11 +150,6 @@ def cells_summary(table: pd.DataFrame) -> pd.DataFrame:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parts = parser.add_subparsers(dest="part", required=True)
-    parts.add_parser("packing").add_argument("name", choices=PACKINGS)
-    part = parts.add_parser("cell")
-    part.add_argument("spheres")
-    part.add_argument("fraction", type=float)
-    part.add_argument("voxels", type=int)
     part = parts.add_parser("cells")
     part.add_argument("--rows", nargs="+", required=True)
     parts.add_parser("pairs")
@@ -211,11 +159,7 @@ def main() -> None:
     for name, part in parts.choices.items():
         part.add_argument("--output", required=True, nargs=2 if name == "summaries" else None)
     given = parser.parse_args()
-    if given.part == "packing":
-        write_table(given.output, packing(given.name))
-    elif given.part == "cell":
-        write_table(given.output, cell(given.spheres, given.fraction, given.voxels))
-    elif given.part == "cells":
+    if given.part == "cells":
         write_table(given.output, cells(given.rows))
     elif given.part == "pairs":
         write_table(given.output, pairs())

@@ -309,7 +309,9 @@ rule benchmark_films:
     # Full stepping with a law for each bond, against the frequency domain. Ten minutes: only on request.
     input:
         specimen=f"{FACETS}/specimens/{SAMPLES[0]}.h5",
-        code=["benchmarks/films.py", "src/asphalt_nscd/formulation/stepping.py", code("trim"), code("simulate")],
+        recipe="data/forecast/recipe.yaml",
+        packings="results/forecast/packings",
+        code=["benchmarks/films.py", "src/asphalt_nscd/formulation/stepping.py", code("forecast"), code("simulate")],
     output:
         "results/benchmark/films.csv",
     log:
@@ -317,7 +319,7 @@ rule benchmark_films:
     message:
         "Bend a specimen whose bonds are films, by time steps and by frequency"
     shell:
-        MEASURE + "/films.py {input.specimen} --output {output} > {log} 2>&1"
+        MEASURE + "/films.py {input.specimen} --recipe {input.recipe} --packings {input.packings} --output {output} > {log} 2>&1"
 
 
 rule publish_films:

@@ -10,7 +10,7 @@ FILM_CELLS = [
 rule film_packing:
     # Spheres that just touch, in a periodic cell.
     input:
-        ["benchmarks/film_law.py", "benchmarks/film_packings.py"],
+        ["benchmarks/film_cells.py", "benchmarks/film_packings.py"],
     output:
         "results/film/packings/{packing}.csv",
     log:
@@ -18,14 +18,14 @@ rule film_packing:
     message:
         "Grow spheres until they touch: {wildcards.packing}"
     shell:
-        MEASURE + "/film_law.py packing {wildcards.packing} --output {output} > {log} 2>&1"
+        MEASURE + "/film_cells.py packing {wildcards.packing} --output {output} > {log} 2>&1"
 
 
 rule film_cell:
     # Stiffness of the cell at one fraction, in so many voxels along its edge.
     input:
         spheres="results/film/packings/{packing}.csv",
-        code=["benchmarks/film_law.py", "benchmarks/film_voxels.py"],
+        code=["benchmarks/film_cells.py", "benchmarks/film_voxels.py"],
     output:
         "results/film/cells/{packing}-{fraction}-{voxels}.csv",
     resources:
@@ -37,7 +37,7 @@ rule film_cell:
     message:
         "Solve {wildcards.fraction} of spheres in {wildcards.voxels} voxels: {wildcards.packing}"
     shell:
-        MEASURE + "/film_law.py cell {input.spheres} {wildcards.fraction} {wildcards.voxels} --output {output} > {log} 2>&1"
+        MEASURE + "/film_cells.py cell {input.spheres} {wildcards.fraction} {wildcards.voxels} --output {output} > {log} 2>&1"
 
 
 rule film_cells:

@@ -94,23 +94,31 @@ def level_map(
     contents: Contents, level: Level, grain: Solid, matrix_bulk: float, physics: Physics
 ) -> StaticMap:
     """Young's modulus of a level over that of its grains as a function of that of its matrix, likewise."""
+    system = pulled_system(contents.prism, np.zeros(3 * contents.prism.network.first.size))
+    found = []
+    for own in bond_stiffness(contents, level, grain, matrix_bulk, physics, RATIOS):
+        found.append(stretched(contents.prism, replace(system, weight=own / grain.modulus))[0])
+    return fit_map(np.array(found))
+
+
+def bond_stiffness(
+    contents: Contents, level: Level, grain: Solid, matrix_bulk: float, physics: Physics, ratio: np.ndarray
+) -> np.ndarray:
+    """Stiffness (m, 3 b) [N/m] of the components of all bonds: films, those that are voids, and dry contacts.
+
+    ratio (m,): modulus of the matrix over that of the grains, real or complex. At one it is their material, where
+    films are squeezed: its bulk modulus rises with the modulus from matrix_bulk [Pa] to theirs.
+    """
     films, touching = films_of(contents, level, physics)
-    young = RATIOS * grain.modulus
-    if physics.squeezed:  # at the modulus of the grains it is their material
-        bulk = matrix_bulk + RATIOS * (grain.bulk - matrix_bulk)
-    else:
-        bulk = young / 3.0
+    young = ratio * grain.modulus
+    bulk = matrix_bulk + ratio * (grain.bulk - matrix_bulk) if physics.squeezed else young / 3.0
     normal, tangential = film_stiffness(films, grain, Matrix(young, bulk), level.fraction)
     present = np.ones(films.gap.size)
     present[_voids(films.area, physics.void_share)] = ABSENT
     dry = touching * _dry_contact(contents, touching, grain, physics.skeleton_pressure)
     sliding = 2.0 * (1.0 - grain.poisson) / (2.0 - grain.poisson)  # Mindlin, stuck
-    system = pulled_system(contents.prism, np.zeros(3 * films.gap.size))
-    found = []
-    for one, two in zip(present * normal + dry, present * tangential + sliding * dry, strict=True):
-        weight = np.column_stack([one, two, two]).ravel() / grain.modulus
-        found.append(stretched(contents.prism, replace(system, weight=weight))[0])
-    return fit_map(np.array(found))
+    one, two = present * normal + dry, present * tangential + sliding * dry
+    return np.stack([one, two, two], axis=-1).reshape(len(young), -1)
 
 
 def _voids(area: np.ndarray, share: float) -> np.ndarray:
