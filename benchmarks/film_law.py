@@ -2,10 +2,12 @@
 
     python benchmarks/film_law.py cells --rows CELL.csv... --output CELLS.csv
     python benchmarks/film_law.py pairs --output PAIRS.csv
-    python benchmarks/film_law.py summaries PAIRS.csv CELLS.csv --output PAIRS_SUMMARY.csv CELLS_SUMMARY.csv
+    python benchmarks/film_law.py shears --output SHEARS.csv
+    python benchmarks/film_law.py summaries PAIRS.csv SHEARS.csv CELLS.csv --output PAIRS_SUMMARY.csv \
+        SHEARS_SUMMARY.csv CELLS_SUMMARY.csv
 
 Moduli over Young's modulus of the grains, lengths over the edge of a cell or the radius of the larger sphere. `pairs`
-needs scikit-fem and gmsh: pip install "asphalt-nscd[film]".
+and `shears` need scikit-fem and gmsh: pip install "asphalt-nscd[film]".
 """
 
 from __future__ import annotations
@@ -31,6 +33,7 @@ from asphalt_nscd.formulation.film import (
 )
 
 RATIOS, GAPS, SIDE = [1.0, 0.3, 0.1], [0.3, 0.1, 0.03, 0.01, 0.003], 0.9
+RIGID = 1e-7  # M over Young's modulus of grains that do not yield
 FREE_SIDES = 0.2  # of Young's modulus of a film between rigid grains that its sides do not lower
 
 
@@ -113,6 +116,49 @@ def pairs() -> pd.DataFrame:
     return pd.DataFrame(rows, columns=columns)
 
 
+def shears() -> pd.DataFrame:
+    """Spheres that slide and do not turn: rigid pairs in a cylinder of free sides, and a cubic lattice of equal ones.
+
+    Between free sides neighbours do not incline the film: the law without that part. The cell of the lattice is a
+    cylinder of the section of its facet, whose side moves as the lattice does.
+    """
+    from film_pair import Pair, shear_stiffness
+
+    tests = [(ratio, gap, RIGID, False) for ratio, gap in product(RATIOS, GAPS)]
+    tests += [(1.0, gap, modulus, True) for modulus, gap in product([*MODULI, 1e-5], GAPS)]
+    rows = []
+    for ratio, gap, modulus, lattice in tests:
+        length = 1.0 + ratio + gap * ratio
+        pair = Pair(1.0, ratio, gap * ratio, length / np.sqrt(np.pi) if lattice else SIDE * ratio)
+        area, solid = np.pi * pair.side**2, matrix(modulus)
+        shear = float(solid.shear)
+        films = Films(*np.array([[pair.first], [pair.second], [pair.gap], [area]]))
+        unit = (2.0 if lattice else 1.0) * shear * area / length
+        law = deviatoric_stiffness(films, GRAIN, solid)[1][0] - (0.0 if lattice else shear * area / length)
+        phases = (GRAIN.shear, GRAIN.bulk), (shear, float(solid.bulk))
+        coarse, fine = (shear_stiffness(pair, *phases, fineness, lattice) for fineness in (2.0, 3.5))
+        test = "lattice" if lattice else "free sides"
+        rows.append(
+            (test, ratio, gap, modulus, fine / unit, coarse / fine - 1.0, law / unit, law / fine - 1.0)
+        )
+        print(*rows[-1], flush=True)
+    columns = [
+        "test", "ratio", "gap_over_smaller_radius", "M_over_Ea", "FE_over_one_material", "FE_coarser",
+        "law_over_one_material", "error",
+    ]  # fmt: skip
+    return pd.DataFrame(rows, columns=columns)
+
+
+def shears_summary(table: pd.DataFrame) -> pd.DataFrame:
+    """Errors, percent: a row for each ratio of radii between free sides and each modulus of the lattice."""
+    rows = []
+    for (test, ratio, modulus), same in table.groupby(["test", "ratio", "M_over_Ea"], sort=False):
+        errors = 100.0 * same.set_index("gap_over_smaller_radius")["error"].round(3)
+        named = {"test": test, "R2 / R1": ratio, "M / Ea": modulus}
+        rows.append(named | {f"gap {gap:g}": value for gap, value in errors.items()})
+    return pd.DataFrame(rows).round(1)
+
+
 def pairs_summary(table: pd.DataFrame) -> pd.DataFrame:
     """Largest errors over all ratios of radii, percent."""
     rows = []
@@ -147,25 +193,29 @@ def cells_summary(table: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows).round({"E, %": 1, "G, %": 1, "coarser, %": 1})
 
 
+SUMMARIES = {"pairs": pairs_summary, "shears": shears_summary, "cells": cells_summary}
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parts = parser.add_subparsers(dest="part", required=True)
     part = parts.add_parser("cells")
     part.add_argument("--rows", nargs="+", required=True)
     parts.add_parser("pairs")
+    parts.add_parser("shears")
     part = parts.add_parser("summaries")
-    part.add_argument("pairs")
-    part.add_argument("cells")
+    for table in SUMMARIES:
+        part.add_argument(table)
     for name, part in parts.choices.items():
-        part.add_argument("--output", required=True, nargs=2 if name == "summaries" else None)
+        part.add_argument("--output", required=True, nargs=len(SUMMARIES) if name == "summaries" else None)
     given = parser.parse_args()
     if given.part == "cells":
         write_table(given.output, cells(given.rows))
-    elif given.part == "pairs":
-        write_table(given.output, pairs())
+    elif given.part == "summaries":
+        for (table, summary), output in zip(SUMMARIES.items(), given.output, strict=True):
+            write_table(output, summary(pd.read_csv(getattr(given, table))))
     else:
-        write_table(given.output[0], pairs_summary(pd.read_csv(given.pairs)))
-        write_table(given.output[1], cells_summary(pd.read_csv(given.cells)))
+        write_table(given.output, pairs() if given.part == "pairs" else shears())
 
 
 if __name__ == "__main__":

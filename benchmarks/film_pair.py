@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import gmsh
 import numpy as np
-from scipy.sparse import bmat
+from scipy.sparse import bmat, csr_matrix
 from scipy.sparse.linalg import splu
-from skfem import Basis, BilinearForm, ElementTriP1, ElementTriP2, ElementVector, MeshTri
+from skfem import Basis, BilinearForm, ElementTriP1, ElementTriP2, ElementVector, LinearForm, MeshTri
 from skfem.helpers import grad
 
 
@@ -116,3 +116,86 @@ def normal_stiffness(
     free = np.setdiff1d(np.arange(x.size), fixed)
     x[free] = splu(matrix_[free][:, free].tocsc()).solve(-(matrix_[free] @ x))
     return 2.0 * np.pi * float((matrix_ @ x)[high].sum())
+
+
+def shear_stiffness(
+    pair: Pair, grain: tuple[float, float], matrix: tuple[float, float], fineness: float, slope: bool
+) -> float:
+    """Force along the planes over their displacement against each other; grains do not turn.
+
+    All motions go with the cosine of the angle about the axis, along r and z, and with its sine around. slope: the
+    side moves along z as neighbours in a sheared packing do; else it is free, and the planes do not move along z.
+    """
+    cells, inside = mesh(pair, fineness)
+    # u_r = a + b, u_around = b - a: where r is zero, b and u_z are
+    displacement = Basis(cells, ElementVector(ElementTriP2(), 3), intorder=4)
+    pressure = displacement.with_element(ElementTriP1())
+    shear = np.where(inside, grain[0], matrix[0])[:, None]
+    lame = np.where(inside, grain[1], matrix[1])[:, None] - 2.0 / 3.0 * shear
+
+    def strains(u, r):
+        du = grad(u)
+        out, around = u[0] + u[1], u[1] - u[0]
+        rr, out_z = du[0, 0] + du[1, 0], du[0, 1] + du[1, 1]
+        round_r, round_z = du[1, 0] - du[0, 0], du[1, 1] - du[0, 1]
+        return (
+            rr,
+            2.0 * u[1] / r,
+            du[2, 1],
+            out_z + du[2, 0],
+            round_r - (out + around) / r,
+            round_z - u[2] / r,
+        )
+
+    @BilinearForm
+    def stretch(u, v, w):
+        r = w.x[0]
+        one, other = strains(u, r), strains(v, r)
+        straight = sum(p * q for p, q in zip(one[:3], other[:3], strict=True))
+        sheared = sum(p * q for p, q in zip(one[3:], other[3:], strict=True))
+        return w.shear * r * (2.0 * straight + sheared)
+
+    @BilinearForm
+    def volume(u, q, w):
+        return w.x[0] * sum(strains(u, w.x[0])[:3]) * q
+
+    @BilinearForm
+    def compression(p, q, w):
+        return -w.x[0] * p * q / w.lame
+
+    @LinearForm
+    def turning(v, w):
+        dv = grad(v)
+        return w.own * w.x[0] * (2.0 * dv[0, 1] - dv[2, 0] - v[2] / w.x[0])
+
+    weights = {"shear": shear * np.ones_like(displacement.dx), "lame": lame * np.ones_like(displacement.dx)}
+    a = stretch.assemble(displacement, **weights)
+    b = volume.assemble(displacement, pressure)
+    c = compression.assemble(pressure, lame=weights["lame"])
+    upper = displacement.global_coordinates()[1] > pair.first + 0.5 * pair.gap
+    turns = [
+        turning.assemble(displacement, own=(inside[:, None] & (upper == half)).astype(float))
+        for half in ((False, True) if slope else ())
+    ]
+    turns = csr_matrix(np.array(turns).reshape(len(turns), a.shape[0]))
+    matrix_ = bmat([[a, b.T, turns.T], [b, c, None], [turns, None, None]]).tocsc()
+
+    def at(where, *names):
+        dofs = displacement.get_dofs(where)
+        return np.concatenate([dofs.all(name) for name in names])
+
+    on_axis, low = (lambda x: np.isclose(x[0], 0.0)), (lambda x: np.isclose(x[1], 0.0))
+    high, side = (lambda x: np.isclose(x[1], pair.length)), (lambda x: np.isclose(x[0], pair.side))
+    x = np.zeros(matrix_.shape[0])
+    moved = at(high, "u^1")
+    x[moved] = 1.0
+    fixed = [moved, at(low, "u^1", "u^2"), at(high, "u^2"), at(on_axis, "u^2", "u^3")]
+    fixed.append(displacement.N + pressure.get_dofs(on_axis).all())
+    if slope:
+        x[at(side, "u^3")] = pair.side / pair.length
+        fixed.append(at(side, "u^3"))
+    else:
+        fixed += [at(low, "u^3"), at(high, "u^3")]
+    free = np.setdiff1d(np.arange(x.size), np.unique(np.concatenate(fixed)))
+    x[free] = splu(matrix_[free][:, free].tocsc()).solve(-(matrix_[free] @ x))
+    return np.pi * float((matrix_ @ x)[moved].sum())

@@ -71,7 +71,9 @@ def campaign(folder, slope):
         name = f"M{number}_RH"
         tests = []
         for specimen, air in zip("ABC", (6.0, 7.0, 8.0), strict=True):
-            rows.append({"mix": name.replace("_", " "), "specimen_id": specimen, "Va_pct": air})
+            rows.append(
+                {"mix": name.replace("_", " "), "specimen_id": specimen, "Va_pct": air, "VMA_pct": 10 + air}
+            )
             modulus = 4000 * (1 + number) * np.exp(slope / 100 * air)
             tests.append(
                 {
@@ -88,10 +90,31 @@ def campaign(folder, slope):
 
 def test_cost_of_air_is_measured_within_mixes(tmp_path, networks, recipe):
     campaign(tmp_path, -6.0)
-    (row,) = compare_voids(tmp_path, replace(recipe, voids=0.07), networks, lambda *_: None).itertuples()
-    assert row.measured_percent == pytest.approx(-6.0, abs=1e-9)
-    assert row.standard_error_percent == pytest.approx(0.0, abs=1e-6)
-    assert -30.0 < row.forecast_percent < 0.0
+    table = compare_voids(tmp_path, replace(recipe, voids=0.07), networks, lambda *_: None)
+    one, pooled = table.itertuples()
+    for row in (one, pooled):
+        assert row.measured_percent == pytest.approx(-6.0, abs=1e-9)
+        assert row.standard_error_percent == pytest.approx(0.0, abs=1e-6)
+        assert -30.0 < row.forecast_percent < 0.0 and -15.0 < row.hirsch_percent < -3.0
+    assert (one.temperature_C, one.frequency_Hz) == (20, 1) and np.isnan(pooled.temperature_C)
+
+
+def test_pooled_scatter_is_that_of_specimens(tmp_path, networks, recipe):
+    """A specimen that is stiff in every condition counts once: more conditions make no error smaller."""
+    campaign(tmp_path, -6.0)
+    table = pd.read_csv(tmp_path / "M2_RH.csv")
+    table.loc[0, "E_MPa"] *= 1.1
+    errors = []
+    for conditions in (1, 3):
+        for number in range(4):
+            path = tmp_path / f"M{number}_RH.csv"
+            first = table if number == 2 else pd.read_csv(path).query("frequency_Hz == 1")
+            pd.concat([first.assign(frequency_Hz=10**k) for k in range(conditions)]).to_csv(path, index=False)
+        errors.append(compare_voids(tmp_path, recipe, networks, lambda *_: None).iloc[-1])
+    assert errors[0].specimens == errors[1].specimens == 12
+    assert errors[1].standard_error_percent == pytest.approx(errors[0].standard_error_percent, rel=1e-9)
+    # the one deviation: -ln(1.1) a / sum of a^2 in the slope
+    assert errors[0].measured_percent == pytest.approx(-6.0 - 100 * np.log(1.1) / 8, rel=1e-9)
 
 
 def test_a_specimen_without_air_voids_is_named(tmp_path, networks, recipe):

@@ -11,9 +11,9 @@ from asphalt_nscd.measurements.units import PSI
 
 def test_dilute_grains_stiffen_a_flowing_matrix_as_einstein_says(content):
     """1 + 2.5 phi for rigid spheres in an incompressible matrix."""
-    content["binder"]["E0_MPa"] = 1e-3
     content["binder_percent_by_mass"], content["air_voids_percent"] = 20, 0
     recipe = recipe_of(content)
+    recipe = replace(recipe, binder=replace(recipe.binder, glassy_modulus=1e3))
     diluted = replace(
         recipe, binder_share=0.98, grading=Grading(np.array([2.1e-3, 10e-3]), np.array([1e-9, 1.0]))
     )

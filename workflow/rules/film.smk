@@ -71,21 +71,39 @@ rule film_pairs:
         MEASURE + "/film_law.py pairs --output {output} > {log} 2>&1"
 
 
-rule film_summaries:
-    # What docs/film.md shows of both.
+rule film_shears:
+    # One film that slides, likewise.
     input:
-        cells="results/film/cells.csv",
+        ["benchmarks/film_law.py", "benchmarks/film_pair.py", "src/asphalt_nscd/formulation/film.py"],
+    output:
+        "results/film/shears.csv",
+    log:
+        "results/film/logs/shears.log",
+    benchmark:
+        "results/film/benchmarks/shears.tsv"
+    message:
+        "Slide two spheres along each other by finite elements"
+    shell:
+        MEASURE + "/film_law.py shears --output {output} > {log} 2>&1"
+
+
+rule film_summaries:
+    # What docs/film.md shows of all three.
+    input:
         pairs="results/film/pairs.csv",
+        shears="results/film/shears.csv",
+        cells="results/film/cells.csv",
         code="benchmarks/film_law.py",
     output:
         pairs="results/film/pairs_summary.csv",
+        shears="results/film/shears_summary.csv",
         cells="results/film/cells_summary.csv",
     log:
         "results/film/logs/summaries.log",
     message:
         "Sum up the law of a film"
     shell:
-        MEASURE + "/film_law.py summaries {input.pairs} {input.cells} --output {output} > {log} 2>&1"
+        MEASURE + "/film_law.py summaries {input.pairs} {input.shears} {input.cells} --output {output} > {log} 2>&1"
 
 
 rule film:
@@ -107,11 +125,12 @@ rule publish_film:
     # What is committed of it. Only on request:
     #   snakemake publish_film --cores 1 --configfile config/paper.yaml
     input:
-        files=["results/film/pairs.csv", "results/film/cells.csv", "results/film/provenance.json"],
+        files=[f"results/film/{file}" for file in ("pairs.csv", "shears.csv", "cells.csv", "provenance.json")],
         pairs="results/film/pairs_summary.csv",
+        shears="results/film/shears_summary.csv",
         cells="results/film/cells_summary.csv",
         code=code("publish"),
     message:
         "Copy the tables of films, and fill those of docs/film.md"
     shell:
-        "asphalt-nscd publish {input.files} --root results/film --output results/published/film --document docs --block film_pairs={input.pairs} --block film_cells={input.cells}"
+        "asphalt-nscd publish {input.files} --root results/film --output results/published/film --document docs --block film_pairs={input.pairs} --block film_shears={input.shears} --block film_cells={input.cells}"

@@ -145,6 +145,7 @@ def _pairs(rows, given, slopes, grain, grain_shear, spot, n, found):
     shear, bulk, stretch = given
     width, film, stone, near = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
     flow = np.empty(n)  # 4 rho h^3 / (12 c d rho) across the outer edge of a ring, rho = r^2
+    round_flow, tilt = np.empty(n), np.empty(n)  # h^3 / (12 c rho) around; half the difference of the slopes
     upper, of_one, of_mean = np.empty(n, shear.dtype), np.empty(n, shear.dtype), np.empty(n, shear.dtype)
     for b in range(gap.size):
         r1, r2 = first[b], second[b]
@@ -168,6 +169,9 @@ def _pairs(rows, given, slopes, grain, grain_shear, spot, n, found):
             s1, s2 = min(outer / q1, 1.0), (min(outer / q2, 1.0) if r2 > 0.0 else 0.0)
             turned = 1.0 + slopes[0] * (s1 + s2) + slopes[1] * np.sqrt(s1 * s2)
             flow[i] = outer * edge**3 / (3.0 * turned * (further - middle) * section)
+            round_flow[i] = film[i] ** 3 / (12.0 * turned * middle)
+            between = t1 > 0.0 and (t2 > 0.0 or r2 == 0.0)
+            tilt[i] = 0.5 * np.sqrt(middle) * ((1.0 / r2 if r2 > 0.0 else 0.0) - 1.0 / r1) if between else 0.0
         for m in range(shear.size):
             g, d = shear[m], stretch[m]
             lame = bulk[m] - 2.0 / 3.0 * g
@@ -207,4 +211,28 @@ def _pairs(rows, given, slopes, grain, grain_shear, spot, n, found):
                 force += (d * own + rest * one) * width[i]
                 relief += (d * (stone[i] - near[i]) / grain * own - rest * mean) * width[i]
             found[0, m, b] = area[b] * force / (1.0 + relief)
-            found[1, m, b] = area[b] * (sheared / (1.0 + shear_back) + g / length)
+            # slid along, the film between unequal slopes is a wedge: its pressure goes with the cosine about the axis
+            slid = sheared / (1.0 + shear_back)
+            before, wedge = 0.0 * g, 0.0 * g
+            for i in range(n):
+                own = (1.0 - (stone[i] - near[i]) / grain_shear * slid) / (
+                    film[i] + g * near[i] / grain_shear
+                )
+                inverse = 1.0 / stone[i] if stone[i] > 0.0 else 0.0
+                of_mean[i] = tilt[i] * film[i] * (own * (1.0 + film[i] * inverse) - inverse)
+                shed = near[i] / grain / (film[i] + d * near[i] / grain)
+                held = film[i] * ((1.0 + film[i] * inverse) * shed + 1.0 / lame) + round_flow[i] / g
+                through = flow[i] / g
+                pivot = held * width[i] + before + through
+                of_one[i] = of_mean[i] * width[i]
+                if i > 0:
+                    pivot -= before * upper[i - 1]
+                    of_one[i] += before * of_one[i - 1]
+                upper[i] = through / pivot
+                of_one[i] /= pivot
+                before = through
+            one = 0.0 * g
+            for i in range(n - 1, -1, -1):
+                one = of_one[i] + upper[i] * one
+                wedge += one * of_mean[i] * width[i]
+            found[1, m, b] = area[b] * (slid + 0.5 * wedge + g / length)

@@ -58,8 +58,8 @@ def levels_of(recipe: Recipe, cuts: tuple[float, ...] = CUTS) -> list[Level]:
             fraction = grains / (grains + matrix)
             if fraction > DENSEST:
                 raise InputError(
-                    f"{names[k]}: its grains fill {100 * fraction:.0f} % of it, more than a packing reaches "
-                    f"({100 * DENSEST:.0f} %); correct the grading or the binder content."
+                    f"{recipe.file}: grading: the grains of the {names[k]} fill {100 * fraction:.0f} % of it, more "
+                    f"than a packing reaches ({100 * DENSEST:.0f} %); correct grading or binder_percent_by_mass."
                 )
             levels.append(_level(names[k], edges[k], edges[k + 1], fraction, recipe))
         matrix += grains

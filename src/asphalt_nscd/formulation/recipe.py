@@ -24,6 +24,9 @@ from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 DEFAULT_FREQUENCIES = (0.1, 0.3, 1.0, 3.0, 10.0, 25.0)  # Hz
 DEFAULT_TEMPERATURES = (-10.0, 0.0, 10.0, 15.0, 20.0, 30.0)  # degC, of a binder with a shift
 UNSTATED = 15.0  # degC, what an unstated reference temperature is called
+COARSE = 0.5e-3  # m, the coarsest sieve of a grading at least
+LEAST_VOIDS = 0.3  # per cent, if any: less is a share of one
+LARGEST_MISFIT = 0.3  # rms of ln E* of a binder's law about its table
 DENSEST = 0.92  # of the volume: more solids than any grading packs
 
 
@@ -48,6 +51,7 @@ class Recipe:
 
     name: str
     source: str
+    file: str  # for messages
     binder: Spectrum
     shifted: bool
     binder_share: float  # of the mass of the mix
@@ -85,11 +89,17 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
     schema = yaml.safe_load((files(__package__) / "recipe.schema.yaml").read_text(encoding="utf-8"))
     if not isinstance(content, Mapping):
         raise InputError(f"{path}: holds no mapping; see data/forecast/recipe.yaml.")
-    content = dict(content) | {"grading": _keyed(content.get("grading"))}
+    content = dict(content) | {"grading": _keyed(content.get("grading"), path)}
+    _require_finite(content, path)
     error = best_match(Draft202012Validator(schema).iter_errors(content))
     if error is not None:
         at = ": ".join([str(path), *filter(None, [".".join(map(str, error.absolute_path))])])
         raise InputError(f"{at}: {error.message}; see data/forecast/recipe.yaml.")
+    if 0.0 < content["air_voids_percent"] < LEAST_VOIDS:
+        raise InputError(
+            f"{path}: air_voids_percent: {content['air_voids_percent']:g} % is less than any mix has; give per cent, "
+            f"or 0 for none."
+        )
     aggregate = Solid(content["aggregate"]["E_GPa"] * 1e9, content["aggregate"]["poisson"])
     binder, shifted = _binder(content["binder"], path)
     stiffest = getattr(binder, "glassy_modulus", 0.0)
@@ -102,6 +112,7 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
     recipe = Recipe(
         name=content.get("name", Path(path).stem),
         source=content.get("source", "not stated"),
+        file=str(path),
         binder=binder,
         shifted=shifted,
         binder_share=content["binder_percent_by_mass"] / 100.0,
@@ -121,21 +132,43 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
     return recipe
 
 
-def _keyed(grading: Any) -> Any:
+def _keyed(grading: Any, path: str | Path) -> Any:
     """Sieves as text: YAML reads 0.063 as a number."""
-    return (
-        {str(sieve): share for sieve, share in grading.items()} if isinstance(grading, Mapping) else grading
-    )
+    if not isinstance(grading, Mapping):
+        return grading
+    keyed = {str(sieve): share for sieve, share in grading.items()}
+    if len({_number(sieve) for sieve in keyed}) < len(grading):
+        raise InputError(f"{path}: grading: a sieve is given twice; keep one.")
+    return keyed
+
+
+def _number(sieve: str) -> float | str:
+    try:
+        return float(sieve)
+    except ValueError:
+        return sieve
+
+
+def _require_finite(content: Any, path: str | Path, *keys: str) -> None:
+    """No bounds refuse a nan."""
+    if isinstance(content, Mapping | list):
+        pairs = content.items() if isinstance(content, Mapping) else enumerate(content)
+        for key, value in pairs:
+            _require_finite(value, path, *keys, str(key))
+    elif isinstance(content, float) and not np.isfinite(content):
+        raise InputError(f"{path}: {'.'.join(keys)}: {content} is no finite number; write one.")
 
 
 def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
-    try:
-        pairs = sorted((float(sieve) * 1e-3, share / 100.0) for sieve, share in content.items())
-    except ValueError:
-        raise InputError(f"{path}: grading: a sieve is no number; give it in mm, as 0.063.") from None
-    sieve, passing = np.array(pairs).T
-    if sieve[0] <= 0.0 or sieve[-1] > 0.1:
-        raise InputError(f"{path}: grading: sieves from 0.001 to 100 mm are allowed; give them in mm.")
+    sizes = [_number(sieve) for sieve in content]
+    if not all(isinstance(size, float) and np.isfinite(size) for size in sizes):
+        raise InputError(f"{path}: grading: a sieve is no number; give it in mm, as 0.063.")
+    sieve, passing = np.array(sorted(zip(sizes, content.values(), strict=True)), float).T * [[1e-3], [1e-2]]
+    if sieve[0] < 1e-6 or not COARSE <= sieve[-1] <= 0.1:
+        raise InputError(
+            f"{path}: grading: sieves go from {1e3 * sieve[0]:g} to {1e3 * sieve[-1]:g} mm; the finest may be 0.001, "
+            f"the coarsest {1e3 * COARSE:g} to 100; give them in mm."
+        )
     falls = np.flatnonzero(np.diff(passing) < 0.0)
     if falls.size:
         low, high = 1e3 * sieve[falls[0]], 1e3 * sieve[falls[0] + 1]
@@ -144,7 +177,8 @@ def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
         )
     if abs(passing[-1] - 1.0) > 1e-9:
         raise InputError(
-            f"{path}: grading: {100 * passing[-1]:g} % passes the largest sieve; add one that 100 % pass."
+            f"{path}: grading: {100 * passing[-1]:g} % passes the largest sieve; add one that 100 % pass, and give "
+            f"per cent."
         )
     return Grading(sieve, passing)
 
@@ -184,12 +218,20 @@ def _from_rheometer(path: Path, poisson: float) -> Spectrum:
     frequency = table.numbers("frequency_Hz", Limits(1e-8, 1e6, "give it in Hz, above zero"))
     shear = table.numbers("G_MPa", Limits(1e-9, 5e3, "give |G*| in MPa, above zero"))
     phase = table.numbers("phase_deg", Limits(0.0, 90.0, "give it in degrees"))
+    if phase.max() < 2.0:
+        raise InputError(f"{path}: phase_deg is {phase.max():.3g} at most; give it in degrees.")
     modulus = 2.0 * (1.0 + poisson) * 1e6 * shear * np.exp(1j * np.radians(phase))
     reference = float(np.unique(temperature)[np.unique(temperature).size // 2])
     try:
-        return fit_spectrum(2.0 * np.pi * frequency, temperature, modulus, reference, Form()).law
+        fit = fit_spectrum(2.0 * np.pi * frequency, temperature, modulus, reference, Form())
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
+    if fit.rms_log_residual > LARGEST_MISFIT:
+        raise InputError(
+            f"{path}: no law of a binder comes nearer to G_MPa and phase_deg than {100 * fit.rms_log_residual:.0f} %; "
+            f"check columns and units."
+        )
+    return fit.law
 
 
 def _points(

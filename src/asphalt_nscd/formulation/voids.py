@@ -1,80 +1,120 @@
 """What a percent of air costs: the forecast against specimens of one mix that differ in their air voids.
 
-The law of the binder cancels: each state is taken at the modulus of binder with which the forecast meets it.
+The law of the binder cancels: each state is taken at the modulus of binder with which the forecast meets it. Air and
+binder content are those of the specimens, the grading that of another recipe.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
+from scipy.stats import t as student
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.formulation.forecast import Networks, Settings, modulus_of
 from asphalt_nscd.formulation.recipe import Recipe
+from asphalt_nscd.formulation.rivals import hirsch, witczak
 
-VOIDS = np.arange(0.03, 0.1201, 0.01)  # of the volume
-BINDER = np.geomspace(1e4, 6e8, 60)  # Pa, |E*|
-PHASE = np.radians(45.0)  # of the binder; 30 or 60 degrees change no slope by a tenth
+STEP = 0.01  # of the volume: slopes are taken between so much less air and so much more
+BINDER = np.geomspace(1e4, 6e8, 60) * np.exp(
+    1j * np.radians(45.0)
+)  # Pa; 30 or 60 degrees change no slope by a tenth
+RIVALS = {"hirsch": hirsch, "witczak": witczak}
+
+
+@dataclass(frozen=True)
+class _AnyBinder:
+    """Stands for a law: BINDER, whatever the frequency."""
+
+    def complex_modulus(self, omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+        return BINDER
 
 
 def compare_voids(
     folder: str | Path, recipe: Recipe, networks: Networks, progress: Callable[[str, float, float], None]
 ) -> pd.DataFrame:
-    """d ln|E*| / d air voids [% per %] at each temperature and frequency, measured and forecast.
+    """d ln|E*| / d air voids [% per %] at each temperature and frequency and of all, measured, forecast, by RIVALS.
 
     folder: tables MIX.csv (specimen, temperature_C, frequency_Hz, E_MPa) and volumetrics.csv (mix, specimen_id, Va_pct,
-    with a blank for each underscore of MIX). Measured: regression within mixes, with its standard error. Conditions
-    with fewer than four mixes are left out.
+    VMA_pct, with a blank for each underscore of MIX; states of one section have one name before the last underscore).
+    Measured: regression within mixes, with its standard error and the probability of a forecast as far off.
+    Conditions with fewer than four mixes are left out. The last row, without temperature and frequency, is that of
+    the means of each specimen over its conditions, since what makes a specimen stiff does so in all of them.
     """
-    measured = _specimens(Path(folder))
-    surface = []
-    for k, air in enumerate(VOIDS):
-        progress("air voids", k, VOIDS.size)
-        levels = networks.chain(replace(recipe, voids=float(air)), Settings(), 1)
-        surface.append(np.log(np.abs(modulus_of(levels, recipe.aggregate, BINDER * np.exp(1j * PHASE)))))
-    progress("air voids", VOIDS.size, VOIDS.size)
-    rows = []
-    for (temperature, frequency), group in measured.groupby(["temperature_C", "frequency_Hz"]):
-        if group["mix"].nunique() < 4:
-            continue
-        by_mix = group.groupby("mix")
-        log = np.log(group["E_MPa"]) - np.log(group["E_MPa"]).groupby(group["mix"]).transform("mean")
-        air = group["Va_pct"] - by_mix["Va_pct"].transform("mean")
-        square = float((air**2).sum())
-        slope = float((log * air).sum()) / square
-        left = log - slope * air
-        error = np.sqrt(float((left**2).sum()) / (len(group) - by_mix.ngroups - 1) / square)
-        parts = [
-            (float((air[rows.index] ** 2).sum()), _slope(np.array(surface), rows["E_MPa"], rows["Va_pct"]))
-            for _, rows in by_mix
-        ]
-        weight, forecast = np.array(parts).T
-        rows.append(
-            {
-                "temperature_C": temperature,
-                "frequency_Hz": frequency,
-                "specimens": len(group),
-                "E_MPa": float(np.exp(np.log(group["E_MPa"]).mean())),
-                "measured_percent": 100.0 * slope,
-                "standard_error_percent": 100.0 * error,
-                "forecast_percent": 100.0 * float((weight * forecast).sum() / weight.sum()),
-            }
-        )
-    return pd.DataFrame(rows)
+    tests = _specimens(Path(folder))
+    by_condition = tests.groupby(["temperature_C", "frequency_Hz"])["mix"].transform("nunique")
+    tests = tests[by_condition >= 4].reset_index(drop=True)
+    tests["section"] = tests["mix"].str.rsplit("_", n=1).str[0]
+    names = ["forecast", *RIVALS]
+    tests[names] = 0.0
+    sections = list(tests.groupby("section"))
+    for k, (_, section) in enumerate(sections):
+        progress("air voids", k, len(sections))
+        surfaces = _surfaces(section, recipe, networks)
+        for _, state in section.groupby(["mix", "temperature_C", "frequency_Hz"]):
+            level = float(np.log(1e6 * state["E_MPa"]).mean())
+            for name, surface in surfaces.items():
+                tests.loc[state.index, name] = _slope(surface, level)
+    progress("air voids", len(sections), len(sections))
+    condition = ["mix", "temperature_C", "frequency_Hz"]
+    tests["log"] = np.log(tests["E_MPa"])
+    for name in ("log", "Va_pct"):
+        tests[name] -= tests.groupby(condition)[name].transform("mean")
+    rows = [
+        _row({"temperature_C": temperature, "frequency_Hz": frequency}, group, names)
+        for (temperature, frequency), group in tests.groupby(condition[1:])
+    ]
+    whole = tests.groupby(["mix", "specimen"])[["log", "Va_pct", "E_MPa", *names]].mean().reset_index()
+    return pd.DataFrame([*rows, _row({"temperature_C": np.nan, "frequency_Hz": np.nan}, whole, names)])
 
 
-def _slope(surface: np.ndarray, modulus: pd.Series, voids: pd.Series) -> float:
-    """Of one mix: per percent of air, at its mean |E*| [MPa] and mean air [%]."""
-    air = float(voids.mean()) / 100.0
-    at = np.array([np.interp(air, VOIDS, column) for column in surface.T])
-    binder = np.interp(float(np.log(1e6 * modulus).mean()), at, np.log(BINDER))
-    along = np.array([np.interp(binder, np.log(BINDER), row) for row in surface])
-    low, high = max(air - 0.01, VOIDS[0]), min(air + 0.01, VOIDS[-1])
-    return float((np.interp(high, VOIDS, along) - np.interp(low, VOIDS, along)) / (100.0 * (high - low)))
+def _row(condition: dict[str, float], group: pd.DataFrame, names: list[str]) -> dict[str, Any]:
+    """Regression of `log` on the air, both less the means of their mix."""
+    log, air = group["log"], group["Va_pct"]
+    square, freedom = float((air**2).sum()), len(group) - group["mix"].nunique() - 1
+    slope = float((log * air).sum()) / square
+    error = float(np.sqrt(((log - slope * air) ** 2).sum() / freedom / square))
+    expected = {name: float((air**2 * group[name]).sum()) / square for name in names}
+    off = abs(expected["forecast"] - slope) / error if error else np.inf
+    return {
+        **condition,
+        "specimens": len(group),
+        "E_MPa": float(np.exp(np.log(group["E_MPa"]).mean())),
+        "measured_percent": 100.0 * slope,
+        "standard_error_percent": 100.0 * error,
+        **{f"{name}_percent": 100.0 * value for name, value in expected.items()},
+        "probability": float(2.0 * student.sf(off, freedom)),
+    }
+
+
+def _surfaces(section: pd.DataFrame, recipe: Recipe, networks: Networks) -> dict[str, np.ndarray]:
+    """ln|E*| (3, b) of the mix of a section for each BINDER, at less air, its own and more, by each model."""
+    air = float(section["Va_pct"].mean()) / 100.0
+    stone = float(
+        ((100.0 - section["VMA_pct"]) / (100.0 - section["Va_pct"])).mean()
+    )  # of the volume without air
+    per_stone = (1.0 - stone) / stone * recipe.binder_density / recipe.aggregate_density
+    own = replace(recipe, binder_share=per_stone / (1.0 + per_stone), binder=_AnyBinder())
+    surfaces: dict[str, list[np.ndarray]] = {name: [] for name in ("forecast", *RIVALS)}
+    for voids in (air - STEP, air, air + STEP):
+        mix = replace(own, voids=voids)
+        levels = networks.chain(mix, Settings(), 1)
+        surfaces["forecast"].append(modulus_of(levels, recipe.aggregate, BINDER))
+        for name, rival in RIVALS.items():
+            surfaces[name].append(rival(mix))
+    return {name: np.log(np.abs(np.array(moduli))) for name, moduli in surfaces.items()}
+
+
+def _slope(surface: np.ndarray, level: float) -> float:
+    """Per percent of air, where the mix has ln|E*| = level."""
+    place = np.interp(level, surface[1], np.arange(BINDER.size))
+    low, high = (np.interp(place, np.arange(BINDER.size), surface[k]) for k in (0, 2))
+    return float(high - low) / (200.0 * STEP)
 
 
 def _specimens(folder: Path) -> pd.DataFrame:

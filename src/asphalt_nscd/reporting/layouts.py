@@ -396,7 +396,10 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
                 "E_MPa": "mean modulus, MPa",
                 "measured_percent": "measured, % for 1 % of air",
                 "standard_error_percent": "standard error",
+                "probability": "probability",
                 "forecast_percent": "forecast",
+                "hirsch_percent": "Hirsch",
+                "witczak_percent": "Witczak",
             },
         )
     ],

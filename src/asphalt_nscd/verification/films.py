@@ -36,6 +36,16 @@ ELEMENTS = [
     (0.1, 0.003, 6e5, 6107.0),
 ]
 
+# Sliding: ratio of radii, gap over the smaller radius, M [Pa], side over the smaller radius (none for the cell of a
+# cubic lattice), finite elements over one material (benchmarks/film_law.py shears), tolerance
+SLIDING = [
+    (1.0, 0.003, 6e3, 0.9, 13.55, 0.05),
+    (0.3, 0.01, 6e3, 0.9, 35.69, 0.05),
+    (0.1, 0.03, 6e3, 0.9, 79.86, 0.05),
+    (1.0, 0.1, 6e8, None, 2.671, 0.2),
+    (1.0, 0.03, 6e8, None, 3.505, 0.2),
+]
+
 
 def bitumen(modulus: float) -> Matrix:
     """Of this Young's modulus [Pa]."""
@@ -77,11 +87,9 @@ def lubrication() -> list[Row]:
         expected = 6.0 * np.pi * ratio * (1.0 + 7.0 * ratio + ratio**2) / (5.0 * (1.0 + ratio) ** 3)
         rows.append(Row(f"{name}, factor of ln(1/h)", expected, second, 0.1, source))
         slide = (tangential @ [1.0, -1.0]) / np.log(4.0)
-        rows.append(
-            Row(
-                f"ratio of radii {ratio}, sheared film, factor of ln(1/h)", 2 * np.pi * a, slide, 0.01, source
-            )
-        )
+        expected = 1.6 * np.pi * ratio * (2.0 + ratio + 2.0 * ratio**2) / (1.0 + ratio) ** 3
+        name = f"ratio of radii {ratio}, sheared film, factor of ln(1/h)"
+        rows.append(Row(name, expected, slide, 0.01, source))
     plane = deviatoric_stiffness(pair(2e-4, 1.0), RIGID, SYRUP, FINE)[0][0]
     wall = Films(*np.array([[1.0], [0.0], [2e-4], [np.pi * 0.81]]))
     found = deviatoric_stiffness(wall, RIGID, SYRUP, FINE)[0][0] / plane
@@ -100,6 +108,24 @@ def finite_elements() -> list[Row]:
         unit = modulus * films.area[0] / films.length[0]
         name = f"approach over M A / l, ratio {ratio}, gap {gap}, M {modulus / 1e6:g} MPa"
         rows.append(Row(name, expected, found / unit, 0.07, "finite elements"))
+    return rows
+
+
+@checks
+def sliding() -> list[Row]:
+    """Spheres that do not turn: rigid pairs between free sides, and a cubic lattice of equal, elastic ones.
+
+    The law is known to be too soft in the lattice (docs/film.md); the tolerance is by how much.
+    """
+    rows = []
+    for ratio, gap, modulus, side, expected, tolerance in SLIDING:
+        length = 1.0 + ratio + gap * ratio
+        films, solid = pair(gap, ratio, side or length / np.sqrt(np.pi)), bitumen(modulus)
+        one_material = solid.shear * films.area[0] / length
+        found = deviatoric_stiffness(films, STONE, solid)[1][0] / one_material - (1.0 if side else 0.0)
+        test = "free sides" if side else "lattice"
+        name = f"sliding over {'G' if side else '2 G'} A / l, {test}, ratio {ratio}, gap {gap}"
+        rows.append(Row(name, expected, found / (1.0 if side else 2.0), tolerance, "finite elements"))
     return rows
 
 
