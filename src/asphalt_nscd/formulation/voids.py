@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pandas as pd
@@ -19,6 +19,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.formulation.forecast import Networks, Settings, modulus_of
 from asphalt_nscd.formulation.recipe import Recipe
 from asphalt_nscd.formulation.rivals import hirsch, witczak
+from asphalt_nscd.rheology.spectrum import Spectrum
 
 STEP = 0.01  # of the volume: slopes are taken between so much less air and so much more
 BINDER = np.geomspace(1e4, 6e8, 60) * np.exp(
@@ -99,7 +100,7 @@ def _surfaces(section: pd.DataFrame, recipe: Recipe, networks: Networks) -> dict
         ((100.0 - section["VMA_pct"]) / (100.0 - section["Va_pct"])).mean()
     )  # of the volume without air
     per_stone = (1.0 - stone) / stone * recipe.binder_density / recipe.aggregate_density
-    own = replace(recipe, binder_share=per_stone / (1.0 + per_stone), binder=_AnyBinder())
+    own = replace(recipe, binder_share=per_stone / (1.0 + per_stone), binder=cast(Spectrum, _AnyBinder()))
     surfaces: dict[str, list[np.ndarray]] = {name: [] for name in ("forecast", *RIVALS)}
     for voids in (air - STEP, air, air + STEP):
         mix = replace(own, voids=voids)
