@@ -1,0 +1,1 @@
+"""From results to what a reader sees: figures, tables, pages, the audit of the paper."""

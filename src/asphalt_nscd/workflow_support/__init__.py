@@ -1,0 +1,1 @@
+"""Locks, clocks and source stamps for Snakemake."""

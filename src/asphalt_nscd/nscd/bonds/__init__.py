@@ -1,0 +1,1 @@
+"""Bonded bodies: laws, strength, operators, devices at the head."""

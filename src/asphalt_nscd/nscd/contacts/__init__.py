@@ -1,0 +1,1 @@
+"""Contacts with Coulomb friction, solved together: sweeps, Newton's method, interior points."""

@@ -1,0 +1,1 @@
+"""Rigid spheres that fall, collide and come to rest."""

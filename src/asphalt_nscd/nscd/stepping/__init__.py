@@ -1,0 +1,1 @@
+"""How bonded systems advance in time by small displacements: full, condensed, reduced, harmonic."""
