@@ -8,6 +8,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import shutil
 import subprocess
@@ -85,23 +86,41 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
     ).reset_index()
 
 
+def sources(mutant) -> str:
+    """Digest of the mutant, of the file that it changes and of its tests: while these stay, so does its verdict."""
+    files = (ROOT / PACKAGE / mutant.file, ROOT / "tests" / mutant.tests)
+    parts = [*mutant, *(file.read_text(encoding="utf-8") for file in files)]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:12]
+
+
+def earlier(path: Path) -> dict[str, str]:
+    """What an earlier run found, by `sources`."""
+    if not path.is_file():
+        return {}
+    table = pd.read_csv(path, keep_default_na=False)
+    return dict(zip(table.sources, table.noticed_by, strict=True))
+
+
 @click.command()
 @click.argument("words", nargs=-1)
 @click.option(
     "--output",
     type=click.Path(path_type=Path),
-    help="Folder for the table of mutants, and their number in each room.",
+    help="Folder for the table of mutants, and their number in each room. A mutant tried there before, with the same "
+    "sources and tests, is not tried again.",
 )
 def main(words: tuple[str, ...], output: Path | None) -> None:
     """Try the mutants, or those of which WORDS say something."""
+    chosen = [one for one in MUTANTS if not words or any(word in one.what + one.file for word in words)]
+    known = {} if output is None else earlier(output / "mutants.csv")
     rows = []
     with tempfile.TemporaryDirectory() as name:
         copy = Copy(Path(name))
-        for mutant in MUTANTS:
-            if words and not any(word in mutant.what + mutant.file for word in words):
-                continue
-            rows.append(mutant._asdict() | {"noticed_by": copy.noticed(mutant)})
-            click.echo(f"{mutant.what} ({mutant.file}): {rows[-1]['noticed_by'] or 'ALIVE'}")
+        for mutant in chosen:
+            digest = sources(mutant)
+            found = known[digest] if digest in known else copy.noticed(mutant)
+            rows.append(mutant._asdict() | {"noticed_by": found, "sources": digest})
+            click.echo(f"{mutant.what} ({mutant.file}): {found or 'ALIVE'}")
     alive = sum(not row["noticed_by"] for row in rows)
     click.echo(f"{len(rows) - alive} of {len(rows)} mutants were noticed.")
     if output is not None:

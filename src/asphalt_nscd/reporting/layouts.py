@@ -202,6 +202,28 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
             where={"spheres": (1000, 14160)},
         )
     ],
+    "poisson": [
+        Layout(
+            {name: name for name in ("kt / kn", "affine E", "network E")}
+            | {"affine Poisson's ratio": "affine ν", "network Poisson's ratio": "network ν"},
+            where={"kt / kn": (0.02, 0.2, 0.37, 0.5, 1, 2, 10)},
+        )
+    ],
+    "cluster": [
+        Layout(
+            {"what": "what", "paper": "paper"},
+            where={
+                "what": (
+                    "Slurm jobs",
+                    "steps in them",
+                    "own cost, percent of what is held",
+                    "seconds from first to last",
+                    "files of results compared",
+                    "files that differ from a run without Slurm",
+                )
+            },
+        )
+    ],
     "outside": [
         Layout(
             {

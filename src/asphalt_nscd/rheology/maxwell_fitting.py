@@ -37,7 +37,8 @@ class Miss:
 
 def miss(series: MaxwellSeries, modulus: Modulus, lowest_omega: float, highest_omega: float) -> Miss:
     """Largest errors of a series against a law, E* [Pa], from lowest_omega to highest_omega [rad/s]."""
-    return _miss(series, modulus, _grid(lowest_omega, highest_omega, TESTED))
+    omega = _grid(lowest_omega, highest_omega, TESTED)
+    return _miss_of(series, modulus(omega), omega)
 
 
 def fit_series(
@@ -177,10 +178,6 @@ def _scales(allowed: Miss) -> tuple[float, float]:
 
 def _size(found: Miss, allowed: Miss) -> float:
     return max(found.percent / allowed.percent, found.degrees / allowed.degrees)
-
-
-def _miss(series: MaxwellSeries, modulus: Modulus, omega: Vector) -> Miss:
-    return _miss_of(series, modulus(omega), omega)
 
 
 def _miss_of(series: MaxwellSeries, target: NDArray[np.complex128], omega: Vector) -> Miss:
