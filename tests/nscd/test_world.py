@@ -131,3 +131,27 @@ def test_a_bond_pulled_beyond_its_strength_breaks(strength, breaks):
     assert pair.broken.tolist() == [breaks]
     assert len(set(pair.fragments().tolist())) == 1 + breaks
     assert np.allclose(pair.velocity, start.ravel(), rtol=1e-12, atol=1e-12) == breaks
+
+
+def test_an_impact_takes_what_its_impulse_takes_at_the_mean_velocity():
+    """A sphere that falls on the floor loses its energy there; the part of implicit Euler is that of the flight."""
+    position = np.array([[0.0, 0.0, RADIUS + 0.0125]])
+    one = world(position, bar((1, 1, 1))[1])
+    for _ in range(250):  # 0.1 s, twice as long as the fall
+        one.advance()
+    energies = one.energies
+    assert energies.kinetic < 1e-20 and abs(energies.error) < 1e-15
+    assert energies.impact == pytest.approx(-energies.load, rel=1e-9)
+    assert abs(energies.numerical) < 1e-9 * energies.impact
+
+
+def test_a_sliding_sphere_loses_by_friction_what_theory_says():
+    """Thrown along the floor it rolls at 5/7 of its speed; friction has taken 2/7 of its energy."""
+    ball = world(np.array([[0.0, 0.0, RADIUS]]), bar((1, 1, 1))[1], dt=1e-4)
+    ball.velocity[0] = 0.1
+    for _ in range(400):
+        ball.advance()
+    start = 0.5 * ball.mass[0] * 0.1**2
+    assert ball.velocity[0] == pytest.approx(0.1 * 5 / 7, rel=1e-9)
+    assert ball.energies.friction == pytest.approx(start * 2 / 7, rel=1e-9)
+    assert abs(ball.energies.numerical) < 1e-9 * start and abs(ball.energies.impact) < 1e-9 * start

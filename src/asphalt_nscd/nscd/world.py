@@ -64,8 +64,8 @@ class WorldEnergies:
     springs: float = 0.0  # stored in the springs of the bonds
     load: float = 0.0  # potential of gravity
     dashpots: float = 0.0  # dissipated in the dashpots of the bonds
-    friction: float = 0.0  # dissipated by tangential forces of contacts
-    impact: float = 0.0  # dissipated by normal forces of contacts
+    friction: float = 0.0  # dissipated by tangential impulses of contacts
+    impact: float = 0.0  # dissipated by normal impulses of contacts
     fracture: float = 0.0  # stored by bonds when they broke
     numerical: float = 0.0  # dissipated by implicit Euler
     turning: float = 0.0  # work of the bonds on that part of their openings which is not linear in the motion
@@ -213,7 +213,12 @@ class World:
         sums.load -= dt * float(self._load @ velocity)
         sums.kinetic = 0.5 * float(self.mass @ velocity**2)
         numerical = self._product(weight, sigma - self.sigma, kelvin - self.kelvin)
-        sums.numerical += 0.5 * float(self.mass @ (velocity - self.velocity) ** 2) + numerical
+        # An impulse does its work at the mean of the velocities before and after.
+        work = (contacts.impulse * (contacts.rows_met @ (velocity + self.velocity) / 2.0)).reshape(-1, 3)
+        late = float(contacts.impulse @ (contacts.rows_met @ (velocity - self.velocity) / 2.0))
+        sums.impact -= float(work[:, 0].sum())
+        sums.friction -= float(work[:, 1:].sum())
+        sums.numerical += 0.5 * float(self.mass @ (velocity - self.velocity) ** 2) - late + numerical
         dashpots = dt * float(weight @ (sigma**2 / self.law.dashpot))
         viscosity = np.asarray(self.law.kelvin_dashpots).reshape(len(kelvin), -1)
         dashpots += float(weight @ (viscosity * (kelvin - self.kelvin) ** 2).sum(axis=0)) / dt
@@ -221,9 +226,6 @@ class World:
         stored = self._product(weight, sigma, kelvin)
         sums.turning += taken - (stored - sums.springs) - dashpots - numerical
         sums.springs = stored
-        work = (contacts.impulse * contacts.velocity).reshape(-1, 3)
-        sums.impact -= float(work[:, 0].sum())
-        sums.friction -= float(work[:, 1:].sum())
 
 
 @dataclass
@@ -233,8 +235,8 @@ class _Contacts:
     rows: sparse.csr_matrix  # (3 c, 6 n) opening of each: normal, two tangents
     gap: np.ndarray  # (c,) m, at the start of the step
     friction: np.ndarray  # (c,)
-    impulse: np.ndarray  # (3 c',) N s
-    velocity: np.ndarray  # (3 c',) m/s, of those with an impulse
+    rows_met: sparse.csr_matrix  # (3 c', 6 n) of those that closed
+    impulse: np.ndarray  # (3 c',) N s, theirs
     _kept: tuple[SuperLU, bytes, np.ndarray] | None = None
 
     @classmethod
@@ -258,19 +260,19 @@ class _Contacts:
         point = ahead[first] + radius[first, None] * normal
         rows = opening_operator(first, second, _frames(normal), point, ahead)
         friction = np.where(spheres, around.friction, around.wall_friction)
-        return cls(rows, gap, friction, np.empty(0), np.empty(0))
+        return cls(rows, gap, friction, rows[:0], np.empty(0))
 
     def meet(self, velocity: np.ndarray, factor: SuperLU, dt: float) -> np.ndarray:
         """The velocity (6 n,) after the impulses of all that would close within the step."""
         gap, touching = np.maximum(self.gap, 0.0), np.zeros(self.gap.size, bool)
         corrected = velocity
-        self.impulse = self.velocity = np.empty(0)
+        self.rows_met, self.impulse = self.rows[:0], np.empty(0)
         while True:
             closing = gap + dt * (self.rows[::3] @ corrected) < -CLOSED
             if not (closing & ~touching).any():
                 return corrected
             touching |= closing
-            rows = self.rows[np.repeat(touching, 3)]
+            rows = self.rows_met = self.rows[np.repeat(touching, 3)]
             response = self._response(touching, rows, factor)
             free = rows @ velocity
             free[::3] += gap[touching] / dt
@@ -280,7 +282,6 @@ class _Contacts:
             )
             self.impulse = solved.require_converged().reactions
             corrected = velocity + response @ self.impulse
-            self.velocity = rows @ corrected
 
     def _response(self, touching: np.ndarray, rows: sparse.csr_matrix, factor: SuperLU) -> np.ndarray:
         """Velocities (6 n, 3 c') for unit impulses at these contacts; the last ones are kept."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -16,10 +17,10 @@ from asphalt_nscd.nscd.bonds.strength import utilisations
 from asphalt_nscd.packings.vtk_files import require_vtk, write_poly_data, write_series
 from asphalt_nscd.specimen.preparation import DEPOSIT, SPECIMEN
 
-TEST = "test"
+TEST, FALL = "test", "fall"
 FRAMES = "frames/"  # what a test keeps of all spheres and bonds, on request
 FORMS = {"vtk": ".vtp", "csv": ".csv"}
-SERIES = ".pvd"  # for a test as vtk
+SERIES = ".pvd"  # for a test or a fall as vtk
 BONDS = "-bonds"  # behind the name of the file of spheres
 
 
@@ -37,7 +38,7 @@ def export_result(source: str | Path, form: str, output: str | Path) -> str:
     kind = kind_of(source)
     if kind not in _WRITERS:
         raise InputError(f"{source}: holds {kind!r}; give a file with one of {', '.join(_WRITERS)}.")
-    ending = SERIES if (kind, form) == (TEST, "vtk") else FORMS[form]
+    ending = SERIES if kind in (TEST, FALL) and form == "vtk" else FORMS[form]
     if output.suffix.lower() != ending:
         raise InputError(f"{output}: a {kind} of format {form} ends in {ending}; rename the output.")
     return _WRITERS[kind](load(source, kind), form, output)
@@ -96,51 +97,79 @@ def _test(record: Record, form: str, output: Path) -> str:
 
 def _series(record: Record, output: Path) -> str:
     """A file of spheres and one of bonds for each instant that the test keeps, in a folder named as the series."""
-    kept = {name.removeprefix(FRAMES): a for name, a in record.arrays.items() if name.startswith(FRAMES)}
+    kept = _kept(record)
     if "strength_N" not in kept:
         raise InputError(
             f"{output}: the test holds no motion of spheres, or an older version wrote it; simulate it again with "
             "--frames 24 (in Python Load(frames=24)), or give --format csv."
         )
-    position, times = kept["position_m"], kept["time_s"]
     ends = np.column_stack([kept["first"], kept["second"]])
-    place, lines, plate = _lines(position, ends, kept["point_m"])
+    place, lines, plate = _lines(kept["position_m"], ends, kept["point_m"])
+
+    def instant(k: int) -> tuple[_Drawn, _Drawn]:
+        own = {name: kept[name][k] for name in ("displacement_m", "velocity_m_s")}
+        spheres = kept["position_m"], {"radius_m": kept["radius_m"], **own}
+        return spheres, (place, {}, lines, _of_bonds(kept, k) | {"plate": plate})
+
+    return f"{_filmed(output, kept, instant)}; displacements in m, forces in N."
+
+
+def _fall(record: Record, form: str, output: Path) -> str:
+    """Its account of energy over time; or its spheres where they are, and the bonds that are left."""
+    kept = _kept(record)
+    if form == "csv":
+        history = {name: values for name, values in record.arrays.items() if not name.startswith(FRAMES)}
+        write_table(output, pd.DataFrame(history))
+        return f"{output}: {counted(kept['time_s'].size, 'instant')}, energies in J."
+    ends = np.column_stack([kept["first"], kept["second"]])
+
+    def instant(k: int) -> tuple[_Drawn, _Drawn]:
+        place, left = kept["position_m"] + kept["displacement_m"][k], ~kept["broken"][k]
+        own = {name: kept[name][k] for name in ("velocity_m_s", "fragment")}
+        bonds = {name: values[left] for name, values in _of_bonds(kept, k).items()}
+        return (place, {"radius_m": kept["radius_m"], **own}), (place, {}, ends[left], bonds)
+
+    return f"{_filmed(output, kept, instant)}; velocities in m/s, forces in N."
+
+
+_Drawn = tuple[Any, ...]  # of `write_poly_data`, behind the path
+
+
+def _kept(record: Record) -> dict[str, NDArray[Any]]:
+    """What is kept of all spheres and bonds."""
+    return {name.removeprefix(FRAMES): a for name, a in record.arrays.items() if name.startswith(FRAMES)}
+
+
+def _of_bonds(kept: dict[str, NDArray[Any]], k: int) -> dict[str, NDArray[Any]]:
+    """What bonds (b,) bear at an instant."""
+    force = kept["bond_force_N"][k]
+    return {
+        "area_m2": kept["area_m2"],
+        "tension_N": force[:, 0],
+        "shear_N": np.hypot(force[:, 1], force[:, 2]),
+        # 1 where a bond would break; 0 of bonds to the plates, which do not, and of broken ones
+        "utilisation": utilisations(force * [-1.0, 1.0, 1.0], kept["strength_N"]),
+    }
+
+
+def _filmed(
+    output: Path, kept: dict[str, NDArray[Any]], instant: Callable[[int], tuple[_Drawn, _Drawn]]
+) -> str:
+    """Write spheres and bonds of each instant, and the series; what was written, in words."""
     require_vtk()
     folder = output.with_suffix("")
     folder.mkdir(parents=True, exist_ok=True)
     steps = []
-    for k, time in enumerate(times):
+    for k, time in enumerate(kept["time_s"]):
         files = [folder / f"spheres-{k:03d}.vtp", folder / f"bonds-{k:03d}.vtp"]
-        force = kept["bond_force_N"][k]
-        write_poly_data(
-            files[0],
-            position,
-            {
-                "radius_m": kept["radius_m"],
-                "displacement_m": kept["displacement_m"][k],
-                "velocity_m_s": kept["velocity_m_s"][k],
-            },
-        )
-        write_poly_data(
-            files[1],
-            place,
-            {},
-            lines,
-            {
-                "area_m2": kept["area_m2"],
-                "tension_N": force[:, 0],
-                "shear_N": np.hypot(force[:, 1], force[:, 2]),
-                # 1 where a bond would break; 0 of bonds to the plates, which do not, and of broken ones
-                "utilisation": utilisations(force * [-1.0, 1.0, 1.0], kept["strength_N"]),
-                "plate": plate,
-            },
-        )
+        for file, drawn in zip(files, instant(k), strict=True):
+            write_poly_data(file, *drawn)
         steps.append((float(time), files))
     write_series(output, steps)
     size = sum(file.stat().st_size for _, files in steps for file in files)
     return (
-        f"{output}: {counted(len(times), 'instant')} of {counted(len(position), 'sphere')} and "
-        f"{counted(len(ends), 'bond')}, {size / 1e6:.3g} MB in {folder.name}/; displacements in m, forces in N."
+        f"{output}: {counted(len(steps), 'instant')} of {counted(len(kept['radius_m']), 'sphere')} and "
+        f"{counted(len(kept['first']), 'bond')}, {size / 1e6:.3g} MB in {folder.name}/"
     )
 
 
@@ -148,4 +177,5 @@ _WRITERS: dict[str, Callable[[Record, str, Path], str]] = {
     DEPOSIT: _deposit,
     SPECIMEN: _specimen,
     TEST: _test,
+    FALL: _fall,
 }

@@ -36,15 +36,27 @@ def facet_share(shape: Shape, kt_over_kn: float) -> np.ndarray:
     return np.array([1.0, kt_over_kn, kt_over_kn]) / modulus
 
 
-def _inertia(specimen: Specimen) -> tuple[np.ndarray, np.ndarray]:
-    """Mass (n,) [kg] that moves with each sphere, and radius (n,) [m] of a ball of its moment of inertia.
+def inertia(specimen: Specimen) -> np.ndarray:
+    """Masses (n, 3) [kg] and moments of inertia (n, 3) [kg m2] that move with each sphere, side by side.
 
     Cells that fill the specimen bear its mass as evenly as its stiffness; spheres of one density do not.
     """
     cell = specimen.network.cell
-    if not cell.size:
-        return specimen.density * 4.0 / 3.0 * np.pi * specimen.radius**3, specimen.radius
-    return specimen.geometry.mass * cell / cell.sum(), np.cbrt(0.75 * cell / np.pi)
+    if cell.size:
+        mass, radius = specimen.geometry.mass * cell / cell.sum(), np.cbrt(0.75 * cell / np.pi)
+    else:
+        radius = specimen.radius
+        mass = specimen.density * 4.0 / 3.0 * np.pi * radius**3
+    return np.repeat(np.stack([mass, 0.4 * mass * radius**2], axis=1), 3, axis=1)
+
+
+def bond_weight(specimen: Specimen, poisson: float, kt_over_kn: float) -> np.ndarray:
+    """Stiffness per modulus w (b, 3) [m] of the bonds, normal and tangential; see `bending_system`."""
+    if specimen.area == "facets":
+        stiffness = facet_share(specimen.geometry, kt_over_kn)
+    else:
+        stiffness = np.array([1.0, 0.5 / (1.0 + poisson), 0.5 / (1.0 + poisson)])
+    return specimen.network.form[:, None] * stiffness
 
 
 def bending_system(
@@ -66,10 +78,8 @@ def bending_system(
     plates = [plate for plate in geometry.plates if plate.moves]
     if head == "blocked" and len(plates) > 1:
         raise InputError(f"head: {geometry.test} turns the specimen at its clamps; give free.")
-    share, size = _inertia(specimen)
     mass = np.empty((n + len(plates), 6))
-    mass[:n, :3] = share[:, None]
-    mass[:n, 3:] = (0.4 * share * size**2)[:, None]
+    mass[:n] = inertia(specimen)
     mobile = geometry.mobile_mass * np.array([plate.share for plate in plates])
     mass[n:, :3] = mobile[:, None]
     mass[n:, 3:] = mobile[:, None] * geometry.gyration()
@@ -79,15 +89,11 @@ def bending_system(
     position = np.concatenate([specimen.position, centres])
     operator = opening_operator(network.first, network.second, network.frame, network.point, position)
     column, place = _columns(n, plates, head == "blocked")
-    if specimen.area == "facets":
-        stiffness = facet_share(geometry, kt_over_kn)
-    else:
-        stiffness = np.array([1.0, 0.5 / (1.0 + poisson), 0.5 / (1.0 + poisson)])
     strength = yield_stress * network.area
     strength[np.maximum(network.first, network.second) >= n] = np.inf
     return BondedSystem(
         operator=_joined(operator, column),
-        weight=(network.form[:, None] * stiffness).ravel(),
+        weight=bond_weight(specimen, poisson, kt_over_kn).ravel(),
         mass=np.bincount(column[column >= 0], mass.ravel()[column >= 0]),
         load=np.bincount(column[column >= 0], load.ravel()[column >= 0]),
         driven=int(column[6 * n + geometry.axis]),

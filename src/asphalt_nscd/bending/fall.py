@@ -1,0 +1,132 @@
+"""A specimen taken off its plates, whole or sawn in two, that falls on a floor: its bonds turn with its spheres."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, fields
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from asphalt_nscd.bending.condensing import Bonds
+from asphalt_nscd.files.ranges import Ranged, within
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.world import Surroundings, World, WorldBonds, WorldEnergies
+from asphalt_nscd.specimen.preparation import Content
+from asphalt_nscd.specimen.system import bond_weight, inertia
+from asphalt_nscd.specimen.trimming import Specimen
+
+
+@dataclass(frozen=True)
+class Fall(Ranged):
+    """How it falls, and how that is computed.
+
+    height [m] of its lowest point over the floor; tilt [deg] of its axis from upright; sawn: where, as a share of its
+    length from its foot, 0 for whole. frames: instants that are kept, with the first.
+
+    >>> Fall(duration=0.1).steps
+    500
+    """
+
+    height: float = within(0.02, "height_m", low=0.0, high=10.0)
+    tilt: float = within(75.0, "tilt_deg", low=-180.0, high=180.0)
+    sawn: float = within(0.5, low=0.0, below=1.0)
+    duration: float = within(0.5, "duration_s", above=0.0, high=100.0)
+    time_step: float = within(2e-4, "time_step_s", low=1e-7, high=1e-2)
+    frames: int = within(50, low=2, high=10_000)
+
+    @property
+    def steps(self) -> int:
+        """How many."""
+        return max(1, round(self.duration / self.time_step))
+
+
+def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> World:
+    """The specimen over the floor, at rest, its bonds sawn. Bonds to its plates are left out."""
+    network, n = specimen.network, specimen.radius.size
+    inside = np.maximum(network.first, network.second) < n
+    between = WorldBonds(
+        network.first[inside],
+        network.second[inside],
+        network.frame[inside],
+        network.point[inside],
+        bond_weight(specimen, bonds.poisson, bonds.kt_over_kn)[inside].ravel(),
+        bonds.yield_Pa * network.area[inside],
+    )
+    floor = Surroundings(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]]), bonds.friction, bonds.friction)
+    made = World(specimen.position, specimen.radius, inertia(specimen), between, law, floor, fall.time_step)
+    below = specimen.position[:, 2] < fall.sawn * specimen.geometry.h
+    made.cut(below[between.first] != below[between.second])
+    turn = Rotation.from_euler("y", fall.tilt, degrees=True)
+    made.position, made.rotation = turn.apply(specimen.position), turn * made.rotation
+    made.position[:, 2] += fall.height - (made.position[:, 2] - specimen.radius).min()
+    return made
+
+
+def fell(specimen: Specimen, law: BondLaw, fall: Fall = Fall(), bonds: Bonds = Bonds()) -> Content:
+    """Arrays and attributes of the file of a fall.
+
+    The account of energy [J] and the largest speed [m/s] at each instant kept; under frames/ what all spheres and bonds
+    do, as of a test. Of the attributes, shares are of the energy that the fall set free, in percent.
+    """
+    world = released(specimen, law, fall, bonds)
+    sawn, start = int(world.broken.sum()), world.position.copy()
+    kept = set(np.linspace(0, fall.steps, min(fall.frames, fall.steps + 1)).round().astype(int).tolist())
+    rows, frames = [_row(world)], [_frame(world, start)]
+    for step in range(1, fall.steps + 1):
+        world.advance()
+        if step in kept:
+            rows.append(_row(world))
+            frames.append(_frame(world, start))
+    arrays = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    arrays |= {f"frames/{name}": np.array([frame[name] for frame in frames]) for name in frames[0]}
+    arrays |= {
+        "frames/time_s": arrays["time_s"],
+        "frames/position_m": start,
+        "frames/radius_m": world.radius,
+        "frames/first": world.bonds.first,
+        "frames/second": world.bonds.second,
+        "frames/area_m2": world.bonds.strength / bonds.yield_Pa,
+        "frames/strength_N": world.bonds.strength,
+    }
+    return arrays, _told(world, fall, sawn, float(arrays["speed_m_s"][-1]))
+
+
+def _row(world: World) -> dict[str, float]:
+    motion = world.velocity.reshape(-1, 6)[:, :3]
+    energies = {f"{name}_J": float(value) for name, value in asdict(world.energies).items()}
+    return {"time_s": world.time, "speed_m_s": float(np.linalg.norm(motion, axis=1).max()), **energies}
+
+
+def _frame(world: World, start: np.ndarray) -> dict[str, np.ndarray]:
+    force = (world.weight * world.sigma).reshape(-1, 3) * [-1.0, 1.0, 1.0]  # tension is positive
+    return {
+        "displacement_m": np.asarray(world.position - start, np.float32),
+        "velocity_m_s": np.asarray(world.velocity.reshape(-1, 6)[:, :3], np.float32),
+        "fragment": np.asarray(world.fragments(), np.int32),
+        "broken": world.broken.copy(),
+        "bond_force_N": np.asarray(force, np.float32),
+    }
+
+
+def _told(world: World, fall: Fall, sawn: int, speed: float) -> dict[str, Any]:
+    sums = world.energies
+    free = -sums.load
+    shares = {
+        f"{one.name}_percent": 100.0 * getattr(sums, one.name) / free
+        for one in fields(WorldEnergies)
+        if one.name != "load"
+    }
+    return {
+        "spheres": world.radius.size,
+        "bonds": world.broken.size,
+        "sawn_bonds": sawn,
+        "broken_bonds": int(world.broken.sum()) - sawn,
+        "fragments": int(world.fragments().max()) + 1,
+        "time_step_s": fall.time_step,
+        "duration_s": world.time,
+        "speed_m_s": speed,
+        "energy_J": free,
+        **shares,
+        "error_percent": 100.0 * sums.error / free,
+    }

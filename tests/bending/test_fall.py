@@ -1,0 +1,88 @@
+"""A sawn specimen that falls: its pieces turn, meet the floor and rest there, and its energy is accounted for."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import asphalt_nscd as an
+from asphalt_nscd.bending.condensing import Bonds
+from asphalt_nscd.bending.fall import Fall, fell, released
+from asphalt_nscd.cli import main
+from asphalt_nscd.files.store import load, save
+from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam
+
+
+@pytest.fixture(scope="module")
+def small():
+    return jittered_beam(shape=(2, 2, 4), area="facets")
+
+
+def test_it_starts_at_rest_over_the_floor_in_two_pieces(small):
+    world = released(small, QUICK_LAW, Fall(height=3e-3, tilt=90.0, sawn=0.5), Bonds())
+    assert (world.position[:, 2] - world.radius).min() == pytest.approx(3e-3)
+    assert np.ptp(world.position[:, 0]) > np.ptp(world.position[:, 2])  # it lies
+    assert np.abs(world.opening()).max() < 1e-15
+    assert world.mass.reshape(-1, 6)[:, 0].sum() == pytest.approx(small.geometry.mass)
+    foot = small.position[:, 2] < 0.5 * small.geometry.h
+    assert len(set(world.fragments()[foot])) == 1 and len(set(world.fragments().tolist())) == 2
+    assert not released(small, QUICK_LAW, Fall(sawn=0.0), Bonds()).broken.any()
+
+
+def test_what_a_fall_sets_free_is_what_named_parts_take(small):
+    """In free fall 20 mm set m g h free and all is motion; on the floor, impacts and friction have taken it.
+
+    What implicit Euler takes is less than one percent and falls with the step.
+    """
+    free = fell(small, QUICK_LAW, Fall(tilt=60.0, duration=0.04, frames=2), Bonds())[1]
+    assert free["energy_J"] == pytest.approx(small.geometry.mass * 9.81**2 * 0.04 * 0.0402 / 2, rel=1e-9)
+    assert free["kinetic_percent"] == pytest.approx(100 * 200 / 201, rel=1e-6)
+    assert free["numerical_percent"] == pytest.approx(100 / 201, rel=1e-6)
+    taken = [
+        fell(small, QUICK_LAW, Fall(tilt=60.0, duration=0.12, time_step=dt, frames=2), Bonds())[1]
+        for dt in (4e-4, 2e-4)
+    ]
+    for one in taken:
+        assert abs(one["error_percent"]) < 1e-6
+        assert one["impact_percent"] > 50.0 and one["friction_percent"] > 0.0
+        named = [one[f"{name}_percent"] for name in ("kinetic", "springs", "dashpots", "friction", "impact")]
+        assert min(named) >= 0.0 and sum(named) == pytest.approx(100.0, abs=1.5)
+    scheme = [abs(one["numerical_percent"]) + abs(one["turning_percent"]) for one in taken]
+    assert scheme[1] < 0.8 * scheme[0]
+
+
+@pytest.mark.slow
+def test_both_pieces_come_to_rest(small):
+    arrays, said = fell(small, QUICK_LAW, Fall(height=5e-3, duration=0.8, time_step=4e-4, frames=9), Bonds())
+    assert said["fragments"] == 2 and said["broken_bonds"] == 0
+    assert arrays["speed_m_s"].max() > 0.2 and arrays["speed_m_s"][-1] < 1e-6
+    lowest = arrays["frames/position_m"] + arrays["frames/displacement_m"][-1]
+    assert lowest[:, 2] == pytest.approx(
+        np.maximum(lowest[:, 2], small.radius - 1e-6)
+    )  # none is in the floor
+
+
+def test_a_fall_from_the_command_line_is_filmed(small, tmp_path):
+    arrays = {"position": small.position, "radius": small.radius}
+    arrays |= {f"network/{name}": value for name, value in small.network.arrays().items()}
+    attributes = small.geometry.attributes() | {"area": "facets"}
+    save(tmp_path / "s.h5", "specimen", arrays, attributes | {"density": small.density, "loose_grains": 0})
+    an.Law.burgers(Em_Pa=2e10, eta_m_Pa_s=4e9, Ek_Pa=4e10, eta_k_Pa_s=8e8, temperature_C=15).write(
+        tmp_path / "l.json"
+    )
+    for words in (
+        f"fall {tmp_path}/s.h5 --law {tmp_path}/l.json --duration-s 0.002 --frames 3 --output {tmp_path}/f.h5",
+        f"export {tmp_path}/f.h5 --format csv --output {tmp_path}/f.csv",
+        f"export {tmp_path}/f.h5 --format vtk --output {tmp_path}/f.pvd",
+    ):
+        with pytest.raises(SystemExit) as done:
+            main(words.split())
+        assert done.value.code == 0
+    table = pd.read_csv(tmp_path / "f.csv")
+    assert table["time_s"].tolist() == pytest.approx([0.0, 1e-3, 2e-3])
+    assert table["load_J"].to_numpy() == pytest.approx(load(tmp_path / "f.h5", "fall").arrays["load_J"])
+    files = [one.get("file") for one in ElementTree.parse(tmp_path / "f.pvd").getroot().iter("DataSet")]
+    assert len(files) == 6 and all((tmp_path / file).exists() for file in files)
