@@ -384,3 +384,25 @@ def test_tests_of_one_isotherm_with_one_reason_are_one_sentence():
     ]
     told = answer(suspect_tests=copied)["Leave out"]
     assert told == ["Specimen A, 21 degC, 0.1 to 25 Hz (4 frequencies): a copy."]
+
+
+def test_a_possible_fault_is_told_with_its_probability():
+    unsure = rung("phase_offset", 1.5, "deg", established=False, taken_off=False)
+    for value, told in ((0.72, " Its probability is 72 %."), (0.999, " Its probability is above 99 %.")):
+        (said, _) = faults(unsure | {"probability": value})[1]
+        assert said == (
+            "Phase offset in all tests, 1.50 +- 0.20 deg. If so, the measured phases are too large." + told
+        )
+
+
+def test_an_isotherm_that_is_to_be_checked_is_not_told_again_as_unexplained():
+    left = [part_left("isotherm", "phase", 3.0, temperature_C=37.0)]
+    scatter = {"phase_deg": 0.5, "modulus_percent": 1.0, "from_replicates": True}
+    broken = [{"temperature_C": 37.0, "sentence": "s", "worst_Hz": 25.0, "worst_deg": 4.0}]
+    then = {"scatter": scatter, "lack_of_fit_p_value": 1e-9, "verdict": "unexplained_structure"}
+    then["contradictory_isotherms"] = broken
+    assert "Unexplained" not in answer(discrepancy=left, **then)
+    cold = part_left("isotherm", "modulus", 2.0, temperature_C=4.0)
+    assert answer(discrepancy=[*left, cold], **then)["Unexplained"] == [
+        "Beyond scatter, the common master curve is off by 2.0 % in |E*| at 4 degC."
+    ]

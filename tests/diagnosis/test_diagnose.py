@@ -48,8 +48,8 @@ EFFECTS = {
     ("loose_clamp", "b"): (2.2e-12, lambda e, s, t, w: np.where(s == 1, e / (1 + 2.2e-12 * e), e)),
     ("specimen_geometry", "c"): (-0.4, lambda e, s, t, w: np.where(s == 2, 0.6 * e, e)),
     ("temperature_bias", 15.0): (
-        0.7,
-        lambda e, s, t, w: LAW.complex_modulus(w, t + np.where(t == 15, 0.7, 0)),
+        2.0,
+        lambda e, s, t, w: LAW.complex_modulus(w, t + np.where(t == 15, 2.0, 0)),
     ),
 }
 

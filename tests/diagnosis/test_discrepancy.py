@@ -65,7 +65,12 @@ def small(random) -> tuple[Reduced, Direction]:
     block = np.repeat(np.arange(PARTS), COLUMNS // PARTS)
     roots = tuple(np.zeros((20, COLUMNS // PARTS), complex) for _ in range(PARTS))
     found = Processes(
-        tuple(Process("all", part) for part in "abcd"), roots, u, block, np.array([0.5, 0.1, 0.3, 1.0])
+        tuple(Process("all", part) for part in "abcd"),
+        roots,
+        u,
+        block,
+        np.array([0.5, 0.1, 0.3, 1.0]),
+        np.array([np.inf, 0.4, np.inf, 0.6]),
     )
     model = Reduced(found, u.T @ u, (u.T @ y)[:, 0])
     return model, Direction(u.T @ d, d.T @ d, (d.T @ y)[:, 0])

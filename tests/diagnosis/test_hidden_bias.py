@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import hidden_bias
-from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.chance import ABSORBED, catalogue_candidates
+from asphalt_nscd.diagnosis import doubts
+from asphalt_nscd.diagnosis.chance import ABSORBED
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.table_import.campaign import read_campaign
@@ -72,20 +71,12 @@ def test_every_isotherm_of_four_has_a_limit_and_a_bias_beyond_it_is_found(right)
         assert biases(recorded(place, -1.5 * limits[place])), place
 
 
-def test_nothing_is_fitted_where_the_shift_is_usual(right, monkeypatch):
-    ladder = right.ladder
-    bias = [c for c in catalogue_candidates(right.observed, CATALOGUE) if isinstance(c.place, float)]
-    seen = np.zeros(len(bias), bool)
-    monkeypatch.setattr(type(ladder.joint), "fit", None)
-    assert not hidden_bias.gains(ladder.joint, ladder.fitted, bias, seen).any()
-
-
 def test_a_direction_is_followed_if_the_fit_leaves_a_trifle_of_it(right):
     fitted = right.ladder.fitted
     within = fitted.jacobian @ np.ones(fitted.jacobian.shape[1])
     residual = np.linalg.qr(fitted.jacobian, mode="complete")[0][:, -1]  # at right angles to all it can do
     free = replace(fitted, precision=fitted.jacobian.T @ fitted.jacobian + 1e-9 * np.eye(fitted.law.size + 4))
-    assert hidden_bias.followed(free, within[:, None])
-    assert not hidden_bias.followed(free, residual[:, None])
+    assert doubts._followed(free, within[:, None])
+    assert not doubts._followed(free, residual[:, None])
     mostly = within / np.linalg.norm(within) + 2.0 * np.sqrt(ABSORBED) * residual
-    assert not hidden_bias.followed(free, mostly[:, None])
+    assert not doubts._followed(free, mostly[:, None])

@@ -49,7 +49,8 @@ def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(dela
     assert first["specimens"] == [METAL] and first["temperature_C"] is None
     assert 40.0 in first["frequencies_Hz"]
     (why,) = [sentence for sentence in first["why"] if "Metal" in sentence]
-    assert f"{np.degrees(1.5e-4 * 80 * np.pi):.1f} deg of phase at 40 Hz" in why
+    (rung,) = delayed.ladder.rungs
+    assert f"{np.degrees(rung.candidate.values[0] * 80 * np.pi):.1f} deg of phase at 40 Hz" in why
     assert len(instructions.instructions(delayed)["orders"]) <= 5
 
 
@@ -213,19 +214,19 @@ def test_a_sweep_that_was_asked_for_lowers_the_limit_as_promised(empty):
     """A bias of one isotherm: the sweep that says most of it is added to the table, which is diagnosed again."""
     found = empty
     model = possible(found, Costs())
-    k = next(k for k, c in enumerate(model.candidates) if c.key == ("temperature_bias", 20.0))
+    k = next(k for k, c in enumerate(model.candidates) if c.key == ("temperature_bias", 30.0))
     known = Knowledge(model.linear, [model.old])
     own = [one for one in model.sweeps if one.specimen in found.observed.names and not one.half_strain]
     more = known.gained([one.tested for one in own])[:, k, k]
     best, least = own[int(np.argmax(more))], own[int(np.argmin(more))]
-    before = found.ladder.limits["temperature_bias", 20.0]
+    before = found.ladder.limits["temperature_bias", 30.0]
     after = {}
     for one, gained in ((best, max(more)), (least, min(more))):
         wider = diagnose(_with(found.observed, one.specimen, one.temperature, one.frequencies), draws=1000)
-        after[one.temperature] = wider.ladder.limits["temperature_bias", 20.0]
+        after[one.temperature] = wider.ladder.limits["temperature_bias", 30.0]
         promised = before * np.sqrt(known.information[k, k] / (known.information[k, k] + gained))
         assert after[one.temperature] == pytest.approx(promised, rel=0.2)
-    assert after[best.temperature] < 0.9 * after[least.temperature]
+    assert after[best.temperature] < 0.8 * after[least.temperature]
 
 
 def _with(observed: Observations, specimen: str, temperature: float, frequencies) -> Observations:

@@ -111,3 +111,20 @@ def test_a_campaign_of_one_isotherm_is_left_out_and_said():
     }
     found = pooled.pool(alone, draws=1000)
     assert found.left_out == ("one",) and "Not used for this: one" in str(found)
+
+
+def test_campaigns_that_differ_widen_the_error_by_what_they_differ():
+    """DerSimonian and Laird's variance between campaigns, and none where they agree as well as they say."""
+    weight, value = np.array([400.0, 100.0, 100.0, 25.0]), np.array([0.0, 1.0, -0.6, 0.8])
+    each = [pooled._Evidence(np.array([[w]]), np.array([w * v])) for w, v in zip(weight, value, strict=True)]
+    found = pooled._together(each, np.zeros(0))
+    mean = weight @ value / weight.sum()
+    between = (weight @ (value - mean) ** 2 - 3.0) / (weight.sum() - weight @ weight / weight.sum())
+    wide = 1.0 / (1.0 / weight + between)
+    assert found.differ < 1e-6 and found.between == pytest.approx(np.sqrt(between))
+    assert (
+        found.std_error == pytest.approx(wide.sum() ** -0.5) and found.std_error > 5.0 * weight.sum() ** -0.5
+    )
+    assert found.value == pytest.approx(wide @ value / wide.sum())
+    agree = [pooled._Evidence(np.array([[w]]), np.array([0.1 * w])) for w in weight]
+    assert pooled._together(agree, np.zeros(0)).std_error == pytest.approx(weight.sum() ** -0.5, rel=0.05)

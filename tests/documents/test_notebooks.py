@@ -10,7 +10,7 @@ from nbclient import NotebookClient
 
 NOTEBOOKS = Path(__file__).parents[2] / "notebooks"
 SHOWN = {  # in some output
-    "diagnosis": ["channel_delay", "0.000792", "Mix-B", "2S2P1D", "71 tests used"],
+    "diagnosis": ["channel_delay", "0.000788", "Mix-B", "2S2P1D", "71 tests used"],
     "specimen": ["Packing(700 spheres", "bonds by facets", "E_law_MPa", "0.02943", "0.00981"],
 }
 PICTURES = {"diagnosis": 2, "specimen": 1}

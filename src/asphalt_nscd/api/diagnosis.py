@@ -328,11 +328,11 @@ def diagnose(
     --------
     >>> diagnosis = diagnose("data/tutorial/exports", draws=Draws(500))
     >>> diagnosis
-    Diagnosis(explained: channel_delay 0.000792 s (established); 71 tests used, 1 not used)
+    Diagnosis(explained: channel_delay 0.000788 s (established); 71 tests used, 1 not used)
     >>> diagnosis.ladder[["cause", "error_E_before_percent", "error_E_after_percent"]].round()
                      cause  error_E_before_percent  error_E_after_percent
-    0  relaxation_spectrum                    16.0                    4.0
-    1        channel_delay                     4.0                    0.0
+    0  relaxation_spectrum                    16.0                    3.0
+    1        channel_delay                     3.0                    0.0
     """
     scatter, static = known.scatter, known.static_modulus_MPa
     stated = None if scatter is None else (scatter[0] / 100.0, float(np.radians(scatter[1])))

@@ -184,12 +184,19 @@ def _fault(rung: Content, content: Content) -> str:
     if not sure(rung):
         same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
         if same:
-            return f"{said} Not certain: {joined(list(map(sentences.in_words, same)), 'or')} fits as well."
+            others = joined(list(map(sentences.in_words, same)), "or")
+            return f"{said} Not certain: {others} fits as well.{_probability(rung)}"
+        said += _probability(rung)
         return f"{said} law.json is corrected for it all the same." if _taken_off(rung, content) else said
     if of_the_mix:
         return f"{said} law.json is free of it." if _taken_off(rung, content) else said
     correction = verdict.correction(rung)
     return f"{said} Correction: {correction}." if correction else said
+
+
+def _probability(rung: Content) -> str:
+    """How likely a name is that is not certain."""
+    return f" Its probability is {sentences.probability(rung)}." if "probability" in rung else ""
 
 
 def _taken_off(rung: Content, content: Content) -> bool:
@@ -368,7 +375,11 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
 
 
 def _unexplained(content: Content) -> list[str]:
-    parts = unexplained.left(content)[:PARTS] if sentences.more_than_scatter(content) else []
+    # An isotherm that contradicts itself is told under what to check first.
+    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
+    of_others = [one for one in content.get("discrepancy", []) if one["temperature_C"] not in broken]
+    told = sentences.more_than_scatter(content) and bool(of_others or not content.get("discrepancy"))
+    parts = unexplained.left({**content, "discrepancy": of_others})[:PARTS] if told else []
     remark = unexplained.which_departs(content, PARTS) if parts else []
     off = "the common master curve is off by " if content.get("discrepancy") else ""
     said = [f"Beyond scatter, {off}{part}" for part in parts if part not in remark]

@@ -12,8 +12,10 @@ from asphalt_nscd.diagnosis import causality, chance, copies, scatter, start, su
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP
+from asphalt_nscd.diagnosis.criteria import NAMED
 from asphalt_nscd.diagnosis.doubts import Key, find_doubts
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
+from asphalt_nscd.diagnosis.laboratory import Laboratory, with_laboratory
 from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.suspects import Suspect
@@ -30,7 +32,8 @@ class Diagnosis:
 
     observed: Observations
     set_aside: Observations  # outliers among replicates, not used
-    noise: Noise
+    noise: Noise  # of single tests, and what the laboratory adds to it
+    alone: Noise  # of single tests
     replicated: bool  # whether a lack of fit can be tested: by replicates or a stated scatter
     baseline: Fitted
     baseline_joint: Joint
@@ -44,21 +47,20 @@ class Diagnosis:
     suspects: tuple[Suspect, ...] = ()  # rows of whole
     too_few: str = ""  # why these data tell no cause from what the catalogue lacks; empty if they may
     doubts: dict[Key, list[str]] = field(default_factory=dict)  # of names, see `diagnosis.doubts`
+    laboratory: Laboratory | None = None  # None where one isotherm was tested
 
     def established(self, rung: Rung) -> bool:
         """Whether a name is more than the likeliest: no rival, with a name or without, carried by the whole table."""
-        return not self.too_few and self.taken_off(rung)
+        return not self.too_few and rung.probability >= NAMED and self.taken_off(rung)
 
     def taken_off(self, rung: Rung) -> bool:
         """Whether law.json is free of a cause, and the extended simulation holds it.
 
-        What the table itself speaks against stays in the data. Of a table too small to say, the likeliest is taken off.
+        What the table itself speaks against stays in the data.
         """
         if rung.rivals or rung.candidate.key in self.doubts:
             return False
-        if self.ladder.discrepancy:
-            return not self.ladder.hangs_on[rung.candidate.key]
-        return self.verdict == "explained" or bool(self.too_few)
+        return not self.ladder.hangs_on[rung.candidate.key]
 
 
 def diagnose(
@@ -89,18 +91,21 @@ def diagnose(
             "Repeated tests agree better than tests can be repeated; taken as a scatter of "
             f"{100.0 * scatter.FLOOR:g} % and {np.degrees(scatter.FLOOR):.2g} deg. Check that they are separate tests."
         )
+    alone = noise
     joint, fitted = start.fit_spectrum(observed, noise)
-    baseline_joint, baseline = start.fit_burgers_at_each(observed, noise)
-    baseline_p = misfit_p_value(baseline, noise)
+    wide, laboratory = with_laboratory(joint, fitted)
+    if laboratory is not None:
+        noise = wide.noise
+        joint, fitted = start.of_likeliest_roughness(wide, fitted)
+    # A law that cannot follow the tests leaves them to temperatures and mountings if it may.
+    baseline_joint, baseline = start.fit_burgers_at_each(observed, alone)
+    baseline_p = misfit_p_value(baseline, alone)
     spectrum_p = misfit_p_value(fitted, noise)
     spectrum_better = _information(fitted) < _information(baseline)
     no_common_law = baseline_p > ALPHA_PER_STEP and not spectrum_better and spectrum_p < ALPHA_PER_STEP
     if no_common_law:
         joint, fitted = baseline_joint, baseline
-        notes.append(
-            "The Burgers laws fit and no law common to all temperatures does; causes are judged against "
-            "the Burgers laws."
-        )
+        notes.append("The Burgers laws fit and no law common to all temperatures does: no cause is sought.")
     if observed.frequencies.size < 3:
         notes.append("Two frequencies: Burgers laws fit them exactly, so their misfit cannot be judged.")
     ladder = climb(joint, fitted, catalogue, draws, seed)
@@ -109,6 +114,7 @@ def diagnose(
         observed,
         whole.subset(aside),
         noise,
+        alone,
         replicated,
         baseline,
         baseline_joint,
@@ -119,6 +125,7 @@ def diagnose(
         notes=notes,
     )
     diagnosis.whole, diagnosis.suspects = whole, tuple(doubtful)
+    diagnosis.laboratory = laboratory
     diagnosis.doubts = _doubts(ladder, noise)
     diagnosis.verdict = _verdict(diagnosis)
     diagnosis.too_few = too_few = _too_few(diagnosis)

@@ -65,7 +65,9 @@ class Processes:
     """The m processes of a table, of unit variance in units of the scatter of one test.
 
     roots: factors (n, rank) of ln E* of each process, real for the modulus and imaginary for the phase;
-    factor (2n, q): all of them whitened; block (q,): process of each column; usual (m,): usual sizes.
+    factor (2n, q): all of them whitened; block (q,): process of each column; usual (m,): usual sizes; spread (m,):
+    standard deviation of the logarithm of a size that is about the usual one, infinite of one that is mostly zero
+    (half-Cauchy).
     """
 
     described: tuple[Process, ...]
@@ -73,6 +75,18 @@ class Processes:
     factor: NDArray
     block: NDArray[np.int64]
     usual: Vector
+    spread: Vector
+
+    def prior(self, variances: Vector) -> tuple[float, Vector, Vector]:
+        """-2 ln of the prior of the sizes; its first and second derivatives (m,) along the variances."""
+        away = np.log(variances / self.usual**2)
+        about = np.isfinite(self.spread)
+        s = np.where(about, 2.0 * self.spread, 1.0) ** 2
+        value = np.where(about, away**2 / s, 2.0 * np.log1p(variances / self.usual**2))
+        rare = 2.0 / (self.usual**2 + variances)
+        slope = np.where(about, 2.0 * away / s / variances, rare)
+        bend = np.where(about, (2.0 / s / variances - slope) / variances, -0.5 * rare**2)
+        return float(value.sum()), slope, bend
 
     def beside(self, variances: Vector) -> NDArray:
         """Factor (2n, r) of the covariance of ln|E*| and of the phase."""
@@ -102,7 +116,8 @@ def processes(joint: Joint, fitted: Fitted) -> Processes:
     usual = [USUAL[process.kind] for process in described]
     factor = np.hstack([noise.whiten(root) for root in roots])
     block = np.repeat(np.arange(len(roots)), [root.shape[1] for root in roots])
-    return Processes(tuple(described), tuple(roots), factor, block, np.array(usual))
+    rare = np.full(len(usual), np.inf)
+    return Processes(tuple(described), tuple(roots), factor, block, np.array(usual), rare)
 
 
 def _of_spectrum(joint: Joint, fitted: Fitted) -> NDArray[np.complex128]:
@@ -283,10 +298,10 @@ def _curvature(model: Reduced, cause: Direction, variances: Vector) -> tuple[NDA
     pull = pull - sensed * float(cause.along[0] - right[:, 1] @ solved[:, 0]) / information
     left = left - np.outer(sensed, sensed) / information
     member = np.eye(m)[block]
-    prior = 2.0 / (found.usual**2 + variances)
-    gradient = np.bincount(block, np.diag(left) - pull**2, m) + prior
+    _, slope, bend = found.prior(variances)
+    gradient = np.bincount(block, np.diag(left) - pull**2, m) + slope
     second = member.T @ (2.0 * pull[:, None] * left * pull - left**2) @ member
-    second[range(m), range(m)] += gradient / variances - 0.5 * prior**2
+    second[range(m), range(m)] += gradient / variances + bend
     along = -variances * np.bincount(block, sensed * pull, m) / information
     return variances[:, None] * second * variances, along
 
@@ -325,9 +340,10 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
         sensed = solved[:, 1] / s
         diagonal = diagonal - sensed**2 / information
         pull = pull - sensed * amplitude
-    misfit += 2.0 * float(np.log1p(v / found.usual**2).sum())  # half-Cauchy on the size sqrt(v)
-    trace = np.bincount(block, np.maximum(diagonal, 0.0), m) + 2.0 / (found.usual**2 + v)
-    square = np.bincount(block, pull**2, m)
+    prior, slope, _ = found.prior(v)
+    misfit += prior
+    trace = np.bincount(block, np.maximum(diagonal, 0.0), m) + np.maximum(slope, 0.0)
+    square = np.bincount(block, pull**2, m) + np.maximum(-slope, 0.0)
     step = 0.5 * np.log(np.maximum(square, 1e-12) / trace)
     return _Point(misfit + interval, misfit, step, amplitude, std_error)
 

@@ -15,8 +15,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import discrepancy, hidden_bias
+from asphalt_nscd.diagnosis import discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
+from asphalt_nscd.diagnosis.chance import ABSORBED
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Process, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -123,6 +124,7 @@ class _Table:
             factor,
             np.repeat(np.arange(len(count)), count),
             np.array([*found.usual, *(usual for _ in roots)]),
+            np.concatenate([found.spread, np.full(len(roots), np.inf)]),
         )
         model: Reduced = discrepancy.reduce(every, rest)
         along: Direction | None = (
@@ -135,7 +137,7 @@ class _Table:
 
 def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
     rest, direction, effect = table.without(candidate)
-    if isinstance(candidate.place, float) and hidden_bias.followed(rest, direction):
+    if isinstance(candidate.place, float) and _followed(rest, direction):
         yield "A shift with temperature of unusual form looks the same"
     alone = table.beside(rest, direction, (), 1.0)
     observed, sigma = table.plain.observed, table.plain.noise.sigma
@@ -161,6 +163,13 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         parts = parts[:, np.abs(parts).max(axis=0) > 0.0]
         if parts.shape[1] > 1 and abs(table.beside(rest, direction, (parts,), 1.0).z) < ENOUGH <= least:
             yield f"Its size may differ between {words}"
+
+
+def _followed(rest: Fitted, direction: NDArray) -> bool:
+    """Whether a fit without a cause follows all but a trifle of it; direction: whitened (2n, 1)."""
+    d = direction[:, 0]
+    taken = rest.jacobian.T @ d
+    return bool(d @ d - taken @ np.linalg.solve(rest.precision, taken) <= ABSORBED * (d @ d))
 
 
 def _shaped(plain: Joint) -> Iterator[tuple[str, list[NDArray[np.complex128]]]]:

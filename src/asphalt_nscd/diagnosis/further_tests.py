@@ -84,6 +84,9 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     nuisance, precision = _of_law(joint, at)
     keys = tuple(c.key for c in fitted.active)
     effects = np.column_stack([_effect(joint, at, candidate, keys) for candidate in candidates])
+    if diagnosis.laboratory is not None:  # every sweep is a mounting of its own
+        added = diagnosis.laboratory.factor(joint, at, noise.block)
+        nuisance, precision = np.hstack([nuisance, added]), _block(precision, np.ones(added.shape[1]))
     processes, roots, variances = _discrepancy(diagnosis, joint, at)
     of_law = nuisance.shape[1]
     nuisance = np.hstack([nuisance, *roots])

@@ -160,7 +160,7 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
     names = [candidate.cause.name for candidate in model.candidates]
     spread = diagnosis.ladder.estimates_spread  # by which an effect is harder to find
     for j in range(len(active), len(model.candidates)):
-        if diagnosis.ladder.discrepancy and len(model.candidates[j].values) > 1:
+        if diagnosis.ladder.noticed and len(model.candidates[j].values) > 1:
             continue  # a cause with a shape of its own gets no name beside a discrepancy
         question = Question(j, REACH / spread, active, FOUND, PRESENT / names.count(names[j]))
         hidden = max(float(question.strength(known)) - _by_limit(diagnosis, model.candidates[j]), 0.0)

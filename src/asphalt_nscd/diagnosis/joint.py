@@ -68,6 +68,11 @@ class Noise:
     freedom: int
     discrepancy: NDArray | None = None
 
+    def beside(self, factor: NDArray) -> Noise:
+        """With another discrepancy beside this one; factor (2n, q)."""
+        both = factor if self.discrepancy is None else np.hstack([self.discrepancy, factor])
+        return replace(self, discrepancy=both)
+
     def subset(self, rows: NDArray) -> Noise:
         """The noise of some of the rows."""
         both = np.concatenate([np.arange(self.block.size)[rows] + k * self.block.size for k in (0, 1)])

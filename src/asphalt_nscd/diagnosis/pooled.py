@@ -143,7 +143,6 @@ def _sentence(one: Common) -> str:
 class _Campaign:
     name: str
     state: with_discrepancy.State
-    sizes: bool  # whether it has a discrepancy
     spread: float  # factor on its errors, as its own diagnosis tells them
 
     def with_causes(self, causes: Sequence[Cause], amplitudes: Vector) -> _Campaign:
@@ -238,12 +237,10 @@ def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
     base = ladder.joint.base
     if not isinstance(base, FlexibleSpectrum) or diagnosis.observed.isotherms.size < 2:
         return None
-    plain = Joint(diagnosis.observed, base, replace(ladder.joint.noise, discrepancy=None))
+    plain = Joint(diagnosis.observed, base, diagnosis.noise)
     own = tuple(one for one in ladder.fitted.active if not of_machine(one.cause))
     fitted = plain.fit(ladder.fitted.law, ladder.fitted.scales, own)
-    sizes = bool(ladder.discrepancy)
-    begin = with_discrepancy.begin if sizes else with_discrepancy.without_discrepancy
-    return _Campaign(name, begin(plain, fitted), sizes, widening(ladder.estimates_spread))
+    return _Campaign(name, with_discrepancy.begin(plain, fitted), widening(ladder.estimates_spread))
 
 
 def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | None = None) -> _Evidence:
@@ -262,10 +259,8 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
     rest = _without(state.linear, inside)
     model = discrepancy.reduce(state.model.processes, rest)
     pointing = discrepancy.directions(model, rest, state.plain.noise.whiten(np.column_stack(columns)))
-    variances = state.variances
-    if campaign.sizes:
-        # Those before the last are held at where they stand: their size is common and known far better.
-        variances = discrepancy.estimate(model, pointing.column(len(shown) - 1), variances).variances
+    # Those before the last are held at where they stand: their size is common and known far better.
+    variances = discrepancy.estimate(model, pointing.column(len(shown) - 1), state.variances).variances
     if parts is not None:
         apart = columns[-1][:, None] * parts
         pointing = discrepancy.directions(model, rest, state.plain.noise.whiten(apart))

@@ -10,7 +10,7 @@ from asphalt_nscd.diagnosis.bases import BurgersAtEach
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, cell_residuals
-from asphalt_nscd.diagnosis.gain import errors, simulated_by, with_burgers_laws
+from asphalt_nscd.diagnosis.gain import by_tests_alone, errors, simulated_by, with_burgers_laws
 from asphalt_nscd.diagnosis.heldout import HeldOut
 from asphalt_nscd.diagnosis.joint import Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -22,7 +22,7 @@ from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION, WIDE_SPREAD,
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
     """Content of `diagnosis.json` (schema: diagnosis.schema.yaml beside this file)."""
-    ladder, held = [], HeldOut(diagnosis.ladder.joint)
+    ladder, held = [], HeldOut(by_tests_alone(diagnosis))
     if diagnosis.relaxation_spectrum:
         ladder.append(of_law(diagnosis, specimen, held))
     ladder += [of_cause(diagnosis, rung, specimen, held) for rung in diagnosis.ladder.rungs]
@@ -64,6 +64,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
                 "size": size,
             }
             for one, size in diagnosis.ladder.noticed.items()
+            if diagnosis.verdict == "unexplained_structure"
         ],
         "lack_of_fit_p_value": diagnosis.law_p,
         "largest_pattern_left": None

@@ -8,12 +8,12 @@ import numpy as np
 
 from asphalt_nscd.diagnosis.bases import LN10, FlexibleSpectrum
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
-from asphalt_nscd.diagnosis.gain import before_and_after, simulated_by, with_common_law
+from asphalt_nscd.diagnosis.gain import before_and_after, nearest, with_burgers_laws, with_common_law
 from asphalt_nscd.diagnosis.heldout import HeldOut
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted
 from asphalt_nscd.diagnosis.ladder import Rung
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at
+from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at, widening
 
 
 def name_of(candidate: Candidate) -> str:
@@ -23,8 +23,8 @@ def name_of(candidate: Candidate) -> str:
 
 def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
     """What a rung gains in sample and on tests left out, as diagnosis.json has it."""
-    joint, observed = diagnosis.ladder.joint, diagnosis.observed
-    before, after = (simulated_by(joint, fitted, specimen) for fitted in (rung.before, rung.after))
+    observed = diagnosis.observed
+    before, after = (nearest(diagnosis, fitted, specimen) for fitted in (rung.before, rung.after))
     gain: dict[str, Any] = {"in_sample": before_and_after(diagnosis, before, after)}
     held_out = {}
     for part, count in (("isotherm", observed.isotherms.size), ("frequency", observed.frequencies.size)):
@@ -41,6 +41,7 @@ def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held
         "parameters": _parameters(diagnosis, final),
         "p_value": rung.p_value,
         "gain": gain,
+        "probability": rung.probability,
         "as_good": [name_of(rival) for rival in rung.rivals],
         "established": diagnosis.established(rung),
         "taken_off": diagnosis.taken_off(rung),
@@ -65,7 +66,7 @@ def amplitude(diagnosis: Diagnosis, candidate: Candidate) -> tuple[float, float]
 
 def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[str, Any]]:
     errors = diagnosis.ladder.std_errors(candidate)
-    return {
+    found: dict[str, dict[str, Any]] = {
         parameter.name: {
             "value": value,
             "std_error": float(errors[k]),
@@ -73,12 +74,18 @@ def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[st
         }
         for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True))
     }
+    half = widening(diagnosis.ladder.estimates_spread) * CONFIDENCE * float(errors[0])
+    found[candidate.cause.parameters[0].name]["interval_95"] = [
+        candidate.values[0] - half,
+        candidate.values[0] + half,
+    ]
+    return found
 
 
 def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
     """The first rung: one continuous spectrum for all temperatures instead of a Burgers law for each."""
     ladder, observed = diagnosis.ladder, diagnosis.observed
-    before = simulated_by(diagnosis.baseline_joint, diagnosis.baseline, specimen)
+    before = with_burgers_laws(diagnosis, specimen)
     after = with_common_law(diagnosis, specimen)
     held_out = {}
     if observed.isotherms.size > 2:

@@ -11,6 +11,7 @@ from typing import Any
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP, LEAST_ISOTHERMS
+from asphalt_nscd.diagnosis.criteria import NAMED
 from asphalt_nscd.diagnosis.written import (
     CONFIDENCE,
     CONFINED_TO,
@@ -199,6 +200,7 @@ def _sure(rung: Content, content: Content) -> str:
     if rung["cause"] == BOND_MAPPING:
         return f"Established: {rung['evidence']}."
     chance = "below one in a million" if rung["p_value"] < 1e-6 else _per_cent(rung["p_value"])
+    likely = f", with a probability of {probability(rung)}" if "probability" in rung else ""
     doubts = _doubts(rung, content)
     if doubts:
         first, *more = doubts
@@ -206,9 +208,9 @@ def _sure(rung: Content, content: Content) -> str:
     if not rung.get("established", True):
         return f"Not certain: {lacking(content)}."
     if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
-        return "Established. It stays whichever isotherm, frequency or specimen is left out."
+        return f"Established{likely}. It stays whichever isotherm, frequency or specimen is left out."
     if rung["cause"] != "relaxation_spectrum":
-        return f"Established: the chance that scatter alone produces it is {chance}."
+        return f"Established{likely}: the chance that scatter alone produces it is {chance}."
     if all(one["cause"] != BOND_MAPPING for one in content["ladder"]):
         return ""  # the Burgers laws are those of the simulated paper
     return (
@@ -233,10 +235,18 @@ def _doubts(rung: Content, content: Content) -> list[str]:
         left_out = f"{joined(rung['hangs_on'], 'or')} is left out"
         doubts.append(f"It is no longer found if {left_out}")
     doubts += rung.get("doubts", [])
+    if rung.get("probability", 1.0) < NAMED:
+        doubts.append(f"Its probability is {probability(rung)}, and certainty takes {100.0 * NAMED:.0f} %")
     isotherms = content.get("reading", {}).get("isotherms_C", [])
     if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):
         doubts.append(f"Besides, {lacking(content)}")
     return doubts
+
+
+def probability(rung: Content) -> str:
+    """Of a name at its place; that another cause or none holds is the rest."""
+    value = 100.0 * rung["probability"]
+    return "above 99 %" if value > 99.0 else f"{value:.0f} %"
 
 
 def worsens(rung: Content) -> bool:

@@ -17,9 +17,11 @@ from numpy.typing import NDArray
 from asphalt_nscd.diagnosis import chance, discrepancy, limits
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP, DELTA_DEVIANCE, Scores
+from asphalt_nscd.diagnosis.criteria import POSSIBLE
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.probability import log_odds, shares
 from asphalt_nscd.diagnosis.start import of_likeliest_roughness
 from asphalt_nscd.files.words import specimen_named
 
@@ -32,6 +34,7 @@ NEAR = 0.6  # share of what a name needs, above which a candidate is refitted
 SURVIVES = 3.0  # standard errors that an estimate must keep where something is left out
 SETTLED = 2  # rounds of fitting law and discrepancy in turn
 LARGER = 6  # times that a limit is raised by a quarter where a discrepancy would take the effect up
+NOTICED = 0.5  # size of a process over the scatter of one test, below which it is none
 CONVERGED = 0.01  # change of the objective at which a fit beside a discrepancy ends
 
 
@@ -53,24 +56,28 @@ class State:
     def misfit(self) -> float:
         """-2 ln of the likelihood with the law integrated out (Laplace), the causes at their best."""
         law = self.fitted.law.size + self.fitted.scales.size
-        usual = self.model.processes.usual
         return (
             self.fitted.objective
             + float(np.linalg.slogdet(self.fitted.precision[:law, :law])[1])
             + self.wide.noise.log_determinant
-            + 2.0 * float(np.log1p(self.variances / usual**2).sum())
+            + self.model.processes.prior(self.variances)[0]
         )
 
 
 @dataclass(frozen=True)
 class Found:
-    """One cause taken: how likely by chance, the states before and after, and who did as well."""
+    """One cause taken: how likely by chance, the states before and after, and who did as well.
+
+    probability, shared: as of `ladder.Rung`.
+    """
 
     candidate: Candidate
     p_value: float
     before: State
     after: State
     rivals: tuple[Candidate, ...]
+    probability: float
+    shared: float
 
 
 @dataclass(frozen=True)
@@ -90,18 +97,9 @@ def begin(plain: Joint, fitted: Fitted) -> State:
     return _smoothed(_settle(plain, found, fitted, fitted.active, start))
 
 
-def without_discrepancy(plain: Joint, fitted: Fitted) -> State:
-    """The same of a table that holds no more than its scatter."""
-    found = discrepancy.processes(plain, fitted)
-    none = np.full(len(found.described), discrepancy.LEAST)
-    return State(plain, plain, fitted, fitted, discrepancy.reduce(found, fitted), none)
-
-
 def with_causes(state: State, active: tuple[Candidate, ...]) -> State:
     """Fitted anew with these causes."""
-    if (state.variances > discrepancy.LEAST).any():
-        return _settle(state.plain, state.model.processes, state.fitted, active, state.variances)
-    return without_discrepancy(state.plain, state.plain.fit(state.fitted.law, state.fitted.scales, active))
+    return _settle(state.plain, state.model.processes, state.fitted, active, state.variances)
 
 
 def climb(
@@ -140,7 +138,7 @@ def _settle(
     """Law, causes and discrepancy fitted in turn from where they stand."""
     law, scales = at.law, at.scales
     for _ in range(SETTLED):
-        noise = replace(plain.noise, discrepancy=found.beside(variances))
+        noise = plain.noise.beside(found.beside(variances))
         wide = Joint(plain.observed, plain.base, noise)
         fitted = wide.fit(law, scales, active, CONVERGED)
         law, scales, active = fitted.law, fitted.scales, fitted.active
@@ -201,6 +199,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         if eligible[k] and len(shortlist) < REFITS:
             shortlist.setdefault(candidates[k].key, int(k))
     refits = []
+    odds: dict[int, float] = {}
     for k in shortlist.values():
         amplitude = estimates[k].amplitude * candidates[k].typical[0]
         first = candidates[k].cause.parameters[0]
@@ -209,7 +208,10 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         after = _settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
         gain = state.misfit - after.misfit - 2.0 * (len(candidates[k].values) - 1)
         if gain > LEAST_GAIN:
-            z[k] = max(z[k], abs(of_taken(after, after.fitted.active[-1]).z))
+            taken = after.fitted.active[-1]
+            own = of_taken(after, taken)
+            z[k] = max(z[k], abs(own.z))
+            odds[k] = log_odds(taken, state.plain.observed, gain, own.std_error * float(taken.typical[0]))
             if z[k] > least:
                 refits.append((gain, k, after))
     if not refits:
@@ -224,9 +226,14 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         return None
     most = max(gain for gain, _, _ in refits)
     as_good = [refit for refit in refits if most - refit[0] < DELTA_DEVIANCE]
-    gain, k, after = min(as_good, key=lambda refit: (len(candidates[refit[1]].values), -refit[0]))
+    _, k, after = min(as_good, key=lambda refit: (len(candidates[refit[1]].values), -odds[refit[1]]))
     rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
-    return Found(after.fitted.active[-1], chance.tail(by_chance, float(z[k])), state, after, rivals)
+    share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
+    shared = sum(share[j] for _, j, _ in as_good)
+    if shared < POSSIBLE:
+        return None
+    p_value = chance.tail(by_chance, float(z[k]))
+    return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k], shared)
 
 
 def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate], Direction]:
@@ -295,7 +302,10 @@ def _of_rows(found: Processes, plain: Joint, rows: NDArray, variances: Vector) -
     factor = np.hstack([plain.noise.whiten(root) for root in roots])
     block = np.repeat(np.arange(len(kept)), [root.shape[1] for root in roots])
     described = tuple(found.described[k] for k in kept)
-    return Processes(described, roots, factor, block, found.usual[kept]), variances[kept]
+    return (
+        Processes(described, roots, factor, block, found.usual[kept], found.spread[kept]),
+        variances[kept],
+    )
 
 
 def hangs_on(state: State, candidate: Candidate) -> list[str]:
@@ -378,9 +388,10 @@ def detection_limits(
     if surveyed.candidates:
         threshold = float(np.quantile(_by_chance(state, surveyed, draws, random), 1.0 - ALPHA_PER_STEP))
         correlation, errors = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
-        # A cause with shapes of its own must be carried by the whole table, which no single size says.
-        simple = np.array([len(candidate.values) == 1 for candidate in surveyed.candidates])
-        for k in np.flatnonzero(simple):
+        # A cause with shapes of its own must be carried by the whole table: no size says that beside a discrepancy.
+        alone = bool((state.variances < NOTICED**2).all())
+        simple = np.array([alone or len(candidate.values) == 1 for candidate in surveyed.candidates])
+        for k in np.flatnonzero([len(candidate.values) == 1 for candidate in surveyed.candidates]):
             needed = _named_from(state, surveyed, int(k), threshold) / (threshold + chance.Z_95)
             errors[k] = max(surveyed.estimates[k].std_error, needed)
         found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)

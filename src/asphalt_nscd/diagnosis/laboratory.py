@@ -1,0 +1,118 @@
+"""What every laboratory adds to its tests: temperatures within the tolerance of their control, and mountings.
+
+An isotherm is held to some tenths of a kelvin, each specimen on it too, and each mounting has a level and a phase of
+its own. None of that is a fault, and without it every table holds one: of 80 drawn tables that have nothing else, 28
+were given a name. The sizes are inferred from the table by restricted likelihood, beside the discrepancy; few isotherms
+and specimens say little of them, so that each has a prior with a source.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis import discrepancy
+from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
+from asphalt_nscd.diagnosis.discrepancy import Process, Processes
+from asphalt_nscd.diagnosis.joint import Fitted, Joint, Vector
+
+STEP = 0.05  # K, of the derivative along the temperature
+
+
+@dataclass(frozen=True)
+class Usual:
+    """Usual standard deviation of one effect, in `unit`, and that of its logarithm between laboratories."""
+
+    size: float
+    spread: float
+    unit: str
+
+
+# Temperatures: AASHTO T 378 allows 0.5 K, two standard deviations, of an isotherm and of a specimen on it. Mountings:
+# what the isotherms of one specimen differ by in FD_Mix1, AMPT and NCAT, 1 to 2 % and 0.1 to 0.3 deg.
+OF_ISOTHERM = 0.2  # K, not inferred: one isotherm that is far off would make it large
+USUAL = {
+    "specimen temperature": Usual(0.25, 0.4, "K"),
+    "mounting, modulus": Usual(0.01, 0.6, "1"),
+    "mounting, phase": Usual(float(np.radians(0.15)), 0.6, "rad"),
+}
+
+
+@dataclass(frozen=True)
+class Laboratory:
+    """Sizes of the effects of USUAL in a table, in their units."""
+
+    sizes: dict[str, float]
+
+    def factor(self, joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> NDArray[np.complex128]:
+        """Factor (n, q) of the covariance of ln E*; mounting (n,): number of the specimen's isotherm of each test."""
+        own = [self.sizes[kind] * root for kind, root in _roots(joint, at, mounting).items()]
+        return np.hstack([_of_isotherm(joint, at), *own])
+
+
+def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
+    """Sizes in a table, beside the discrepancy; joint: whose noise is the scatter of single tests."""
+    own = {kind: USUAL[kind].size * root for kind, root in _roots(joint, fitted, joint.noise.block).items()}
+    beside = discrepancy.processes(joint, fitted)
+    found = Processes(
+        (*beside.described, *(Process(kind, "both") for kind in own)),
+        (*beside.roots, *own.values()),
+        np.hstack([beside.factor, *(joint.noise.whiten(root) for root in own.values())]),
+        np.concatenate(
+            [
+                beside.block,
+                np.repeat(len(beside.roots) + np.arange(len(own)), [r.shape[1] for r in own.values()]),
+            ]
+        ),
+        np.concatenate([beside.usual, np.ones(len(own))]),
+        np.concatenate([beside.spread, [USUAL[kind].spread for kind in own]]),
+    )
+    variances = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances[len(beside.roots) :]
+    return Laboratory(
+        {kind: USUAL[kind].size * float(np.sqrt(v)) for kind, v in zip(own, variances, strict=True)}
+    )
+
+
+def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | None]:
+    """The model with what the laboratory adds to the scatter, and that; without it where there is but one isotherm."""
+    if not isinstance(joint.base, FlexibleSpectrum) or joint.observed.isotherms.size < 2:
+        return joint, None
+    # What a block shares is its mounting's: it is not counted twice.
+    alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared))
+    held = Joint(joint.observed, joint.base, alone.beside(_parts(_of_isotherm(joint, fitted))))
+    found = estimate(held, held.linearise(fitted.law, fitted.scales, fitted.active))
+    noise = alone.beside(_parts(found.factor(joint, fitted, alone.block)))
+    return Joint(joint.observed, joint.base, noise), found
+
+
+def _parts(factor: NDArray[np.complex128]) -> NDArray:
+    """Of modulus and of phase, one above the other."""
+    return np.concatenate([factor.real, factor.imag])
+
+
+def _of_isotherm(joint: Joint, at: Fitted) -> NDArray[np.complex128]:
+    """Factor (n, isotherms) of their temperatures."""
+    observed = joint.observed
+    isotherm = observed.isotherm[:, None] == observed.isotherms
+    return OF_ISOTHERM * _per_kelvin(joint, at.law)[:, None] * isotherm
+
+
+def _roots(joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> dict[str, NDArray[np.complex128]]:
+    """What one unit of each effect does to ln E*, a column for each mounting."""
+    mounted = np.eye(int(mounting.max()) + 1, dtype=complex)[mounting]
+    return {
+        "specimen temperature": _per_kelvin(joint, at.law)[:, None] * mounted,
+        "mounting, modulus": mounted,
+        "mounting, phase": 1j * mounted,
+    }
+
+
+def _per_kelvin(joint: Joint, law: Vector) -> NDArray[np.complex128]:
+    """Derivative (n,) of ln E* along the temperature."""
+    observed = joint.observed
+    low, high = (
+        joint.base.modulus(law, observed.omega, observed.temperature + step)[0] for step in (-STEP, STEP)
+    )
+    return np.asarray(np.log(high / low) / (2.0 * STEP), complex)

@@ -1,0 +1,39 @@
+"""The probability of each name: one cause more against none, and against every other cause that may stand in its place.
+
+Near its best size a a cause has the likelihood ratio exp(gain/2) over none. Integrated over the sizes that it may have,
+of prior density p(a), that is worth exp(gain/2) p(a) sqrt(2 pi) times its standard error (Laplace). The density is a
+Cauchy's with the usual size of the cause, so that a large error is not held to be impossible.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import logsumexp
+
+from asphalt_nscd.diagnosis.criteria import EXPECTED
+from asphalt_nscd.diagnosis.joint import Candidate
+from asphalt_nscd.diagnosis.observations import Observations
+
+
+def log_odds(candidate: Candidate, observed: Observations, gain: float, std_error: float) -> float:
+    """ln of the odds of a cause at its place over none.
+
+    gain: of -2 ln likelihood at its best size; std_error: of its amplitude, both with its other parameters fitted.
+    """
+    expected, first = EXPECTED[candidate.cause.name], candidate.cause.parameters[0]
+    ways = 1.0 if first.low < 0.0 else 2.0  # one sign alone has twice the density
+    away = candidate.values[0] / expected.size
+    density = ways / (np.pi * expected.size * (1.0 + away**2))
+    chance = expected.chance / len(candidate.cause.places(observed))
+    known = min(std_error, expected.size)
+    return float(
+        0.5 * gain + np.log(density * known * np.sqrt(2.0 * np.pi)) + np.log(chance / (1.0 - chance))
+    )
+
+
+def shares(odds: Sequence[float]) -> NDArray[np.float64]:
+    """Probability of each of several names of which at most one holds, from the ln odds of each over none."""
+    return np.asarray(np.exp(np.array(odds) - logsumexp([0.0, *odds])))
