@@ -1,5 +1,6 @@
 from asphalt_nscd.api.bending import Test as Test
 from asphalt_nscd.api.bending import bend as bend
+from asphalt_nscd.api.bending import hold as hold
 from asphalt_nscd.api.comparison import Comparison as Comparison
 from asphalt_nscd.api.comparison import compare as compare
 from asphalt_nscd.api.contacts import solve_contacts as solve_contacts
@@ -23,6 +24,7 @@ from asphalt_nscd.bending.case import Load as Load
 from asphalt_nscd.bending.case import Numerics as Numerics
 from asphalt_nscd.bending.condensing import Bonds as Bonds
 from asphalt_nscd.bending.fatigue import FatigueLaw as FatigueLaw
+from asphalt_nscd.bending.hold import Hold as Hold
 from asphalt_nscd.bending.rig import Rig as Rig
 from asphalt_nscd.diagnosis.run import Draws as Draws
 from asphalt_nscd.diagnosis.run import Simulated as Simulated

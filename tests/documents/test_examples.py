@@ -15,7 +15,7 @@ MODULES = [
     "api.arguments", "api.bending", "api.comparison", "api.contacts", "api.diagnosis", "api.exporting",
     "api.fatigue", "api.forecasting", "api.laws", "api.reading", "api.specimens", "bending.case", "bending.condensing",
     "bending.fatigue", "bending.rig", "diagnosis.run", "files.errors", "files.words", "measurements.signals",
-    "measurements.twopoint",
+    "bending.hold", "measurements.twopoint",
     "nscd.contacts.friction", "rheology.burgers", "rheology.chain", "rheology.fitting", "rheology.shift",
     "rheology.spectrum", "specimen.deposit",
 ]  # fmt: skip

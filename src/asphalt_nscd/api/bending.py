@@ -18,6 +18,8 @@ from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told
 from asphalt_nscd.bending.case import Load, Numerics, RunOptions
 from asphalt_nscd.bending.condensing import Bonds, condensed
+from asphalt_nscd.bending.hold import Hold
+from asphalt_nscd.bending.hold import hold as of_hold
 from asphalt_nscd.bending.model import Model, model_of
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.files.words import counted
@@ -126,7 +128,8 @@ def bend(
     frequency_Hz, temperature_C : float
         Of the test [Hz], [degC].
     load : Load
-        Amplitude of the head, cycles, rig; frames=24 keeps 24 instants of the last cycle for ParaView.
+        Amplitude of the head, or of a commanded force, cycles, rig; frames=24 keeps 24 instants of the last cycle for
+        ParaView.
     bonds : Bonds
         Poisson's ratio, strength and friction of bonds, and how the head is held.
     numerics : Numerics
@@ -167,6 +170,57 @@ def bend(
     if test.broken_bonds:
         warnings.warn(damage(test.attributes), stacklevel=3)
     return test
+
+
+@checked
+def hold(
+    specimen: Specimen | str | Path,
+    law: Law | str | Path,
+    temperature_C: float,
+    *,
+    held: Hold = Hold(),  # noqa: B008  frozen, and the next
+    bonds: Bonds = Bonds(),  # noqa: B008
+) -> pd.DataFrame:
+    """Hold a force on a specimen (creep) or a displacement (relaxation), and set the law's closed form beside.
+
+    Parameters
+    ----------
+    specimen : Specimen or path
+        Bonded spheres. Their weight is left out.
+    law : Law or path
+        Of the bonds. Of a law of all temperatures, bonds follow a Kelvin chain that is within 0.1 % of it.
+    temperature_C : float
+        Of the test [degC].
+    held : Hold
+        Duration [s], steps, and the force [N] or the displacement [m].
+    bonds : Bonds
+        Poisson's ratio, strength and friction of bonds, and how the head is held.
+
+    Returns
+    -------
+    DataFrame
+        One row a step (n,): time_s, displacement_m, force_N; of creep D_1_GPa and D_law_1_GPa, of relaxation E_MPa and
+        E_law_MPa, by the form factor of the test. attrs: broken_bonds, residual.
+
+    Raises
+    ------
+    InputError
+        With one sentence, where the law does not hold at this temperature, or the specimen breaks in two.
+
+    Examples
+    --------
+    >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
+    >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
+    >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}
+    >>> law = Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
+    >>> creep = hold(specimen(packing, g, area="facets"), law, 15.0, held=Hold(1.0, force_N=2.0))
+    >>> list(creep)
+    ['time_s', 'displacement_m', 'force_N', 'D_1_GPa', 'D_law_1_GPa']
+    """
+    given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
+    law = law if isinstance(law, Law) else Law.read(law)
+    lowest, highest = held.band
+    return of_hold(_model(_Once(given), bonds), law.of_bonds(lowest, temperature_C, highest).bonds, held)
 
 
 class _Once:

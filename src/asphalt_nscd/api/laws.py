@@ -154,24 +154,27 @@ class Law:
         """Write the law as JSON, as the command line does."""
         write_json(path, dict(self.content))
 
-    def of_bonds(self, frequency_Hz: float, temperature_C: float) -> Law:
+    def of_bonds(self, frequency_Hz: float, temperature_C: float, highest_Hz: float | None = None) -> Law:
         """The law that bonds follow in a test: itself, or a Kelvin chain of it.
 
         Parameters
         ----------
         frequency_Hz, temperature_C : float
             Of the test [Hz], [degC].
+        highest_Hz : float or None
+            Of a test of several frequencies [Hz], whose lowest is frequency_Hz.
 
         Returns
         -------
         Law
-            Within 0.1 % of this law from half to twice the frequency.
+            Within 0.1 % of this law from half to twice the frequency, or from half the lowest to twice the highest.
         """
+        highest = highest_Hz or frequency_Hz
         if self.temperature_C is not None:
-            require_holds(self.source, dict(self.content), temperature_C, [frequency_Hz])
+            require_holds(self.source, dict(self.content), temperature_C, [frequency_Hz, highest])
             return self
         law: Any = self._parsed.law
-        band = frequency_Hz / MARGIN, frequency_Hz * MARGIN
+        band = frequency_Hz / MARGIN, highest * MARGIN
         return Law(chain_at(law, str(self.source), temperature_C, band, CHAIN_ERROR))
 
     @property

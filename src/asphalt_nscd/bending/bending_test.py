@@ -16,6 +16,7 @@ from asphalt_nscd.bending.checkpoint import Checkpoint, digest
 from asphalt_nscd.bending.excerpt import ModelExcerpt, read_excerpt
 from asphalt_nscd.bending.layers import LayerHeights
 from asphalt_nscd.bending.rig import Rig, read_rig
+from asphalt_nscd.bending.taring import soft_clamp, tared
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save
 from asphalt_nscd.files.words import counted
@@ -69,6 +70,8 @@ def run_test(
     The actuator is the head itself but for the rig; the record is that of the rig's channel.
     """
     require_possible(case, numerics, options)
+    if case.by_force:
+        return _by_force(model.whole, law, case, numerics, options)
     times, rest = numerics.times(case), numerics.rest_steps
     displacement = case.recorded(times)
     if numerics.method == "harmonic":
@@ -80,6 +83,16 @@ def run_test(
         run = full(model.whole, law, case, numerics, options)
     force, velocity = run.force[rest:], run.velocity[rest:]
     return Record(times, displacement, force, run.broken, run.residual, run.details, velocity, run.frames)
+
+
+def _by_force(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions) -> Record:
+    """The actuator moves a clamp so soft that it commands the force; what the clamp takes of its motion is left out."""
+    clamp = soft_clamp(model, abs(law.discrete_modulus(case.omega, 0.0)))
+    pulled = replace(case, amplitude=clamp * case.amplitude, rig=Rig(clamp_compliance=clamp), by_force=False)
+    record = run_test(tared(model), law, pulled, numerics, options)
+    # energies are those of the soft clamp
+    details = {name: value for name, value in record.details.items() if not name.startswith("energy_")}
+    return replace(record, displacement=record.displacement - clamp * record.force, details=details)
 
 
 def _steady_force(model: Model, law: BondLaw, case: LoadCase, times: np.ndarray) -> np.ndarray:
@@ -125,7 +138,7 @@ class TestFiles:
             "model": digest(self.model),
             "law": digest(self.law),
             "frequency_Hz": case.frequency,
-            "amplitude_m": case.amplitude,
+            "amplitude": f"{case.amplitude} {'N' if case.by_force else 'm'}",
             "cycles": case.cycles,
             "time_step_s": numerics.time_step,
             "rest_steps": numerics.rest_steps,
@@ -234,7 +247,8 @@ def outcome(
         "head": model.head,
         "law_source": "",
         "time_step_s": time_step,
-        "amplitude_m": case.amplitude,
+        "amplitude_m": steady.displacement_amplitude if case.by_force else case.amplitude,
+        **({"amplitude_N": case.amplitude} if case.by_force else {}),
         **record.details,
         **({} if numerics.scheme == "euler" else {"scheme": numerics.scheme}),
     }

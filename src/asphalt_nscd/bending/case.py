@@ -26,12 +26,13 @@ MOST_STEPS = 5_000_000  # of a test, which keeps some 200 bytes of each
 
 @dataclass(frozen=True)
 class LoadCase:
-    """The actuator follows z = A sin(2 pi f t) from t = 0; the rig stands between it, the head and the record."""
+    """The actuator follows A sin(2 pi f t) from t = 0; the rig stands between it, the head and the record."""
 
     frequency: float  # f, Hz
-    amplitude: float = PAPER_AMPLITUDE  # A, m
+    amplitude: float = PAPER_AMPLITUDE  # A, m; N where by_force
     cycles: float = 5.0
     rig: Rig = Rig()
+    by_force: bool = False  # the actuator commands the force, and its displacement is measured
 
     @property
     def omega(self) -> float:
@@ -106,7 +107,7 @@ class Load(Ranged):
     """What the actuator does, what stands between it, the head and the record, and what is kept of it.
 
     amplitude_m: without it the strain is usual: in bending that of the paper's 63 um on its own specimen, in
-    tension-compression 50e-6. rig: devices at the head,
+    tension-compression 50e-6. amplitude_N: of the force, which is then commanded. rig: devices at the head,
     and errors of the measuring channel. frames: how many instants of the last cycle to keep with the motion of all
     spheres and the forces of all bonds, for a series of ParaView.
 
@@ -119,12 +120,17 @@ class Load(Ranged):
     cycles: float = within(5.0, low=1.0)
     rig: Rig = Rig()
     frames: int = within(0, low=0)
+    amplitude_N: float | None = within(None, above=0.0)
 
     def at(self, frequency_Hz: float, shape: Shape) -> LoadCase:
         """The case of one frequency [Hz] on specimens of a geometry."""
-        amplitude_m = shape.usual_amplitude() if self.amplitude_m is None else self.amplitude_m
         if not Range(above=0.0).holds(frequency_Hz):
             raise InputError(f"frequency_Hz = {frequency_Hz:g}: give a frequency greater than zero.")
+        if self.amplitude_N is not None:
+            if self.amplitude_m is not None:
+                raise InputError("load: give amplitude_m or amplitude_N, that of what is commanded.")
+            return LoadCase(frequency_Hz, self.amplitude_N, self.cycles, self.rig, by_force=True)
+        amplitude_m = shape.usual_amplitude() if self.amplitude_m is None else self.amplitude_m
         return LoadCase(frequency_Hz, amplitude_m, self.cycles, self.rig)
 
 
@@ -137,6 +143,11 @@ def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) ->
             "or give fewer cycles."
         )
     steps = method in ("reduced", "condensed")
+    if case.by_force and (case.rig != Rig() or method == "sweeps"):
+        raise InputError(
+            "load: a commanded force goes without devices and errors of a rig, and not by the method sweeps; leave "
+            "the rig out, or give amplitude_m."
+        )
     if method == "harmonic" and case.rig.guide_friction:
         raise InputError(
             "rig: with guide friction the oscillation is not harmonic; choose the method reduced."

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
 from asphalt_nscd.bending.layers import Layers
+from asphalt_nscd.nscd.bonds.head import HeadDevices
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
@@ -72,11 +73,25 @@ def reduced(
     implicit Euler is wanted, they are made one by one.
     """
     if numerics.scheme == "euler" and not (options.energy or options.frames) and options.checkpoint is None:
-        stepper = _reduced_stepper(model, law, numerics.time_step, case)
-        run = _in_one_call(stepper, model, law, numerics.driven(case), options)
-    else:
-        stepper = _reduced_stepper(model.whole, law, numerics.time_step / _scheme(case, numerics).a, case)
-        run = _one_by_one(stepper, model.whole, law, (case, numerics), options)
+        return by_path(model, law, case.rig, numerics.time_step, numerics.driven(case), options)
+    stepper = _reduced_stepper(model.whole, law, numerics.time_step / _scheme(case, numerics).a, case.rig)
+    return _certified(stepper, model, _one_by_one(stepper, model.whole, law, (case, numerics), options))
+
+
+def by_path(
+    model: Model | ModelExcerpt,
+    law: BondLaw,
+    devices: HeadDevices,
+    time_step: float,
+    driven: Vector,
+    options: RunOptions,
+) -> Histories:
+    """By the reduced system in one call: the actuator stands at `driven` (n,) [m] at the ends of the steps."""
+    stepper = _reduced_stepper(model, law, time_step, devices)
+    return _certified(stepper, model, _in_one_call(stepper, model, law, driven, options))
+
+
+def _certified(stepper: ReducedStepper, model: Model | ModelExcerpt, run: Histories) -> Histories:
     if run.broken:
         model.whole.require_whole(run.broken)
     certificate = stepper.certificate()
@@ -123,10 +138,10 @@ def _scheme(case: LoadCase, numerics: Numerics) -> Scheme:
 
 
 def _reduced_stepper(
-    model: Model | ModelExcerpt, law: BondLaw, time_step: float, case: LoadCase
+    model: Model | ModelExcerpt, law: BondLaw, time_step: float, devices: HeadDevices
 ) -> ReducedStepper:
     small, stand_by = model.reduced_form
-    return ReducedStepper(small, law, time_step, RESIDUAL_TOLERANCE, devices=case.rig, stand_by=stand_by)
+    return ReducedStepper(small, law, time_step, RESIDUAL_TOLERANCE, devices=devices, stand_by=stand_by)
 
 
 def _full_stepper(
@@ -148,10 +163,10 @@ def _full_stepper(
 def _in_one_call(
     stepper: ReducedStepper, model: Model | ModelExcerpt, law: BondLaw, driven: Vector, options: RunOptions
 ) -> Histories:
-    along = model.along
+    layers = model.along
     try:
         force, coordinates = stepper.run(driven)
-        run = Histories(force, coordinates @ along, stepper.state.broken)
+        run = Histories(force, coordinates @ layers, stepper.state.broken)
     except FullSystemNeeded as accepted:
         whole, done = model.whole, accepted.force.size
         state = stepper.full_state()
@@ -159,7 +174,7 @@ def _in_one_call(
         full = _full_stepper(whole, law, stepper.dt, state, stepper.devices, path[0])
         rest = _follow(full, path, whole.layers, options, lambda: stepper.certify(full))
         force = np.concatenate([accepted.force, rest.force])
-        velocity = np.concatenate([accepted.velocity @ along, rest.velocity])
+        velocity = np.concatenate([accepted.velocity @ layers, rest.velocity])
         run = Histories(force, velocity, state.broken, full_steps=driven.size - done)
     options.progress(driven.size, driven.size)
     return run

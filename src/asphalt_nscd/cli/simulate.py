@@ -47,6 +47,12 @@ _NUMERICS = "bending.case.Numerics"
     type=_options.Of("bending.case.Load.amplitude_m"),
     help="Amplitude of the head, m; else the strain of the paper, whose specimen is moved by 63 um.",
 )
+@click.option(
+    "--amplitude-n",
+    default=None,
+    type=_options.Of("bending.case.Load.amplitude_N"),
+    help="Amplitude of the force, N: it is commanded, the displacement measured, and the weight tared.",
+)
 @click.option("--cycles", default=5.0, type=_options.Of("bending.case.Load.cycles"), help="Number of cycles.")
 @click.option("--time-step-s", default=5e-5, type=_options.Of(f"{_NUMERICS}.time_step"), help="Time step, s.")
 @click.option(
@@ -102,7 +108,9 @@ _NUMERICS = "bending.case.Numerics"
     "--checkpoint-every", default=100, type=click.IntRange(1), help="Steps between two checkpoints."
 )
 @_options.outputs
-@_options.gather("case", amplitude_m="amplitude_m", cycles="cycles", frames="frames")
+@_options.gather(
+    "case", amplitude_m="amplitude_m", amplitude_N="amplitude_n", cycles="cycles", frames="frames"
+)
 @_options.gather(
     "numerics",
     time_step="time_step_s",

@@ -56,9 +56,7 @@ class Burgers:
 
     def creep_compliance(self, time: ArrayLike) -> NDArray[np.float64]:
         """Strain per unit of constant stress [1/Pa] at times [s] after loading."""
-        time = np.asarray(time, dtype=float)
-        delayed = -np.expm1(-time * self.modulus_k / self.viscosity_k) / self.modulus_k
-        return 1.0 / self.modulus_m + time / self.viscosity_m + delayed
+        return self.as_chain().creep_compliance(time)
 
     def relaxation_modulus(self, time: ArrayLike) -> NDArray[np.float64]:
         """Stress per unit of constant strain [Pa] at times [s] after loading.

@@ -55,6 +55,13 @@ class KelvinChain:
         """E* = 1/D* [Pa] at angular frequencies omega [rad/s]."""
         return 1.0 / self.complex_compliance(omega)
 
+    def creep_compliance(self, time: ArrayLike) -> NDArray[np.float64]:
+        """Strain per unit of constant stress [1/Pa] at times [s] after loading."""
+        time = np.asarray(time, dtype=float)
+        rates = np.divide(self.kelvin_springs, self.kelvin_dashpots)
+        delayed = -np.expm1(-time[..., None] * rates) / np.asarray(self.kelvin_springs)
+        return 1.0 / self.spring + time / self.dashpot + delayed.sum(axis=-1)
+
     def scaled(self, factor: float) -> KelvinChain:
         """The chain with E* times factor at every frequency."""
         springs = tuple(factor * value for value in self.kelvin_springs)

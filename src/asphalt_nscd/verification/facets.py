@@ -7,15 +7,23 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
+from asphalt_nscd.bending.bending_test import bond_law, run_test
+from asphalt_nscd.bending.case import LoadCase, Numerics
+from asphalt_nscd.bending.condensing import Bonds, condensed
+from asphalt_nscd.bending.hold import Hold, hold
+from asphalt_nscd.bending.model import Model, model_of
+from asphalt_nscd.files.store import Record
 from asphalt_nscd.measurements.fourpoint import Beam
+from asphalt_nscd.measurements.signals import harmonic_response
 from asphalt_nscd.nscd.bonds.system import opening_operator
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
+from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.specimen.network import region_of
 from asphalt_nscd.specimen.power_diagram import power_diagram
 from asphalt_nscd.specimen.prism import pull, static_ratio
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen
-from asphalt_nscd.verification.row import Checks, Row
+from asphalt_nscd.verification.row import Checks, Row, order
 from asphalt_nscd.verification.specimens import jittered_beam
 
 checks = Checks()
@@ -164,6 +172,63 @@ def four_points() -> list[Row]:
         phase = np.degrees(np.angle(found / modulus))
         rows.append(Row(f"{name}, phase over the law (deg)", 0.0, phase, 0.05, "the law"))
     return rows
+
+
+def clamped() -> Model:
+    """A prism between four clamps, of its weight and a thousandth of its inertia: it does not swing."""
+    beam = jittered_beam(seed=6, shape=(4, 2, 25), area="facets", test=Beam.test)
+    model = model_of(Record(*condensed(beam, "beam", Bonds(yield_Pa=1e12)), ""))
+    return replace(model, system=replace(model.system, mass=1e-3 * model.system.mass), stand_by=None)
+
+
+@checks
+def held() -> list[Row]:
+    """A prism between four clamps, its force or its displacement held: creep and relaxation of the law, in small steps.
+
+    Errors are of first order in the step, so that twice those of half the step cancel. Its weight, a third of the
+    force, is tared.
+    """
+    model, law, rows = clamped(), Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9), []
+    static, form = static_ratio(model.system, model.geometry), model.geometry.form_factor()
+    for what, held, law_at, source in (
+        (
+            "creep",
+            {"force_N": 0.1},
+            lambda t: 1.0 / law.creep_compliance(t),
+            "D = 1/Em + t/eta + (1 - exp(-t/tau))/Ek",
+        ),
+        ("relaxation", {"displacement_m": 1e-7}, law.relaxation_modulus, "inverse transform of 1/(s D(s))"),
+    ):
+        times, found = np.array([1e-3, 4e-3]), []
+        for steps in (400, 800):
+            table = hold(model, law, Hold(4e-3, steps, **held)).iloc[[steps // 4 - 1, steps - 1]]
+            found.append(form * (table["force_N"] / table["displacement_m"]).to_numpy())
+        for t, coarse, fine in zip(times, *found, strict=True):
+            name = f"prism between four clamps, {what} modulus after {1e3 * t:g} ms (GPa)"
+            expected = float(law_at(t)) * static
+            rows.append(Row(name, 1e-9 * expected, 1e-9 * (2.0 * fine - coarse), 2e-5, source))
+            errors = [abs(one / expected - 1.0) for one in (coarse, fine)]
+            rows.append(Row(f"{name}, order in the step", 1.0, order(errors), 0.01, "implicit Euler"))
+    return rows
+
+
+@checks
+def commanded() -> list[Row]:
+    """Its force commanded, E* is that of the motion commanded, and the force as it was said."""
+    model, law = clamped(), bond_law(Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9))
+    numerics = Numerics(1e-2 / 200, 1000, scheme="fitted")
+    moduli, force = [], 0.0
+    for case in (LoadCase(100.0, 1e-7, 8.0), LoadCase(100.0, 0.1, 8.0, by_force=True)):
+        record = run_test(model, law, case, numerics)
+        seen = harmonic_response(record.time, record.force, record.displacement, 100.0, 2)
+        moduli.append(seen.force_amplitude / seen.displacement_amplitude * np.exp(1j * seen.phase))
+        force = seen.force_amplitude
+    ratio = moduli[1] / moduli[0]
+    return [
+        Row("force commanded over motion commanded, |E*|", 1.0, abs(ratio), 1e-6, "one linear system"),
+        Row("the same, phase (deg)", 0.0, float(np.degrees(np.angle(ratio))), 1e-5, "one linear system"),
+        Row("commanded force (N)", 0.1, force, 1e-6, "as it was said"),
+    ]
 
 
 @checks

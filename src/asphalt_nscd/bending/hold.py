@@ -1,0 +1,93 @@
+"""A force or a displacement of the head held from rest: creep and relaxation, beside the closed form of the law."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.bending import runs
+from asphalt_nscd.bending.bending_test import bond_law
+from asphalt_nscd.bending.case import MOST_STEPS, RunOptions
+from asphalt_nscd.bending.model import Model
+from asphalt_nscd.bending.taring import soft_clamp, tared
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.ranges import Ranged, within
+from asphalt_nscd.nscd.bonds.head import HeadDevices
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.chain import KelvinChain
+from asphalt_nscd.rheology.maxwell import of_chain
+
+
+@dataclass(frozen=True)
+class Hold(Ranged):
+    """What is held, for how long [s], in how many equal steps.
+
+    force_N: creep. displacement_m: relaxation; so too without either, at the amplitude of usual tests.
+
+    >>> Hold(duration_s=10.0, steps=500, force_N=300.0).time_step
+    0.02
+    """
+
+    duration_s: float = within(10.0, above=0.0)
+    steps: int = within(1000, low=10, high=MOST_STEPS)
+    force_N: float | None = within(None)
+    displacement_m: float | None = within(None)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.force_N is not None and self.displacement_m is not None:
+            raise InputError("hold: give force_N for creep or displacement_m for relaxation, not both.")
+        if 0.0 in (self.force_N, self.displacement_m):
+            raise InputError("hold: nothing is held; give a force or a displacement other than zero.")
+
+    @property
+    def time_step(self) -> float:
+        """Seconds."""
+        return self.duration_s / self.steps
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Frequencies [Hz] that a law must hold for: 1 / (2 pi t) at the last and the first time t."""
+        return 0.5 / np.pi / self.duration_s, 0.5 / np.pi / self.time_step
+
+
+def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
+    """time_s, displacement_m, force_N; of creep D_1_GPa and D_law_1_GPa, of relaxation E_MPa and E_law_MPa.
+
+    By the form factor of the test, inertia not counted. `attrs`: broken_bonds, residual of the full equations.
+    Weight is left out.
+    """
+    chain = law.as_chain() if isinstance(law, Burgers) else law
+    dt, geometry = held.time_step, model.geometry
+    times = dt * np.arange(1.0, held.steps + 1.0)
+    clamp = 0.0
+    if held.force_N is not None:
+        clamp = soft_clamp(model, 1.0 / float(chain.creep_compliance(dt)))
+        path = np.full(held.steps, clamp * held.force_N)
+    else:
+        path = np.full(held.steps, held.displacement_m or geometry.usual_amplitude())
+    try:
+        run = runs.by_path(tared(model), bond_law(chain), HeadDevices(clamp), dt, path, RunOptions())
+    except ArithmeticError as error:
+        raise InputError(f"{model.name}: {error}; hold less, or for a shorter time.") from None
+    table = pd.DataFrame({"time_s": times, "displacement_m": path - clamp * run.force, "force_N": run.force})
+    modulus = geometry.form_factor() * table["force_N"] / table["displacement_m"]
+    if held.force_N is not None:
+        table["D_1_GPa"], table["D_law_1_GPa"] = 1e9 / modulus, 1e9 * chain.creep_compliance(times)
+    else:
+        table["E_MPa"], table["E_law_MPa"] = modulus / 1e6, of_chain(chain).relaxation_modulus(times) / 1e6
+    table.attrs = {"specimen": model.name, "broken_bonds": len(run.broken), "residual": run.residual}
+    return table
+
+
+def told(table: pd.DataFrame) -> str:
+    """The end of it in one line."""
+    last, name = table.iloc[-1], table.columns[3]
+    unit = "1/GPa" if name.startswith("D") else "MPa"
+    words = (
+        f"after {last['time_s']:g} s: {name[0]} = {last.iloc[3]:.4g} {unit}, law {last.iloc[4]:.4g} {unit}"
+    )
+    broken = table.attrs["broken_bonds"]
+    return words + (f", {broken} bonds broke" if broken else "")

@@ -1,0 +1,130 @@
+"""Creep and relaxation, and tests whose force is commanded: against the law, and through files and commands."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from click.testing import CliRunner
+
+import asphalt_nscd as an
+from asphalt_nscd.bending.bending_test import bond_law, run_test
+from asphalt_nscd.bending.case import LoadCase, Numerics
+from asphalt_nscd.bending.condensing import Bonds, condensed
+from asphalt_nscd.bending.hold import Hold, hold, told
+from asphalt_nscd.bending.model import Model, model_of
+from asphalt_nscd.cli import hold as hold_command
+from asphalt_nscd.cli import simulate as simulate_command
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import Record, load, save
+from asphalt_nscd.measurements.fourpoint import Beam
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.chain import KelvinChain
+from asphalt_nscd.rheology.laws_io import write_law
+from asphalt_nscd.specimen.prism import static_ratio
+from asphalt_nscd.verification.specimens import jittered_beam
+
+QUICK = Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9)  # transients of milliseconds
+CONTENT = condensed(jittered_beam(shape=(3, 2, 13), area="facets", test=Beam.test), "prism", Bonds())
+
+
+@pytest.fixture(scope="module")
+def prism() -> Model:
+    return model_of(Record(*CONTENT, ""))
+
+
+@pytest.mark.parametrize("law", [QUICK, KelvinChain(30e9, np.inf, (40e9, 90e9), (0.05e9, 0.4e9))])
+@pytest.mark.parametrize("what", [{"force_N": -0.2}, {"displacement_m": 2e-8}])
+def test_the_law_is_found_again_at_all_times(prism, law, what):
+    """All bonds have one law, so force over motion is that of the law times a constant, that of statics."""
+    table = hold(prism, law, Hold(10e-3, 4000, **what))
+    static = static_ratio(prism.system, prism.geometry)
+    name = "D_1_GPa" if "force_N" in what else "E_MPa"
+    stem, _, unit = name.partition("_")
+    found = table[name] / table[f"{stem}_law_{unit}"] * (static if stem == "D" else 1.0 / static)
+    late = found[table["time_s"] > 4e-3]  # once the clamps have ceased to swing
+    np.testing.assert_allclose(late, 1.0, atol=2e-3)
+    if "force_N" in what:
+        np.testing.assert_allclose(table["force_N"], -0.2, rtol=1e-5)
+        assert (table["displacement_m"] < 0.0).all()
+    else:
+        assert (table["displacement_m"] == 2e-8).all() and table["force_N"].iloc[-1] > 0.0
+    assert table.attrs["broken_bonds"] == 0 and table.attrs["residual"] < 1e-6
+
+
+def test_what_breaks_is_told(prism):
+    table = hold(prism, QUICK, Hold(1e-3, 20, displacement_m=1.5e-5))
+    assert table.attrs["broken_bonds"] > 0 and "broke" in told(table)
+    whole = hold(prism, QUICK, Hold(1e-3, 20, displacement_m=1.5e-8))
+    assert table["E_MPa"].iloc[-1] < 0.9 * whole["E_MPa"].iloc[-1]
+
+
+def test_a_commanded_force_gives_the_modulus_of_a_commanded_motion(prism):
+    numerics = Numerics(1e-2 / 100, 500, scheme="fitted")
+    for method in ("reduced", "condensed", "harmonic"):
+        scheme = "euler" if method == "harmonic" else "fitted"
+        numerics = Numerics(1e-2 / 100, 500, method, scheme)
+        ratios = []
+        for case in (LoadCase(100.0, 2e-8, 4.0), LoadCase(100.0, 0.2, 4.0, by_force=True)):
+            record = run_test(prism, bond_law(QUICK), case, numerics)
+            last = slice(-100, None)
+            turned = np.exp(-2j * np.pi * 100.0 * record.time[last])
+            force, motion = (turned * record.force[last]).sum(), (turned * record.displacement[last]).sum()
+            ratios.append(force / motion)
+        assert ratios[1] == pytest.approx(ratios[0], rel=2e-3), method
+        assert abs(force) / 50.0 == pytest.approx(0.2, rel=1e-5)
+        assert not any(name.startswith("energy") for name in record.details)
+
+
+def test_nonsense_is_refused():
+    for wrong, sentence in (
+        (
+            {"force_N": 1.0, "displacement_m": 1e-6},
+            "give force_N for creep or displacement_m for relaxation, not both",
+        ),
+        ({"force_N": 0.0}, "nothing is held"),
+        ({"duration_s": 0.0}, "duration_s = 0; give a number greater than 0"),
+        ({"steps": 5}, "steps = 5; give a number at least 10"),
+    ):
+        with pytest.raises(InputError, match=sentence):
+            Hold(**wrong)
+    beam = jittered_beam().geometry
+    with pytest.raises(InputError, match="give amplitude_m or amplitude_N"):
+        an.Load(amplitude_m=1e-6, amplitude_N=1.0).at(10.0, beam)
+
+
+def test_a_commanded_force_has_no_rig(prism):
+    for rig, numerics in ((an.Rig(channel_delay=1e-3), Numerics()), (an.Rig(), Numerics(method="sweeps"))):
+        with pytest.raises(InputError, match="a commanded force goes without devices and errors of a rig"):
+            run_test(prism, bond_law(QUICK), LoadCase(10.0, 1.0, rig=rig, by_force=True), numerics)
+
+
+def test_commands_hold_and_command_a_force(tmp_path, prism):
+    save(tmp_path / "model.h5", "model", *CONTENT)
+    write_law(tmp_path / "law.json", QUICK, source="stated", temperature=15.0)
+    common = [str(tmp_path / "model.h5"), "--law", str(tmp_path / "law.json"), "--temperature-c", "15"]
+    creep = [
+        *common,
+        "--force-n",
+        "0.2",
+        "--duration-s",
+        "0.01",
+        "--output",
+        str(tmp_path / "creep.csv"),
+    ]
+    done = CliRunner().invoke(hold_command.command, creep, catch_exceptions=False)
+    assert done.exit_code == 0 and "after 0.01 s: D = " in done.output, done.output
+    written = pd.read_csv(tmp_path / "creep.csv", comment="#")
+    expected = hold(prism, QUICK, Hold(0.01, force_N=0.2))
+    np.testing.assert_allclose(written["D_1_GPa"], expected["D_1_GPa"], rtol=1e-6)
+    test = [*common, "--frequency-hz", "100", "--amplitude-n", "0.2", "--time-step-s", "1e-4"]
+    done = CliRunner().invoke(
+        simulate_command.command, [*test, "--output", str(tmp_path / "test.h5")], catch_exceptions=False
+    )
+    assert done.exit_code == 0, done.output
+    said = load(tmp_path / "test.h5", "test").attributes
+    assert said["amplitude_N"] == 0.2
+    assert said["amplitude_m"] == pytest.approx(
+        0.2 * prism.geometry.form_factor() / (1e6 * said["E_MPa"]), rel=1e-2
+    )
+    assert said["phase_deg"] == pytest.approx(said["phase_law_deg"], abs=2.0)
