@@ -41,6 +41,7 @@ PUBLISHED = (
     "benchmark",
     "blind",
     "cluster",
+    "fall",
     "fatigue",
     "faults",
     "film",

@@ -176,3 +176,20 @@ rule rule_graph:
         "Draw which rule needs which: {output}"
     shell:
         "snakemake --snakefile {params.snakefile} --configfile {params.study} --nolock --rulegraph 2> {log} | {params.python} {input.tool} {output} >> {log} 2>&1"
+
+
+rule step_picture:
+    # How a step is made and checked, as a picture for docs/stepping.md. Only on request: snakemake --cores 1 step_picture
+    localrule: True
+    input:
+        tool=shipped("tools/step_picture.py"),
+    output:
+        "docs/stepping.svg",
+    params:
+        python=sys.executable,
+    log:
+        "<results>/logs/step_picture.log",
+    message:
+        "Draw how a step is made: {output}"
+    shell:
+        "{params.python} {input.tool} {output} > {log} 2>&1"

@@ -1,0 +1,54 @@
+"""A sawn specimen that falls: where its pieces are, and where its energy goes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+
+from asphalt_nscd.files.store import load
+from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures.spheres import View, picture
+
+SHOWN = 4  # instants: the start, the first impact, most of the motion gone, the end
+VIEW = View(azimuth=0.0, elevation=0.0)
+PER_MM = 8.0  # pixels
+PARTS = {  # of the account, and how they are drawn
+    "kinetic": (style.BLUE, "-"),
+    "impact": (style.ORANGE, "-"),
+    "friction": (style.INK, "-"),
+    "numerical": (style.GREY, "--"),
+}
+
+
+@style.journal
+def draw(fall: list[Path]) -> Figure:
+    """(a)-(d) The pieces from the side; (e) shares of the energy that the fall has set free at its end."""
+    arrays = load(the_only(fall, "fall"), "fall").arrays
+    time, radius = arrays["time_s"], arrays["frames/radius_m"]
+    figure, axes = style.new_figure(style.WIDE, 62.0, columns=SHOWN + 1, width_ratios=(1.0,) * SHOWN + (1.3,))
+    start = arrays["frames/position_m"]
+    landed = int(np.argmax(arrays["impact_J"] > 0.0))
+    slow = int(np.flatnonzero(arrays["kinetic_J"] > 0.2 * arrays["kinetic_J"].max())[-1])
+    shown = [0, landed, slow, len(time) - 1]
+    colours = np.array([to_rgb(one) for one in (style.BLUE, style.ORANGE, style.INK)])
+    every = start + arrays["frames/displacement_m"]
+    limits = 1e3 * (every[..., 0] - radius).min(), 1e3 * (every[..., 0] + radius).max()
+    for panel, k, name in zip(axes, shown, "abcd", strict=False):
+        colour = colours[arrays["frames/fragment"][k] % len(colours)]
+        image, extent = picture(every[k], radius, colour, VIEW, 1e3 * PER_MM)
+        panel.imshow(image, extent=tuple(1e3 * side for side in extent), interpolation="none")
+        panel.axhline(0.0, color=style.GREY, lw=1.0)
+        panel.set(xlim=limits, ylim=(-2.0, 1e3 * (every[0, :, 2] + radius).max()), aspect="equal")
+        panel.set_axis_off()
+        style.letter(panel, name, f"{1e3 * time[k]:.0f} ms")
+    free = -arrays["load_J"][-1]
+    for name, (colour, dash) in PARTS.items():
+        axes[-1].plot(1e3 * time, 100.0 * arrays[f"{name}_J"] / free, color=colour, ls=dash, label=name)
+    axes[-1].set(xlabel="time (ms)", ylabel="share of the energy (%)")
+    axes[-1].legend()
+    style.letter(axes[-1], "e", "its energy")
+    return figure
