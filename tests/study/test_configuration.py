@@ -232,3 +232,23 @@ def test_a_cylinder_is_told_what_it_lacks_and_a_trapezoid_too(config):
     assert "key 'B_mm' is missing from specimens.geometry; add it." in refusal(simulating(beam))
     trapezoid = {"b_mm": 25, "B_mm": 56, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.2}
     assert "key 'e_mm' is missing from specimens.geometry; add it." in refusal(simulating(trapezoid))
+
+
+def test_the_test_says_what_is_simulated(config):
+    said = complete(config | {"test": "tension-compression"})
+    assert said["specimens"]["geometry"] == {"d_mm": 100, "h_mm": 150, "mass_kg": 2.83, "mobile_mass_kg": 0}
+    assert said["test"]["type"] == "tension-compression" and said["test"]["amplitude_m"] == 7.5e-6
+    assert complete(said) == said
+    four = complete(config | {"test": {"type": "four-point bending", "amplitude_m": 1e-5}})
+    assert four["specimens"]["geometry"]["L_mm"] == 357 and four["test"]["amplitude_m"] == 1e-5
+    bent = complete(config)
+    assert bent["test"]["type"] == "bending" and bent["test"]["amplitude_m"] == 63e-6
+
+
+def test_the_specimen_says_what_is_simulated(config):
+    config["specimens"]["geometry"] = {"d_mm": 80, "h_mm": 120, "mass_kg": 1.4, "mobile_mass_kg": 0}
+    said = complete(config)
+    assert said["test"]["type"] == "tension-compression" and said["test"]["amplitude_m"] == 6e-6
+    sentence = refusal(config | {"test": "bending"})
+    assert "test.type is 'bending', but specimens.geometry has the keys of 'tension-compression'" in sentence
+    assert "test.type" in refusal(config | {"test": "torsion"})

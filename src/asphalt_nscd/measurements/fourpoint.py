@@ -103,3 +103,7 @@ class Beam(Shape):
     def usual_amplitude(self) -> float:
         """Of the inner clamps [m], which strains the outermost fibre by USUAL_STRAIN."""
         return USUAL_STRAIN * self.h**2 / (5.4 * self.depth)
+
+
+T321 = Beam(h=0.357, depth=0.05, breadth=0.063, mass=2.7, mobile_mass=0.0)
+"""Specimen of AASHTO T 321 between its outer clamps, 2400 kg/m3."""

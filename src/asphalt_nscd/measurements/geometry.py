@@ -13,12 +13,13 @@ import numpy as np
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json
-from asphalt_nscd.measurements.fourpoint import Beam
+from asphalt_nscd.measurements.fourpoint import T321
 from asphalt_nscd.measurements.shape import Shape
-from asphalt_nscd.measurements.tension import Cylinder
-from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.measurements.tension import AMPT
+from asphalt_nscd.measurements.twopoint import PAPER, Geometry
 
-SHAPES: dict[str, type[Shape]] = {shape.test: shape for shape in (Geometry, Cylinder, Beam)}
+USUAL: dict[str, Shape] = {shape.test: shape for shape in (PAPER, AMPT, T321)}  # specimens, one for each test
+SHAPES: dict[str, type[Shape]] = {test: type(shape) for test, shape in USUAL.items()}
 LIMITS = Geometry.limits  # of those measured in bending, which alone are reduced here from forces
 
 
@@ -26,6 +27,13 @@ def shape_of(attributes: Mapping[str, Any]) -> Shape:
     """What `Shape.attributes` said of it; in older files a trapezoid."""
     shape = SHAPES[attributes.get("geometry", Geometry.test)]
     return shape(**{field.name: attributes[field.name] for field in fields(shape)})  # type: ignore[arg-type]
+
+
+def test_of(mapping: Mapping[str, Any]) -> str:
+    """The test whose specimen has the keys of a mapping: that whose first key it has, else two-point bending."""
+    return next(
+        (test for test, shape in SHAPES.items() if next(iter(shape.limits)) in mapping), Geometry.test
+    )
 
 
 def read_shape(source: str | Path | Mapping[str, Any]) -> Shape:
@@ -110,7 +118,7 @@ def _from_mapping(mapping: Any, name: str, kind: type[Shape] | None = None) -> S
     """Of one kind, or of that whose first key the mapping has."""
     if not isinstance(mapping, Mapping):
         raise InputError(f"{name}: not a mapping; give {', '.join((kind or Geometry).limits)}.")
-    kind = kind or next((one for one in SHAPES.values() if next(iter(one.limits)) in mapping), Geometry)
+    kind = kind or SHAPES[test_of(mapping)]
     for key in [*kind.limits, *mapping]:
         if key not in mapping or key not in kind.limits:
             problem = "is missing" if key in kind.limits else "is not known"

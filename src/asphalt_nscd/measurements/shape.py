@@ -1,8 +1,8 @@
 """What a test must know of its specimen: how it is cut and driven, and how force and displacement become E*.
 
 A test of another kind is one file beside `twopoint.py`, `tension.py` and `fourpoint.py` with a class that inherits
-`Shape`, entered in `SHAPES` of `geometry.py`. Complex amplitudes go with exp(+i omega t); the force leads the
-displacement by its phase.
+`Shape`, and its usual specimen in `USUAL` of `geometry.py`. Complex amplitudes go with exp(+i omega t); the force leads
+the displacement by its phase.
 """
 
 from __future__ import annotations

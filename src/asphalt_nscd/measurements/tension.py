@@ -82,3 +82,7 @@ class Cylinder(Shape):
     def usual_amplitude(self) -> float:
         """Of the upper plate [m] for USUAL_STRAIN."""
         return USUAL_STRAIN * self.h
+
+
+AMPT = Cylinder(d=0.1, h=0.15, mass=2.83, mobile_mass=0.0)
+"""Specimen of AASHTO T 378 and EN 12697-26 annex D, 2400 kg/m3."""

@@ -16,6 +16,8 @@ from jsonschema.exceptions import ValidationError, best_match
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file, require_readable
+from asphalt_nscd.measurements.geometry import USUAL, read_shape, test_of
+from asphalt_nscd.measurements.twopoint import PAPER_AMPLITUDE, Geometry
 
 # YAML 1.1 reads 5e-5 as text, because it has no decimal point; the author meant a number.
 _SCIENTIFIC = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
@@ -36,6 +38,8 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
     """Return `config` checked and with every default filled in; `source` names it in messages."""
     rules = yaml.safe_load(Path(schema).read_text(encoding="utf-8"))
     study = _numbers(copy.deepcopy(dict(config)))
+    if isinstance(study.get("test"), str):
+        study["test"] = {"type": study["test"]}
     if not study:
         raise InputError(f"{source}: the study is empty; give one with --configfile config/paper.yaml.")
     errors = [
@@ -239,7 +243,10 @@ def _check(study: dict[str, Any], source: str) -> None:
 
 
 def _check_geometry(study: dict[str, Any], source: str) -> None:
-    """The simulated specimen is the measured one where that is the same for all specimens."""
+    """The simulated specimen is the measured one where that is the same for all, or that of the test named."""
+    kind = study["test"].get("type")
+    if "geometry" not in study["specimens"] and kind not in (None, Geometry.test):
+        study["specimens"]["geometry"] = USUAL[kind].keys()
     if "geometry" not in study["specimens"]:
         if isinstance(study["geometry"], str):
             raise InputError(
@@ -252,6 +259,18 @@ def _check_geometry(study: dict[str, Any], source: str) -> None:
             raise InputError(
                 f"{source}: {where}.b_mm must not be larger than B_mm; exchange them if they are swapped."
             )
+    simulated = test_of(study["specimens"]["geometry"])
+    if kind not in (None, simulated):
+        raise InputError(
+            f"{source}: test.type is {kind!r}, but specimens.geometry has the keys of {simulated!r}; leave out one of "
+            "the two."
+        )
+    study["test"]["type"] = simulated
+    if "amplitude_m" not in study["test"]:
+        study["test"]["amplitude_m"] = PAPER_AMPLITUDE
+        if simulated != Geometry.test:
+            usual = read_shape(study["specimens"]["geometry"]).usual_amplitude()
+            study["test"]["amplitude_m"] = float(label(usual))
 
 
 def _leaves(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:

@@ -23,7 +23,7 @@ from asphalt_nscd.measurements.geometry import read_geometry, read_shape
 from asphalt_nscd.measurements.limits import LIMITS
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, reduced_frame, require_enough
 from asphalt_nscd.measurements.shape import Shape
-from asphalt_nscd.measurements.tension import Cylinder
+from asphalt_nscd.measurements.tension import AMPT, Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.study.configuration import RESERVED, complete_study
 from asphalt_nscd.study.preflight import require_feasible
@@ -41,9 +41,6 @@ COARSEST_STEP = 2e-4  # s, of those in Fig. 6
 # The smoke study's specimen, and a cylinder of as many spheres: some hundred.
 SMALL = Geometry(b=0.01, B=0.02, e=0.01, h=0.06, mass=0.021, mobile_mass=0.008)
 SMALL_CYLINDER = Cylinder(d=0.018, h=0.032, mass=0.0195, mobile_mass=0.0)
-AMPT = Cylinder(
-    d=0.1, h=0.15, mass=2.83, mobile_mass=0.0
-)  # of AASHTO T 378 and EN 12697-26 annex D, 2400 kg/m3
 SMALL_SPHERES = Spheres(pd.Series({2.0: 600, 3.0: 200, 4.0: 90}), (0.06, 0.01, 0.2))
 
 
@@ -108,6 +105,7 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
         amplitude_why=why,
         simulated=_flow(simulated.keys()) if simulated != shape or not isinstance(geometry, Mapping) else "",
         simulated_why=why_simulated,
+        test_type=simulated.test,
         test="two-point bending" if simulated.test == "bending" else simulated.test,
         time_step=f"{step:.2e}",
         steps_per_cycle=round(1.0 / (step * max(frequencies))),
