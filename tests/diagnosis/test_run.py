@@ -146,7 +146,9 @@ def test_what_is_named_without_the_doubtful_tests():
 def test_files_of_a_campaign_stand_in_the_diagnosis_with_their_checksums(tmp_path, several):
     paths = sorted(EXPORTS.glob("Mix-A-*" if several else "Mix-A-20C*"))
     campaign, _ = read_campaign(paths)
-    run.conclude(campaign, PAPER_GEOMETRY, scatter=(0.01, 0.003), draws=FEW).write(tmp_path)
+    run.conclude(campaign, PAPER_GEOMETRY, stated=run.Stated(scatter=(0.01, 0.003)), draws=FEW).write(
+        tmp_path
+    )
     content = read_diagnosis([tmp_path / "diagnosis.json"])
     sums = [sha256(path.read_bytes()).hexdigest() for path in paths]
     if several:

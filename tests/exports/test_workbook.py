@@ -32,6 +32,7 @@ def test_the_workbook_comes_back(folder):
         "Prony series",
         "Measured",
         "Residuals",
+        "Charts",
     ]
     for name in list(sheets)[2:]:
         for heading in sheets[name].columns:

@@ -21,10 +21,10 @@ from asphalt_nscd.rheology.spectrum_io import read_spectrum, write_spectrum
 
 
 @dataclass(frozen=True)
-class CAM:
+class Power:
     """Christensen, Anderson & Marasteanu (1999): E* = Eg (1 + (i w tau)^-width)^(-slope / width)."""
 
-    title: ClassVar[str] = "CAM"
+    title: ClassVar[str] = "Power"
 
     glassy_modulus: float
     width: float
@@ -49,7 +49,7 @@ class CAM:
         return np.column_stack([*columns, *(by_time * self.shift.log_slopes(temperature).T)])
 
 
-LAW = CAM(30e9, 0.2, 0.9, 0.01, WLF(20.0, 140.0, 15.0))
+LAW = Power(30e9, 0.2, 0.9, 0.01, WLF(20.0, 140.0, 15.0))
 OMEGA, TEMPERATURE = (
     grid.ravel() for grid in np.meshgrid(2 * np.pi * np.array([1.0, 5, 25]), [-10.0, 5.0, 20.0, 35.0])
 )
@@ -57,7 +57,7 @@ OMEGA, TEMPERATURE = (
 
 @pytest.fixture
 def known(monkeypatch):
-    monkeypatch.setitem(spectrum.LAWS, "cam", CAM)
+    monkeypatch.setitem(spectrum.LAWS, "power", Power)
     monkeypatch.setitem(RANGES, "width", (-4.0, 2.0, -2.0, -1.0))
     monkeypatch.setitem(RANGES, "slope", (-3.0, 2.0, -0.5, 0.5))
 
@@ -65,7 +65,7 @@ def known(monkeypatch):
 def test_slopes_are_those_of_the_modulus():
     for column, name in enumerate(("glassy_modulus", "width", "slope", "tau")):
         value, step = getattr(LAW, name), 1e-6
-        up, down = (CAM(**(vars(LAW) | {name: value * np.exp(sign * step)})) for sign in (1, -1))
+        up, down = (Power(**(vars(LAW) | {name: value * np.exp(sign * step)})) for sign in (1, -1))
         moduli = up.complex_modulus(OMEGA, TEMPERATURE), down.complex_modulus(OMEGA, TEMPERATURE)
         slope = np.log(moduli[0] / moduli[1]) / (2 * step)
         assert np.abs(LAW.log_slopes(OMEGA, TEMPERATURE)[:, column] - slope).max() < 1e-8
@@ -75,7 +75,7 @@ def test_a_new_law_is_written_read_exported_and_followed_by_bonds(known, tmp_pat
     write_spectrum(tmp_path / "law.json", LAW, source="stated", rms_log_residual=0.0)
     assert read_spectrum(tmp_path / "law.json") == LAW
     law = an.read(tmp_path / "law.json")
-    assert repr(law).startswith("Law(CAM") and law.parameters.loc["width", "value"] == 0.2
+    assert repr(law).startswith("Law(Power") and law.parameters.loc["width", "value"] == 0.2
     exact = LAW.complex_modulus(2 * np.pi * 10.0, 15.0)
     assert law.of_bonds(10.0, 15.0).complex_modulus(10.0) == pytest.approx(exact, rel=2e-3)
     assert "Prony" in an.export(law, tmp_path / "law.csv", "csv", frequencies_Hz=(1.0, 10.0))
@@ -83,20 +83,20 @@ def test_a_new_law_is_written_read_exported_and_followed_by_bonds(known, tmp_pat
 
 def test_what_a_new_law_refuses_names_the_file(known, tmp_path):
     write_spectrum(
-        tmp_path / "law.json", CAM(30e9, -0.2, 0.9, 0.01, LAW.shift), source="", rms_log_residual=0.0
+        tmp_path / "law.json", Power(30e9, -0.2, 0.9, 0.01, LAW.shift), source="", rms_log_residual=0.0
     )
     with pytest.raises(InputError, match=r"law.json: needs width > 0; correct it"):
         read_spectrum(tmp_path / "law.json")
 
 
 def test_a_new_law_is_fitted_within_its_ranges(known, monkeypatch):
-    fit = fit_spectrum(OMEGA, TEMPERATURE, LAW.complex_modulus(OMEGA, TEMPERATURE), 15.0, Form("cam"))
+    fit = fit_spectrum(OMEGA, TEMPERATURE, LAW.complex_modulus(OMEGA, TEMPERATURE), 15.0, Form("power"))
     assert fit.law.glassy_modulus == pytest.approx(30e9, rel=1e-3) and fit.law.slope == pytest.approx(
         0.9, rel=1e-3
     )
     monkeypatch.delitem(RANGES, "width")
-    with pytest.raises(InputError, match="'cam' cannot be fitted without a range for width"):
-        fit_spectrum(OMEGA, TEMPERATURE, LAW.complex_modulus(OMEGA, TEMPERATURE), 15.0, Form("cam"))
+    with pytest.raises(InputError, match="'power' cannot be fitted without a range for width"):
+        fit_spectrum(OMEGA, TEMPERATURE, LAW.complex_modulus(OMEGA, TEMPERATURE), 15.0, Form("power"))
 
 
 def test_the_zener_solid_of_contributing_is_a_file(tmp_path):

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
-from asphalt_nscd.api.diagnosis import Diagnosis, diagnose
+from asphalt_nscd.api.diagnosis import Diagnosis, Known, diagnose
 from asphalt_nscd.diagnosis.pooled import Pooled, pool
 from asphalt_nscd.diagnosis.reported import EN_12697_26, master_curve
 from asphalt_nscd.diagnosis.run import Draws
@@ -108,6 +108,7 @@ def compare(
     mixes: Mapping[str, str | Path] | Sequence[str | Path],
     *,
     measured_in: str | None = None,
+    law: str = "2s2p1d",
     draws: Draws = Draws(),  # noqa: B008  frozen
     progress: Progress = lambda *_: None,
 ) -> Comparison:
@@ -119,6 +120,8 @@ def compare(
         By the name of the mix; of a list the names are those of files and folders.
     measured_in : str, optional
         "bending" or "tension-compression"; else what the files say.
+    law : str
+        "2s2p1d", "huet-sayegh", "sigmoid" or "cam": the form of each mix's law.
     draws : Draws
         Of the chance level, as in `diagnose`.
     progress : callable
@@ -144,7 +147,7 @@ def compare(
     found: dict[str, Diagnosis] = {}
     for n, (name, path) in enumerate(paths.items()):
         try:
-            found[name] = diagnose(path, measured_in=measured_in, draws=draws)
+            found[name] = diagnose(path, measured_in=measured_in, known=Known(law=law), draws=draws)
         except InputError as error:
             raise InputError(f"mix {name}: {error}") from None
         progress("Compare", n + 1, len(paths))

@@ -21,7 +21,7 @@ from asphalt_nscd.api.tables import Measurements, campaign_in
 from asphalt_nscd.diagnosis.brief import rows
 from asphalt_nscd.diagnosis.measured_limits import Progress, Trials, verify
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
-from asphalt_nscd.diagnosis.run import Draws, Outcome, Simulated, conclude
+from asphalt_nscd.diagnosis.run import Draws, Outcome, Simulated, Stated, conclude
 from asphalt_nscd.diagnosis.summary import answer, summary
 from asphalt_nscd.diagnosis.written import mean_averages, read_diagnosis
 from asphalt_nscd.files.errors import InputError
@@ -118,9 +118,14 @@ class Diagnosis:
         """Each test: phase measured, and phase that its |E*| and its isotherm require (Kramers and Kronig)."""
         return self.outcome.causality
 
+    @property
+    def laws(self) -> pd.DataFrame:
+        """One row for each law that can be fitted: its number of parameters, mean relative errors [%], if `law`."""
+        return pd.DataFrame(self.content.get("laws", []))
+
     @cached_property
     def law(self) -> Law | None:
-        """The law of the mix without the named causes, 2S2P1D with a shift; None where one isotherm was tested."""
+        """The law of the mix without the named causes, with a shift; None where one isotherm was tested."""
         return None if self.outcome.law is None else Law(self.outcome.law)
 
     def plot_black(self) -> Figure:
@@ -273,7 +278,8 @@ class Known:
     """What is known beside the table.
 
     static_modulus_MPa: of the mix at long times. scatter: standard deviations of one test, |E*| in % and phase in
-    degrees; else they come from replicates.
+    degrees; else they come from replicates. law: "2s2p1d", "huet-sayegh", "sigmoid" (AASHTO R 84, MEPDG) or "cam", the
+    form that the law of the mix is given; all four are compared.
 
     >>> Known(scatter=(3.0, 0.5)).static_modulus_MPa is None
     True
@@ -281,6 +287,7 @@ class Known:
 
     static_modulus_MPa: float | None = None
     scatter: tuple[float, float] | None = None
+    law: str = "2s2p1d"
 
 
 @checked
@@ -306,7 +313,7 @@ def diagnose(
         b_mm, B_mm, e_mm, h_mm, mass_kg, mobile_mass_kg of the specimens, or a table of them; of ready moduli only the
         form factor counts.
     known : Known
-        Static modulus and scatter, where they are known beside the table.
+        Static modulus and scatter, where they are known beside the table, and the form of the law.
     simulated : Simulated
         What was simulated of the same tests.
     draws : Draws
@@ -340,8 +347,7 @@ def diagnose(
         conclude(
             campaign_in(measurements, measured_in=measured_in),
             geometry,
-            static_modulus=None if static is None else 1e6 * static,
-            scatter=stated,
+            stated=Stated(None if static is None else 1e6 * static, stated, known.law),
             simulated=simulated,
             draws=draws,
             progress=progress,

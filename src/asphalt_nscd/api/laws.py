@@ -22,10 +22,10 @@ from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.chain_law import chain_at
 from asphalt_nscd.rheology.fitted_laws import burgers_at
 from asphalt_nscd.rheology.laws_io import law_content, require_holds
-from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE
+from asphalt_nscd.rheology.priors import prior_of
 from asphalt_nscd.rheology.spectrum import LAWS
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
-from asphalt_nscd.rheology.spectrum_io import spectrum_content
+from asphalt_nscd.rheology.spectrum_io import fit_content
 
 CHAIN_ERROR = 1e-3  # of ln E*, of the chain that bonds follow
 MARGIN = 2.0  # of its band to either side of the tested frequency, for the transient
@@ -33,7 +33,7 @@ MARGIN = 2.0  # of its band to either side of the tested frequency, for the tran
 
 @dataclass(frozen=True)
 class Law:
-    """A law of E*, of one temperature (Burgers, Kelvin chain) or of all (2S2P1D, Huet-Sayegh with their shift).
+    """A law of E*, of one temperature (Burgers, Kelvin chain) or of all (with their shift).
 
     >>> law = Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
     >>> print(f"{abs(law.complex_modulus(10.0)) / 1e9:.2f} GPa")  # Table 3 of the paper, at 10 Hz
@@ -83,7 +83,7 @@ class Law:
 
     @property
     def kind(self) -> str:
-        """One of burgers, kelvin_chain, 2s2p1d, huet-sayegh."""
+        """One of burgers, kelvin_chain, 2s2p1d, huet-sayegh, sigmoid, cam."""
         return self._parsed.kind
 
     @property
@@ -221,7 +221,7 @@ def fit(table: Any, law: str = "2s2p1d", *, temperature_C: float | None = None, 
     table : path, folder or DataFrame
         Tests: temperature_C, frequency_Hz, E_MPa and phase_deg, or what `read` understands as these.
     law : str
-        "burgers" at one temperature, Eqs. (27)-(29); "2s2p1d" or "huet-sayegh" at all.
+        "burgers" at one temperature, Eqs. (27)-(29); "2s2p1d", "huet-sayegh", "sigmoid" or "cam" at all.
     temperature_C : float, optional
         Of a Burgers law [degC].
     shift : str
@@ -274,17 +274,8 @@ def fit(table: Any, law: str = "2s2p1d", *, temperature_C: float | None = None, 
             observed.modulus,
             reference,
             Form(law, shift),
-            prior=ASPHALT_CONCRETE,
+            prior=prior_of(law),
         )
     except InputError as error:
         raise InputError(f"{name}: {error}") from None
-    return Law(
-        spectrum_content(
-            fitted.law,
-            source=f"fitted ({origin})",
-            rms_log_residual=fitted.rms_log_residual,
-            std_error=fitted.std_error,
-            unseen=fitted.unseen,
-            from_prior=fitted.from_prior,
-        )
-    )
+    return Law(fit_content(fitted, f"fitted ({origin})"))

@@ -146,6 +146,12 @@ class Choice(click.ParamType):
         return quantity.strip(), column.strip()
 
 
+law = click.option(
+    "--law",
+    default="2s2p1d",
+    type=click.Choice(["2s2p1d", "huet-sayegh", "sigmoid", "cam"]),
+    help="Form of the law in law.json; sigmoid is that of AASHTO R 84. Misfits of all four are compared.",
+)
 column = click.option(
     "--column",
     "columns",

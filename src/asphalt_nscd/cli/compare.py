@@ -19,9 +19,10 @@ from asphalt_nscd.cli._progress import bars
 @click.option(
     "--same-machine", is_flag=True, help="One machine tested all: say what it does to all of them, too."
 )
+@_options.law
 @click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
 def command(
-    mixes: tuple[Path, ...], output: Path, measured_in: str | None, same_machine: bool, draws: int
+    mixes: tuple[Path, ...], output: Path, measured_in: str | None, same_machine: bool, law: str, draws: int
 ) -> None:
     """Diagnose several mixes and rank them: one workbook, one page, and a folder for each.
 
@@ -32,13 +33,16 @@ def command(
     from asphalt_nscd.files.store import write_table
 
     with bars("mix", on_terminal=True) as progress:
-        made = compare(mixes, measured_in=measured_in, draws=Draws(draws), progress=progress)
+        made = compare(mixes, measured_in=measured_in, law=law, draws=Draws(draws), progress=progress)
     table, curves = made.table, made.curves
     for name, diagnosis in made.diagnoses.items():
         diagnosis.outcome.write(output / name)
         _data.part("reporting.pages", "laboratory").write_page(output / name, f"Diagnosis of {name}")
-    _data.part("exports", "workbook").write_sheets(
-        output / "comparison.xlsx", {"Ranking": table, "Curves at 15 degC": curves}
+    book = _data.part("exports", "workbook")
+    book.write_sheets(
+        output / "comparison.xlsx",
+        {"Ranking": table, "Curves at 15 degC": curves},
+        book.plots_of_mixes(curves, "Curves at 15 degC"),
     )
     _data.part("reporting.pages", "comparison").write_page(output / "comparison.html", table, curves)
     for row in table.itertuples():

@@ -74,7 +74,8 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 @_options.gather(
     "table", measurements="measurements", sheet="sheet", columns="columns", measured_in="measured_in"
 )
-@_options.gather("known", geometry="geometry", static_modulus_MPa="static_modulus_mpa")
+@_options.law
+@_options.gather("known", geometry="geometry", static_modulus_MPa="static_modulus_mpa", law="law")
 @_options.gather("scatter", modulus="modulus_scatter_percent", phase="phase_scatter_deg")
 @_options.gather("simulated", campaign="simulations", facets="facets", specimen="specimen")
 @_options.gather("draws", number="draws", seed="seed")
@@ -121,7 +122,7 @@ def command(
         diagnosis = diagnose(
             campaign,
             geometry=known["geometry"],
-            known=Known(known["static_modulus_MPa"], stated),
+            known=Known(known["static_modulus_MPa"], stated, known["law"]),
             simulated=Simulated(**simulated),
             draws=Draws(**draws),
             progress=progress,

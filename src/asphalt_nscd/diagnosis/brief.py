@@ -353,9 +353,10 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     if simulated or misses is None:
         return [" ".join([_sentence(verdict.on_simulation(content, left)), *warning])]
     modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
+    title = next((one["title"] for one in content.get("laws", []) if one["taken"]), "2S2P1D")
     whom = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
     said = [
-        f"law.json, a 2S2P1D master curve, is off {whom} by {modulus} % in |E*| and {phase} % of the phase angle."
+        f"law.json, a {title} master curve, is off {whom} by {modulus} % in |E*| and {phase} % of the phase angle."
     ]
     if verdict.alone(content):
         said.append("Without replicates nobody knows how much of that is scatter.")

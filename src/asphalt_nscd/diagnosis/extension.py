@@ -30,10 +30,10 @@ from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.files.words import joined
 from asphalt_nscd.measurements.reduction import LEAST_TESTS
 from asphalt_nscd.rheology.conversion import kelvin_chain
-from asphalt_nscd.rheology.fitting import Fit
+from asphalt_nscd.rheology.fitting import Fit, log_residual
 from asphalt_nscd.rheology.laws_io import write_chain
-from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE
-from asphalt_nscd.rheology.spectrum import Spectrum, parameters
+from asphalt_nscd.rheology.priors import prior_of
+from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameters
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
@@ -49,33 +49,64 @@ TERMS = {  # a parameter of the law in words, its unit and how many of it are on
     "h": ("h", "", 1.0),
     "delta": ("delta", "", 1.0),
     "beta": ("beta", "", 1.0),
+    "gamma": ("gamma", "", 1.0),
+    "v": ("v", "", 1.0),
+    "w": ("w", "", 1.0),
     "c1": ("C1", "", 1.0),
     "c2": ("C2", " K", 1.0),
     "activation_energy": ("the activation energy", " kJ/mol", 1e-3),
 }
 
 
-def material_law(diagnosis: Diagnosis, used: NDArray[np.bool_] | None = None) -> Fit:
-    """One 2S2P1D law with a WLF shift (nine parameters) of the measurements without the causes that are taken off.
+def material_law(
+    diagnosis: Diagnosis, used: NDArray[np.bool_] | None = None, form: str = "2s2p1d"
+) -> Fit[Spectrum]:
+    """One law with a WLF shift (nine parameters with 2S2P1D) of the measurements without the causes that are taken off.
 
-    used (n,): tests that the law is fitted to, all by default.
+    used (n,): tests that the law is fitted to, all by default; form: one of `LAWS`.
     Of two temperatures or four tests, which determine no WLF constants, with an Arrhenius shift. What the tests
     leave open is as usual for asphalt concrete. Errors of |E*| and of the phase count alike: the misfit of the
-    form exceeds the scatter of the tests, which is therefore no measure of what to trust.
+    form exceeds the scatter of the tests, which is therefore no measure of what to trust. The covariance is that of
+    the free curve at the tests, as `reported` has it, carried to the parameters, with the misfit of the form.
     """
     observed = diagnosis.observed
     modulus = observed.modulus / effect_taken_off(diagnosis)
     rows = np.ones(observed.size, bool) if used is None else used
     reference = float(observed.isotherms[observed.isotherms.size // 2])
     shift = "wlf" if observed.isotherms.size > 2 and observed.size > LEAST_TESTS else "arrhenius"
-    return fit_spectrum(
+    fit = fit_spectrum(
         observed.omega[rows],
         observed.temperature[rows],
         modulus[rows],
         reference,
-        Form(shift=shift),
-        prior=ASPHALT_CONCRETE,
+        Form(form, shift),
+        prior=prior_of(form),
     )
+    free, slope = diagnosis.ladder.joint.apparent(diagnosis.ladder.fitted.law, ())
+    along = (slope[rows] / free[rows, None])[:, : diagnosis.ladder.fitted.law.size]
+    along = np.concatenate([along.real, along.imag])
+    size = along.shape[1]
+    off = log_residual(free[rows], fit.law.complex_modulus(observed.omega[rows], observed.temperature[rows]))
+    misfit = np.repeat([np.mean(part**2) for part in np.split(off, 2)], off.size // 2)
+    return fit.under(along @ diagnosis.ladder.fitted.covariance[:size, :size] @ along.T + np.diag(misfit))
+
+
+def compared(diagnosis: Diagnosis, fit: Fit[Spectrum], used: NDArray[np.bool_]) -> list[dict[str, Any]]:
+    """Each law of `LAWS` with its number of parameters and its errors, as in `law_misses`; fit: the one taken."""
+    made = {
+        name: fit if isinstance(fit.law, kind) else material_law(diagnosis, used, name)
+        for name, kind in LAWS.items()
+    }
+    return [
+        {
+            "law": name,
+            "title": one.law.title,
+            "parameters": len(parameters(one.law)),
+            **law_misses(diagnosis, one.law, used),
+            "taken": one is fit,
+        }
+        for name, one in made.items()
+    ]
 
 
 def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) -> list[str]:
@@ -92,7 +123,7 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
         *notes,
         "law.json has constants of its own: do not mix them with those of the free master curve. The two laws differ "
         f"by {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*| and {np.degrees(np.sqrt(np.mean(off.imag**2))):.1f} "
-        f"deg in phase.{'' if without else ' No 2S2P1D law fits these tests better.'}",
+        f"deg in phase.{'' if without else ' No {law.title} law fits these tests better.'}",
     ]
 
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from scipy.special import stdtrit
 
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.extension import effect_taken_off
 from asphalt_nscd.diagnosis.scatter import SCALE_FREEDOM
+from asphalt_nscd.rheology.spectrum import Spectrum
+from asphalt_nscd.rheology.spectrum_io import Uncertainty, student
 
 EN_12697_26 = (15.0, 10.0)  # degC, Hz
 # AASHTO R 84, the input of MEPDG programs.
@@ -39,7 +40,7 @@ class Reported:
     def table(self) -> pd.DataFrame:
         """One row for each condition, with the 95 % intervals."""
         e, p = np.exp(self.logarithm.real) * 1e-6, np.degrees(self.logarithm.imag)
-        of_modulus, of_phase = (float(stdtrit(freedom, 0.975)) for freedom in self.freedom)
+        of_modulus, of_phase = map(student, self.freedom)
         spread = np.exp(of_modulus * self.std_error.real)
         off = of_phase * np.degrees(self.std_error.imag)
         return pd.DataFrame(
@@ -69,7 +70,6 @@ def mix_modulus(
     ladder, observed = diagnosis.ladder, diagnosis.observed
     base, law = ladder.joint.spectrum, ladder.fitted.law
     modulus, slope = base.modulus(law, 2.0 * np.pi * frequency, temperature)
-    freedom = diagnosis.noise.freedom
     along = slope / modulus[:, None]
     covariance = ladder.fitted.covariance[: law.size, : law.size]
     variance = [np.einsum("ij,jk,ik->i", part, covariance, part) for part in (along.real, along.imag)]
@@ -85,8 +85,14 @@ def mix_modulus(
         np.log(np.abs(modulus)) + 1j * np.angle(modulus),
         np.sqrt(variance[0]) + 1j * np.sqrt(variance[1]),
         within,
-        (min(freedom, SCALE_FREEDOM + len(observed.names) - 1), freedom),
+        freedom_of(diagnosis),
     )
+
+
+def freedom_of(diagnosis: Diagnosis) -> tuple[float, float]:
+    """Degrees of freedom of the standard errors of |E*| and of the phase of the mix."""
+    freedom = diagnosis.noise.freedom
+    return min(freedom, SCALE_FREEDOM + len(diagnosis.observed.names) - 1), freedom
 
 
 def standard_values(diagnosis: Diagnosis) -> pd.DataFrame:
@@ -112,6 +118,20 @@ def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:
         .table()
         .drop(columns="within_the_tests")
     )
+
+
+def with_law(curve: pd.DataFrame, law: Spectrum, uncertainty: Uncertainty | None) -> pd.DataFrame:
+    """The master curve beside that of a law with its 95 % interval, where it is known; columns law_..."""
+    omega, temperature = 2.0 * np.pi * curve["frequency_Hz"].to_numpy(), curve["temperature_C"].to_numpy()
+    star = law.complex_modulus(omega, temperature)
+    modulus, phase = np.abs(star) * 1e-6, np.degrees(np.angle(star))
+    columns = {"law_E_MPa": modulus, "law_phase_deg": phase}
+    if uncertainty is not None:
+        half = uncertainty.half(law, omega, temperature)
+        by, off = np.exp(half.real), np.degrees(half.imag)
+        columns |= {"law_E_low_MPa": modulus / by, "law_E_high_MPa": modulus * by}
+        columns |= {"law_phase_low_deg": phase - off, "law_phase_high_deg": phase + off}
+    return curve.assign(**columns)
 
 
 def corrected(diagnosis: Diagnosis) -> pd.DataFrame:

@@ -26,11 +26,12 @@ from asphalt_nscd.diagnosis import (
     within_isotherm,
 )
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.extension import law_misses, law_notes, material_law, prior_notes
+from asphalt_nscd.diagnosis.extension import compared, law_misses, law_notes, material_law, prior_notes
 from asphalt_nscd.diagnosis.instructions import instructions
 from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.sentences import with_intervals
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.summary import answer
 from asphalt_nscd.diagnosis.sweeps import Costs
@@ -38,7 +39,8 @@ from asphalt_nscd.diagnosis.trust import reading, trust
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign
-from asphalt_nscd.rheology.spectrum_io import spectrum_content
+from asphalt_nscd.rheology.spectrum import LAWS
+from asphalt_nscd.rheology.spectrum_io import Uncertainty, fit_content
 
 OF_THE_PAPER = (
     "no --geometry: the specimen of Quezada and Chazallon (2020) is taken, 250 mm high, with 235 g that move; sizes of "
@@ -137,26 +139,40 @@ class Simulated:
     specimen: str | Path | None = None
 
 
+@dataclass(frozen=True)
+class Stated:
+    """What the user says. static_modulus [Pa]; scatter: of |E*| (relative) and phase [rad]; law: one of `LAWS`, fitted.
+
+    >>> Stated().law
+    '2s2p1d'
+    """
+
+    static_modulus: float | None = None
+    scatter: tuple[float, float] | None = None
+    law: str = "2s2p1d"
+
+    def __post_init__(self) -> None:
+        if self.law not in LAWS:
+            raise InputError(f"law {self.law!r} is not known; give one of {', '.join(LAWS)}.")
+
+
 def conclude(
     measurements: str | Path | Campaign,
     geometry: str | Path | Mapping[str, Any],
     *,
-    static_modulus: float | None = None,
-    scatter: tuple[float, float] | None = None,
+    stated: Stated = Stated(),
     simulated: Simulated = Simulated(),
     draws: Draws = Draws(),  # noqa: B008  frozen
     progress: Progress = lambda *_: None,
 ) -> Outcome:
-    """Diagnose measurements.
-
-    static_modulus [Pa]; scatter: of |E*| (relative) and phase [rad].
-    """
+    """Diagnose measurements."""
+    scatter = stated.scatter
     done = Steps(progress)
     numerical = read_specimen(simulated.specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None
     given = measurements.table.path if isinstance(measurements, Campaign) else Path(measurements)
     files = (given,) if campaign is None else campaign.files
-    observed, origin = read_observations(measurements, geometry, static_modulus)
+    observed, origin = read_observations(measurements, geometry, stated.static_modulus)
     done.step()
     try:
         diagnosis = diagnose(observed, scatter, draws=draws.number, seed=draws.seed)
@@ -165,10 +181,11 @@ def conclude(
     done.step()
     odd = levels.odd(observed), levels.odd_phases(observed)
     doubtful = levels.rows(diagnosis.observed, chain(*odd))
-    fit = None if observed.isotherms.size < 2 else material_law(diagnosis, ~doubtful)
+    fit = None if observed.isotherms.size < 2 else material_law(diagnosis, ~doubtful, stated.law)
     content, before = report.as_json(diagnosis, numerical), None
     if fit is not None:
         content["law_misses"] = law_misses(diagnosis, fit.law, ~doubtful)
+        content["laws"] = compared(diagnosis, fit, ~doubtful)
         content["notes"] += law_notes(diagnosis, fit.law, levels.places(*odd)) + prior_notes(fit)
     done.step()
     notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
@@ -216,19 +233,17 @@ def conclude(
         "seed": draws.seed,
         "geometry": dict(geometry) if isinstance(geometry, Mapping) else Path(geometry).name,
         "specimen": None if simulated.specimen is None else Path(simulated.specimen).name,
-        "static_modulus_Pa": static_modulus,
+        "static_modulus_Pa": stated.static_modulus,
         "scatter_stated": None if scatter is None else list(scatter),
     }
-    law = None
+    law, curve = None, reported.master_curve(diagnosis)
     if fit is not None:
-        law = spectrum_content(
-            fit.law,
-            source=f"fitted ({origin})",
-            rms_log_residual=fit.rms_log_residual,
-            std_error=fit.std_error,
-            unseen=fit.unseen,
-            from_prior=fit.from_prior,
-        )
+        freedom = reported.freedom_of(diagnosis)
+        law = fit_content(fit, f"fitted ({origin})", freedom)
+        content["law_parameters"] = law_parameters(law)
+        known = None if fit.covariance is None else Uncertainty(fit.covariance, freedom)
+        curve = reported.with_law(curve, fit.law, known)
+    content["ladder"] = with_intervals(content)
     return Outcome(
         content,
         gain.residual_table(diagnosis, numerical, before),
@@ -238,9 +253,23 @@ def conclude(
         to_report={
             "corrected": reported.corrected(diagnosis),
             "reported": standard,
-            "master_curve": reported.master_curve(diagnosis),
+            "master_curve": curve,
         },
     )
+
+
+def law_parameters(law: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Parameters in the content of a law file with their intervals; `tau_s` carries its unit."""
+    intervals = law.get("interval_95", {})
+    return {
+        key: {
+            "value": value,
+            "interval_95": intervals.get(key),
+            "determined": key not in law["unseen"],
+        }
+        for key, value in law.items()
+        if isinstance(value, float) and key not in ("reference_temperature_C", "rms_log_residual")
+    }
 
 
 def _begin_with_campaigns(

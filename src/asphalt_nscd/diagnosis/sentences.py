@@ -294,7 +294,7 @@ def size(rung: Content, content: Content) -> str:
         value, unit = shown(amplitude["value"], amplitude["unit"])
         beyond = "more" if amplitude["value"] > 0.0 else "less"
         return f"{three_digits(value)} {typed(unit)} or {beyond} (the search ends there)"
-    return estimate(amplitude, 1.0 if rung["cause"] == BOND_MAPPING else widened(content))
+    return estimate(amplitude, _factor(rung, content))
 
 
 def estimate(one: Content, factor: float = 1.0) -> str:
@@ -302,8 +302,34 @@ def estimate(one: Content, factor: float = 1.0) -> str:
     value, unit = shown(one["value"], one["unit"])
     if one["std_error"] is None:
         return f"{three_digits(value)} {typed(unit)}".rstrip()
-    half = factor * CONFIDENCE * shown(one["std_error"], one["unit"])[0]
-    return f"{with_interval(value, half)} {typed(unit)}".rstrip()
+    return f"{with_interval(value, shown(half_width(one, factor), one['unit'])[0])} {typed(unit)}".rstrip()
+
+
+def half_width(one: Content, factor: float) -> float:
+    """Half of the 95 % interval of a value, in its unit."""
+    return factor * CONFIDENCE * float(one["std_error"])
+
+
+def with_intervals(content: Content) -> list[dict[str, Any]]:
+    """The ladder with the 95 % interval of each parameter that has a standard error, as `estimate` says it."""
+    return [
+        {
+            **rung,
+            "parameters": {
+                name: one
+                if one["std_error"] is None
+                else {**one, "interval_95": [one["value"] - half, one["value"] + half]}
+                for name, one in rung["parameters"].items()
+                for half in [half_width(one, _factor(rung, content)) if one["std_error"] is not None else 0.0]
+            },
+        }
+        for rung in content["ladder"]
+    ]
+
+
+def _factor(rung: Content, content: Content) -> float:
+    """On the intervals of a rung; no measurement widens what simulations show."""
+    return 1.0 if rung["cause"] == BOND_MAPPING else widened(content)
 
 
 def typed(unit: str) -> str:

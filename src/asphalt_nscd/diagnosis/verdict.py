@@ -35,7 +35,7 @@ COMMON = (
 )
 TWO_LAWS = (
     f"Two laws are fitted. The diagnosis uses {COMMON}, a master curve of any smooth shape. law.json holds a law of "
-    "few parameters (2S2P1D) for use in other programs."
+    "few parameters (2S2P1D unless --law says another) for use in other programs."
 )
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of

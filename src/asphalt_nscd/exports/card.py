@@ -6,6 +6,9 @@ import textwrap
 from dataclasses import dataclass, replace
 from decimal import ROUND_UP, Context, Decimal
 
+import numpy as np
+from numpy.typing import NDArray
+
 from asphalt_nscd import __version__
 from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.errors import InputError
@@ -14,6 +17,7 @@ from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import MaxwellSeries, of_chain
 from asphalt_nscd.rheology.maxwell_fitting import Miss, fit_series, miss
+from asphalt_nscd.rheology.spectrum_io import student
 
 POISSON = 0.35  # of the bonds of Quezada & Chazallon (2020)
 LEAST_LONG_TERM = 1e-6  # of the instantaneous modulus: programs want a solid at infinite time
@@ -78,6 +82,26 @@ class Card:
             self, series=series, error=miss(series, self.law.at_reference, *self.law.reduced_band())
         )
 
+    @property
+    def half_widths(self) -> NDArray[np.float64] | None:
+        """Half of the 95 % intervals of the long-term modulus and of each branch's [Pa], at their relaxation times.
+
+        First order: of the moduli that follow the law over the band when its parameters move by their covariance.
+        None where the law's file has no covariance.
+        """
+        known, low_high = self.law.uncertainty, self.law.reduced_band()
+        if known is None or self.exact:
+            return None
+        omega = np.geomspace(*low_high, 20 * len(self.series.times) + 20)
+        turned = 1j * omega[:, None] * np.array(self.series.times)
+        modulus = self.law.at_reference(omega)
+        branches = np.hstack([np.ones((omega.size, 1)), turned / (1.0 + turned)]) / modulus[:, None]
+        slopes = self.law.law.log_slopes(omega, np.full(omega.size, self.law.temperature))  # type: ignore[union-attr]
+        system, moved = (np.concatenate([part.real, part.imag]) for part in (branches, slopes))
+        response = np.linalg.lstsq(system, moved)[0]
+        variance = np.einsum("ij,jk,ik->i", response, known.covariance, response)
+        return student(min(known.freedom)) * np.sqrt(variance)
+
     def achieved(self) -> str:
         """Number of terms and largest errors, in words."""
         terms = f"{counted(len(self.series.moduli), 'Prony term')} at {self.law.temperature:g} degC"
@@ -95,13 +119,14 @@ class Card:
         said = [
             f"Linear viscoelastic law of an asphalt mix, written by asphalt-nscd {__version__} from {law.path.name}.",
             f"Law: {law.name}; source: {law.source}.",
-            "Parameters: " + ", ".join(f"{key} = {value:.6g}" for key, value in law.parameters.items()) + ".",
+            "Parameters: " + ", ".join(self._parameter(key) for key in law.parameters) + ".",
             f"{self._tests()} {law.loose()}",
             f"Units: {units.name}; temperature in degC.",
             f"Series: {self.achieved()}, against the law"
             + (" (the law's own exact form)." if self.exact else "."),
             f"Band of these errors: {law.band}"
             + (f", that is {low:.4g} to {high:.4g} rad/s at {law.temperature:g} degC." if law.shift else "."),
+            *self._uncertain(),
             f"Instantaneous modulus {self._modulus(self.series.instantaneous)}, long-term modulus "
             f"{self._modulus(self.series.long_term)}." + self._limits(),
             f"{self.poisson_said()}, constant in time: shear and bulk moduli relax alike.",
@@ -120,6 +145,27 @@ class Card:
             f"{sign} {line}".encode("ascii", "replace").decode()
             for statement in self.statements()
             for line in textwrap.wrap(statement, WIDTH, subsequent_indent="  ")
+        ]
+
+    def _parameter(self, key: str) -> str:
+        low_high = self.law.intervals.get(key)
+        said = f" ({low_high[0]:.4g} to {low_high[1]:.4g})" if low_high else ""
+        return f"{key} = {self.law.parameters[key]:.6g}{said}"
+
+    def _uncertain(self) -> list[str]:
+        """How sure the law and the moduli of the series are."""
+        low, high = self.law.reduced_band()
+        band, moduli = self.law.half_widths(np.geomspace(low, high, 30)), self.half_widths
+        if band is None or moduli is None:
+            return []
+        sizes = ", ".join(f"{self.settings.units.of(half):.3g}" for half in moduli)
+        return [
+            "Behind a parameter: its 95 % interval.",
+            f"95 % interval of the law in the band: {100.0 * np.expm1(band.real.min()):.2g} to "
+            f"{100.0 * np.expm1(band.real.max()):.2g} % of |E*| to either side, {np.degrees(band.imag.min()):.2g} to "
+            f"{np.degrees(band.imag.max()):.2g} deg of the phase.",
+            f"95 % intervals of the moduli at these relaxation times, long-term modulus first: +- {sizes} "
+            f"{self.settings.units.stress}. Errors of neighbours cancel: together they are those of the law.",
         ]
 
     def _tests(self) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.laws_io import bond_law_of, numbers_of, require_holds
 from asphalt_nscd.rheology.shift import GAS_CONSTANT, WLF, ZERO_CELSIUS, Arrhenius
 from asphalt_nscd.rheology.spectrum import LAWS, Spectrum
-from asphalt_nscd.rheology.spectrum_io import spectrum_of
+from asphalt_nscd.rheology.spectrum_io import Uncertainty, spectrum_of, uncertainty_of
 
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -65,6 +66,8 @@ class ExportedLaw:
     std_error: dict[str, float]  # of some of them
     rms_log_residual: float | None  # of the fit to tests
     unseen: tuple[str, ...] = ()  # parameters that the tests do not determine at all
+    uncertainty: Uncertainty | None = None  # where the file says it
+    intervals: Mapping[str, Sequence[float]] = field(default_factory=dict)  # 95 %, of parameters
 
     @property
     def name(self) -> str:
@@ -99,6 +102,12 @@ class ExportedLaw:
         if not isinstance(self.shift, WLF):
             return np.full(temperature.shape, True)
         return temperature - self.shift.reference_temperature + self.shift.c2 > 0.0
+
+    def half_widths(self, omega: Vector) -> Complex | None:
+        """Half of the 95 % intervals of ln|E*| and (imaginary) the phase [rad] at `temperature`, if the file tells."""
+        if self.uncertainty is None or isinstance(self.law, Burgers | KelvinChain):
+            return None
+        return self.uncertainty.half(self.law, omega, np.full(omega.shape, self.temperature))
 
     def reduced_band(self) -> tuple[float, float]:
         """Lowest and highest angular frequency [rad/s] of the tests, shifted to `temperature`."""
@@ -190,6 +199,8 @@ def law_of(
         _numbers(content.get("std_error")),
         rms if isinstance(rms, float) else None,
         tuple(str(name) for name in content.get("unseen") or ()),
+        uncertainty_of(path, content, law) if kind in LAWS else None,
+        content.get("interval_95") or {},
     )
 
 

@@ -42,6 +42,9 @@ class Table:
     sigmoid: tuple[float, float, float, float]
     error_percent: float
     log_shift: Vector
+    spread: (
+        Vector | None
+    )  # factor of the 95 % interval of each modulus, to either side; None where none is known
 
 
 def sigmoid(parameters: Vector, log_time: Vector) -> Vector:
@@ -69,6 +72,13 @@ def make_table(law: ExportedLaw) -> Table:
     reduced = 2.0 * np.pi * frequency * factor[:, None]
     modulus = np.full(reduced.shape, np.nan)
     modulus[defined] = np.abs(law.at_reference(reduced[defined])) / PSI
+    spread = None
+    if law.uncertainty is not None:
+        spread = np.full(reduced.shape, np.nan)
+        at = np.repeat(celsius[defined], frequency.size)
+        omega = np.tile(2.0 * np.pi * frequency, int(defined.sum()))
+        half = law.uncertainty.half(law.law, omega, at)  # type: ignore[arg-type]
+        spread[defined] = np.exp(half.real).reshape(-1, frequency.size)
     log_shift = np.log10(factor / factor[TEMPERATURES_F.index(REFERENCE_F)])
     log_time = -(np.log10(frequency) + log_shift[:, None])
 
@@ -87,7 +97,7 @@ def make_table(law: ExportedLaw) -> Table:
     ]
     error = float(100.0 * np.abs(10.0 ** off(found.x) - 1.0).max())
     delta, alpha, beta, gamma = (float(value) for value in found.x)
-    return Table(law, modulus, outside, (delta, alpha, beta, gamma), error, log_shift)
+    return Table(law, modulus, outside, (delta, alpha, beta, gamma), error, log_shift, spread)
 
 
 def _outside(reduced: float, low: float, high: float) -> str:
@@ -130,10 +140,25 @@ def text(table: Table) -> str:
         for statement in statements
         for line in textwrap.wrap(statement, WIDTH, subsequent_indent="  ")
     ]
+    lines += _intervals(table)
     lines.append("temperature_F," + ",".join(f"E_psi_at_{f:g}_Hz" for f in FREQUENCIES))
     for temperature, row in zip(TEMPERATURES_F, table.modulus, strict=True):
         lines.append(f"{temperature:g}," + ",".join("" if np.isnan(v) else f"{v:.0f}" for v in row))
     return "\n".join(lines) + "\n"
+
+
+def _intervals(table: Table) -> list[str]:
+    """Lines of comment: the 95 % interval of each modulus, a row for each temperature as in the table."""
+    if table.spread is None:
+        return []
+    rows = ["# 95 % interval of |E*| of the law, psi, in the order of the table:"]
+    for temperature, row, spread in zip(TEMPERATURES_F, table.modulus, table.spread, strict=True):
+        cells = [
+            f"{e / by:.0f} to {e * by:.0f}" if np.isfinite(e) else ""
+            for e, by in zip(row, spread, strict=True)
+        ]
+        rows.append(f"# {temperature:g}, {', '.join(cells)}")
+    return rows
 
 
 def _extrapolated(table: Table) -> str:

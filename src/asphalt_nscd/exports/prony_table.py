@@ -8,13 +8,15 @@ from asphalt_nscd.exports.card import Card
 
 
 def frame(card: Card) -> pd.DataFrame:
-    """One row a branch; row 0 is the long-term modulus, whose relaxation time is infinite."""
+    """One row a branch; row 0 is the long-term modulus, whose relaxation time is infinite. half_95: of the interval."""
     series, units = card.series, card.settings.units
-    moduli = [series.long_term, *series.moduli]
+    moduli, half = [series.long_term, *series.moduli], card.half_widths
+    known = {} if half is None else {f"half_95_{units.stress}": [units.of(one) for one in half]}
     return pd.DataFrame(
         {
             "branch": range(len(moduli)),
             f"modulus_{units.stress}": [units.of(modulus) for modulus in moduli],
+            **known,
             "relaxation_time_s": [float("inf"), *series.times],
             "share_of_instantaneous": [modulus / series.instantaneous for modulus in moduli],
         }

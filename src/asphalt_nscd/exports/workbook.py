@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
+from asphalt_nscd.exports import charts
 from asphalt_nscd.exports.card import Card
 from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.store import atomic_path
@@ -63,21 +64,42 @@ def write(card: Card, path: Path) -> None:
         _fill(book, "Residuals", tests.rename(columns=HEADINGS))
         if is_file(folder / "diagnosis.json"):
             _diagnosis(book, read_diagnosis([folder / "diagnosis.json"]))
+    charts.draw(book, _plots_of(card))
     _save(book, path)
 
 
-def write_sheets(path: Path, sheets: Mapping[str, pd.DataFrame]) -> None:
-    """Write tables into the sheets of one workbook, equal whenever it is written."""
+def _plots_of(card: Card) -> list[charts.Plot]:
+    """|E*| and phase of law, series and tests over frequency, and the series itself."""
+    sheet = "Master curve" if card.law.shift is not None else "Complex modulus"
+    x, stress = f"frequency at {card.law.temperature:g} °C [Hz]", card.settings.units.stress
+    plots = []
+    for quantity, unit, log in (("|E*|", "MPa", True), ("phase", "°", False)):
+        value, low, high = (
+            f"{quantity}{said} [{unit}]" for said in (" of the law", ", 95 % from", ", 95 % to")
+        )
+        lines = charts.bands("law", sheet, x, (value, low, high))
+        lines.append(charts.Line("Prony series", sheet, x, f"{quantity} of the Prony series [{unit}]"))
+        lines.append(charts.Line("tests", "Measured", x, f"measured {quantity} [{unit}]", points=True))
+        plots.append(charts.Plot(quantity, x, f"{quantity} [{unit}]", lines, log_y=log))
+    time, modulus = "relaxation time [s]", f"modulus [{stress}]"
+    branches = charts.Line("Prony terms", "Prony series", time, modulus, points=True)
+    return [*plots, charts.Plot("Prony series", time, modulus, [branches], log_y=True)]
+
+
+def write_sheets(path: Path, sheets: Mapping[str, pd.DataFrame], plots: Sequence[charts.Plot] = ()) -> None:
+    """Write tables into the sheets of one workbook, equal whenever it is written, with charts of them."""
     book = Workbook()
     book.remove(book.worksheets[0])
     for title, frame in sheets.items():
         _fill(book, title, frame)
+    if plots:
+        charts.draw(book, plots)
     with atomic_path(path) as temporary:
         _save(book, temporary)
 
 
 def corrected_workbook(folder: Path) -> Path:
-    """Write corrected.xlsx from the tables that a diagnosis left in a folder: tests, what was left out, the mix."""
+    """Write corrected.xlsx from what a diagnosis left in a folder: tests, what was left out, the mix, its law."""
     tests = pd.read_csv(folder / "corrected.csv", dtype={"specimen": str})
     used = tests["status"] == "used"
     sheets = {
@@ -86,17 +108,83 @@ def corrected_workbook(folder: Path) -> Path:
         "Mix": pd.read_csv(folder / "reported.csv"),
         "Master curve": pd.read_csv(folder / "master_curve.csv"),
     }
-    write_sheets(folder / "corrected.xlsx", {name: table for name, table in sheets.items() if len(table)})
+    content = read_diagnosis([folder / "diagnosis.json"])
+    if "law_parameters" in content:
+        sheets["Law"] = pd.DataFrame(
+            [
+                (
+                    name,
+                    one["value"],
+                    *(one["interval_95"] or (None, None)),
+                    "yes" if one["determined"] else "no",
+                )
+                for name, one in content["law_parameters"].items()
+            ],
+            columns=["parameter of law.json", "value", "95 % from", "95 % to", "determined by these tests"],
+        )
+        sheets["Laws compared"] = pd.DataFrame(content["laws"])
+    filled = {name: table for name, table in sheets.items() if len(table)}
+    write_sheets(folder / "corrected.xlsx", filled, _plots_of_mix(tests[used]))
     return folder / "corrected.xlsx"
+
+
+def _plots_of_mix(tests: pd.DataFrame) -> list[charts.Plot]:
+    """The mix and its law with their bands and the corrected tests over frequency, and the Black diagram."""
+    places = [number for number, _ in enumerate(tests["specimen"], start=2)]
+    rows = pd.Series(places).groupby(tests["specimen"].to_numpy(), sort=False).agg(["min", "max"])
+    plots = []
+    for stem, unit, log in (("E", "MPa", True), ("phase", "deg", False)):
+        lines = []
+        for name, column in (("mix", stem), ("law", f"law_{stem}")):
+            ends = (f"{column}_{unit}", f"{column}_low_{unit}", f"{column}_high_{unit}")
+            lines += charts.bands(name, "Master curve", "frequency_Hz", ends)
+        value = f"{stem}_{unit}"
+        lines += [
+            charts.Line(
+                f"specimen {name}", "Corrected", "reduced_frequency_Hz", value, (low, high), points=True
+            )
+            for name, low, high in rows.itertuples()
+        ]
+        title = "|E*| [MPa]" if stem == "E" else "phase [°]"
+        plots.append(charts.Plot(title, "reduced frequency [Hz]", title, lines, log_y=log))
+    black = [
+        charts.Line(f"specimen {name}", "Corrected", "phase_deg", "E_MPa", (low, high), points=True)
+        for name, low, high in rows.itertuples()
+    ]
+    black.append(charts.Line("mix", "Master curve", "phase_deg", "E_MPa"))
+    return [*plots, charts.Plot("Black diagram", "phase [°]", "|E*| [MPa]", black, log_x=False, log_y=True)]
+
+
+def plots_of_mixes(curves: pd.DataFrame, sheet: str) -> list[charts.Plot]:
+    """|E*| and phase of each mix over frequency, of a sheet in which the rows of a mix stand together."""
+    rows = (
+        pd.Series(range(2, len(curves) + 2)).groupby(curves["mix"].to_numpy(), sort=False).agg(["min", "max"])
+    )
+    return [
+        charts.Plot(
+            title,
+            "frequency [Hz]",
+            title,
+            [
+                charts.Line(str(name), sheet, "frequency_Hz", column, (low, high))
+                for name, low, high in rows.itertuples()
+            ],
+            log_y=column == "E_MPa",
+        )
+        for title, column in (("|E*| at 15 °C [MPa]", "E_MPa"), ("phase at 15 °C [°]", "phase_deg"))
+    ]
 
 
 def _law(card: Card) -> pd.DataFrame:
     """Parameters under the keys of the law file, which carry the units."""
     law = card.law
-    rows = [(name, value, law.std_error.get(name)) for name, value in law.parameters.items()]
+    rows = [
+        (name, value, law.std_error.get(name), *law.intervals.get(name, (None, None)))
+        for name, value in law.parameters.items()
+    ]
     return pd.DataFrame(
-        [("law", law.name, None), ("source", law.source, None), *rows],
-        columns=["parameter, unit at the end of its name", "value", "standard error"],
+        [("law", law.name, *[None] * 3), ("source", law.source, *[None] * 3), *rows],
+        columns=["parameter, unit at the end of its name", "value", "standard error", "95 % from", "95 % to"],
     )
 
 
@@ -119,11 +207,23 @@ def _master_curve(card: Card) -> pd.DataFrame:
     low, high = card.law.reduced_band()
     omega = np.geomspace(low, high, max(3, round(IN_A_DECADE * np.log10(high / low)) + 1))
     law, series = card.law.at_reference(omega), card.series.complex_modulus(omega)
+    half = card.law.half_widths(omega)
+    modulus, phase = np.abs(law) / 1e6, np.degrees(np.angle(law))
+    band = {}
+    if half is not None:
+        by, off = np.exp(half.real), np.degrees(half.imag)
+        band = {
+            "|E*|, 95 % from [MPa]": modulus / by,
+            "|E*|, 95 % to [MPa]": modulus * by,
+            "phase, 95 % from [°]": phase - off,
+            "phase, 95 % to [°]": phase + off,
+        }
     return pd.DataFrame(
         {
             f"frequency at {card.law.temperature:g} °C [Hz]": omega / (2.0 * np.pi),
-            "|E*| of the law [MPa]": np.abs(law) / 1e6,
-            "phase of the law [°]": np.degrees(np.angle(law)),
+            "|E*| of the law [MPa]": modulus,
+            "phase of the law [°]": phase,
+            **band,
             "E' of the law [MPa]": law.real / 1e6,
             "E'' of the law [MPa]": law.imag / 1e6,
             "|E*| of the Prony series [MPa]": np.abs(series) / 1e6,
@@ -135,11 +235,13 @@ def _master_curve(card: Card) -> pd.DataFrame:
 def _prony(card: Card) -> pd.DataFrame:
     """As the CSV has it, but the infinite time of the long-term modulus is left empty."""
     series, units = card.series, card.settings.units
-    moduli = np.array([series.long_term, *series.moduli])
+    moduli, half = np.array([series.long_term, *series.moduli]), card.half_widths
+    known = {} if half is None else {f"half of its 95 % interval [{units.stress}]": half / units.pascals}
     return pd.DataFrame(
         {
             "branch (0: long-term modulus)": range(moduli.size),
             f"modulus [{units.stress}]": moduli / units.pascals,
+            **known,
             "relaxation time [s]": [None, *series.times],
             "share of the instantaneous modulus [1]": moduli / series.instantaneous,
         }

@@ -8,7 +8,7 @@ temperature and frequency.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -37,7 +37,9 @@ class Fit(Generic[Law]):
     |ln(E_measured / E_law)| over the points. unseen: parameters that the points do not determine. Those at a
     bound of the fit or without effect have no standard error, and those of the others hold them fixed.
     from_prior: those of the unseen that have the value, and nearly the standard error, of a prior.
-    freedom: residuals (two for each point) less the parameters that the points determine.
+    freedom: residuals (two for each point) less the parameters that the points determine. covariance (p, p): of the
+    logarithms of `parameters`, zero where there is no standard error. response (p, 2n): change of these logarithms
+    with ln|E*| and the phase of the points; of_prior (p, p): what the prior leaves open of them.
     """
 
     law: Law
@@ -46,6 +48,22 @@ class Fit(Generic[Law]):
     freedom: int
     unseen: tuple[str, ...] = ()
     from_prior: tuple[str, ...] = ()
+    covariance: NDArray | None = None
+    response: NDArray | None = None
+    of_prior: NDArray | None = None
+
+    def under(self, points: NDArray) -> Fit[Law]:
+        """The same fit to points of another covariance (2n, 2n) of ln|E*|, then of the phase, than it assumed."""
+        if self.response is None or self.of_prior is None:
+            return self
+        covariance = self.response @ points @ self.response.T + self.of_prior
+        size = np.sqrt(np.diag(covariance))
+        std_error = {
+            name: value * float(one)
+            for (name, value), one in zip(parameters(self.law).items(), size, strict=True)
+            if name in (self.std_error or {})
+        }
+        return replace(self, covariance=covariance, std_error=std_error)
 
     def interval(self, name: str, level: float = 0.95) -> tuple[float, float]:
         """Confidence interval of a parameter that has a standard error: Student's t on its logarithm."""

@@ -17,8 +17,8 @@ Vector = NDArray[np.float64]
 
 # Each parameter in the coordinate of the fit: its bounds, and the range of the random starts.
 # Moduli over the largest norm, tau times the middle frequency, c1/c2 in decades/K and the activation energy over
-# 1e5 J/mol are logarithms, as are delta and beta; h and k/h are log-odds. c2 is the curvature of the shift, its
-# least value over it: a straight shift, c2 infinite, is then a short way off and not an endless valley.
+# 1e5 J/mol are logarithms, as are delta, beta, gamma, v and w; h and k/h are log-odds. c2 is the curvature of the
+# shift, its least value over it: a straight shift, c2 infinite, is then a short way off and not an endless valley.
 RANGES = {
     "static_modulus": (-14.0, -0.1, -8.0, -4.0),
     "glassy_modulus": (-0.5, 3.0, 0.0, 1.0),
@@ -27,6 +27,9 @@ RANGES = {
     "delta": (-5.0, 6.0, 0.0, 1.5),
     "tau": (-15.0, 15.0, -3.0, 8.0),
     "beta": (-3.0, 15.0, 2.0, 8.0),
+    "gamma": (-3.5, 0.5, -2.0, -1.0),
+    "v": (-4.0, 0.5, -2.5, -1.0),
+    "w": (-3.0, 0.0, -1.0, -0.1),
     "c1": (-6.0, 1.0, -2.6, -1.4),
     "c2": (1e-3, 0.999, 0.1, 0.6),
     "activation_energy": (-5.0, 3.0, 0.0, 1.5),

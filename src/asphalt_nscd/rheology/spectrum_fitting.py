@@ -209,8 +209,13 @@ class _Problem:
         unseen = {name for name, visible in zip(at.names, seen, strict=True) if not visible}
         std_error: dict[str, float] | None = None
         from_prior: tuple[str, ...] = ()
+        response = of_prior = None
         if covariance is not None:
-            slopes = at.log_slopes(solution.x)[:, seen]
+            slopes, size = at.log_slopes(solution.x)[:, seen], 2 * self.modulus.size
+            jacobian = solution.jac[:, seen]
+            gain = slopes @ np.linalg.inv(jacobian.T @ jacobian)
+            response = -gain @ jacobian[:size].T / (self.deviations * self.scatter)
+            of_prior = gain @ jacobian[size:].T @ jacobian[size:] @ gain.T
             covariance = slopes @ covariance @ slopes.T  # of the logarithms of all parameters
             errors = np.sqrt(np.diag(covariance)) * np.array(list(values.values()))
             std_error = {
@@ -226,4 +231,7 @@ class _Problem:
             round(freedom),
             unseen=tuple(name for name in at.names if name in unseen or name in from_prior),
             from_prior=from_prior,
+            covariance=covariance,
+            response=response,
+            of_prior=of_prior,
         )

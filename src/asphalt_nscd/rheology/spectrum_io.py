@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtri, stdtrit
+
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_json
+from asphalt_nscd.rheology.fitting import Fit
 from asphalt_nscd.rheology.laws_io import content_of, numbers_of, renamed
 from asphalt_nscd.rheology.shift import SHIFTS
 from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameter_names, parameters
@@ -32,14 +38,17 @@ def spectrum_content(
     std_error: dict[str, float] | None = None,
     unseen: Iterable[str] = (),
     from_prior: Iterable[str] | None = None,
+    covariance: NDArray[np.float64] | None = None,
+    freedom: Sequence[float] = (np.inf, np.inf),
 ) -> dict[str, Any]:
     """A continuous law, which holds for all temperatures, as its file has it.
 
     unseen: parameters that the tests do not determine; from_prior: those of them that have the value of a prior,
-    None where none was used. See `fitting.Fit`.
+    None where none was used. covariance (p, p): of the logarithms of `parameters`; freedom: degrees of freedom of
+    its errors of |E*| and of the phase, the smaller of which makes the intervals. See `fitting.Fit`.
     """
     keys = _keys_of(type(law)) | _keys_of(type(law.shift))
-    content = {
+    content: dict[str, Any] = {
         "law": next(name for name, kind in LAWS.items() if type(law) is kind),
         "shift": next(name for name, kind in SHIFTS.items() if type(law.shift) is kind),
         "source": source,
@@ -51,7 +60,80 @@ def spectrum_content(
     }
     if from_prior is not None:
         content["from_prior"] = [keys[name] for name in from_prior]
+    if covariance is not None:
+        values = np.array(list(parameters(law).values()))
+        spread = np.exp(student(min(freedom)) * np.sqrt(np.diag(covariance)))
+        content["interval_95"] = {
+            keys[name]: [float(value / by), float(value * by)]
+            for name, value, by in zip(parameters(law), values, spread, strict=True)
+            if std_error is not None and name in std_error
+        }
+        content["covariance_of_logarithms"] = {
+            "parameters": [keys[name] for name in parameters(law)],
+            "values": covariance.tolist(),
+            "freedom": [float(one) if np.isfinite(one) else None for one in freedom],
+        }
     return content
+
+
+def fit_content(fit: Fit[Spectrum], source: str, freedom: Sequence[float] | None = None) -> dict[str, Any]:
+    """A fitted law as its file has it. freedom: of its errors of |E*| and of the phase, else that of the fit."""
+    return spectrum_content(
+        fit.law,
+        source=source,
+        rms_log_residual=fit.rms_log_residual,
+        std_error=fit.std_error,
+        unseen=fit.unseen,
+        from_prior=fit.from_prior,
+        covariance=fit.covariance,
+        freedom=(fit.freedom, fit.freedom) if freedom is None else freedom,
+    )
+
+
+def student(freedom: float) -> float:
+    """Standard errors to either side of an estimate: 95 %.
+
+    >>> round(student(np.inf), 2), round(student(2.0), 2)
+    (1.96, 4.3)
+    """
+    return float(stdtrit(freedom, 0.975)) if np.isfinite(freedom) else float(ndtri(0.975))
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """What the tests leave open of a law: the covariance (p, p) of the logarithms of its `parameters`.
+
+    freedom: degrees of freedom of the errors of |E*| and of the phase.
+    """
+
+    covariance: NDArray[np.float64]
+    freedom: tuple[float, float]
+
+    def half(self, law: Spectrum, omega: NDArray, temperature: NDArray) -> NDArray[np.complex128]:
+        """Half-widths (n,) of the 95 % intervals of ln|E*| and, imaginary, of the phase [rad]; vectors (n,)."""
+        slopes = law.log_slopes(omega, temperature)
+        of_modulus, of_phase = (
+            student(freedom) * np.sqrt(np.einsum("ij,jk,ik->i", part, self.covariance, part))
+            for part, freedom in zip((slopes.real, slopes.imag), self.freedom, strict=True)
+        )
+        return of_modulus + 1j * of_phase
+
+
+def uncertainty_of(path: str | Path, content: dict[str, Any], law: Spectrum) -> Uncertainty | None:
+    """The uncertainty in the content of a file of this law; None where it says nothing of it."""
+    said = content.get("covariance_of_logarithms")
+    if said is None:
+        return None
+    keys = _keys_of(type(law)) | _keys_of(type(law.shift))
+    try:
+        covariance = np.array(said["values"], float)
+        freedom = tuple(np.inf if one is None else float(one) for one in said["freedom"])
+        sound = said["parameters"] == [keys[name] for name in parameters(law)] and len(freedom) == 2
+    except (KeyError, TypeError, ValueError):
+        sound = False
+    if not sound or covariance.shape != (len(keys), len(keys)) or not np.isfinite(covariance).all():
+        raise InputError(f"{path}: key 'covariance_of_logarithms' is damaged; make the file again.")
+    return Uncertainty(covariance, (freedom[0], freedom[1]))
 
 
 def write_spectrum(path: str | Path, law: Spectrum, **said: Any) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from typing import Any
 from flask import Flask, Response, abort, jsonify, render_template, request, send_from_directory
 from werkzeug.exceptions import HTTPException
 
+from asphalt_nscd.rheology.spectrum import LAWS
 from asphalt_nscd.table_import.campaign import TABLES
 from asphalt_nscd.table_import.quantities import MEASURED
 from asphalt_nscd.web.work import SECONDS_TO_DIAGNOSE, SECONDS_TO_READ, Choices, Job
@@ -99,7 +100,7 @@ def create_app(token: str | None = None) -> Flask:
     @app.get("/<token>/")
     def page(token: str) -> str:
         units = {name: list(of) for name, (_, of) in MEASURED.items()}
-        return render_template("page.html", units=units, endings=", ".join(TABLES))
+        return render_template("page.html", units=units, laws=LAWS, endings=", ".join(TABLES))
 
     @app.post("/<token>/files")
     def drop(token: str) -> Response:
@@ -174,13 +175,13 @@ def _choices(content: Any) -> Choices:
     """What came from the menus, no more than these hold."""
     if not isinstance(content, dict):
         return Choices()
-    kind = content.get("measured_in") or None
+    kind, law = content.get("measured_in") or None, content.get("law") or "2s2p1d"
     columns = content.get("columns") or {}
-    if kind not in (None, *TEST_TYPES) or not isinstance(columns, dict):
+    if kind not in (None, *TEST_TYPES) or law not in LAWS or not isinstance(columns, dict):
         abort(400, "an unknown choice")
     if not all(isinstance(text, str) and len(text) < 200 for pair in columns.items() for text in pair):
         abort(400, "an unknown choice")
-    return Choices(kind, columns)
+    return Choices(kind, columns, law)
 
 
 def safe_name(name: str) -> str:

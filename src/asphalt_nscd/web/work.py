@@ -25,10 +25,11 @@ BROKEN = "this could not be done, and the fault is ours; the terminal of `asphal
 
 @dataclass(frozen=True)
 class Choices:
-    """What the user said beside the files: the kind of test, and columns of theirs by what they hold."""
+    """What the user said beside the files: the kind of test, columns of theirs by what they hold, and the law."""
 
     measured_in: str | None = None
     columns: Mapping[str, str] | None = None
+    law: str = "2s2p1d"
 
 
 class Job:
@@ -174,7 +175,7 @@ def _without_folder(text: str, paths: Sequence[Path]) -> str:
 
 def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: Any) -> dict[str, Any]:
     """Diagnose, and write everything into the folder: what the first screen says, and the names of the files."""
-    from asphalt_nscd.api.diagnosis import diagnose
+    from asphalt_nscd.api.diagnosis import Known, diagnose
     from asphalt_nscd.api.tables import campaign_in
     from asphalt_nscd.diagnosis.stiffness_only import fit_stiffness, has_no_phase
     from asphalt_nscd.exports.workbook import corrected_workbook
@@ -192,6 +193,7 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
     diagnosis = diagnose(
         campaign,
         measured_in=choices.measured_in,
+        known=Known(law=choices.law),
         progress=lambda stage, done, total: progress(stage, 0.9 * done / total),
     )
     diagnosis.outcome.write(output)

@@ -37,6 +37,14 @@ HELD_OUT = {
     "leave_one_isotherm_out": "each temperature between others predicted from them",
     "leave_one_frequency_out": "each frequency predicted from the others",
 }
+PARAMETERS = {  # of a law as a reader knows it: name, how many of the unit shown are one of the key's, unit
+    "E_static_Pa": ("E static", 1e-6, "MPa"),
+    "E_glassy_Pa": ("E glassy", 1e-9, "GPa"),
+    "tau_s": ("tau", 1.0, "s"),
+    "wlf_C1": ("WLF C1", 1.0, "decades"),
+    "wlf_C2_K": ("WLF C2", 1.0, "K"),
+    "activation_energy_J_mol": ("activation energy", 1e-3, "kJ/mol"),
+}
 TABLE4 = (
     "temperature_C",
     *(f"mre_{q}_{k}_percent" for q in ("E", "phase") for k in ("published", "simulated")),
@@ -71,10 +79,11 @@ def sections(
     causality: list[Path],
     table4: Sequence[Path] = (),
     ladder: Sequence[Path] = (),
+    curve: Sequence[Path] = (),
 ) -> dict[str, Any]:
     """What the page says, as text and rows of text, and plots that name their tests.
 
-    Of diagnosis.json, residuals.csv and causality.csv; table4, ladder: tables of a study.
+    Of diagnosis.json, residuals.csv and causality.csv; table4, ladder: tables of a study; curve: master_curve.csv.
     """
     content = read_diagnosis(diagnosis)
     rungs = content["ladder"]
@@ -91,6 +100,7 @@ def sections(
         "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
         "charts": plots.charts(residuals, diagnosis),
+        "law": law(content, curve),
         "unexplained": [_unexplained(row) for row in content["unexplained"]],
         "limits": _limits(content["detection_limits"], content.get("estimates_spread", 1.0)),
         "limits_caption": _limits_caption(content.get("estimates_spread", 1.0)),
@@ -138,6 +148,35 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "scatter_head": [in_type(name).replace("deg", "°") for name in table_rows.SCATTER_HEAD],
         "scatter": [[in_type(cell) for cell in row] for row in table_rows.scatter_rows(content)],
     }
+
+
+def law(content: dict[str, Any], curve: Sequence[Path]) -> dict[str, Any] | None:
+    """law.json as a page shows it: its curve, its parameters, and beside it the laws that were not taken."""
+    if "law_parameters" not in content:
+        return None
+    taken = next(one for one in content["laws"] if one["taken"])
+    return {
+        "title": taken["title"],
+        "charts": [plots.law_chart(taken["title"], curve)] if curve else [],
+        "parameters": [_parameter(key, one) for key, one in content["law_parameters"].items()],
+        "laws": [
+            [
+                f"{one['title']}{', in law.json' * one['taken']}",
+                f"{one['parameters']}",
+                _number(one["mre_E_percent"]),
+                _number(one["mre_phase_percent"]),
+            ]
+            for one in content["laws"]
+        ],
+    }
+
+
+def _parameter(key: str, one: dict[str, Any]) -> list[str]:
+    """A row: name, value and 95 % interval, unit, and whether the tests determine it."""
+    name, factor, unit = PARAMETERS.get(key, (key, 1.0, ""))
+    low_high = one["interval_95"]
+    interval = "" if low_high is None else " to ".join(_number(factor * end) for end in low_high)
+    return [name, _number(factor * one["value"]), interval, unit, "yes" if one["determined"] else "no"]
 
 
 def scatter(content: dict[str, Any]) -> str:

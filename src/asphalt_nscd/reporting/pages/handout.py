@@ -79,6 +79,19 @@ def _asked_for(value: dict[str, Any]) -> list[str]:
     ]
 
 
+def law_in_words(content: dict[str, Any]) -> str:
+    """Parameters of law.json with their 95 % intervals; empty where there is no law."""
+    if "law_parameters" not in content:
+        return ""
+    (title,) = (one["title"] for one in content["laws"] if one["taken"])
+    said = ", ".join(
+        f"{key} = {one['value']:.4g}"
+        + (" ({:.4g} to {:.4g})".format(*one["interval_95"]) if one["interval_95"] else "")
+        for key, one in content["law_parameters"].items()
+    )
+    return f"law.json, {title}, parameters and 95 % intervals: {said}."
+
+
 @journal
 def _curves(tables: dict[str, pd.DataFrame], content: dict[str, Any]) -> Figure:
     """Corrected tests on the curve of the mix with its 95 % band, Black diagram, and the grid of AASHTO R 84."""
@@ -105,6 +118,20 @@ def _curves(tables: dict[str, pd.DataFrame], content: dict[str, Any]) -> Figure:
             label="95 %",
         )
         axes.plot(curve["frequency_Hz"], curve[f"{name}_{unit}"], color="black", linewidth=0.8, label="mix")
+        if f"law_{name}_{unit}" in curve:
+            of_law = [f"law_{name}_{part}{unit}" for part in ("", "low_", "high_")]
+            for column, said, style in zip(
+                of_law, ("law.json", "its 95 %", ""), ("--", ":", ":"), strict=True
+            ):
+                if column in curve:
+                    axes.plot(
+                        curve["frequency_Hz"],
+                        curve[column],
+                        style,
+                        color="C3",
+                        linewidth=0.7,
+                        label=said or None,
+                    )
         for temperature, those in used.groupby(used["temperature_C"].round()):
             axes.plot(
                 those["reduced_frequency_Hz"],
@@ -121,6 +148,8 @@ def _curves(tables: dict[str, pd.DataFrame], content: dict[str, Any]) -> Figure:
     black.plot(curve["phase_deg"], curve["E_MPa"], color="black", linewidth=0.8)
     black.set(yscale="log", xlabel="phase [°]", ylabel="|E*| [MPa]")
     _grid_of_values(figure.add_subplot(grid[2, :]), tables["reported"].iloc[1:])
+    for n, line in enumerate(textwrap.wrap(law_in_words(content), 130)):
+        figure.text(0.06, 0.055 - 0.013 * n, line, size=7)
     return figure
 
 

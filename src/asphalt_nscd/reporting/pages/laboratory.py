@@ -17,7 +17,8 @@ def write_page(folder: Path, title: str) -> Path:
     )
     others = (folder / name for name in ("limits.csv", "law.json"))
     links = [path.name for path in (residuals, causality, *filter(Path.is_file, others), diagnosis)]
-    content = render(sections([diagnosis], [residuals], [causality]), title, links)
+    curve = list(filter(Path.is_file, [folder / "master_curve.csv"]))
+    content = render(sections([diagnosis], [residuals], [causality], curve=curve), title, links)
     with atomic_path(folder / PAGE) as path:
         path.write_text(content, encoding="utf-8")
     return folder / PAGE

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from html import escape
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,9 @@ from asphalt_nscd.diagnosis.written import (
     read_residuals,
     three_digits,
 )
+from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import counted, specimen_named
+from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.figures.numbers import celsius, minus
 from asphalt_nscd.reporting.pages.svg import (
     HINT,
@@ -73,6 +76,44 @@ def charts(residuals: Sequence[Path], diagnosis: Sequence[Path]) -> list[Chart]:
     ]
 
 
+def law_chart(title: str, curve: Sequence[Path]) -> Chart:
+    """The law and the free master curve with the 95 % band of each, at the reference temperature."""
+    table = read_csv(the_only(curve, "master curve"))
+    names = [name for name in table.columns if name != "temperature_C"]
+    frame = pd.DataFrame({name: table.numbers(name) for name in names})
+    at = celsius(float(table.numbers("temperature_C")[0]))
+    looks = dict(zip((title, "free master curve"), colours(2), strict=True))
+    plots = []
+    for label, stem, unit, log in (("|E*| (MPa)", "E", "MPa", True), ("phase (°)", "phase", "deg", False)):
+        columns = {title: f"law_{stem}", "free master curve": stem}
+        ends = [(frame, name) for name in frame.columns if f"{stem}_" in name and name.endswith(unit)]
+        y = Axis(label, lambda of, end: of[end], log=log)
+        drawn = Frame(Axis(f"frequency (Hz) at {at}", lambda of, _end: of["frequency_Hz"], log=True), y, ends)
+        parts = drawn.parts
+        for name, column in columns.items():
+            light, dark = looks[name]
+            parts.append(f'<g style="--light:{light};--dark:{dark}">')
+            if f"{column}_low_{unit}" in frame:
+                low, high = (drawn.points(frame, f"{column}_{side}_{unit}") for side in ("low", "high"))
+                parts.append(f'<path class="band" d="M{_path([*low, *high[::-1]])}Z"/>')
+            line = _path(drawn.points(frame, f"{column}_{unit}"))
+            parts.append(f'<path class="law" d="M{line}"><title>{escape(name)}</title></path></g>')
+        plots.append(svg(f"{label} of {title} and of the free master curve", parts))
+    return Chart(
+        "law",
+        "The law and the free master curve",
+        "Bands: 95 %, what scatter, specimens and named causes leave open. The law has one form, the free curve none.",
+        tuple(plots),
+        [(name, *look) for name, look in looks.items()],
+        of="Curves",
+        hint="",
+    )
+
+
+def _path(points: Iterable[tuple[float, float]]) -> str:
+    return "L".join(f"{a:.1f} {b:.1f}" for a, b in points)
+
+
 def _isotherms(temperature: pd.Series, stated: Iterable[float | str] | None) -> np.ndarray:
     """Isotherm [degC] of each test (n,): of those stated the nearest to the temperature measured in the specimen."""
     nominal = np.array(sorted(float(at) for at in stated or temperature.unique()))
@@ -116,7 +157,7 @@ def _curves(title: str, tests: pd.DataFrame, means: pd.DataFrame, x: Axis, y: Ax
     for temperature, (light, dark) in zip(temperatures, colours(len(temperatures)), strict=True):
         rows = tests[tests[ISOTHERM] == temperature]
         line = means[means[ISOTHERM] == temperature].sort_values("frequency_Hz")
-        path = "L".join(f"{a:.1f} {b:.1f}" for a, b in frame.points(line, "_after"))
+        path = _path(frame.points(line, "_after"))
         parts.append(f'<g style="--light:{light};--dark:{dark}"><path class="law" d="M{path}"/>')
         parts += [
             test(at, _words(row), key(row["specimen"], temperature, row["frequency_Hz"]))

@@ -1,0 +1,103 @@
+"""Charts of a workbook, drawn by the program that opens it from the cells of its sheets."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from openpyxl import Workbook
+from openpyxl.chart import Reference, ScatterChart, Series
+from openpyxl.worksheet.worksheet import Worksheet
+
+WIDE, HIGH = 17.0, 9.5  # cm
+ROWS = 20  # of the sheet that a chart covers
+COLOURS = ("1F4E79", "C0504D", "9BBB59", "8064A2", "F79646", "4BACC6", "7F7F7F", "B8860B")
+
+
+@dataclass(frozen=True)
+class Line:
+    """A column of a sheet over another. rows: first and last, from 1; None for all below the heading.
+
+    points: marks alone; dashed: the end of an interval.
+    """
+
+    name: str
+    sheet: str
+    x: str
+    y: str
+    rows: tuple[int, int] | None = None
+    points: bool = False
+    dashed: bool = False
+
+
+@dataclass(frozen=True)
+class Plot:
+    """Lines over common axes; log_x, log_y: whether an axis is logarithmic."""
+
+    title: str
+    x: str
+    y: str
+    lines: Sequence[Line]
+    log_x: bool = True
+    log_y: bool = False
+
+
+def draw(book: Workbook, plots: Sequence[Plot]) -> None:
+    """A sheet with these charts, below each other; a line whose sheet or column is absent is left out."""
+    sheet = book.create_sheet("Charts")
+    for number, plot in enumerate(plots):
+        chart = ScatterChart()
+        chart.title, chart.style, chart.width, chart.height = plot.title, 2, WIDE, HIGH
+        for axis, title, log in ((chart.x_axis, plot.x, plot.log_x), (chart.y_axis, plot.y, plot.log_y)):
+            axis.title, axis.delete = title, False
+            axis.number_format = "General"
+            axis.crosses = "min"
+            if log:
+                axis.scaling.logBase = 10
+        chart.legend.position = "b"
+        drawn: dict[str, str] = {}  # colour of each name without its interval
+        for line in plot.lines:
+            series = _series(book, line, drawn)
+            if series is not None:
+                chart.series.append(series)
+        sheet.add_chart(chart, f"A{1 + number * ROWS}")
+
+
+def _series(book: Workbook, line: Line, drawn: dict[str, str]) -> Series | None:
+    if line.sheet not in book.sheetnames:
+        return None
+    sheet: Worksheet = book[line.sheet]
+    heads = [cell.value for cell in sheet[1]]
+    if line.x not in heads or line.y not in heads:
+        return None
+    first, last = line.rows or (2, sheet.max_row)
+    x, y = (
+        Reference(sheet, min_col=heads.index(name) + 1, min_row=first, max_row=last)
+        for name in (line.x, line.y)
+    )
+    series = Series(y, x, title=line.name)
+    owner = line.name.split(",")[0]
+    colour = drawn.setdefault(owner, COLOURS[len(drawn) % len(COLOURS)])
+    series.smooth = False
+    look = series.graphicalProperties.line
+    if line.points:
+        series.marker.symbol, series.marker.size = "circle", 5
+        series.marker.graphicalProperties.solidFill = colour
+        series.marker.graphicalProperties.line.solidFill = colour
+        look.noFill = True
+    else:
+        series.marker.symbol = "none"
+        look.solidFill, look.width = colour, 9525 if line.dashed else 19050  # EMU
+        if line.dashed:
+            look.dashStyle = "dash"
+    return series
+
+
+def bands(name: str, sheet: str, x: str, columns: tuple[str, str, str]) -> list[Line]:
+    """An estimate and the ends of its 95 % interval, of three columns."""
+    value, low, high = columns
+    return [
+        Line(name, sheet, x, value),
+        Line(f"{name}, 95 % from", sheet, x, low, dashed=True),
+        Line(f"{name}, 95 % to", sheet, x, high, dashed=True),
+    ]

@@ -1,0 +1,125 @@
+"""`--law`: four forms compared on the same tests, and one interval wherever the law is shown."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+from click.testing import CliRunner
+from openpyxl import load_workbook
+
+import asphalt_nscd as an
+from asphalt_nscd.cli.diagnose import command
+from asphalt_nscd.diagnosis.sentences import causes, law_of_the_mix
+from asphalt_nscd.diagnosis.written import three_digits
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.reporting.pages.diagnosis_page import PARAMETERS
+from asphalt_nscd.reporting.pages.handout import law_in_words
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Of the tutorial's exports, with the sigmoid asked for."""
+    out = tmp_path_factory.mktemp("law")
+    told = CliRunner().invoke(
+        command,
+        ["data/tutorial/exports", "--law", "sigmoid", "--draws", "500", "--output", str(out)],
+    )
+    assert told.exit_code == 0, told.output
+    assert "a sigmoid master curve" in told.output.replace("\n                ", " ")
+    return out
+
+
+@pytest.fixture(scope="module")
+def content(folder):
+    return json.loads((folder / "diagnosis.json").read_text())
+
+
+def test_all_four_are_compared_and_the_one_asked_for_is_written(folder, content):
+    laws = {one["law"]: one for one in content["laws"]}
+    assert list(laws) == ["2s2p1d", "huet-sayegh", "sigmoid", "cam"]
+    assert [name for name, one in laws.items() if one["taken"]] == ["sigmoid"]
+    assert content["law_misses"]["mre_E_percent"] == laws["sigmoid"]["mre_E_percent"]
+    # The exports are drawn from a 2S2P1D law: no other fits as well, and it has the most parameters.
+    for name in ("huet-sayegh", "sigmoid", "cam"):
+        assert laws[name]["mre_phase_percent"] > laws["2s2p1d"]["mre_phase_percent"]
+    assert laws["2s2p1d"]["parameters"] == 9 and laws["sigmoid"]["parameters"] == 6
+    law = an.Law.read(folder / "law.json")
+    assert law.kind == "sigmoid"
+    curve = pd.read_csv(folder / "master_curve.csv")
+    star = law.complex_modulus(curve["frequency_Hz"], curve["temperature_C"])
+    assert curve["law_E_MPa"].to_numpy() == pytest.approx(np.abs(star) * 1e-6, rel=1e-9)
+    assert (curve["law_E_low_MPa"] < curve["law_E_MPa"]).all()
+
+
+def test_intervals_of_the_law_are_the_same_everywhere(folder, content):
+    """law.json, diagnosis.json, page, both workbooks, PDF."""
+    law = json.loads((folder / "law.json").read_text())
+    page = (folder / "diagnosis.html").read_text()
+    book = load_workbook(folder / "corrected.xlsx")
+    sheet = {row[0]: row[1:4] for row in book["Law"].iter_rows(min_row=2, values_only=True)}
+    an.export(folder / "law.json", folder / "law.xlsx", "xlsx")
+    rows = load_workbook(folder / "law.xlsx")["Law"].iter_rows(values_only=True)
+    exported = {row[0]: row[3:5] for row in rows}
+    words = law_in_words(content)
+    assert len(content["law_parameters"]) == 6
+    for key, one in content["law_parameters"].items():
+        low, high = one["interval_95"]
+        assert [low, high] == law["interval_95"][key] and low < one["value"] == law[key] < high
+        assert sheet[key] == pytest.approx((one["value"], low, high))
+        assert exported[key] == pytest.approx((low, high))
+        assert f"{key} = {one['value']:.4g} ({low:.4g} to {high:.4g})" in words
+        factor = PARAMETERS.get(key, (key, 1.0, ""))[1]
+        assert f"{three_digits(factor * low)} to {three_digits(factor * high)}" in page
+
+
+def test_intervals_of_causes_and_shift_are_those_of_the_page(content):
+    said = [head for head, _ in causes(content)] + [law_of_the_mix(content)[0]]
+    numbers = [
+        (float(value.replace(" ", "")), float(half))
+        for value, half in re.findall(r"(-?[\d.]+) \+- ([\d.]+)", " ".join(said))
+    ]
+    found = []
+    for rung in content["ladder"]:
+        for one in rung["parameters"].values():
+            if "interval_95" in one:
+                low, high = one["interval_95"]
+                scale = 1e3 if one["unit"] == "s" else 1.0
+                found.append((scale * one["value"], scale * 0.5 * (high - low)))
+                assert low < one["value"] < high
+    assert len(found) == len(numbers) == 3  # the delay, C1 and C2
+    for pair in numbers:
+        assert any(pair == pytest.approx(other, rel=0.06) for other in found), (pair, found)
+
+
+def test_reported_values_are_the_same_in_json_table_workbook_and_curve(folder, content):
+    said = content["reported"]
+    table = pd.read_csv(folder / "reported.csv").iloc[0]
+    book = load_workbook(folder / "corrected.xlsx")["Mix"]
+    head, row = (list(cells) for cells in list(book.iter_rows(max_row=2, values_only=True)))
+    for name in ("E_MPa", "E_low_MPa", "E_high_MPa", "phase_deg", "phase_low_deg", "phase_high_deg"):
+        assert said[name] == pytest.approx(table[name], rel=1e-9)
+        assert said[name] == pytest.approx(row[head.index(name)], rel=1e-9)
+
+
+def test_the_workbook_has_charts_of_its_cells(folder):
+    book = load_workbook(folder / "corrected.xlsx")
+    charts = book["Charts"]._charts
+    assert len(charts) == 3
+    first = {series.tx.v for series in charts[0].series}
+    assert {"mix", "mix, 95 % from", "law", "law, 95 % to"} <= first
+    assert charts[0].x_axis.scaling.logBase == 10 == charts[0].y_axis.scaling.logBase
+    for chart in charts:
+        for series in chart.series:
+            for reference in (series.xVal.numRef.f, series.yVal.numRef.f):
+                sheet, cells = reference.replace("$", "").split("!")
+                values = [cell.value for row in book[sheet.strip("'")][cells] for cell in row]
+                assert all(isinstance(value, int | float) for value in values)
+
+
+def test_an_unknown_law_is_refused():
+    with pytest.raises(InputError, match="law 'burger' is not known; give one of 2s2p1d, huet-sayegh"):
+        an.diagnose("data/tutorial/exports", known=an.Known(law="burger"))
