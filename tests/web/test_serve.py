@@ -10,6 +10,7 @@ import pytest
 
 pytest.importorskip("flask")
 
+from asphalt_nscd.files.errors import InputError  # noqa: E402
 from asphalt_nscd.web import app as pages  # noqa: E402
 from asphalt_nscd.web.app import create_app, safe_name  # noqa: E402
 from asphalt_nscd.web.work import Choices, Job, read_tables  # noqa: E402
@@ -107,6 +108,15 @@ def test_much_more_than_a_table_is_refused(client, app, monkeypatch):
     assert answer.status_code == 413 and "more than 40 MB" in answer.get_json()["error"]
     assert pages.MOST_BYTES < 100e6
     assert app.config["DESK"].files == []
+
+
+def test_more_files_or_lines_than_a_campaign_has_are_refused(client, tmp_path):
+    many = [(f"t{n}.csv", TABLE.encode()) for n in range(pages.MOST_FILES + 11)]
+    answer = dropped(client, *many)
+    assert answer.status_code == 413 and "more than 100 files" in answer.get_json()["error"]
+    (tmp_path / "t.csv").write_text("T (C),f (Hz),E (MPa),phi (deg)\n" + "4,10,12345,12\n" * 21_001)
+    with pytest.raises(InputError, match="t.csv: more than 20000 rows or 300 columns"):
+        read_tables([tmp_path / "t.csv"], Choices())
 
 
 def test_an_archive_that_unpacks_to_much_more_is_refused(tmp_path):

@@ -16,6 +16,8 @@ from asphalt_nscd.files.errors import InputError
 MOST_BYTES = 20_000_000
 MOST_UNPACKED = 50_000_000  # bytes of XML in an XLSX file
 MOST_ROWS, MOST_COLUMNS = 20_000, 300
+MOST_REMARKS = 1000  # lines of a text file beside its rows
+TOO_MANY = f"more than {MOST_ROWS} rows or {MOST_COLUMNS} columns; give the table of results alone."
 
 _FREQUENCY = r"\d\s*Hz\b"
 # Not `#`, the name of a column of numbers, `#1`, that of a specimen, nor `#N/A`.
@@ -93,9 +95,7 @@ def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
     if any(
         len(one.rows) > MOST_ROWS or max(len(cells) for _, cells in one.rows) > MOST_COLUMNS for one in sheets
     ):
-        raise InputError(
-            f"{path}: more than {MOST_ROWS} rows or {MOST_COLUMNS} columns; give the table of results alone."
-        )
+        raise InputError(f"{path}: {TOO_MANY}")
     return sheets
 
 
@@ -145,6 +145,8 @@ def _fitted(path: Path, header: list[str], rows: list[Row]) -> list[Row]:
 def _text(path: Path) -> tuple[list[Row], list[str]]:
     text, notes = _decoded(path)
     lines = io.StringIO(text, newline="").readlines()
+    if sum(not line.isspace() for line in lines) > MOST_ROWS + MOST_REMARKS:
+        raise InputError(f"{path}: {TOO_MANY}")
     # Comments and Excel's `sep=;` become blank lines, so that line numbers stay those of the file.
     lines = ["\n" if _REMARK.match(line) or re.match(r"sep=.\s*$", line, re.I) else line for line in lines]
     unquoted = [re.sub(r'"[^"]*"', "", line) for line in lines if line.strip()]

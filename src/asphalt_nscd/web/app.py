@@ -93,7 +93,9 @@ def create_app(token: str | None = None) -> Flask:
     @app.errorhandler(HTTPException)
     def in_one_sentence(error: HTTPException) -> tuple[Response, int]:
         said = str(error.description)
-        if error.code == 413:
+        if error.code == 413 and (request.content_length or 0) <= app.config["MAX_CONTENT_LENGTH"]:
+            said = f"more than {MOST_FILES} files; give those of one campaign"
+        elif error.code == 413:
             said = f"more than {MOST_BYTES // 10**6} MB; give the tables of results alone"
         return jsonify(error=f"{said}."), error.code or 500
 
