@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.numerics import NEAR_DEGREES, NEAR_FREQUENCY
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.written import interval_95
 from asphalt_nscd.measurements.tables import KEYS, MODULUS, read_tests
 
 NAME = "bond_mapping"
@@ -100,5 +101,8 @@ def _range(values: pd.Series) -> str:
 
 def _estimate(values: pd.Series) -> dict[str, Any]:
     """Mean over samples, and the standard deviation from sample to sample."""
-    scatter = float(values.std(ddof=1)) if len(values) > 1 else None
-    return {"value": float(values.mean()), "std_error": scatter, "unit": "-"}
+    found = {"value": float(values.mean()), "std_error": None, "unit": "-"}
+    if len(values) == 1:
+        return found
+    scatter = float(values.std(ddof=1))
+    return found | {"std_error": scatter, "interval_95": interval_95(float(values.mean()), scatter)}

@@ -31,7 +31,6 @@ from asphalt_nscd.diagnosis.instructions import instructions
 from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.diagnosis.sentences import with_intervals
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.summary import answer
 from asphalt_nscd.diagnosis.sweeps import Costs
@@ -243,7 +242,6 @@ def conclude(
         content["law_parameters"] = law_parameters(law)
         known = None if fit.covariance is None else Uncertainty(fit.covariance, freedom)
         curve = reported.with_law(curve, fit.law, known)
-    content["ladder"] = with_intervals(content)
     return Outcome(
         content,
         gain.residual_table(diagnosis, numerical, before),

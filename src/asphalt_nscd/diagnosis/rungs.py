@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.heldout import HeldOut
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted
 from asphalt_nscd.diagnosis.ladder import Rung
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import CONFIDENCE, name_at, widening
+from asphalt_nscd.diagnosis.written import CONFIDENCE, interval_95, name_at, widening
 
 
 def name_of(candidate: Candidate) -> str:
@@ -66,20 +66,11 @@ def amplitude(diagnosis: Diagnosis, candidate: Candidate) -> tuple[float, float]
 
 def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[str, Any]]:
     errors = diagnosis.ladder.std_errors(candidate)
-    found: dict[str, dict[str, Any]] = {
-        parameter.name: {
-            "value": value,
-            "std_error": float(errors[k]),
-            "unit": parameter.unit,
-        }
+    factor = widening(diagnosis.ladder.estimates_spread)
+    return {
+        parameter.name: _value(value, parameter.unit, float(errors[k]), factor)
         for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True))
     }
-    half = widening(diagnosis.ladder.estimates_spread) * CONFIDENCE * float(errors[0])
-    found[candidate.cause.parameters[0].name]["interval_95"] = [
-        candidate.values[0] - half,
-        candidate.values[0] + half,
-    ]
-    return found
 
 
 def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
@@ -105,7 +96,11 @@ def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> 
         "where": None,
         "parameters": {
             # Two isotherms have one shift between them; one has none.
-            **(_shift_constants(spectrum, fitted) if observed.isotherms.size > 2 else {}),
+            **(
+                _shift_constants(spectrum, fitted, widening(ladder.estimates_spread))
+                if observed.isotherms.size > 2
+                else {}
+            ),
             "reference_temperature": _value(spectrum.reference_temperature, "degC"),
         },
         "log10_shift": {f"{t:g}": float(s) for t, s in zip(observed.isotherms, shift, strict=True)},
@@ -120,19 +115,19 @@ def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> 
     }
 
 
-def _shift_constants(spectrum: FlexibleSpectrum, fitted: Fitted) -> dict[str, dict[str, Any]]:
+def _shift_constants(spectrum: FlexibleSpectrum, fitted: Fitted, factor: float) -> dict[str, dict[str, Any]]:
     """C1 and C2, or the slope, where the shift may be straight, which has them at infinity, or bends the other way."""
     at = [fitted.law.size - 3, fitted.law.size - 2]
     slope, (curvature, change) = float(np.exp(fitted.law[-3])), spectrum.curvature(fitted.law[-2])
     variance = np.array([1.0, change])[:, None] * fitted.covariance[np.ix_(at, at)] * [1.0, change]
     of_curvature = float(np.sqrt(variance[1, 1]))
     if curvature < CONFIDENCE * of_curvature:
-        straight = {"shift_slope": _value(slope, "decades/K", slope * np.sqrt(variance[0, 0]))}
-        bent = {"shift_curvature": _value(curvature, "1/K", of_curvature)}  # the other way than WLF
+        straight = {"shift_slope": _value(slope, "decades/K", slope * np.sqrt(variance[0, 0]), factor)}
+        bent = {"shift_curvature": _value(curvature, "1/K", of_curvature, factor)}  # the other way than WLF
         return straight | (bent if curvature < -CONFIDENCE * of_curvature else {})
     of_c1, of_c2 = np.array([1.0, -1.0 / curvature]), np.array([0.0, -1.0 / curvature])  # of their logarithms
     return {
-        name: _value(value, unit, value * np.sqrt(along @ variance @ along))
+        name: _value(value, unit, value * np.sqrt(along @ variance @ along), factor)
         for name, value, unit, along in (
             ("wlf_C1", slope / curvature, "decades", of_c1),
             ("wlf_C2", 1.0 / curvature, "K", of_c2),
@@ -140,5 +135,9 @@ def _shift_constants(spectrum: FlexibleSpectrum, fitted: Fitted) -> dict[str, di
     }
 
 
-def _value(value: float, unit: str, error: float | None = None) -> dict[str, Any]:
-    return {"value": float(value), "std_error": None if error is None else float(error), "unit": unit}
+def _value(value: float, unit: str, error: float | None = None, factor: float = 1.0) -> dict[str, Any]:
+    """factor: on the interval."""
+    if error is None:
+        return {"value": float(value), "std_error": None, "unit": unit}
+    interval = interval_95(float(value), float(error), factor)
+    return {"value": float(value), "std_error": float(error), "unit": unit, "interval_95": interval}

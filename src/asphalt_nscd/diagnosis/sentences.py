@@ -13,8 +13,8 @@ from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP, LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.criteria import NAMED
 from asphalt_nscd.diagnosis.written import (
-    CONFIDENCE,
     CONFINED_TO,
+    interval_95,
     name_at,
     shown,
     three_digits,
@@ -302,29 +302,9 @@ def estimate(one: Content, factor: float = 1.0) -> str:
     value, unit = shown(one["value"], one["unit"])
     if one["std_error"] is None:
         return f"{three_digits(value)} {typed(unit)}".rstrip()
-    return f"{with_interval(value, shown(half_width(one, factor), one['unit'])[0])} {typed(unit)}".rstrip()
-
-
-def half_width(one: Content, factor: float) -> float:
-    """Half of the 95 % interval of a value, in its unit."""
-    return factor * CONFIDENCE * float(one["std_error"])
-
-
-def with_intervals(content: Content) -> list[dict[str, Any]]:
-    """The ladder with the 95 % interval of each parameter that has a standard error, as `estimate` says it."""
-    return [
-        {
-            **rung,
-            "parameters": {
-                name: one
-                if one["std_error"] is None
-                else {**one, "interval_95": [one["value"] - half, one["value"] + half]}
-                for name, one in rung["parameters"].items()
-                for half in [half_width(one, _factor(rung, content)) if one["std_error"] is not None else 0.0]
-            },
-        }
-        for rung in content["ladder"]
-    ]
+    low, high = interval_95(one["value"], one["std_error"], factor)
+    half = shown(0.5 * (high - low), one["unit"])[0]
+    return f"{with_interval(value, half)} {typed(unit)}".rstrip()
 
 
 def _factor(rung: Content, content: Content) -> float:

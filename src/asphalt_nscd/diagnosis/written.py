@@ -152,6 +152,15 @@ def widening(spread: float) -> float:
     return spread if spread >= WIDE_SPREAD else 1.0
 
 
+def interval_95(value: float, error: float, factor: float = 1.0) -> list[float]:
+    """Ends of the 95 % interval of an estimate with this standard error; factor: see `widening`.
+
+    >>> interval_95(1.0, 0.5)
+    [0.020000000000000018, 1.98]
+    """
+    return [value - factor * CONFIDENCE * error, value + factor * CONFIDENCE * error]
+
+
 def place_name(where: str | float | None) -> str:
     """Where a cause sits, in words; empty for all tests."""
     if where is None:
