@@ -27,6 +27,7 @@ from asphalt_nscd.rheology.spectrum import LAWS
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import fit_content
 
+TITLES: dict[str, str] = {name: kind.title for name, kind in LAWS.items()}  # of laws of all temperatures
 CHAIN_ERROR = 1e-3  # of ln E*, of the chain that bonds follow
 MARGIN = 2.0  # of its band to either side of the tested frequency, for the transient
 

@@ -12,7 +12,7 @@ from typing import Any
 from flask import Flask, Response, abort, jsonify, render_template, request, send_from_directory
 from werkzeug.exceptions import HTTPException
 
-from asphalt_nscd.rheology.spectrum import LAWS
+from asphalt_nscd.api.laws import TITLES
 from asphalt_nscd.table_import.campaign import TABLES
 from asphalt_nscd.table_import.quantities import MEASURED
 from asphalt_nscd.web.work import SECONDS_TO_DIAGNOSE, SECONDS_TO_READ, Choices, Job
@@ -102,7 +102,7 @@ def create_app(token: str | None = None) -> Flask:
     @app.get("/<token>/")
     def page(token: str) -> str:
         units = {name: list(of) for name, (_, of) in MEASURED.items()}
-        return render_template("page.html", units=units, laws=LAWS, endings=", ".join(TABLES))
+        return render_template("page.html", units=units, laws=TITLES, endings=", ".join(TABLES))
 
     @app.post("/<token>/files")
     def drop(token: str) -> Response:
@@ -179,7 +179,7 @@ def _choices(content: Any) -> Choices:
         return Choices()
     kind, law = content.get("measured_in") or None, content.get("law") or "2s2p1d"
     columns = content.get("columns") or {}
-    if kind not in (None, *TEST_TYPES) or law not in LAWS or not isinstance(columns, dict):
+    if kind not in (None, *TEST_TYPES) or law not in TITLES or not isinstance(columns, dict):
         abort(400, "an unknown choice")
     if not all(isinstance(text, str) and len(text) < 200 for pair in columns.items() for text in pair):
         abort(400, "an unknown choice")
