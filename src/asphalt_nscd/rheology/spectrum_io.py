@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,66 +28,6 @@ _KEYS = {
     "activation_energy": "activation_energy_J_mol",
 }
 _REFERENCE = {"reference_temperature": "reference_temperature_C"}
-
-
-def spectrum_content(
-    law: Spectrum,
-    *,
-    source: str,
-    rms_log_residual: float,
-    std_error: dict[str, float] | None = None,
-    unseen: Iterable[str] = (),
-    from_prior: Iterable[str] | None = None,
-    covariance: NDArray[np.float64] | None = None,
-    freedom: Sequence[float] = (np.inf, np.inf),
-) -> dict[str, Any]:
-    """A continuous law, which holds for all temperatures, as its file has it.
-
-    unseen: parameters that the tests do not determine; from_prior: those of them that have the value of a prior,
-    None where none was used. covariance (p, p): of the logarithms of `parameters`; freedom: degrees of freedom of
-    its errors of |E*| and of the phase, the smaller of which makes the intervals. See `fitting.Fit`.
-    """
-    keys = _keys_of(type(law)) | _keys_of(type(law.shift))
-    content: dict[str, Any] = {
-        "law": next(name for name, kind in LAWS.items() if type(law) is kind),
-        "shift": next(name for name, kind in SHIFTS.items() if type(law.shift) is kind),
-        "source": source,
-        **renamed(parameters(law), keys),
-        **renamed({"reference_temperature": law.shift.reference_temperature}, _REFERENCE),
-        "std_error": None if std_error is None else renamed(std_error, keys),
-        "unseen": [keys[name] for name in unseen],
-        "rms_log_residual": rms_log_residual,
-    }
-    if from_prior is not None:
-        content["from_prior"] = [keys[name] for name in from_prior]
-    if covariance is not None:
-        values = np.array(list(parameters(law).values()))
-        spread = np.exp(student(min(freedom)) * np.sqrt(np.diag(covariance)))
-        content["interval_95"] = {
-            keys[name]: [float(value / by), float(value * by)]
-            for name, value, by in zip(parameters(law), values, spread, strict=True)
-            if std_error is not None and name in std_error
-        }
-        content["covariance_of_logarithms"] = {
-            "parameters": [keys[name] for name in parameters(law)],
-            "values": covariance.tolist(),
-            "freedom": [float(one) if np.isfinite(one) else None for one in freedom],
-        }
-    return content
-
-
-def fit_content(fit: Fit[Spectrum], source: str, freedom: Sequence[float] | None = None) -> dict[str, Any]:
-    """A fitted law as its file has it. freedom: of its errors of |E*| and of the phase, else that of the fit."""
-    return spectrum_content(
-        fit.law,
-        source=source,
-        rms_log_residual=fit.rms_log_residual,
-        std_error=fit.std_error,
-        unseen=fit.unseen,
-        from_prior=fit.from_prior,
-        covariance=fit.covariance,
-        freedom=(fit.freedom, fit.freedom) if freedom is None else freedom,
-    )
 
 
 def student(freedom: float) -> float:
@@ -117,6 +57,68 @@ class Uncertainty:
             for part, freedom in zip((slopes.real, slopes.imag), self.freedom, strict=True)
         )
         return of_modulus + 1j * of_phase
+
+
+def spectrum_content(
+    law: Spectrum,
+    *,
+    source: str,
+    rms_log_residual: float,
+    std_error: dict[str, float] | None = None,
+    unseen: Iterable[str] = (),
+    from_prior: Iterable[str] | None = None,
+    uncertainty: Uncertainty | None = None,
+) -> dict[str, Any]:
+    """A continuous law, which holds for all temperatures, as its file has it.
+
+    unseen: parameters that the tests do not determine; from_prior: those of them that have the value of a prior,
+    None where none was used. uncertainty: the smaller of its degrees of freedom makes the intervals of parameters.
+    See `fitting.Fit`.
+    """
+    keys = _keys_of(type(law)) | _keys_of(type(law.shift))
+    content: dict[str, Any] = {
+        "law": next(name for name, kind in LAWS.items() if type(law) is kind),
+        "shift": next(name for name, kind in SHIFTS.items() if type(law.shift) is kind),
+        "source": source,
+        **renamed(parameters(law), keys),
+        **renamed({"reference_temperature": law.shift.reference_temperature}, _REFERENCE),
+        "std_error": None if std_error is None else renamed(std_error, keys),
+        "unseen": [keys[name] for name in unseen],
+        "rms_log_residual": rms_log_residual,
+    }
+    if from_prior is not None:
+        content["from_prior"] = [keys[name] for name in from_prior]
+    if uncertainty is not None:
+        covariance, freedom = uncertainty.covariance, uncertainty.freedom
+        values = np.array(list(parameters(law).values()))
+        spread = np.exp(student(min(freedom)) * np.sqrt(np.diag(covariance)))
+        content["interval_95"] = {
+            keys[name]: [float(value / by), float(value * by)]
+            for name, value, by in zip(parameters(law), values, spread, strict=True)
+            if std_error is not None and name in std_error
+        }
+        content["covariance_of_logarithms"] = {
+            "parameters": [keys[name] for name in parameters(law)],
+            "values": covariance.tolist(),
+            "freedom": [float(one) if np.isfinite(one) else None for one in freedom],
+        }
+    return content
+
+
+def fit_content(
+    fit: Fit[Spectrum], source: str, freedom: tuple[float, float] | None = None
+) -> dict[str, Any]:
+    """A fitted law as its file has it. freedom: of its errors of |E*| and of the phase, else that of the fit."""
+    freedom = (fit.freedom, fit.freedom) if freedom is None else freedom
+    return spectrum_content(
+        fit.law,
+        source=source,
+        rms_log_residual=fit.rms_log_residual,
+        std_error=fit.std_error,
+        unseen=fit.unseen,
+        from_prior=fit.from_prior,
+        uncertainty=None if fit.covariance is None else Uncertainty(fit.covariance, freedom),
+    )
 
 
 def uncertainty_of(path: str | Path, content: dict[str, Any], law: Spectrum) -> Uncertainty | None:

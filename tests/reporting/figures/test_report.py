@@ -125,7 +125,8 @@ def test_packings_of_another_program_are_named(page, results, tmp_path):
 
 def test_one_number_for_before_stands_on_the_first_page(page, tmp_path):
     html = assemble("mine", page(), [], tmp_path)
-    assert html.count("11.1") == 2 and "<td>as in the paper</td>" in html
+    # twice in words, in its bar and in the table
+    assert html.count("11.1") == 4 and "<td>as in the paper</td>" in html
     assert "2.5" in html and "0.6" in html
 
 
@@ -205,3 +206,20 @@ def test_tables_behind_a_figure_are_linked_and_headings_stand_below_the_part(pag
     html = assemble("mine", page(), [entry], tmp_path, tmp_path)
     assert 'Data: <a href="in/a.csv">a.csv</a>, <a href="../b.csv">b.csv</a>' in html
     assert "<h3>One</h3><h4 id='a'>Two</h4>" in html
+
+
+def test_four_sentences_and_the_ladder_as_bars_stand_beside_the_pictures(page, tmp_path):
+    said = page()
+    lead = dict(said["lead"])
+    assert list(lead) == ["What is wrong", "Why, and how sure", "What that gains", "What to do"]
+    assert lead["What is wrong"] == said["wrong"][0]
+    assert "established" in lead["Why, and how sure"]
+    assert (
+        "miss 0.6 % in |E*| and 5 % in the phase; one test scatters by 1 % and 4 %" in lead["What that gains"]
+    )
+    assert lead["What that gains"].endswith("The data are invented.")
+    (modulus, bars), (phase, _) = said["bars"]
+    assert (modulus, phase) == ("|E*|", "phase")
+    assert [bar[2] for bar in bars] == pytest.approx([100.0, 100 * 2.5 / 11.1, 100 * 0.6 / 11.1, 100 / 11.1])
+    html = assemble("small", said, [], tmp_path)
+    assert html.index('class="lead"') < html.index("<img") < html.index('class="cards"')

@@ -12,7 +12,7 @@ import pandas as pd
 from asphalt_nscd.diagnosis import sentences
 from asphalt_nscd.diagnosis.written import read_diagnosis, three_digits
 from asphalt_nscd.files.csvinput import read_csv
-from asphalt_nscd.files.words import counted
+from asphalt_nscd.files.words import counted, joined
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.pages.diagnosis_page import first, in_type, scatter
 from asphalt_nscd.reporting.pages.way import LIKELIEST, held_out, means, read_ladder
@@ -31,6 +31,7 @@ LEFT_OUT = (
     "frequencies between the ends",
     "lowest and highest",
 )
+ONE_LAW = "one law for all temperatures in place of a Burgers law at each"
 TOO_FEW = "No specimen this small was measured. Laws, phase and diagnosis are final; simulated |E*| is not."
 
 
@@ -54,7 +55,10 @@ def first_page(
     way = read_ladder(ladder)
     left_out = _left_out(way, [path for path in beside if path.stem == "rivals"])
     moduli, tests = _frame(measured, "measured"), _frame(simulations, "simulations")
+    gained = _gained(way)
     return {
+        "lead": _lead(content, way, gained, told["orders"]),
+        "bars": _bars(gained),
         "data": _heading(content.get("origin", "measured")),
         "measured": [*_measured(moduli), *sentences.origin(content), scatter(content)],
         "simulated": _simulated(tests, _frame(samples, "samples")),
@@ -64,12 +68,55 @@ def first_page(
         "law": _typed(told["law"] or []),
         "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in told["orders"]],
         "notes": _typed(content["notes"]),
-        "gained": _gained(way),
+        "gained": gained,
         "left_out": left_out,
         "held_out": None if left_out else _held_out(way),
         "elsewhere": _on_other_data([path for path in beside if path.stem == "ensemble"]),
         "pictures": [b64encode(path.read_bytes()).decode() for path in pictures],
     }
+
+
+def _lead(
+    content: dict[str, Any], way: pd.DataFrame, gained: list[tuple[str, ...]], orders: list[dict[str, Any]]
+) -> list[tuple[str, str]]:
+    """Four sentences beside the pictures: what is wrong, why and how sure that is, what was gained, what to do."""
+    sure: list[str] = []
+    unsure: list[str] = []
+    for rung in content["ladder"]:
+        words = ONE_LAW if rung["cause"] == sentences.LAW else sentences.cause_words(rung)
+        (sure if rung.get("established", True) else unsure).append(words)
+    why = [f"{joined(sure)}: established"] if sure else []
+    why += [f"{joined(unsure)}: likely, not certain"] if unsure else []
+    said = in_type("; ".join(why))
+    last, scatter_of_one = gained[-2], gained[-1]
+    act = in_type(orders[0]["text"]) if orders else ""
+    invented = "reconstructed" in content.get("origin", "measured")
+    if invented:
+        act = "Get the measurements of the paper's figures: these data are reconstructed, nobody can test them again."
+    return [
+        ("What is wrong", _wrong(way)[0]),
+        ("Why, and how sure", f"{said[:1].upper()}{said[1:]}." if said else "No cause is named."),
+        (
+            "What that gains",
+            f"With it ({last[0]}) the tests miss {last[1]} % in |E*| and {last[2]} % in the phase; one test scatters "
+            f"by {scatter_of_one[1]} % and {scatter_of_one[2]} %.{' The data are invented.' * invented}",
+        ),
+        ("What to do", act or "No further test is asked for."),
+    ]
+
+
+def _bars(gained: list[tuple[str, ...]]) -> list[tuple[str, list[tuple[str, str, float]]]]:
+    """Of |E*| and of the phase: name, error and length in percent of the longest, for each rung."""
+    return [
+        (
+            name,
+            [
+                (row[0], row[n], 100.0 * float(row[n]) / max(float(one[n]) for one in gained))
+                for row in gained
+            ],
+        )
+        for n, name in ((1, "|E*|"), (2, "phase"))
+    ]
 
 
 def _heading(origin: str) -> str:
