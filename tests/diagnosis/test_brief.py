@@ -274,6 +274,18 @@ def test_that_few_specimens_do_not_tell_which_is_odd_is_a_sentence_of_its_own():
     assert told[1:] == ["2 specimens are too few to tell which one is odd."] and len(told) == 2
 
 
+def test_what_the_sizes_left_over_include_is_a_sentence_of_its_own():
+    """It was once told as a size: "off by These sizes include"."""
+    left = [part_left("isotherm", "phase", 3.0, temperature_C=37.0)]
+    scatter = {"phase_deg": 0.5, "modulus_percent": 1.0, "from_replicates": True}
+    odd = [{"specimen": "B", "temperature_C": None, "phase_deg": 4.0}]
+    told = answer(discrepancy=left, scatter=scatter, lack_of_fit_p_value=1e-9, odd_phases=odd)
+    assert told["Unexplained"] == [
+        "Beyond scatter, the common master curve is off by 1.5 deg in the phase at 37 degC.",
+        "These sizes include what is odd: specimen B.",
+    ]
+
+
 def test_temperatures_off_their_target_are_noted_before_all_else():
     off = [{"specimen": "A", "temperature_C": 35.0, "measured_C": 36.2}]
     read = {"specimens": ["A"], "isotherms_C": [35.0], "test_type": "bending", "off_target": off}

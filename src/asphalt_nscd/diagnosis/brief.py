@@ -381,10 +381,10 @@ def _unexplained(content: Content) -> list[str]:
     of_others = [one for one in content.get("discrepancy", []) if one["temperature_C"] not in broken]
     told = sentences.more_than_scatter(content) and bool(of_others or not content.get("discrepancy"))
     parts = unexplained.left({**content, "discrepancy": of_others})[:PARTS] if told else []
-    remark = unexplained.which_departs(content, PARTS) if parts else []
+    remarks = unexplained.remarks(content, PARTS) if parts and content.get("discrepancy") else []
     off = "the common master curve is off by " if content.get("discrepancy") else ""
-    said = [f"Beyond scatter, {off}{part}" for part in parts if part not in remark]
-    return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, [*said, *remark])]
+    said = [f"Beyond scatter, {off}{part}" for part in parts if part not in remarks]
+    return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, [*said, *remarks])]
 
 
 def _next(content: Content) -> list[str]:

@@ -65,12 +65,7 @@ def left(content: Content) -> list[str]:
     """What no cause explains, largest first, in percent of |E*| or degrees of phase."""
     parts = sorted(content.get("discrepancy", []), key=lambda one: -one["size"])[:LARGEST]
     if parts:
-        places = levels.places(*odd(content))
-        return [
-            *(_part_left(one, content) for one in parts),
-            *([f"These sizes include what is odd: {joined(places)}"] if places else []),
-            *which_departs(content),
-        ]
+        return [*(_part_left(one, content) for one in parts), *remarks(content)]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None and more_than_scatter(content):
         if pattern["pattern"].count("slope over temperature") and _one_isotherm(content):
@@ -79,13 +74,18 @@ def left(content: Content) -> list[str]:
     return []
 
 
-def which_departs(content: Content, most: int = LARGEST) -> list[str]:
-    """Of few specimens each has a large part in the common curve that it is compared with."""
+def remarks(content: Content, most: int = LARGEST) -> list[str]:
+    """On the sizes of what is left: what they include, and that few specimens do not tell which one is odd.
+
+    Of few specimens each has a large part in the common curve that it is compared with.
+    """
+    places = levels.places(*odd(content))
+    said = [f"These sizes include what is odd: {joined(places)}"] if places else []
     specimens = len(content.get("reading", {}).get("specimens", []))
     largest = sorted(content.get("discrepancy", []), key=lambda one: -one["size"])[:most]
     if 1 < specimens < MANY_SPECIMENS and any(one["specimen"] is not None for one in largest):
-        return [f"{specimens} specimens are too few to tell which one is odd"]
-    return []
+        said.append(f"{specimens} specimens are too few to tell which one is odd")
+    return said
 
 
 def _one_isotherm(content: Content) -> bool:
