@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 
+from asphalt_nscd.bending.case import LoadCase
 from asphalt_nscd.bending.rig import Rig, read_rig, write_rig
 from asphalt_nscd.files.errors import InputError
 
@@ -29,6 +31,13 @@ def test_what_is_not_given_is_zero(tmp_path):
     (tmp_path / "rig.json").write_text('{"head_mass_kg": 1}')
     assert read_rig(tmp_path / "rig.json") == Rig(head_mass=1.0)
     assert Rig().of_head == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_the_channel_records_the_displacement_late_and_behind_in_phase():
+    """By 1 ms and 0.2 rad at 10 Hz; nothing before the head's start has come through."""
+    case = LoadCase(10.0, 1e-6, 1.0, Rig(channel_delay=1e-3, phase_offset=0.2))
+    expected = [0.0, 1e-6 * np.sin(20.0 * np.pi * 0.019 - 0.2)]
+    np.testing.assert_allclose(case.recorded(np.array([3e-3, 0.02])), expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize(
