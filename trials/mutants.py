@@ -54,9 +54,11 @@ class Copy:
         ]
         environment = os.environ | {"PYTHONPATH": str(self.folder / "src")}
         done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True)
-        failed = [line for line in done.stdout.splitlines() if line.startswith("FAILED")]
-        fine = done.returncode in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED)
-        return "" if fine else (failed or [done.stdout[-300:] + done.stderr[-300:]])[0]
+        if done.returncode in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
+            return ""
+        if done.returncode != pytest.ExitCode.TESTS_FAILED:  # no verdict on the mutant: nothing was tested
+            raise click.ClickException(f"tests/{tests} cannot run:\n{(done.stdout + done.stderr)[-600:]}")
+        return next(line for line in done.stdout.splitlines() if line.startswith(("FAILED", "ERROR")))
 
     def noticed(self, mutant) -> str:
         """By which test, the quick ones first; empty if the mutant lives."""
@@ -112,23 +114,33 @@ def earlier(path: Path) -> dict[str, str]:
 def main(words: tuple[str, ...], output: Path | None) -> None:
     """Try the mutants, or those of which WORDS say something."""
     chosen = [one for one in MUTANTS if not words or any(word in one.what + one.file for word in words)]
-    known = {} if output is None else earlier(output / "mutants.csv")
-    rows = []
+    judged = {} if output is None else earlier(output / "mutants.csv")
+    digests = [sources(mutant) for mutant in chosen]
     with tempfile.TemporaryDirectory() as name:
         copy = Copy(Path(name))
-        for mutant in chosen:
-            digest = sources(mutant)
-            found = known[digest] if digest in known else copy.noticed(mutant)
-            rows.append(mutant._asdict() | {"noticed_by": found, "sources": digest})
-            click.echo(f"{mutant.what} ({mutant.file}): {found or 'ALIVE'}")
-    alive = sum(not row["noticed_by"] for row in rows)
-    click.echo(f"{len(rows) - alive} of {len(rows)} mutants were noticed.")
+        for mutant, digest in zip(chosen, digests):
+            if digest not in judged:
+                judged[digest] = copy.noticed(mutant)
+                if output is not None:  # each time, for whoever interrupts
+                    write_tables(output, chosen, digests, judged)
+            click.echo(f"{mutant.what} ({mutant.file}): {judged[digest] or 'ALIVE'}")
     if output is not None:
-        table = pd.DataFrame(rows)
-        write_table(output / "mutants.csv", table)
-        write_table(output / "summary.csv", summary(table))
-        write_json(output / "provenance.json", provenance())
+        write_tables(output, chosen, digests, judged)
+    alive = sum(not judged[digest] for digest in digests)
+    click.echo(f"{len(chosen) - alive} of {len(chosen)} mutants were noticed.")
     sys.exit(alive > 0)
+
+
+def write_tables(output: Path, mutants: list, digests: list[str], judged: dict[str, str]) -> None:
+    """The mutants judged so far, their number in each room, and from which commit."""
+    rows = [
+        one._asdict() | {"noticed_by": judged[digest], "sources": digest}
+        for one, digest in zip(mutants, digests)
+        if digest in judged
+    ]
+    write_table(output / "mutants.csv", pd.DataFrame(rows))
+    write_table(output / "summary.csv", summary(pd.DataFrame(rows)))
+    write_json(output / "provenance.json", provenance())
 
 
 if __name__ == "__main__":
