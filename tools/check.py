@@ -49,6 +49,7 @@ PUBLISHED = (
     "fuzz",
     "mapping",
     "paper",
+    "rigs",
     "verification",
 )
 TAKEN = ("simulations.csv", "likely.csv", "facets.csv", "extended.csv")  # of full simulations

@@ -186,6 +186,19 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
     "fatigue_summary": [
         Layout({"what": "what", "here": "here", "beside": "beside", "beside_is": "which is"}, figures=3)
     ],
+    "rigs": [
+        Layout(
+            {
+                "test": "test",
+                "spheres": "spheres",
+                "kind": "kind",
+                "least": "least",
+                "largest": "largest",
+                "phase_deg": "phase, °",
+            },
+            figures=5,
+        )
+    ],
     "mapping": [
         Layout(
             {

@@ -29,7 +29,17 @@ _TYPES = {
     "integer": "a whole number",
 }
 # Folders of results/ that belong to no study.
-RESERVED = ("benchmark", "cluster", "faults", "forecast", "fuzz", "mapping", "published", "verification")
+RESERVED = (
+    "benchmark",
+    "cluster",
+    "faults",
+    "forecast",
+    "fuzz",
+    "mapping",
+    "published",
+    "rigs",
+    "verification",
+)
 POURED = ("seeds", "counts_table", "box_m")  # what pouring needs
 _OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
 
