@@ -49,7 +49,6 @@ PUBLISHED = (
     "fuzz",
     "mapping",
     "paper",
-    "rigs",
     "verification",
 )
 TAKEN = ("simulations.csv", "likely.csv", "facets.csv", "extended.csv")  # of full simulations

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.collections import EllipseCollection, LineCollection
 
-from asphalt_nscd.files.store import load
+from asphalt_nscd.files.store import load, save
 from asphalt_nscd.reporting.figures import fig01, fig05, style
 from asphalt_nscd.reporting.figures.section import draw_section
 from asphalt_nscd.reporting.figures.spheres import View, picture
@@ -71,6 +71,19 @@ def test_stages_and_sizes(results):
     for item in (*legend.patches, *legend.texts):  # nor beyond its own place, however low the section is
         inside = item.get_window_extent().transformed(legend.transAxes.inverted())
         assert min(inside.x0, inside.y0) > -0.01 and max(inside.x1, inside.y1) < 1.01
+
+
+def test_a_thick_layer_leaves_room_for_its_section(results, tmp_path):
+    """As of a cylinder: layers as high as the specimen is wide, one above the other."""
+    poured = load(results.deposit()[0], "deposit")
+    arrays = dict(poured.arrays)
+    for name in ("poured_position", "position"):
+        arrays[name] = arrays[name] * np.array([1.0, 1.0, 3.0])
+    save(tmp_path / "thick.h5", "deposit", arrays, poured.attributes)
+    figure = fig05.draw(deposit=[tmp_path / "thick.h5"], specimen=results.specimen())
+    for axes in figure.axes:
+        box = axes.get_position()
+        assert min(box.x0, box.y0) > 0.0 and max(box.x1, box.y1) < 1.0 and min(box.width, box.height) > 0.05
 
 
 def test_shades_grow_darker_with_the_diameter():

@@ -19,6 +19,7 @@ from asphalt_nscd.reporting.figures.spheres import View, picture
 
 # On paper, mm.
 HEIGHT, TALL, EDGE, GUTTER, TITLE = 113.0, 102.0, 1.0, 7.0, 9.0
+SECTION = 25.0  # the least height of the section below the layers, which a cylinder needs thick
 LEGEND = 17.0  # width of the column that says which shade is which size
 PIXELS = 20.0  # per mm
 VIEW = View(azimuth=-18.0, elevation=12.0)
@@ -38,7 +39,8 @@ def draw(deposit: list[Path], specimen: list[Path]) -> Figure:
     small = TALL / _span(lattice, radius)[1]
     upright, layer = _span(*trimmed), _span(dense, radius)
     room = style.WIDE - 2.0 * EDGE - 2.0 * GUTTER - small * _span(lattice, radius)[0]
-    large = min(TALL / upright[1], room / (upright[0] + layer[0]))
+    stacked = _span(loose, radius)[1] + layer[1]
+    large = min(TALL / upright[1], room / (upright[0] + layer[0]), (TALL - 2.0 * TITLE - SECTION) / stacked)
 
     figure = Figure(figsize=(style.WIDE * style.MM, HEIGHT * style.MM))
     left = EDGE + small * _span(lattice, radius)[0] + GUTTER

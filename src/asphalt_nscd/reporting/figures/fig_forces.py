@@ -16,6 +16,7 @@ from scipy import sparse
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, load
+from asphalt_nscd.measurements.geometry import shape_of
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.spheres import View, picture
@@ -77,7 +78,7 @@ def _chains(axes: Axes, specimen: Record, force: NDArray[np.float64], colour: st
     """Bonds about the middle plane from centre to centre, the strongest on top."""
     position = 1e3 * specimen.arrays["position"][:, [0, 2]]
     first, second = specimen.arrays["network/first"], specimen.arrays["network/second"]
-    near = np.abs(specimen.arrays["network/point"][:, 1]) < SLICE * specimen.attributes["e"]
+    near = np.abs(specimen.arrays["network/point"][:, 1]) < SLICE * shape_of(specimen.attributes).thickness
     shown = np.flatnonzero(near & (np.maximum(first, second) < len(position)) & (force > 0.0))
     shown = shown[np.argsort(force[shown])]
     ends = np.stack([position[first[shown]], position[second[shown]]], axis=1)
