@@ -13,6 +13,7 @@ from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.bending.fall import Fall, fell, released
 from asphalt_nscd.cli import main
 from asphalt_nscd.files.store import load, save
+from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam
 
 
@@ -30,6 +31,9 @@ def test_it_starts_at_rest_over_the_floor_in_two_pieces(small):
     foot = small.position[:, 2] < 0.5 * small.geometry.h
     assert len(set(world.fragments()[foot])) == 1 and len(set(world.fragments().tolist())) == 2
     assert not released(small, QUICK_LAW, Fall(sawn=0.0), Bonds()).broken.any()
+    clamped = jittered_beam(shape=(2, 2, 12), area="facets", test=Beam.test)
+    with pytest.raises(an.InputError, match="plates within it hold its parts together"):
+        released(clamped, QUICK_LAW, Fall(), Bonds())
 
 
 def test_what_a_fall_sets_free_is_what_named_parts_take(small):

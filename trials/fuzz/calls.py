@@ -437,10 +437,11 @@ def all_tried(seeds: range, folder: Path) -> pd.DataFrame:
     """An `Outcome` in each row; those that `folder` holds of this commit are not tried again."""
     made, origin = folder / "outcomes.csv", folder / "calls_provenance.json"
     told = provenance() | {"calls": len(seeds), "first_seed": seeds.start}
-    if not (origin.exists() and json.loads(origin.read_text(encoding="utf-8")) == told):
+    before = json.loads(origin.read_text(encoding="utf-8")) if origin.exists() else {}
+    if before | {"calls": len(seeds)} != told:
         folder.mkdir(parents=True, exist_ok=True)
         made.write_text(",".join(Outcome.__annotations__) + "\n", encoding="utf-8")
-        write_json(origin, told)
+    write_json(origin, told)
     known = len(pd.read_csv(made))
     with made.open("a", encoding="utf-8", newline="") as rows:
         trial = Trial()
@@ -451,7 +452,7 @@ def all_tried(seeds: range, folder: Path) -> pd.DataFrame:
             if found.ended not in ENDS[:2]:
                 click.echo(f"seed {seed}, {found.function}: {found.ended}: {found.said} [{found.where}]")
         trial.end()
-    return pd.read_csv(made, keep_default_na=False)
+    return pd.read_csv(made, keep_default_na=False)[: len(seeds)]
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ FALL_STEPS = ["8e-4", "4e-4", "2e-4"]  # s
 
 
 rule fall_specimen:
-    # A prism of large grains.
+    # A beam of large grains.
     input:
         counts=shipped("config/fall_counts.csv"),
         law=shipped("data/paper/table3_burgers.csv"),
@@ -20,15 +20,15 @@ rule fall_specimen:
     log:
         "results/fall/logs/specimen.log",
     message:
-        "Pour, cut and bond a small prism"
+        "Pour, cut and bond a small beam"
     shell:
         "( asphalt-nscd deposit --counts {input.counts:q} --box-m 0.1,0.02,0.2 --seed 1 --vibration-s 0 --output {output.deposit}"
-        " && asphalt-nscd trim {output.deposit} --geometry L_mm=100,H_mm=20,B_mm=20,mass_kg=0.09,mobile_mass_kg=0.1 --area facets --output {output.specimen}"
+        " && asphalt-nscd trim {output.deposit} --geometry b_mm=18,B_mm=20,e_mm=20,h_mm=100,mass_kg=0.09,mobile_mass_kg=0.1 --area facets --output {output.specimen}"
         " && asphalt-nscd published-law {input.law:q} --temperature-c 15 --unit kPa --output {output.law} ) > {log} 2>&1"
 
 
 rule fall_run:
-    # It is sawn in the middle and falls by 20 mm.
+    # It is sawn in the middle and falls by 40 mm on its edge.
     input:
         specimen="results/fall/specimen.h5",
         law="results/fall/law.json",
@@ -44,9 +44,9 @@ rule fall_run:
     benchmark:
         "results/fall/benchmarks/{step}.tsv"
     message:
-        "Let a sawn prism fall, in steps of {wildcards.step} s"
+        "Let a sawn beam fall, in steps of {wildcards.step} s"
     shell:
-        "asphalt-nscd fall {input.specimen} --law {input.law} --duration-s 0.8 --frames 81 --time-step-s {wildcards.step} --output {output} > {log} 2>&1"
+        "asphalt-nscd fall {input.specimen} --law {input.law} --height-mm 40 --tilt-deg 50 --duration-s 0.8 --frames 81 --time-step-s {wildcards.step} --output {output} > {log} 2>&1"
 
 
 rule fall_table:

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from asphalt_nscd.bending.condensing import Bonds
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Ranged, within
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.world import Surroundings, World, WorldBonds, WorldEnergies
@@ -42,7 +43,10 @@ class Fall(Ranged):
 
 
 def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> World:
-    """The specimen over the floor, at rest, its bonds sawn. Bonds to its plates are left out."""
+    """The specimen over the floor, at rest, its bonds sawn. Bonds to its plates are left out.
+
+    Raises InputError for one that only plates hold together.
+    """
     network, n = specimen.network, specimen.radius.size
     inside = np.maximum(network.first, network.second) < n
     between = WorldBonds(
@@ -55,6 +59,10 @@ def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> Worl
     )
     floor = Surroundings(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]]), bonds.friction, bonds.friction)
     made = World(specimen.position, specimen.radius, inertia(specimen), between, law, floor, fall.time_step)
+    if made.fragments().any():
+        raise InputError(
+            "specimen: plates within it hold its parts together; let one fall that has plates at its ends alone."
+        )
     below = specimen.position[:, 2] < fall.sawn * specimen.geometry.h
     made.cut(below[between.first] != below[between.second])
     turn = Rotation.from_euler("y", fall.tilt, degrees=True)
