@@ -19,7 +19,7 @@ from asphalt_nscd.rheology.priors import prior_of
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import TwoS2P1D, parameters
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
-from asphalt_nscd.rheology.spectrum_io import fit_content
+from asphalt_nscd.rheology.spectrum_io import Uncertainty, fit_content
 
 TRUTH = TwoS2P1D(100e6, 30e9, 0.2, 0.58, 2.2, 0.06, 100.0, WLF(20.0, 140.0, 15.0))
 TESTED = {"temperatures_C": (-10.0, 5.0, 20.0, 35.0), "frequencies_Hz": (0.1, 1.0, 5.0, 25.0)}
@@ -36,7 +36,7 @@ def fitted(tmp_path_factory):
     modulus = TRUTH.complex_modulus(omega, temperature) * np.exp(noise[0] + 1j * noise[1])
     fit = fit_spectrum(omega, temperature, modulus, 15.0, prior=prior_of("2s2p1d"))
     path = tmp_path_factory.mktemp("law") / "law.json"
-    write_json(path, fit_content(fit, "fitted", (np.inf, np.inf)))
+    write_json(path, fit_content(fit, "fitted", Uncertainty(fit.covariance, (np.inf, np.inf))))
     return path, fit
 
 

@@ -129,9 +129,15 @@ def test_a_law_file_gives_its_covariance_back():
         Form("cam"),
         prior=prior_of("cam"),
     )
-    content = fit_content(fit, "fitted", (10.0, np.inf))
+    content = fit_content(fit, "fitted", Uncertainty(fit.covariance, (10.0, np.inf), (0.01, 0.002)))
     back = uncertainty_of("law.json", content, fit.law)
     assert back.covariance == pytest.approx(fit.covariance) and back.freedom == (10.0, np.inf)
+    assert back.form == (0.01, 0.002)
+    plain = Uncertainty(fit.covariance, back.freedom).half(fit.law, OMEGA, TEMPERATURE)
+    wide = back.half(fit.law, OMEGA, TEMPERATURE)
+    assert np.sqrt(wide.real**2 - plain.real**2) == pytest.approx(
+        np.full(OMEGA.size, 2.2281 * 0.01), rel=1e-3
+    )
     low, high = content["interval_95"]["E_glassy_Pa"]
     by = np.exp(2.2281 * np.sqrt(fit.covariance[1, 1]))  # Student's t of ten
     assert (low, high) == pytest.approx((content["E_glassy_Pa"] / by, content["E_glassy_Pa"] * by), rel=1e-4)

@@ -86,9 +86,17 @@ def material_law(
     along = (slope[rows] / free[rows, None])[:, : diagnosis.ladder.fitted.law.size]
     along = np.concatenate([along.real, along.imag])
     size = along.shape[1]
-    off = log_residual(free[rows], fit.law.complex_modulus(observed.omega[rows], observed.temperature[rows]))
-    misfit = np.repeat([np.mean(part**2) for part in np.split(off, 2)], off.size // 2)
+    misfit = np.repeat(np.square(misfit_of_form(diagnosis, fit.law, rows)), along.shape[0] // 2)
     return fit.under(along @ diagnosis.ladder.fitted.covariance[:size, :size] @ along.T + np.diag(misfit))
+
+
+def misfit_of_form(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_]) -> tuple[float, float]:
+    """Root mean square of the law less the free curve at the tests used (n,): ln|E*|, phase [rad]."""
+    observed = diagnosis.observed
+    free = _without_causes(diagnosis)[used]
+    off = log_residual(free, law.complex_modulus(observed.omega[used], observed.temperature[used]))
+    of_modulus, of_phase = (float(np.sqrt(np.mean(part**2))) for part in np.split(off, 2))
+    return of_modulus, of_phase
 
 
 def compared(diagnosis: Diagnosis, fit: Fit[Spectrum], used: NDArray[np.bool_]) -> list[dict[str, Any]]:

@@ -26,7 +26,14 @@ from asphalt_nscd.diagnosis import (
     within_isotherm,
 )
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.extension import compared, law_misses, law_notes, material_law, prior_notes
+from asphalt_nscd.diagnosis.extension import (
+    compared,
+    law_misses,
+    law_notes,
+    material_law,
+    misfit_of_form,
+    prior_notes,
+)
 from asphalt_nscd.diagnosis.instructions import instructions
 from asphalt_nscd.diagnosis.measured_limits import Progress
 from asphalt_nscd.diagnosis.numerics import of_campaign
@@ -237,10 +244,12 @@ def conclude(
     }
     law, curve = None, reported.master_curve(diagnosis)
     if fit is not None:
-        freedom = reported.freedom_of(diagnosis)
-        law = fit_content(fit, f"fitted ({origin})", freedom)
+        known = None
+        if fit.covariance is not None:
+            form = misfit_of_form(diagnosis, fit.law, ~doubtful)
+            known = Uncertainty(fit.covariance, reported.freedom_of(diagnosis), form)
+        law = fit_content(fit, f"fitted ({origin})", known)
         content["law_parameters"] = law_parameters(law)
-        known = None if fit.covariance is None else Uncertainty(fit.covariance, freedom)
         curve = reported.with_law(curve, fit.law, known)
     return Outcome(
         content,

@@ -43,18 +43,23 @@ def student(freedom: float) -> float:
 class Uncertainty:
     """What the tests leave open of a law: the covariance (p, p) of the logarithms of its `parameters`.
 
-    freedom: degrees of freedom of the errors of |E*| and of the phase.
+    freedom: degrees of freedom of the errors of |E*| and of the phase; form: root mean square by which a law of this
+    form misses a curve of any form, in ln|E*| and in the phase [rad].
     """
 
     covariance: NDArray[np.float64]
     freedom: tuple[float, float]
+    form: tuple[float, float] = (0.0, 0.0)
 
     def half(self, law: Spectrum, omega: NDArray, temperature: NDArray) -> NDArray[np.complex128]:
-        """Half-widths (n,) of the 95 % intervals of ln|E*| and, imaginary, of the phase [rad]; vectors (n,)."""
+        """Half-widths (n,) of the 95 % intervals of ln|E*| and, imaginary, of the phase [rad]; vectors (n,).
+
+        Of what the mix has there: the misfit of the form counts too.
+        """
         slopes = law.log_slopes(omega, temperature)
         of_modulus, of_phase = (
-            student(freedom) * np.sqrt(np.einsum("ij,jk,ik->i", part, self.covariance, part))
-            for part, freedom in zip((slopes.real, slopes.imag), self.freedom, strict=True)
+            student(freedom) * np.sqrt(np.einsum("ij,jk,ik->i", part, self.covariance, part) + form**2)
+            for part, freedom, form in zip((slopes.real, slopes.imag), self.freedom, self.form, strict=True)
         )
         return of_modulus + 1j * of_phase
 
@@ -101,15 +106,15 @@ def spectrum_content(
             "parameters": [keys[name] for name in parameters(law)],
             "values": covariance.tolist(),
             "freedom": [float(one) if np.isfinite(one) else None for one in freedom],
+            "misfit_of_form": list(uncertainty.form),
         }
     return content
 
 
-def fit_content(
-    fit: Fit[Spectrum], source: str, freedom: tuple[float, float] | None = None
-) -> dict[str, Any]:
-    """A fitted law as its file has it. freedom: of its errors of |E*| and of the phase, else that of the fit."""
-    freedom = (fit.freedom, fit.freedom) if freedom is None else freedom
+def fit_content(fit: Fit[Spectrum], source: str, uncertainty: Uncertainty | None = None) -> dict[str, Any]:
+    """A fitted law as its file has it. uncertainty: of it, else that of the fit."""
+    if uncertainty is None and fit.covariance is not None:
+        uncertainty = Uncertainty(fit.covariance, (fit.freedom, fit.freedom))
     return spectrum_content(
         fit.law,
         source=source,
@@ -117,7 +122,7 @@ def fit_content(
         std_error=fit.std_error,
         unseen=fit.unseen,
         from_prior=fit.from_prior,
-        uncertainty=None if fit.covariance is None else Uncertainty(fit.covariance, freedom),
+        uncertainty=uncertainty,
     )
 
 
@@ -130,12 +135,14 @@ def uncertainty_of(path: str | Path, content: dict[str, Any], law: Spectrum) -> 
     try:
         covariance = np.array(said["values"], float)
         freedom = tuple(np.inf if one is None else float(one) for one in said["freedom"])
-        sound = said["parameters"] == [keys[name] for name in parameters(law)] and len(freedom) == 2
+        form = tuple(float(one) for one in said["misfit_of_form"])
+        sound = said["parameters"] == [keys[name] for name in parameters(law)]
+        sound = sound and len(freedom) == 2 == len(form)
     except (KeyError, TypeError, ValueError):
         sound = False
     if not sound or covariance.shape != (len(keys), len(keys)) or not np.isfinite(covariance).all():
         raise InputError(f"{path}: key 'covariance_of_logarithms' is damaged; make the file again.")
-    return Uncertainty(covariance, (freedom[0], freedom[1]))
+    return Uncertainty(covariance, (freedom[0], freedom[1]), (form[0], form[1]))
 
 
 def write_spectrum(path: str | Path, law: Spectrum, **said: Any) -> dict[str, Any]:

@@ -102,7 +102,7 @@ def law_chart(title: str, curve: Sequence[Path]) -> Chart:
     return Chart(
         "law",
         "The law and the free master curve",
-        "Bands: 95 %, what scatter, specimens and named causes leave open. The law has one form, the free curve none.",
+        "Bands: 95 %, what scatter, specimens and named causes leave open; of the law, the misfit of its form too.",
         tuple(plots),
         [(name, *look) for name, look in looks.items()],
         of="Curves",
