@@ -5,33 +5,45 @@
 FALL_STEPS = ["8e-4", "4e-4", "2e-4"]  # s
 
 
-rule fall_specimen:
-    # A beam of large grains.
+rule fall_deposit:
+    # Large grains, for a small beam.
     input:
         counts=shipped("config/fall_counts.csv"),
-        law=shipped("data/paper/table3_burgers.csv"),
-        code=[code("deposit"), code("trim"), code("published-law")],
+        code=code("deposit"),
     output:
-        deposit="results/fall/deposit.h5",
-        specimen="results/fall/specimen.h5",
-        law="results/fall/law.json",
+        "results/fall/deposit.h5",
     conda:
         ENVIRONMENT
     log:
-        "results/fall/logs/specimen.log",
+        "results/fall/logs/deposit.log",
     message:
-        "Pour, cut and bond a small beam"
+        "Pour the grains of a small beam"
     shell:
-        "( asphalt-nscd deposit --counts {input.counts:q} --box-m 0.1,0.02,0.2 --seed 1 --vibration-s 0 --output {output.deposit}"
-        " && asphalt-nscd trim {output.deposit} --geometry b_mm=18,B_mm=20,e_mm=20,h_mm=100,mass_kg=0.09,mobile_mass_kg=0.1 --area facets --output {output.specimen}"
-        " && asphalt-nscd published-law {input.law:q} --temperature-c 15 --unit kPa --output {output.law} ) > {log} 2>&1"
+        "asphalt-nscd deposit --counts {input.counts:q} --box-m 0.1,0.02,0.2 --seed 1 --vibration-s 0 --output {output} > {log} 2>&1"
+
+
+use rule trim as fall_specimen with:
+    input:
+        deposit="results/fall/deposit.h5",
+        code=code("trim"),
+    output:
+        "results/fall/specimen.h5",
+    params:
+        geometry=text({"b_mm": 18, "B_mm": 20, "e_mm": 20, "h_mm": 100, "mass_kg": 0.09, "mobile_mass_kg": 0.1}),
+        bonds="--area facets",
+    log:
+        "results/fall/logs/specimen.log",
+    benchmark:
+        "results/fall/benchmarks/specimen.tsv"
+    message:
+        "Cut and bond a small beam"
 
 
 rule fall_run:
     # It is sawn in the middle and falls by 40 mm on its edge.
     input:
         specimen="results/fall/specimen.h5",
-        law="results/fall/law.json",
+        law="<results>/laws/published/T15.json",
         code=code("fall"),
     output:
         "results/fall/{step}.h5",
@@ -84,24 +96,40 @@ rule fall_figure:
         "asphalt-nscd figure fig_fall fall={input.fall} --output-stem results/fall/figures/fig_fall > {log} 2>&1"
 
 
-rule fall:
-    # All of it, with its film for ParaView.
+rule fall_film:
+    # For ParaView.
     input:
-        "results/fall/falls.csv",
-        rules.fall_figure.output,
         fall=f"results/fall/{FALL_STEPS[-1]}.h5",
-        code=[code("provenance"), code("export")],
+        code=code("export"),
     output:
-        film="results/fall/film.pvd",
-        provenance="results/fall/provenance.json",
+        "results/fall/film.pvd",
     conda:
         ENVIRONMENT
     log:
         "results/fall/logs/film.log",
     message:
-        "Film the fall for ParaView: {output.film}"
+        "Film the fall for ParaView: {output}"
     shell:
-        "( asphalt-nscd export {input.fall} --format vtk --output {output.film} && asphalt-nscd provenance --output {output.provenance} ) > {log} 2>&1"
+        "asphalt-nscd export {input.fall} --format vtk --output {output} > {log} 2>&1"
+
+
+rule fall:
+    # All of it.
+    input:
+        "results/fall/falls.csv",
+        "results/fall/film.pvd",
+        rules.fall_figure.output,
+        code=code("provenance"),
+    output:
+        "results/fall/provenance.json",
+    conda:
+        ENVIRONMENT
+    log:
+        "results/fall/logs/provenance.log",
+    message:
+        "Write down what fell"
+    shell:
+        "asphalt-nscd provenance --output {output} > {log} 2>&1"
 
 
 rule publish_fall:
