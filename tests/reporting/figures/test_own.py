@@ -8,7 +8,8 @@ import pytest
 from tiny_results import LAWS, modulus
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.store import load
+from asphalt_nscd.files.store import load, save
+from asphalt_nscd.measurements.geometry import read_shape
 from asphalt_nscd.reporting.figures import (
     fig_compaction,
     fig_forces,
@@ -17,6 +18,8 @@ from asphalt_nscd.reporting.figures import (
     fig_ratio,
     fig_readings,
 )
+
+CYLINDER = {"d_mm": 20, "h_mm": 60, "mass_kg": 0.04, "mobile_mass_kg": 0}
 
 
 def test_ratio_and_phase_difference_of_every_test(results):
@@ -131,6 +134,17 @@ def test_chains_leave_out_plates_and_what_lies_off_the_middle(results):
     assert np.asarray(chains.get_segments()) == pytest.approx(np.array([[[0.0, 30.0], [3.0, 30.0]]]))
     (chains,) = pushed.collections
     assert np.asarray(chains.get_segments()) == pytest.approx(np.array([[[0.0, 30.0], [0.0, 30.0]]]))
+
+
+def test_chains_of_a_cylinder_are_those_about_its_middle(results, tmp_path):
+    """Whose thickness is its diameter: it has no e."""
+    cut, shape = load(results.specimen()[0], "specimen"), read_shape(CYLINDER)
+    other = {name: value for name, value in cut.attributes.items() if name not in ("b", "B", "e")}
+    path = tmp_path / results.specimen()[0].name
+    save(path, "specimen", cut.arrays, other | shape.attributes())
+    pulled, *_ = fig_forces.draw(model=results.model(), specimen=[path]).axes
+    (chains,) = pulled.collections
+    assert len(chains.get_segments()) >= 1
 
 
 def test_model_of_another_specimen_is_refused(results):

@@ -83,7 +83,7 @@ def test_a_thick_layer_leaves_room_for_its_section(results, tmp_path):
     figure = fig05.draw(deposit=[tmp_path / "thick.h5"], specimen=results.specimen())
     for axes in figure.axes:
         box = axes.get_position()
-        assert min(box.x0, box.y0) > 0.0 and max(box.x1, box.y1) < 1.0 and min(box.width, box.height) > 0.05
+        assert min(box.x0, box.y0) > 0.0 and max(box.x1, box.y1) < 1.0 and min(box.width, box.height) > 0.03
 
 
 def test_shades_grow_darker_with_the_diameter():
