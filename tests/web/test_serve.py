@@ -91,6 +91,8 @@ def test_files_are_read_and_said(client, app):
     assert held["specimen"] == ("specimen", "")
     assert not any(str(app.config["DESK"].folder) in note for note in content["notes"])
     assert client.post(f"{PAGE}read", json={"measured_in": "torsion"}).status_code == 400
+    assert client.post(f"{PAGE}read", json={"law": "burger"}).status_code == 400
+    assert client.post(f"{PAGE}read", json={"law": "cam"}).status_code == 200
 
 
 def test_what_is_no_table_is_refused(client):
