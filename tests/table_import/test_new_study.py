@@ -121,6 +121,7 @@ def test_direct_tests_are_simulated_on_a_cylinder():
     ampt = accepted(new_study("ampt", german(rows()), StudyOptions(measured_in="tension-compression"))[0])
     assert ampt["specimens"]["geometry"] == {"d_mm": 100, "h_mm": 150, "mass_kg": 2.83, "mobile_mass_kg": 0}
     assert ampt["test"]["amplitude_m"] == pytest.approx(50e-6 * 0.15)
+    assert ampt["test"]["type"] == "tension-compression" and ampt["test"]["steps_per_cycle"] == 200
     counts = pd.read_csv(ampt["specimens"]["counts_table"])
     assert (
         counts["diameter_mm"].tolist() == [4.0, 8.0, 12.6, 16.0, 20.0] and 7000 < counts["count"].sum() < 8000

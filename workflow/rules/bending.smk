@@ -3,6 +3,8 @@
 HEAD = STUDY["test"]["head"]
 LAWS = STUDY["laws"]["simulate"]
 MODEL, EXCERPT = (f"<results>/models/{HEAD}/{{sample}}.{kind}" for kind in ("h5", "excerpt.h5"))
+STEPS = "steps_per_cycle" if "steps_per_cycle" in STUDY["test"] else "time_step_s"
+TEST = options(STUDY["test"], "amplitude_m", "cycles", STEPS, "rest_steps")
 TESTS = "<results>/tests/{sample}/T{temperature}/f{frequency}.h5"
 
 
@@ -29,7 +31,7 @@ rule simulate:
     params:
         source=LAWS,
         tests=tests,
-        test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s", "rest_steps"),
+        test=TEST,
     resources:
         mem_mb=lambda wildcards, attempt: 1600 * attempt,
     conda:

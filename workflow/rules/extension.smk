@@ -49,7 +49,7 @@ use rule simulate as simulate_extended with:
     params:
         source="diagnosis",
         tests=tests,
-        test=lambda wildcards, input: f"{options(STUDY['test'], 'amplitude_m', 'cycles', 'time_step_s', 'rest_steps')} --rig {input.rig}",
+        test=lambda wildcards, input: f"{TEST} --rig {input.rig}",
     log:
         "<results>/logs/simulate_extended/{sample}/T{temperature}.log",
     benchmark:

@@ -37,7 +37,7 @@ use rule simulate as simulate_scaled with:
     params:
         source="{parameter}:{factor}",
         tests=tests,
-        test=options(STUDY["test"], "amplitude_m", "cycles", "time_step_s", "rest_steps"),
+        test=TEST,
     log:
         "<results>/logs/simulate_scaled/{parameter}_{factor}/{sample}/T{temperature}.log",
     benchmark:

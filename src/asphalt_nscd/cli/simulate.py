@@ -56,6 +56,12 @@ _NUMERICS = "bending.case.Numerics"
 @click.option("--cycles", default=5.0, type=_options.Of("bending.case.Load.cycles"), help="Number of cycles.")
 @click.option("--time-step-s", default=5e-5, type=_options.Of(f"{_NUMERICS}.time_step"), help="Time step, s.")
 @click.option(
+    "--steps-per-cycle",
+    default=None,
+    type=click.IntRange(20),
+    help="Steps in a cycle of each frequency, by the scheme fitted to it; in place of --time-step-s and --scheme.",
+)
+@click.option(
     "--rest-steps", default=1000, type=click.IntRange(0), help="Steps under gravity before the head moves."
 )
 @click.option(
@@ -128,7 +134,9 @@ _NUMERICS = "bending.case.Numerics"
     checkpoint_every="checkpoint_every",
     law_source="law_source",
 )
-@_options.gather("tests", laws="laws", frequencies="frequencies", outputs="outputs")
+@_options.gather(
+    "tests", laws="laws", frequencies="frequencies", outputs="outputs", steps_per_cycle="steps_per_cycle"
+)
 def command(
     tests: dict[str, Any],
     case: dict[str, Any],
@@ -152,7 +160,10 @@ def command(
     from asphalt_nscd.bending.case import Load, Numerics, RunOptions
 
     specimen, load = read_subject(files["model"], excerpt), Load(**case)
+    steps = tests["steps_per_cycle"]
     for law, frequency, output in zip(laws * (count // len(laws)), frequencies, outputs, strict=True):
+        if steps:
+            numerics |= {"time_step": 1.0 / (frequency * steps), "scheme": "fitted"}
         with _progress.bars("steps") as report:
             options = RunOptions(
                 lambda done, total: report(f"testing at {frequency:g} Hz", done, total),  # noqa: B023

@@ -154,7 +154,7 @@ def _simulated(tests: pd.DataFrame, samples: pd.DataFrame) -> list[str]:
     conditions = tests[["temperature_C", "frequency_Hz"]].drop_duplicates()
     return [
         f"{counted(len(samples), 'sample')} of {_range(samples['spheres'])} bonded spheres, {origin}, "
-        f"in two-point bending at {counted(len(conditions), 'condition')}: {counted(len(tests), 'test')}.",
+        f"tested at {counted(len(conditions), 'condition')}: {counted(len(tests), 'test')}.",
         f"They return the law of their bonds: the same phase, and |E*| times {_range(samples['E_over_law'])}.",
         *([TOO_FEW] if samples["spheres"].max() < ENOUGH else []),
     ]
