@@ -11,7 +11,7 @@ from asphalt_nscd.bending.fatigue import FAILURE, MILLION, FatigueLaw
 
 STRAINS = (90e-6, 120e-6, 150e-6)
 EPSILON6, SLOPE, SCATTER = 100e-6, -1 / 5, 0.25
-"""Of a BBSG at 10 degC and 25 Hz, and the standard deviation of log N: NF P98-086 (2019), table of bituminous mixes."""
+"""Of a BBSG at 10 degC and 25 Hz, and the standard deviation of log N: NF P98-086 (2019), at second hand (docs)."""
 REFERENCE = 100e-6  # strain of the courses, and what their bonds endured
 
 
