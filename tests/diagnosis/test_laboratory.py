@@ -60,7 +60,7 @@ def test_sizes_follow_the_table(kind):
         else replace(still, modulus=still.modulus * np.exp(0.04 * drawn[block]))
     )
     small, large = (laboratory.estimate(*fitted(observed)).sizes[kind] for observed in (still, moved))
-    usual = laboratory.USUAL[kind].size
+    usual = laboratory.LABORATORY[kind].size
     assert small < usual and large > 1.8 * usual
 
 

@@ -10,10 +10,11 @@ from test_joint import ACTIVE, CAUSES, fit, table  # noqa: F401  fixtures
 
 from asphalt_nscd.diagnosis import chance, limits
 from asphalt_nscd.diagnosis.chance import Scores
+from asphalt_nscd.diagnosis.criteria import Z_95
 from asphalt_nscd.diagnosis.joint import Candidate, Joint
 
 CHANCE_LEVEL = 3.5
-THRESHOLD = CHANCE_LEVEL + chance.Z_95
+THRESHOLD = CHANCE_LEVEL + Z_95
 
 
 def limits_of(joint, fitted, candidates):

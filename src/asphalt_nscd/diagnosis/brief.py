@@ -13,7 +13,7 @@ from textwrap import wrap
 from typing import Any
 
 from asphalt_nscd.diagnosis import levels, quality, sentences, unexplained, verdict
-from asphalt_nscd.diagnosis.chance import LEAST_ISOTHERMS
+from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.fixed_orders import band
 from asphalt_nscd.diagnosis.sentences import cause_words, doubtful, not_used, odd
 from asphalt_nscd.diagnosis.written import UNDETERMINED

@@ -17,18 +17,12 @@ from numpy.typing import NDArray
 from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis.causes._cause import Cause
+from asphalt_nscd.diagnosis.criteria import ABSORBED
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.files.words import specimen_named
 
 Vector = NDArray[np.float64]
-ABSORBED = 3e-3  # share of a direction's square that the law must leave for it to be seen at all
-# On fewer, what the catalogue lacks passes for a cause: a gain over ln f for an offset of the phase.
-LEAST_ISOTHERMS = 4
-ALPHA_PER_STEP = 0.005  # of naming anything at one rung of an empty table, over the whole catalogue
-USUAL_THRESHOLD = 3.7  # standard errors that the largest of a usual catalogue reaches with that chance
-Z_95 = 1.645  # normal quantile of 95 %: an effect at its detection limit is found so often
-DELTA_DEVIANCE = 6.0  # 2 ln 20: gains closer than a likelihood ratio of 20 are not told apart
 
 
 @dataclass(frozen=True)

@@ -1,18 +1,41 @@
-"""What decides whether a cause is named: how often and how large each is before any test, and bounds of probability.
+"""What decides whether a cause is named, in one place: each value with its unit, and the study or source that chose it.
 
-Chances and sizes are judgements, to a factor of two or so, of what happens on such benches; no survey of laboratories
-is at hand. A factor of two in a chance moves the size that is named by some 5 %. Tables that hold nothing but what
-every laboratory adds (`laboratory`) should be given a name in 5 % of cases at most.
+Chances and sizes of causes are judgements, to a factor of two or so, of what happens on such benches; no survey of
+laboratories is at hand. A factor of two in a chance moves the size that is named by some 5 %. "Drawn tables" are those
+of `trials/blind` and `trials/attack`; docs/trust.md has what they give.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-NAMED, POSSIBLE = (
-    0.95,
-    0.5,
-)  # probabilities from which a cause is named, and from which it is told as possible
+import numpy as np
+
+# Probability from which a cause is established, and from which it, or one that fits as well, is told as possible.
+NAMED, POSSIBLE = 0.95, 0.5
+ALPHA_PER_STEP = 0.005  # of naming anything at one rung of an empty table, over the whole catalogue
+USUAL_THRESHOLD = 3.7  # standard errors that the largest of a usual catalogue reaches with that chance
+Z_95 = 1.645  # normal quantile of 95 %: an effect at its detection limit is found so often
+TWENTY_TIMES = (
+    6.0  # of -2 ln likelihood, 2 ln 20: what gains less than that is not told from what it gains on
+)
+CONFIDENCE = 1.96  # standard errors to either side of an estimate: 95 %
+MOST_CAUSES = 4  # of a table: 813 tables of the first review had three at most
+# Standard errors that an estimate keeps whatever isotherm, frequency or specimen is left out: with 2, drawn tables gave
+# names that one isotherm carried alone.
+SURVIVES = 3.0
+# Standard errors that a size keeps beside each rival without a name. In drawn tables look-alikes of a cause that the
+# catalogue lacks keep up to 5.1, right names at three times the limit 8.7 or more.
+ENOUGH = 6.0
+# On fewer, what the catalogue lacks passes for a cause: a gain over ln f for an offset of the phase.
+LEAST_ISOTHERMS = 4
+MANY_ISOTHERMS = 3  # at which errors of temperature speak for a shift of another form: drawn Kaelble shifts
+MOST_SPECIMENS = 0.5  # share of the specimens at which a fault of one specimen may be named
+ABSORBED = 3e-3  # share of a direction's square that the law must leave for it to be seen at all
+WIDE_SPREAD = 1.2  # of the estimates of causes without a name, from which limits are multiplied by it
+NOTICED = 0.5  # size of a process over the scatter of one test, below which it is none: half of empty tables have 0.3
+HIDES = 1.0  # the same, from which it may be the shape of a cause that has one
+NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
 
 
 @dataclass(frozen=True)
@@ -38,3 +61,33 @@ EXPECTED = {
     "secondary_process": Expected(0.02, 2e9),  # Pa
     "solver": Expected(0.5, 1.0),  # of a simulated campaign
 }
+
+
+@dataclass(frozen=True)
+class Usual:
+    """Usual standard deviation of what a laboratory adds, and that of its logarithm between laboratories."""
+
+    size: float
+    spread: float
+
+
+# AASHTO T 378 allows 0.5 K, two standard deviations, of an isotherm and of a specimen on it. That of the isotherm is
+# not inferred: one that is far off would make it large, and every other isotherm uncertain.
+OF_ISOTHERM = 0.2  # K
+LABORATORY = {
+    "specimen temperature": Usual(0.25, 0.4),  # K
+    # What the isotherms of one specimen differ by in FD_Mix1, AMPT and NCAT: 1 to 2 % and 0.1 to 0.3 deg.
+    "mounting, modulus": Usual(0.01, 0.6),
+    "mounting, phase": Usual(float(np.radians(0.15)), 0.6),  # rad
+}
+# Size of a discrepancy over the scatter of one test: scale of its half-Cauchy prior. What is common to all isotherms is
+# rarer than what breaks one: it must come from the machine.
+DISCREPANCY = {"isotherm": 0.5, "all": 0.1, "specimen": 0.3, "spectrum": 1.0}
+
+# Campaigns of one machine.
+MOST_OF_MACHINE = 3
+ALPHA_OF_MACHINE = 0.01  # of naming anything common to campaigns of a machine without a fault
+# Share of campaigns in error by more than they say, and by how much: of 100 drawn ones without fault z is 1.05 rms, at
+# most 3.8.
+ASTRAY, LARGER = 0.1, 2.5
+DIFFERENT = 0.003  # chance below which sizes are said to differ between campaigns; three times looked at

@@ -11,8 +11,7 @@ from scipy.special import chdtrc, fdtrc
 from asphalt_nscd.diagnosis import causality, chance, copies, scatter, start, suspects, within_isotherm
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
-from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP
-from asphalt_nscd.diagnosis.criteria import NAMED
+from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
 from asphalt_nscd.diagnosis.doubts import Key, find_doubts
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.laboratory import Laboratory, with_laboratory
@@ -23,6 +22,7 @@ from asphalt_nscd.diagnosis.written import shown
 from asphalt_nscd.measurements.reduction import require_enough
 
 DRAWS = 4000
+CLOSE = 0.01  # change of the objective at which a fit that is only judged ends
 FIRST_SCATTER = (0.02, np.radians(0.5))  # of |E*| and phase, where nothing was repeated
 
 
@@ -154,18 +154,15 @@ def _too_few(diagnosis: Diagnosis) -> str:
         return "nothing was repeated on another specimen"
     if observed.frequencies.size < 3:
         return "two frequencies show no curvature"
-    if observed.isotherms.size < chance.LEAST_ISOTHERMS:
-        return f"fewer than {chance.LEAST_ISOTHERMS} temperatures were tested"
+    if observed.isotherms.size < LEAST_ISOTHERMS:
+        return f"fewer than {LEAST_ISOTHERMS} temperatures were tested"
     return ""
 
 
 def _by_scatter(ladder: Ladder, noise: Noise) -> Fitted:
-    """The last fit, its residuals in units of the scatter alone."""
-    fitted = ladder.fitted
-    if not ladder.discrepancy:
-        return fitted
+    """The last fit as near to the tests as it comes, its residuals in units of the scatter alone."""
     plain = Joint(ladder.joint.observed, ladder.joint.base, noise)
-    return plain.linearise(fitted.law, fitted.scales, fitted.active)
+    return plain.fit(ladder.fitted.law, ladder.fitted.scales, ladder.fitted.active, CLOSE)
 
 
 def _doubts(ladder: Ladder, noise: Noise) -> dict[Key, list[str]]:

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 from scipy.linalg.lapack import dpotrf, dpotrs, dtrtri
 
+from asphalt_nscd.diagnosis.criteria import DISCREPANCY
 from asphalt_nscd.diagnosis.joint import Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 
@@ -36,9 +37,6 @@ LEVEL, SMOOTH, ROUGH = (
 SPECIMEN_LENGTH = 3.0  # of ln f, over which the discrepancy of a specimen changes
 ACROSS = 0.5  # of the tested range of temperature, over which it changes
 LEFT_OUT = {"isotherm": 1e-3, "all": 1e-3, "specimen": 0.05}  # share of the variance of dropped eigenvectors
-# Size of a discrepancy over the scatter of one test: scale of its half-Cauchy prior. What is common to all
-# isotherms is rarer than what breaks one: it must come from the machine.
-USUAL = {"isotherm": 0.5, "all": 0.1, "specimen": 0.3, "spectrum": 1.0}
 OF_TIMES = 4.0  # of ln(relaxation time), over which the spectrum of a specimen departs from that of the mix
 UNKNOWN = 2.0  # standard deviation of the ln v that a table tells nothing of
 ITERATIONS = 25
@@ -50,8 +48,8 @@ LEAST, MOST = 1e-4, 1e7  # variance that is as good as none, and that no table h
 class Process:
     """What a process of the discrepancy describes.
 
-    kind: of USUAL; part: "modulus", "phase", or "both" where causality ties them; isotherm [degC], specimen: what alone
-    it reaches, None where it reaches all.
+    kind: of DISCREPANCY; part: "modulus", "phase", or "both" where causality ties them; isotherm [degC], specimen: what
+    alone it reaches, None where it reaches all.
     """
 
     kind: str
@@ -113,7 +111,7 @@ def processes(joint: Joint, fitted: Fitted) -> Processes:
         for part, unit in (("modulus", noise.sigma[0]), ("phase", 1j * noise.sigma[1])):
             described.append(replace(process, part=part))
             roots.append(unit * root)
-    usual = [USUAL[process.kind] for process in described]
+    usual = [DISCREPANCY[process.kind] for process in described]
     factor = np.hstack([noise.whiten(root) for root in roots])
     block = np.repeat(np.arange(len(roots)), [root.shape[1] for root in roots])
     rare = np.full(len(usual), np.inf)
@@ -136,7 +134,9 @@ def _kernels(observed: Observations) -> Iterator[tuple[Process, NDArray, Kernel]
     def along(apart: NDArray) -> NDArray:
         return SMOOTH * np.exp(-0.5 * (apart[0] / LENGTH) ** 2) + ROUGH * (np.abs(apart[0]) < 1e-9)
 
-    for t in observed.held_isotherms:
+    # What one isotherm alone has of its own is not told from what is common to all.
+    several = observed.isotherms.size > 1 or len(observed.names) == 1
+    for t in observed.held_isotherms if several else ():
         at = np.where(observed.isotherm == t, 0.0, np.nan)[:, None]
         yield Process("isotherm", "either", isotherm=float(t)), log_f + at, lambda apart: LEVEL + along(apart)
     if observed.isotherms.size > 1:

@@ -17,23 +17,15 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
-from asphalt_nscd.diagnosis.chance import ABSORBED
+from asphalt_nscd.diagnosis.criteria import ABSORBED, ENOUGH, MANY_ISOTHERMS, MOST_SPECIMENS, TWENTY_TIMES
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Process, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
 Key = tuple[str, str | float | None]
-# Standard errors that the size must keep beside each rival. Measured in drawn tables: look-alikes of a cause that the
-# catalogue lacks keep up to 5.1, right names at three times the limit 8.7 or more.
-ENOUGH = 6.0
-BETTER = (
-    6.0  # of -2 ln likelihood: an error of a known shape is told if the tests are 20 times as likely with it
-)
 FIRST = 0.05  # size at which the search for the size of a rival begins, in its own units
-MOST_SPECIMENS = 0.5  # share of the specimens at which a fault of one specimen may be named
 RIVAL = Process("rival", "both")
-MANY_ISOTHERMS = 3  # at which one and the same cause speaks for a law of another form
 
 
 def find_doubts(
@@ -148,7 +140,7 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
     known = [
         words
         for words, roots in _shaped(table.plain)
-        if table.beside(rest, None, roots, 1.0).misfit < alone.misfit - BETTER
+        if table.beside(rest, None, roots, 1.0).misfit < alone.misfit - TWENTY_TIMES
     ]
     if known:
         alike = " or ".join(known)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from asphalt_nscd.diagnosis import quality
-from asphalt_nscd.diagnosis.chance import LEAST_ISOTHERMS
+from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.sweeps import BEYOND, COLDEST, METAL, NEW, WARMEST, Costs, temperatures
 from asphalt_nscd.files.words import counted, joined, specimen_named

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import fixed_orders, levels, rungs
-from asphalt_nscd.diagnosis.chance import USUAL_THRESHOLD, Z_95
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE, HIDES, USUAL_THRESHOLD, Z_95
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.further_tests import Departure, Possible, possible
 from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Question
@@ -26,7 +26,7 @@ from asphalt_nscd.diagnosis.order_words import Context, Open, Order, in_a_senten
 from asphalt_nscd.diagnosis.sentences import an
 from asphalt_nscd.diagnosis.sweeps import METAL, Costs, Sweep
 from asphalt_nscd.diagnosis.unexplained import size_left
-from asphalt_nscd.diagnosis.written import CONFIDENCE, shown, three_digits, widening, with_interval
+from asphalt_nscd.diagnosis.written import shown, three_digits, widening, with_interval
 from asphalt_nscd.files.words import joined, specimen_named
 
 MOST = 5
@@ -159,8 +159,9 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
         found.append(Open(departure.kind, Asked(question, everything), *words, departure=departure))
     names = [candidate.cause.name for candidate in model.candidates]
     spread = diagnosis.ladder.estimates_spread  # by which an effect is harder to find
+    shapeless = max(diagnosis.ladder.discrepancy.values(), default=0.0) > HIDES
     for j in range(len(active), len(model.candidates)):
-        if diagnosis.ladder.noticed and len(model.candidates[j].values) > 1:
+        if shapeless and len(model.candidates[j].values) > 1:
             continue  # a cause with a shape of its own gets no name beside a discrepancy
         question = Question(j, REACH / spread, active, FOUND, PRESENT / names.count(names[j]))
         hidden = max(float(question.strength(known)) - _by_limit(diagnosis, model.candidates[j]), 0.0)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
+from asphalt_nscd.diagnosis.criteria import LABORATORY, OF_ISOTHERM
 from asphalt_nscd.diagnosis.discrepancy import Process, Processes
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Vector
 
@@ -22,27 +23,8 @@ STEP = 0.05  # K, of the derivative along the temperature
 
 
 @dataclass(frozen=True)
-class Usual:
-    """Usual standard deviation of one effect, in `unit`, and that of its logarithm between laboratories."""
-
-    size: float
-    spread: float
-    unit: str
-
-
-# Temperatures: AASHTO T 378 allows 0.5 K, two standard deviations, of an isotherm and of a specimen on it. Mountings:
-# what the isotherms of one specimen differ by in FD_Mix1, AMPT and NCAT, 1 to 2 % and 0.1 to 0.3 deg.
-OF_ISOTHERM = 0.2  # K, not inferred: one isotherm that is far off would make it large
-USUAL = {
-    "specimen temperature": Usual(0.25, 0.4, "K"),
-    "mounting, modulus": Usual(0.01, 0.6, "1"),
-    "mounting, phase": Usual(float(np.radians(0.15)), 0.6, "rad"),
-}
-
-
-@dataclass(frozen=True)
 class Laboratory:
-    """Sizes of the effects of USUAL in a table, in their units."""
+    """Sizes of the effects of LABORATORY in a table, in their units."""
 
     sizes: dict[str, float]
 
@@ -54,7 +36,9 @@ class Laboratory:
 
 def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
     """Sizes in a table, beside the discrepancy; joint: whose noise is the scatter of single tests."""
-    own = {kind: USUAL[kind].size * root for kind, root in _roots(joint, fitted, joint.noise.block).items()}
+    own = {
+        kind: LABORATORY[kind].size * root for kind, root in _roots(joint, fitted, joint.noise.block).items()
+    }
     beside = discrepancy.processes(joint, fitted)
     found = Processes(
         (*beside.described, *(Process(kind, "both") for kind in own)),
@@ -67,11 +51,11 @@ def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
             ]
         ),
         np.concatenate([beside.usual, np.ones(len(own))]),
-        np.concatenate([beside.spread, [USUAL[kind].spread for kind in own]]),
+        np.concatenate([beside.spread, [LABORATORY[kind].spread for kind in own]]),
     )
     variances = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances[len(beside.roots) :]
     return Laboratory(
-        {kind: USUAL[kind].size * float(np.sqrt(v)) for kind, v in zip(own, variances, strict=True)}
+        {kind: LABORATORY[kind].size * float(np.sqrt(v)) for kind, v in zip(own, variances, strict=True)}
     )
 
 

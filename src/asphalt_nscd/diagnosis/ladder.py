@@ -12,9 +12,10 @@ from scipy.special import fdtrc
 from asphalt_nscd.diagnosis import chance, with_discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE, NOTICED
 from asphalt_nscd.diagnosis.discrepancy import Process
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
-from asphalt_nscd.diagnosis.written import CONFIDENCE, widening
+from asphalt_nscd.diagnosis.written import widening
 
 
 @dataclass(frozen=True)
@@ -104,10 +105,14 @@ class Ladder:
         What a table holds and no process of its discrepancy describes spreads them all (genomic control of Devlin and
         Roeder 1999). An effect of a limit times this spread was named in 55 of 61 cases, one of the limit in 41 of 62.
         """
-        named = {rung.candidate.cause.name for rung in self.rungs}
+        return self.spread_without(frozenset())
+
+    def spread_without(self, left_out: frozenset[str]) -> float:
+        """The same without causes of these names."""
+        left_out = left_out | {rung.candidate.cause.name for rung in self.rungs}
         squares: dict[str, list[float]] = {}
         for (name, _), (value, error) in self.estimates.items():
-            if name not in named and 0.0 < error < np.inf:
+            if name not in left_out and 0.0 < error < np.inf:
                 squares.setdefault(name, []).append((value / error) ** 2)
         each = [float(np.mean(one)) for one in squares.values()]
         return max(1.0, float(np.sqrt(np.mean(each)))) if each else 1.0
@@ -115,9 +120,7 @@ class Ladder:
     @property
     def noticed(self) -> dict[Process, float]:
         """The discrepancy without processes of no size."""
-        return {
-            process: size for process, size in self.discrepancy.items() if size > with_discrepancy.NOTICED
-        }
+        return {process: size for process, size in self.discrepancy.items() if size > NOTICED}
 
 
 def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, seed: int) -> Ladder:

@@ -10,6 +10,7 @@ import numpy as np
 from asphalt_nscd.diagnosis import chance
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.chance import Scores
+from asphalt_nscd.diagnosis.criteria import USUAL_THRESHOLD, Z_95
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.start import of_likeliest_roughness
 
@@ -18,7 +19,7 @@ AT_LEAST = 0.5  # share of the strength that must survive the refit
 MOST = 0.9  # of the shapes of a cause
 HIDDEN = 5.0  # typical sizes, where the search begins for an error of temperature that the shift follows
 CONVERGED = 0.01  # change of the objective at which such a refit ends
-STRONGEST = 3.0 * (3.7 + chance.Z_95)  # three times a usual limit
+STRONGEST = 3.0 * (USUAL_THRESHOLD + Z_95)  # three times a usual limit
 
 
 def detection_limits(

@@ -17,11 +17,10 @@ from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis import report, rungs
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.chance import USUAL_THRESHOLD, Z_95
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE, USUAL_THRESHOLD, Z_95
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.written import CONFIDENCE
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.cores import cores
 

@@ -10,7 +10,7 @@ from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
-from asphalt_nscd.diagnosis.chance import USUAL_THRESHOLD
+from asphalt_nscd.diagnosis.criteria import USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.fixed_orders import band, named
 from asphalt_nscd.diagnosis.further_tests import Departure
 from asphalt_nscd.diagnosis.information import Asked

@@ -21,24 +21,29 @@ from asphalt_nscd.diagnosis import chance, discrepancy, with_discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause
+from asphalt_nscd.diagnosis.criteria import (
+    ALPHA_OF_MACHINE,
+    ASTRAY,
+    CONFIDENCE,
+    DIFFERENT,
+    LARGER,
+    MOST_OF_MACHINE,
+    TWENTY_TIMES,
+    Z_95,
+)
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.sentences import an
-from asphalt_nscd.diagnosis.written import CONFIDENCE, shown, three_digits, widening, with_interval
+from asphalt_nscd.diagnosis.written import shown, three_digits, widening, with_interval
 from asphalt_nscd.files.words import joined
 
 UNITS = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
 Vector = NDArray[np.float64]
-MOST = 3  # causes of one machine
-CHANCE = 0.01  # of naming anything common to campaigns of a machine without a fault
-# Of 100 drawn campaigns without fault some tell an offset which their error does not allow: z is 1.05 rms, at most 3.8.
-ASTRAY, LARGER = 0.1, 2.5
 FARTHEST = 30.0  # standard errors, beyond which a campaign is as far
 ITERATIONS = 30
 SETTLED = 2  # fits with the causes of the machine at their pooled size
 SHOWS = 5.0  # times the error of the whole, up to which a part is told
-DIFFERENT = 0.003  # chance below which sizes are said to differ; three times looked at
 
 
 @dataclass(frozen=True)
@@ -199,20 +204,20 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
         each = {cause: [_evidence(one, [*causes, cause]) for one in states] for cause in open_}
         pooled = {cause: _together(each[cause], amplitudes) for cause in open_}
         by_chance = _by_chance(states, [*causes, *open_], len(causes), draws, random)
-        threshold = float(np.quantile(by_chance, 1.0 - CHANCE))
+        threshold = float(np.quantile(by_chance, 1.0 - ALPHA_OF_MACHINE))
         for cause in open_:
-            size = (threshold + chance.Z_95) * pooled[cause].std_error * cause.parameters[0].typical
+            size = (threshold + Z_95) * pooled[cause].std_error * cause.parameters[0].typical
             limits.setdefault(cause.name, size)
         z_of = {cause: _z(cause, pooled[cause]) for cause in open_}
         common = [cause for cause in open_ if z_of[cause] > threshold]
-        if not common or len(causes) == MOST:
+        if not common or len(causes) == MOST_OF_MACHINE:
             break
         gains = {cause: _gain(each[cause], amplitudes) for cause in common}
         best = _likeliest(pooled, gains)
         as_good = tuple(
             cause.name
             for cause in common
-            if cause is not best and z_of[best] ** 2 - z_of[cause] ** 2 < chance.DELTA_DEVIANCE
+            if cause is not best and z_of[best] ** 2 - z_of[cause] ** 2 < TWENTY_TIMES
         )
         z = z_of[best]
         causes.append(best)
@@ -240,7 +245,9 @@ def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
     plain = Joint(diagnosis.observed, base, diagnosis.noise)
     own = tuple(one for one in ladder.fitted.active if not of_machine(one.cause))
     fitted = plain.fit(ladder.fitted.law, ladder.fitted.scales, own)
-    return _Campaign(name, with_discrepancy.begin(plain, fitted), widening(ladder.estimates_spread))
+    # What the machine does to all campaigns is no reason to believe each of them less.
+    spread = ladder.spread_without(frozenset(cause.name for cause in CATALOGUE if of_machine(cause)))
+    return _Campaign(name, with_discrepancy.begin(plain, fitted), widening(spread))
 
 
 def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | None = None) -> _Evidence:

@@ -9,6 +9,7 @@ import numpy as np
 from asphalt_nscd.diagnosis.bases import BurgersAtEach
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Place
+from asphalt_nscd.diagnosis.criteria import NOTABLE, WIDE_SPREAD
 from asphalt_nscd.diagnosis.diagnose import Diagnosis, cell_residuals
 from asphalt_nscd.diagnosis.gain import by_tests_alone, errors, simulated_by, with_burgers_laws
 from asphalt_nscd.diagnosis.heldout import HeldOut
@@ -17,7 +18,7 @@ from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.rungs import name_of, of_cause, of_law
 from asphalt_nscd.diagnosis.scatter import STATED
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import NOTABLE, SCHEMA_VERSION, WIDE_SPREAD, name_at
+from asphalt_nscd.diagnosis.written import SCHEMA_VERSION, name_at
 
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:

@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 
 from asphalt_nscd.diagnosis.bases import LN10, FlexibleSpectrum
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.gain import before_and_after, nearest, with_burgers_laws, with_common_law
 from asphalt_nscd.diagnosis.heldout import HeldOut
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted
 from asphalt_nscd.diagnosis.ladder import Rung
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import CONFIDENCE, interval_95, name_at, widening
+from asphalt_nscd.diagnosis.written import interval_95, name_at, widening
 
 
 def name_of(candidate: Candidate) -> str:

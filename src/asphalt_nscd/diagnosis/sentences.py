@@ -10,8 +10,7 @@ from typing import Any
 
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP, LEAST_ISOTHERMS
-from asphalt_nscd.diagnosis.criteria import NAMED
+from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
 from asphalt_nscd.diagnosis.written import (
     CONFINED_TO,
     interval_95,

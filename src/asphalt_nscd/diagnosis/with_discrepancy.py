@@ -16,8 +16,18 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import chance, discrepancy, limits
 from asphalt_nscd.diagnosis.causes._cause import Cause
-from asphalt_nscd.diagnosis.chance import ALPHA_PER_STEP, DELTA_DEVIANCE, Scores
-from asphalt_nscd.diagnosis.criteria import POSSIBLE
+from asphalt_nscd.diagnosis.chance import Scores
+from asphalt_nscd.diagnosis.criteria import (
+    ABSORBED,
+    ALPHA_PER_STEP,
+    HIDES,
+    MOST_CAUSES,
+    POSSIBLE,
+    SURVIVES,
+    TWENTY_TIMES,
+    USUAL_THRESHOLD,
+    Z_95,
+)
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -26,15 +36,11 @@ from asphalt_nscd.diagnosis.start import of_likeliest_roughness
 from asphalt_nscd.files.words import specimen_named
 
 Vector = NDArray[np.float64]
-RUNGS = 4
 SEVERAL_STARTS = 300  # tests up to which the sizes of the discrepancy are sought from several starts
 REFITS = 4  # candidates that are refitted at each rung
-LEAST_GAIN = 6.0  # of -2 ln likelihood over a discrepancy without a name: 20 times as likely
 NEAR = 0.6  # share of what a name needs, above which a candidate is refitted
-SURVIVES = 3.0  # standard errors that an estimate must keep where something is left out
 SETTLED = 2  # rounds of fitting law and discrepancy in turn
 LARGER = 6  # times that a limit is raised by a quarter where a discrepancy would take the effect up
-NOTICED = 0.5  # size of a process over the scatter of one test, below which it is none
 CONVERGED = 0.01  # change of the objective at which a fit beside a discrepancy ends
 
 
@@ -108,7 +114,7 @@ def climb(
     """Causes that beat both chance and a discrepancy without a name, one after the other; the last state."""
     taken: list[Found] = []
     surveyed = survey(state, catalogue)
-    while len(taken) < RUNGS:
+    while len(taken) < MOST_CAUSES:
         found = _next(state, surveyed, draws, random)
         if found is None:
             break
@@ -193,7 +199,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     by_chance = _by_chance(state, surveyed, draws, random)
     # A law fitted without the cause has followed it: what comes near is refitted before it is judged.
     least = float(np.quantile(by_chance, 1.0 - ALPHA_PER_STEP))
-    eligible = (z > NEAR * least) & (gains > NEAR * LEAST_GAIN)
+    eligible = (z > NEAR * least) & (gains > NEAR * TWENTY_TIMES)
     shortlist: dict[tuple, int] = {}
     for k in np.argsort(-np.where(eligible, gains, -np.inf)):
         if eligible[k] and len(shortlist) < REFITS:
@@ -207,7 +213,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         active = (*state.fitted.active, candidates[k].with_values(values))
         after = _settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
         gain = state.misfit - after.misfit - 2.0 * (len(candidates[k].values) - 1)
-        if gain > LEAST_GAIN:
+        if gain > TWENTY_TIMES:
             taken = after.fitted.active[-1]
             own = of_taken(after, taken)
             z[k] = max(z[k], abs(own.z))
@@ -225,7 +231,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     if not refits:
         return None
     most = max(gain for gain, _, _ in refits)
-    as_good = [refit for refit in refits if most - refit[0] < DELTA_DEVIANCE]
+    as_good = [refit for refit in refits if most - refit[0] < TWENTY_TIMES]
     _, k, after = min(as_good, key=lambda refit: (len(candidates[refit[1]].values), -odds[refit[1]]))
     rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
     share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
@@ -248,7 +254,7 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
     pointing = discrepancy.directions(state.model, state.linear, d)
     confined = np.array([isinstance(c.place, str) for c in candidates])
     left, size = np.diag(pointing.own), (d**2).sum(axis=0)
-    seen = np.flatnonzero(left > np.where(confined, 1e-9, chance.ABSORBED) * np.maximum(size, 1e-300))
+    seen = np.flatnonzero(left > np.where(confined, 1e-9, ABSORBED) * np.maximum(size, 1e-300))
     kept = Direction(pointing.cross[:, seen], pointing.own[np.ix_(seen, seen)], pointing.along[seen])
     return [candidates[k] for k in seen], kept
 
@@ -364,14 +370,14 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
     The effect is put into this table, less its own value of it: the discrepancy may take up what it can.
     """
     one, direction = surveyed.estimates[k], surveyed.pointing.column(k)
-    amplitude = (threshold + chance.Z_95) * one.std_error
+    amplitude = (threshold + Z_95) * one.std_error
     for _ in range(LARGER):
-        seen = amplitude - chance.Z_95 * one.std_error
+        seen = amplitude - Z_95 * one.std_error
         model, pointing = discrepancy.moved(state.model, direction, seen - one.amplitude)
         without = min(
             discrepancy.estimate(model, start=start).misfit for start in (one.variances, state.variances)
         )
-        if without - discrepancy.estimate(model, pointing, one.variances).misfit > LEAST_GAIN:
+        if without - discrepancy.estimate(model, pointing, one.variances).misfit > TWENTY_TIMES:
             break
         amplitude *= 1.25
     return amplitude
@@ -384,23 +390,23 @@ def detection_limits(
     sizes: dict[tuple, float] = {}
     unseen: list[Candidate] = []
     alike: list[tuple[Candidate, Candidate]] = []
-    threshold = chance.USUAL_THRESHOLD
+    threshold = USUAL_THRESHOLD
     if surveyed.candidates:
         threshold = float(np.quantile(_by_chance(state, surveyed, draws, random), 1.0 - ALPHA_PER_STEP))
         correlation, errors = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
         # A cause with shapes of its own must be carried by the whole table: no size says that beside a discrepancy.
-        alone = bool((state.variances < NOTICED**2).all())
+        alone = bool((state.variances < HIDES**2).all())
         simple = np.array([alone or len(candidate.values) == 1 for candidate in surveyed.candidates])
         for k in np.flatnonzero([len(candidate.values) == 1 for candidate in surveyed.candidates]):
-            needed = _named_from(state, surveyed, int(k), threshold) / (threshold + chance.Z_95)
+            needed = _named_from(state, surveyed, int(k), threshold) / (threshold + Z_95)
             errors[k] = max(surveyed.estimates[k].std_error, needed)
         found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)
         sizes, unseen = limits.detection_limits(
-            state.wide, state.fitted, surveyed.candidates, found, threshold + chance.Z_95
+            state.wide, state.fitted, surveyed.candidates, found, threshold + Z_95
         )
         every = replace(found, seen=np.ones(errors.size, bool))
-        alike = limits.alike(surveyed.candidates, every, DELTA_DEVIANCE)
+        alike = limits.alike(surveyed.candidates, every, TWENTY_TIMES)
     for active in state.fitted.active:
         own = of_taken(state, active)
-        sizes[active.key] = (threshold + chance.Z_95) * own.std_error * float(active.typical[0])
+        sizes[active.key] = (threshold + Z_95) * own.std_error * float(active.typical[0])
     return sizes, unseen, alike

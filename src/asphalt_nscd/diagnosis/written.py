@@ -14,6 +14,7 @@ from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE, WIDE_SPREAD
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json
@@ -22,10 +23,7 @@ from asphalt_nscd.measurements.tables import averages, the_only
 
 SCHEMA_VERSION = 3
 DIAGNOSIS_SCHEMA = Path(__file__).with_name("diagnosis.schema.yaml")
-NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
-WIDE_SPREAD = 1.2  # of the estimates of causes without a name, from which limits are multiplied by it
 UNDETERMINED = "These tests do not determine"  # begins the note on parameters of law.json that follow priors
-CONFIDENCE = 1.96  # standard errors to either side of an estimate: 95 %
 CONFINED_TO = {cause.name: cause.confined_to for cause in CATALOGUE}
 BEFORE_AFTER = ("before", "after")
 RESIDUALS = {"E": "residual_E_{}_percent", "phase": "residual_phase_{}_deg"}

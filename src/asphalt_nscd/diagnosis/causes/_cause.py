@@ -38,7 +38,6 @@ class Cause(ABC):
     signs: what an amplitude above and one below zero mean; none where only one sign can be.
     confirmed_by: the measurement that would confirm it. needs: what the table must have for it to show.
     shows_in: a design in which it shows, where one that could have shown it does not.
-    like_a_law: a rougher law follows it far, so that it is also looked for by fits that begin with it.
     confined_to: what it sits at, one "specimen" or one isotherm ("temperature_C"); empty where it reaches all tests.
     benches: test types (`Observations.test_type`) whose apparatus can have it.
     """
@@ -51,7 +50,6 @@ class Cause(ABC):
     confirmed_by: ClassVar[str]
     needs: ClassVar[str] = ""
     shows_in: ClassVar[str] = "other tests: in these, the master curve can bend to hide it"
-    like_a_law: ClassVar[bool] = False
     confined_to: ClassVar[str] = ""
     benches: ClassVar[tuple[str, ...]] = TEST_TYPES
 

@@ -10,7 +10,6 @@ class GuideStiffness(Cause):
     name = "guide_stiffness"
     stage = HEAD
     benches = ("bending",)
-    like_a_law = True
     shows_in = (
         "tests so warm that the mix comes near its static modulus, or a test of the rig without a specimen"
     )

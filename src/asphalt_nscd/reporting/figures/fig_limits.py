@@ -12,14 +12,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from asphalt_nscd.diagnosis.written import (
-    CONFIDENCE,
-    limits_by_place,
-    place_name,
-    read_diagnosis,
-    shown,
-    three_digits,
-)
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE
+from asphalt_nscd.diagnosis.written import limits_by_place, place_name, read_diagnosis, shown, three_digits
 from asphalt_nscd.reporting.figures import style
 
 ROW, FRAME = 4.2, 11.0  # mm of a bar, and of the rest of its cause's panel

@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from asphalt_nscd.diagnosis.written import NOTABLE, conditions, read_diagnosis, read_residuals
+from asphalt_nscd.diagnosis.criteria import NOTABLE
+from asphalt_nscd.diagnosis.written import conditions, read_diagnosis, read_residuals
 from asphalt_nscd.reporting.figures import numbers, style
 
 ABSENT = """No law common to all temperatures was taken,

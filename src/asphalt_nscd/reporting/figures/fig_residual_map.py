@@ -12,9 +12,9 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
+from asphalt_nscd.diagnosis.criteria import NOTABLE
 from asphalt_nscd.diagnosis.written import (
     BEFORE_AFTER,
-    NOTABLE,
     RESIDUALS,
     conditions,
     read_diagnosis,

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from asphalt_nscd.diagnosis.criteria import NOTABLE
 from asphalt_nscd.diagnosis.written import (
     BEFORE_AFTER,
-    NOTABLE,
     RESIDUALS,
     conditions,
     read_diagnosis,
