@@ -12,19 +12,15 @@ PARTS = ("kinetic", "springs", "dashpots", "impact", "friction", "fracture", "nu
 
 
 def make(fall: list[Path]) -> pd.DataFrame:
-    """A row for each fall; shares in percent of the energy set free until its end."""
-    rows = []
-    for path in fall:
-        told = load(path, "fall").attributes
-        rows.append(
-            {
-                "time_step_ms": 1e3 * told["time_step_s"],
-                "energy_mJ": 1e3 * told["energy_J"],
-                **{f"{part}_%": told[f"{part}_percent"] for part in PARTS},
-                "error_%": told["error_percent"],
-                "fragments": told["fragments"],
-                "broken_bonds": told["broken_bonds"],
-                "speed_at_end_m_s": told["speed_m_s"],
-            }
-        )
-    return pd.DataFrame(rows).sort_values("time_step_ms", ascending=False, ignore_index=True)
+    """A column for each fall, the longest time step first; shares are of the energy set free until its end."""
+    told = sorted((load(path, "fall").attributes for path in fall), key=lambda one: -one["time_step_s"])
+    rows: dict[str, list[float]] = {
+        "energy set free, mJ": [1e3 * one["energy_J"] for one in told],
+        **{f"{part}, %": [one[f"{part}_percent"] for one in told] for part in PARTS},
+        "missing, %": [one["error_percent"] for one in told],
+        "pieces": [one["fragments"] for one in told],
+        "bonds broken by the fall": [one["broken_bonds"] for one in told],
+        "fastest sphere at the end, m/s": [one["speed_m_s"] for one in told],
+    }
+    names = [f"{1e3 * one['time_step_s']:g} ms" for one in told]
+    return pd.DataFrame.from_dict(rows, orient="index", columns=names).rename_axis("steps of").reset_index()
