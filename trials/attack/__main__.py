@@ -42,8 +42,9 @@ def tables(lines: tuple[Path, ...], before: Path | None, folder: Path) -> None:
     import pandas as pd
 
     from asphalt_nscd.files.store import provenance, write_json, write_table
+    from asphalt_nscd.reporting.figures.save import save_figure
 
-    from . import plan, rates
+    from . import figures, plan, rates
 
     read = [json.loads(text) for path in lines for text in path.read_text(encoding="utf-8").splitlines()]
     rows, names = rates.frames(read)
@@ -55,6 +56,7 @@ def tables(lines: tuple[Path, ...], before: Path | None, folder: Path) -> None:
     earlier = rates.summary(rows, names) if before is None else pd.read_csv(before)
     write_table(folder / "before.csv", earlier)
     write_table(folder / "summary.csv", rates.summary(rows, names, earlier))
+    save_figure(figures.reliability(rates.reliability(names)), folder / "figures/reliability")
     tried = rows.drop_duplicates("table")
     write_json(
         folder / "campaign.json",
@@ -69,6 +71,22 @@ def tables(lines: tuple[Path, ...], before: Path | None, folder: Path) -> None:
             "failures": sorted({line["failure"] for line in read if line["failure"]}),
         },
     )
+
+
+@main.command()
+@click.argument("number", type=int)
+@click.option("--folder", required=True, type=File)
+def machines(number: int, folder: Path) -> None:
+    """What pooling the campaigns of NUMBER machines finds of an offset too small for one campaign."""
+    import pandas as pd
+
+    from asphalt_nscd.files.store import write_table
+
+    from . import machines
+
+    rows = pd.DataFrame([row for machine in range(number) for row in machines.tried(machine)])
+    write_table(folder / "machines.csv", rows)
+    write_table(folder / "machines_summary.csv", machines.summary(rows))
 
 
 if __name__ == "__main__":

@@ -121,38 +121,38 @@ def summary(rows: pd.DataFrame, names: pd.DataFrame, before: pd.DataFrame | None
         return part.loc[part["ratio"] == ratio, column]
 
     lines = [
-        _line("causes of the catalogue at 3 limits: named", ">= 98 %", at(put, 3.0), low=0.98),
-        _line("the same with confidence", "reported", at(put, 3.0, "confident")),
-        _line("at 2 limits: named", ">= 95 %", at(put, 2.0), low=0.95),
-        _line("at the stated limit: named", ">= 90 %", at(put, 1.0), low=0.90),
-        _line("beside causes and pairs: a wrong name with confidence", "<= 3 %", beside, high=0.03),
-        _line("pairs at 3 limits: both named", ">= 90 %", both, low=0.90),
-        _line("nothing put in: a name with confidence", "<= 1 %", empty["wrong_confident"] > 0, high=0.01),
-        _line("nothing put in: a possible name", "<= 5 %", empty["wrong_possible"] > 0, high=0.05),
-        _line("nothing put in: unexplained", "<= 15 %", empty["verdict"] == "unexplained_structure", high=0.15),
-        _line("nothing put in: a test left out that is good", "reported", empty["good_rejected"] > 0),
-        _line("outside the catalogue: told", "reported", outside["told"]),
-        _line("of one specimen or one isotherm: told", ">= 90 %", own["told"], low=0.90),
-        _line("outside: a wrong name with confidence", "<= 3 %", outside["wrong_confident"] > 0, high=0.03),
-        _line("outside: a wrong possible name", "reported", outside["wrong_possible"] > 0),
-        _line("single bad tests: left out", "reported", alone.get("removed", [])),
-        _line("masked pairs of bad tests: both left out", ">= 60 %", masked.get("removed", []), low=0.60),
-        _line("masked pairs: a good test left out", "<= 5 %", masked["good_rejected"] > 0, high=0.05),
-        _line("slip of ten: left out", "reported", ten.get("removed", [])),
-        _line("slip of ten: a good test left out", "none", ten["good_rejected"] > 0, high=0.0),
-        _line("wrong recorded temperature: a false name", "none", false_bias, high=0.0),
-        _line("the same: told", "reported", noted["told"]),
-        _line("broken isotherms: found", ">= 90 %", broken, low=0.90),
-        _line("broken isotherms: said where none is", "<= 2 %", empty["broken_false"], high=0.02),
-        _line("size in its 95 % interval", "92 - 98 %", covered, low=0.92, high=0.98),
-        _line("causes whose sizes are in it in 88 % or more", "all", worst >= 0.88, low=1.0),
-        _line("probabilities stated: groups within 5 points", "all", _off(names), low=1.0),
-        _line("measured tables, causes at 2 and 3 limits: named", ">= 90 %", real_put["named"], low=0.90),
-        _line("measured: a wrong name added with confidence", "<= 3 %", real_new, high=0.03),
-        _line("measured, outside: told", "reported", real_outside["told"]),
-        _line("answers with a name whose interval holds zero", "none", rows["hold_zero"] > 0, high=0.0),
-        _line("answers that keep an established cause to themselves", "none", rows["unsaid"], high=0.0),
-        _line("diagnoses that failed", "none", rows["verdict"] == "failed", high=0.0),
+        line("causes of the catalogue at 3 limits: named", ">= 98 %", at(put, 3.0), low=0.98),
+        line("the same with confidence", "reported", at(put, 3.0, "confident")),
+        line("at 2 limits: named", ">= 95 %", at(put, 2.0), low=0.95),
+        line("at the stated limit: named", ">= 90 %", at(put, 1.0), low=0.90),
+        line("beside causes and pairs: a wrong name with confidence", "<= 3 %", beside, high=0.03),
+        line("pairs at 3 limits: both named", ">= 90 %", both, low=0.90),
+        line("nothing put in: a name with confidence", "<= 1 %", empty["wrong_confident"] > 0, high=0.01),
+        line("nothing put in: a possible name", "<= 5 %", empty["wrong_possible"] > 0, high=0.05),
+        line("nothing put in: unexplained", "<= 15 %", empty["verdict"] == "unexplained_structure", high=0.15),
+        line("nothing put in: a test left out that is good", "reported", empty["good_rejected"] > 0),
+        line("outside the catalogue: told", "reported", outside["told"]),
+        line("of one specimen or one isotherm: told", ">= 90 %", own["told"], low=0.90),
+        line("outside: a wrong name with confidence", "<= 3 %", outside["wrong_confident"] > 0, high=0.03),
+        line("outside: a wrong possible name", "reported", outside["wrong_possible"] > 0),
+        line("single bad tests: left out", "reported", alone.get("removed", [])),
+        line("masked pairs of bad tests: both left out", ">= 60 %", masked.get("removed", []), low=0.60),
+        line("masked pairs: a good test left out", "<= 5 %", masked["good_rejected"] > 0, high=0.05),
+        line("slip of ten: left out", "reported", ten.get("removed", [])),
+        line("slip of ten: a good test left out", "none", ten["good_rejected"] > 0, high=0.0),
+        line("wrong recorded temperature: a false name", "none", false_bias, high=0.0),
+        line("the same: told", "reported", noted["told"]),
+        line("broken isotherms: found", ">= 90 %", broken, low=0.90),
+        line("broken isotherms: said where none is", "<= 2 %", empty["broken_false"], high=0.02),
+        line("size in its 95 % interval", "92 - 98 %", covered, low=0.92, high=0.98),
+        line("causes whose sizes are in it in 88 % or more", "all", worst >= 0.88, low=1.0),
+        line("probabilities stated: groups within 5 points", "all", _off(names), low=1.0),
+        line("measured tables, causes at 2 and 3 limits: named", ">= 90 %", real_put["named"], low=0.90),
+        line("measured: a wrong name added with confidence", "<= 3 %", real_new, high=0.03),
+        line("measured, outside: told", "reported", real_outside["told"]),
+        line("answers with a name whose interval holds zero", "none", rows["hold_zero"] > 0, high=0.0),
+        line("answers that keep an established cause to themselves", "none", rows["unsaid"], high=0.0),
+        line("diagnoses that failed", "none", rows["verdict"] == "failed", high=0.0),
     ]  # fmt: skip
     table = pd.DataFrame(lines)
     if before is not None:
@@ -160,7 +160,8 @@ def summary(rows: pd.DataFrame, names: pd.DataFrame, before: pd.DataFrame | None
     return table
 
 
-def _line(what: str, target: str, hits: Iterable[Any], low: float = 0.0, high: float = 1.0) -> dict[str, Any]:
+def line(what: str, target: str, hits: Iterable[Any], low: float = 0.0, high: float = 1.0) -> dict[str, Any]:
+    """A row of a summary: a rate, its interval, and whether it is met."""
     found = rate(hits)
     met = "not tried" if not found["n"] else "yes" if low <= found["rate"] <= high else "no"
     percent = {name: round(100.0 * found[name], 1) for name in ("rate", "low", "high")}

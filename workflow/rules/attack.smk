@@ -10,6 +10,7 @@ ATTACK_COMMAND = f"env PYTHONPATH={CLONE / 'trials'}:${{{{PYTHONPATH-}}}} OPENBL
 ATTACK_CODE = sorted(os.path.relpath(path) for path in (CLONE / "trials/attack").glob("*.py"))
 ATTACK_PARTS = 16  # jobs, each with every sixteenth campaign: all kinds in each
 ATTACK_TABLES = "cases names by_fault coverage reliability before summary".split()
+MACHINES = 16  # of five campaigns each
 BEFORE = "results/published/attack/before.csv"
 
 
@@ -41,6 +42,7 @@ rule attack_tables:
         before=BEFORE if Path(BEFORE).is_file() else [],
     output:
         [f"results/attack/{name}.csv" for name in ATTACK_TABLES],
+        multiext("results/attack/figures/reliability", ".pdf", ".png", ".svg"),
         "results/attack/campaign.json",
     params:
         before=lambda wildcards, input: f"--before {input.before}" if input.before else "",
@@ -52,13 +54,32 @@ rule attack_tables:
         ATTACK_COMMAND + " tables {input.lines} {params.before} --folder results/attack > {log} 2>&1"
 
 
+rule attack_machines:
+    # An offset that no campaign of a machine shows alone: a quarter of an hour of one core.
+    input:
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=ATTACK_CODE,
+    output:
+        rows="results/attack/machines.csv",
+        summary="results/attack/machines_summary.csv",
+    params:
+        number=MACHINES,
+    log:
+        "results/attack/logs/machines.log",
+    message:
+        "Pool the campaigns of {params.number} machines"
+    shell:
+        ATTACK_COMMAND + " machines {params.number} --folder results/attack > {log} 2>&1"
+
+
 rule attack:
     # What is committed of the attack, and its table in docs.
     input:
-        files=rules.attack_tables.output,
+        files=[one for one in [*rules.attack_tables.output, *rules.attack_machines.output] if not one.endswith((".pdf", ".svg"))],
+        machines=rules.attack_machines.output.summary,
         summary="results/attack/summary.csv",
         code=code("publish"),
     message:
         "Copy what is committed of the attack, and fill its table in docs"
     shell:
-        "asphalt-nscd publish {input.files} --root results/attack --output results/published/attack --document docs --block attack={input.summary}"
+        "asphalt-nscd publish {input.files} --root results/attack --output results/published/attack --document docs --block attack={input.summary} --block machines={input.machines}"

@@ -181,6 +181,7 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
     ],
     "blind_real": [Layout(_CRITERIA)],
     "blind_reported": [Layout(_CRITERIA)],
+    "machines": [Layout({"what": "what", "target": "target"} | _CRITERIA)],
     "attack": [Layout({"what": "what", "target": "target", "percent_before": "before"} | _CRITERIA)],
     "fatigue": [Layout({"sample": "sample", "strain_1e-6": "strain, 10⁻⁶", "cycles": "cycles"}, figures=3)],
     "fatigue_summary": [
