@@ -25,7 +25,7 @@ TABLE = Observations(
     form_factor=np.full(12, GAMMA),
     inertia=np.full(12, GAMMA * MU),
     amplitude=np.tile([20e-6, 40e-6, 80e-6], 4),
-    order=np.arange(12.0),
+    order=np.arange(1.0, 13.0),
     time_step=np.full(12, 1e-4),
     static_modulus=1e8,
 )
