@@ -56,9 +56,10 @@ class Copy:
         done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True)
         if done.returncode in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
             return ""
-        if done.returncode != pytest.ExitCode.TESTS_FAILED:  # no verdict on the mutant: nothing was tested
+        found = [line for line in done.stdout.splitlines() if line.startswith(("FAILED", "ERROR tests"))]
+        if not found:  # no verdict on the mutant: nothing was tested
             raise click.ClickException(f"tests/{tests} cannot run:\n{(done.stdout + done.stderr)[-600:]}")
-        return next(line for line in done.stdout.splitlines() if line.startswith(("FAILED", "ERROR")))
+        return found[0]
 
     def noticed(self, mutant) -> str:
         """By which test, the quick ones first; empty if the mutant lives."""

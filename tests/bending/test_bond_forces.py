@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import asphalt_nscd as an
+from asphalt_nscd.bending.case import LoadCase, Numerics
 from asphalt_nscd.files.store import save
 
 
@@ -23,6 +24,12 @@ def test(beam, tmp_path_factory):
     )
     load = an.Load(amplitude_m=1e-6, cycles=2.0, frames=8)
     return an.bend(path, law, 20.0, 15.0, load=load, numerics=an.Numerics(time_step=1e-4)).arrays
+
+
+def test_instants_are_spread_over_the_last_cycle_alone():
+    """Thirty steps in three cycles of 10 ms: five instants are every second step of the last ten."""
+    numerics = Numerics(time_step=1e-3)
+    assert numerics.framed(LoadCase(100.0, 1e-6, 3.0), 5).tolist() == [21, 23, 25, 27, 29]
 
 
 def test_bonds_that_grow_longer_are_in_tension(test):

@@ -33,7 +33,7 @@ class Fitted:
 def test_shift_constants_and_their_errors_are_those_of_drawn_parameters():
     base = FlexibleSpectrum(TIMES, 15.0, 25.0, 15.0, 0.2)
     covariance = np.array([[4e-4, -3e-4], [-3e-4, 9e-4]])
-    told = _shift_constants(base, Fitted(0.12, base.log_odds(0.008), covariance))
+    told = _shift_constants(base, Fitted(0.12, base.log_odds(0.008), covariance), 1.0)
     assert told["wlf_C1"]["value"] == pytest.approx(15.0) and told["wlf_C2"]["value"] == pytest.approx(125.0)
     drawn = np.random.default_rng(1).multivariate_normal(
         [np.log(0.12), base.log_odds(0.008)], covariance, 40_000
@@ -48,7 +48,7 @@ def test_shift_constants_and_their_errors_are_those_of_drawn_parameters():
 )
 def test_a_shift_that_is_no_wlf_is_told_by_slope_and_curvature(curvature, names):
     base = FlexibleSpectrum(TIMES, 15.0, 25.0, 15.0, 0.2)
-    told = _shift_constants(base, Fitted(0.12, base.log_odds(curvature), 1e-3 * np.eye(2)))
+    told = _shift_constants(base, Fitted(0.12, base.log_odds(curvature), 1e-3 * np.eye(2)), 1.0)
     assert set(told) == names and told["shift_slope"]["value"] == pytest.approx(0.12)
     if "shift_curvature" in told:
         assert told["shift_curvature"]["value"] == pytest.approx(curvature)

@@ -1,5 +1,7 @@
 """First fits of a table."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -31,3 +33,11 @@ def test_each_burgers_law_is_the_best_of_many_random_starts(frequency):
         law = fit_burgers(omega, modulus).law
         wanted = np.log(law.complex_modulus(omega))
         assert np.abs(fitted.modelled[rows] - wanted).max() < 1e-5
+
+
+def test_a_rougher_spectrum_pays_for_each_of_its_second_differences():
+    """ln of exp(-objective / 2) / sqrt(det precision) / roughness^(m - 2), of ten branches and three parameters."""
+    joint = SimpleNamespace(spectrum=SimpleNamespace(times=np.zeros(10), roughness=0.5))
+    fitted = SimpleNamespace(objective=3.0, precision=2.0 * np.eye(3))
+    expected = -1.5 - 1.5 * np.log(2.0) - 8.0 * np.log(0.5)
+    assert start.marginal_likelihood(joint, fitted) == pytest.approx(expected)
