@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
 from asphalt_nscd.diagnosis.quality import exceeded
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
@@ -105,3 +106,16 @@ def test_the_folder_of_exports_gets_the_answer_of_the_page(workspace):
     assert aside["residual_phase_deg"] == pytest.approx(4.9, abs=0.5)
     drawn = re.findall(r'<figure class="chart" id="chart-([a-z]+)">', html)
     assert drawn == ["specimens", "law", "causality", "residuals", "master", "black"]
+
+
+def test_exports_of_a_machine_lead_to_a_study_of_a_cylinder(workspace):
+    """Synthetic ones in the layout of an AMPT: all their temperatures and frequencies are planned, and the report."""
+    done = new_study(workspace, "asphalt-nscd new-study ampt --measurements data/tutorial/exports --small")
+    assert done.returncode == 0, done.stderr
+    (workspace.folder / "config/ampt.yaml").rename(workspace.folder / "study.yaml")
+    study = yaml.safe_load((workspace.folder / "study.yaml").read_text(encoding="utf-8"))
+    assert study["test"]["type"] == "tension-compression" and "d_mm" in study["specimens"]["geometry"]
+    planned = workspace.planned()
+    tests = len(study["temperatures_C"]) * len(study["frequencies_Hz"])
+    assert tests == 4 * 6 and planned["simulate"] == tests
+    assert planned["diagnose"] == planned["report"] == planned["fig_forces"] == planned["fig05"] == 1
