@@ -86,7 +86,7 @@ fuzz: $(READY)
 	@PYTHONPATH=trials:tests .venv/bin/python -m fuzz
 	@OPENBLAS_NUM_THREADS=1 PYTHONPATH=trials:tests .venv/bin/python -m fuzz.diagnoses 1000 \
 		$(if $(filter all,$(CORES)),,--jobs $(CORES)) --output results/fuzz
-	@OPENBLAS_NUM_THREADS=1 PYTHONPATH=trials:tests .venv/bin/python -m fuzz.calls --output results/fuzz
+	@OPENBLAS_NUM_THREADS=1 PYTHONPATH=trials:tests .venv/bin/python -m fuzz.calls --output results/calls
 
 cluster: $(READY)
 	@PYTHONPATH=trials .venv/bin/python -m cluster

@@ -40,6 +40,7 @@ PUBLISHED = (
     "attack",
     "benchmark",
     "blind",
+    "calls",
     "cluster",
     "fall",
     "fatigue",

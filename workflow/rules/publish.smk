@@ -121,13 +121,24 @@ rule publish_fuzz:
     input:
         table="results/fuzz/wild.csv",
         files=["results/fuzz/wild_failures.csv", "results/fuzz/provenance.json"],
-        calls="results/fuzz/calls.csv",
-        of_calls=["results/fuzz/call_failures.csv", "results/fuzz/calls_provenance.json"],
         code=code("publish"),
     message:
-        "Copy how wild tables and drawn calls ended, and fill the tables into docs"
+        "Copy how wild tables ended, and fill the table into docs"
     shell:
-        "asphalt-nscd publish {input.table} {input.files} {input.calls} {input.of_calls} --root results/fuzz --output results/published/fuzz --document docs --block wild={input.table} --block calls={input.calls}"
+        "asphalt-nscd publish {input.table} {input.files} --root results/fuzz --output results/published/fuzz --document docs --block wild={input.table}"
+
+
+rule publish_calls:
+    # After `make fuzz`, which makes these calls of the Python functions. Only on request:
+    #   snakemake --cores 1 publish_calls
+    input:
+        table="results/calls/calls.csv",
+        files=["results/calls/call_failures.csv", "results/calls/calls_provenance.json"],
+        code=code("publish"),
+    message:
+        "Copy how drawn calls ended, and fill the table into docs"
+    shell:
+        "asphalt-nscd publish {input.table} {input.files} --root results/calls --output results/published/calls --document docs --block calls={input.table}"
 
 
 rule publish_mutants:
