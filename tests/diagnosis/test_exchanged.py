@@ -148,3 +148,11 @@ def test_gain_is_that_of_the_evidence_computed_anew(columns):
             moved[[one, other], column] = moved[[other, one], column]
         expected = np.logaddexp.reduce(evidence(moved)) - np.logaddexp.reduce(given)
         assert gain[exchanged.COLUMNS.index(columns), pair] == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_value_taken_for_wrong_pays_for_the_width_that_it_then_has():
+    """Of one test and one spectrum: a Gaussian of precision 4 or 9 about the law, against one of the width WIDE."""
+    precision, pull = np.diag([4.0, 9.0])[None, None], np.array([[[6.0, 3.0]]])
+    each = 0.5 * np.array([36.0 / 4.0, 9.0 / 9.0]) - 0.5 * np.log([4.0, 9.0]) - np.log(exchanged.WIDE)
+    found = exchanged.one_wrong(precision, pull, np.zeros((1, 1)))
+    assert found == pytest.approx([each.max()])
