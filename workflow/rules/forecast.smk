@@ -51,7 +51,7 @@ rule forecast_mixes:
         packings="results/forecast/packings",
         code=code("forecast_mixes"),
     output:
-        expand("results/forecast/mixes/{table}.csv", table=["errors", "points", "overall"]),
+        expand("results/forecast/mixes/{table}.csv", table=["errors", "points", "overall", "bands"]),
     params:
         folder=lambda wildcards, output: os.path.dirname(output[0]),
     conda:
@@ -152,6 +152,7 @@ rule publish_forecast:
     input:
         overall="results/forecast/mixes/overall.csv",
         errors="results/forecast/mixes/errors.csv",
+        bands="results/forecast/mixes/bands.csv",
         voids="results/forecast/voids.csv",
         wrong="results/forecast/wrong_recipes.csv",
         figure="results/forecast/figures/fig_forecast.png",
@@ -162,4 +163,4 @@ rule publish_forecast:
     message:
         "Copy the table of forecasts and its figure, and fill the table of docs/forecast.md"
     shell:
-        "asphalt-nscd publish {input.overall} {input.errors} {input.voids} {input.wrong} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block voids={input.voids} --block wrong_recipes={input.wrong}"
+        "asphalt-nscd publish {input.overall} {input.errors} {input.bands} {input.voids} {input.wrong} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block bands={input.bands} --block voids={input.voids} --block wrong_recipes={input.wrong}"

@@ -42,6 +42,9 @@ class Settings:
 # Factor by which each stated number may be wrong, about two standard deviations; of air voids the difference.
 DOUBTS: dict[str, float] = {"film_factor": 2.0, "skeleton_pressure": 10.0, "aggregate": 1.25, "voids": 0.005}
 
+MODEL = complex(np.log(1.42), np.radians(7.1))
+"""What the model itself gets wrong: root mean square of ln|E*| and of the phase [rad] over six mixes."""
+
 
 @dataclass(frozen=True)
 class LevelResult:
@@ -79,11 +82,15 @@ class Forecast:
         logs = [np.log(modulus_of(levels, self.recipe.aggregate, binder)) for levels in self.packed]
         return np.exp(np.mean(logs, axis=0))
 
-    @property
-    def doubt(self) -> np.ndarray:
-        """Root of the sum of squares of all deviations (n,): of ln|E*|, and of the phase [rad]."""
+    def band(self, model: complex) -> np.ndarray:
+        """Half width (n,) of the band: of ln|E*|, and of the phase [rad].
+
+        Root of the sum of squares of all deviations and of twice the model's own: root mean square of both.
+        """
         parts = np.array([*self.deviation.values()]).reshape(-1, self.modulus.size)
-        return np.sqrt((parts.real**2).sum(axis=0)) + 1j * np.sqrt((parts.imag**2).sum(axis=0))
+        return np.sqrt((parts.real**2).sum(axis=0) + 4.0 * model.real**2) + 1j * np.sqrt(
+            (parts.imag**2).sum(axis=0) + 4.0 * model.imag**2
+        )
 
 
 class Networks:

@@ -18,7 +18,7 @@ from scipy.optimize import least_squares, minimize_scalar, nnls
 
 from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.formulation.film import Solid
-from asphalt_nscd.formulation.forecast import LevelResult, Networks, Settings, modulus_of
+from asphalt_nscd.formulation.forecast import LevelResult, Networks, Settings, forecast, modulus_of
 from asphalt_nscd.formulation.levels import OTHER_CUTS
 from asphalt_nscd.formulation.recipe import UNSTATED, Recipe
 from asphalt_nscd.formulation.rivals import RIVALS
@@ -113,17 +113,21 @@ def compare(
         progress("rungs", k, len(steps) + 1)
         levels = networks.chain(recipe, chosen, 1)
         made[name] = "forecast", 0, partial(_forecast, levels, recipe.aggregate)
-    fitted, levels = calibrated(
-        next(pair for pair in pairs if pair.name == CALIBRATED_ON), settings, networks
-    )
+    calibrated_on = next(pair for pair in pairs if pair.name == CALIBRATED_ON)
+    fitted, levels = calibrated(calibrated_on, settings, networks, shifted=True)
+    made[
+        f"binder {abs(fitted.decades):.2f} decades {'faster' if fitted.decades > 0 else 'slower'} and skeleton "
+        f"{fitted.settings.skeleton_pressure / 1e3:.2g} kPa, set on {CALIBRATED_ON}"
+    ] = "calibrated", 2, partial(_shifted, levels, recipe.aggregate, fitted.decades)
+    fitted, levels = calibrated(calibrated_on, settings, networks)
     progress("rungs", len(steps) + 1, len(steps) + 1)
     calibrated_name = (
-        f"aggregate {fitted[0].aggregate.modulus / 1e9:.0f} GPa and skeleton "
-        f"{fitted[1].skeleton_pressure / 1e3:.2g} kPa, set on {CALIBRATED_ON}"
+        f"aggregate {fitted.recipe.aggregate.modulus / 1e9:.0f} GPa and skeleton "
+        f"{fitted.settings.skeleton_pressure / 1e3:.2g} kPa, set on {CALIBRATED_ON}"
     )
-    stone = fitted[0].aggregate
+    stone = fitted.recipe.aggregate
     made[calibrated_name] = "calibrated", 2, partial(_forecast, levels, stone)
-    decades = binder_shift(next(pair for pair in pairs if pair.name == SHIFTED_ON), levels, fitted[0])
+    decades = binder_shift(next(pair for pair in pairs if pair.name == SHIFTED_ON), levels, fitted.recipe)
     made[f"and {SHIFTED} binders {abs(decades):.2f} decades slower, set on {SHIFTED_ON}"] = (
         "calibrated",
         3,
@@ -175,13 +179,26 @@ def _rival(rival: Callable[[Recipe], np.ndarray], pair: Pair) -> np.ndarray:
 
 
 def _forecast(levels: tuple[LevelResult, ...], stone: Solid, pair: Pair) -> np.ndarray:
-    return modulus_of(levels, stone, pair.binder())
+    return _shifted(levels, stone, 0.0, pair)
+
+
+def _shifted(levels: tuple[LevelResult, ...], stone: Solid, decades: float, pair: Pair) -> np.ndarray:
+    return modulus_of(levels, stone, pair.binder(decades))
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """Two inputs that were set on one mix: pressure in dry contacts; modulus of the aggregate, or the binder's shift."""
+
+    recipe: Recipe
+    settings: Settings
+    decades: float = 0.0
 
 
 def calibrated(
-    pair: Pair, settings: Settings, networks: Networks
-) -> tuple[tuple[Recipe, Settings], tuple[LevelResult, ...]]:
-    """The two inputs that the source leaves open, set on one mix: modulus of the aggregate, pressure in dry contacts.
+    pair: Pair, settings: Settings, networks: Networks, shifted: bool = False
+) -> tuple[Calibrated, tuple[LevelResult, ...]]:
+    """Two inputs set on one mix: those that the source leaves open, or, shifted, the binder in the mix for the first.
 
     The pressure is the best of PRESSURES; with each the modulus is fitted to the maps of the usual one, since they
     know ratios of moduli alone, but for the bulk modulus of the binder. The best is solved anew.
@@ -190,20 +207,25 @@ def calibrated(
 
     def fitted(levels: tuple[LevelResult, ...]) -> tuple[float, float]:
         def off(x: np.ndarray) -> np.ndarray:
-            stone = replace(pair.recipe.aggregate, modulus=usual * float(np.exp(x[0])))
-            found = np.log(modulus_of(levels, stone, pair.binder()) / pair.measured)
+            stone, decades = pair.recipe.aggregate, float(x[0])
+            if not shifted:
+                stone, decades = replace(stone, modulus=usual * float(np.exp(x[0]))), 0.0
+            found = np.log(_shifted(levels, stone, decades, pair) / pair.measured)
             return np.concatenate([found.real, found.imag])
 
         best = least_squares(off, np.zeros(1), bounds=(-1.0, 1.0))
-        return float(best.cost), usual * float(np.exp(best.x[0]))
+        return float(best.cost), float(best.x[0])
 
     tried = []
     for pressure in PRESSURES:
         chosen = replace(settings, skeleton_pressure=pressure)
         tried.append((*fitted(networks.chain(pair.recipe, chosen, 1)), chosen))
-    _, modulus, chosen = min(tried, key=lambda one: one[0])
-    recipe = replace(pair.recipe, aggregate=replace(pair.recipe.aggregate, modulus=modulus))
-    return (recipe, chosen), networks.chain(recipe, chosen, 1)
+    _, found, chosen = min(tried, key=lambda one: one[0])
+    if shifted:
+        return Calibrated(pair.recipe, chosen, found), networks.chain(pair.recipe, chosen, 1)
+    stone = replace(pair.recipe.aggregate, modulus=usual * float(np.exp(found)))
+    recipe = replace(pair.recipe, aggregate=stone)
+    return Calibrated(recipe, chosen), networks.chain(recipe, chosen, 1)
 
 
 def binder_shift(pair: Pair, levels: tuple[LevelResult, ...], recipe: Recipe) -> float:
@@ -241,6 +263,27 @@ def _any_map(binder: np.ndarray) -> np.ndarray:
     """Terms (n, 35) of a Stieltjes function of the binder's modulus [Pa]."""
     x = binder[:, None]
     return np.hstack([np.full_like(x, 1e6), x, x / (1.0 + x / ANY_MAP)])
+
+
+def bands(pairs: list[Pair], networks: Networks) -> pd.DataFrame:
+    """What the band of a forecast holds of each mix, its share for the model's own error taken from the others alone.
+
+    A row for each mix: deviation_E of ln|E*| and deviation_phase_deg, root mean squares of the others; shares of its
+    points that lie in the band of stated doubts, and in that with these deviations (`Forecast.band`).
+    """
+    made = {pair.name: forecast(pair.recipe, networks, seeds=(1,)) for pair in pairs}
+    off = {pair.name: np.log(made[pair.name].modulus / pair.measured) for pair in pairs}
+    rows = []
+    for pair in pairs:
+        others = np.array([off[other.name] for other in pairs if other is not pair])
+        own = complex(np.sqrt((others.real**2).mean()), np.sqrt((others.imag**2).mean()))
+        row = {"mix": pair.name, "deviation_E": own.real, "deviation_phase_deg": float(np.degrees(own.imag))}
+        for name, model in (("doubts", 0j), ("band", own)):
+            half = made[pair.name].band(model)
+            row[f"E_in_{name}"] = float((np.abs(off[pair.name].real) <= half.real).mean())
+            row[f"phase_in_{name}"] = float((np.abs(off[pair.name].imag) <= half.imag).mean())
+        rows.append(row)
+    return pd.DataFrame(rows)
 
 
 def overall(errors: pd.DataFrame) -> pd.DataFrame:

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.files.store import provenance, write_json, write_table
-from asphalt_nscd.formulation.forecast import DOUBTS, Forecast
+from asphalt_nscd.formulation.forecast import DOUBTS, MODEL, Forecast
 from asphalt_nscd.formulation.levels import film_thickness
 from asphalt_nscd.formulation.rivals import RIVALS
 from asphalt_nscd.rheology.conversion import kelvin_chain
@@ -32,9 +32,9 @@ WORDS = {
 
 
 def points(found: Forecast) -> pd.DataFrame:
-    """One row for each temperature and frequency, with what the stated doubts make of |E*| and phase."""
+    """One row for each temperature and frequency, with the band of |E*| and phase."""
     size, phase = np.abs(found.modulus), np.angle(found.modulus)
-    doubt = found.doubt
+    doubt = found.band(MODEL)
     return pd.DataFrame(
         {
             "temperature_C": found.recipe.temperature,
@@ -43,8 +43,8 @@ def points(found: Forecast) -> pd.DataFrame:
             "phase_deg": np.degrees(phase),
             "E_low_MPa": 1e-6 * size * np.exp(-doubt.real),
             "E_high_MPa": 1e-6 * size * np.exp(doubt.real),
-            "phase_low_deg": np.degrees(phase - doubt.imag),
-            "phase_high_deg": np.degrees(phase + doubt.imag),
+            "phase_low_deg": np.degrees(np.maximum(phase - doubt.imag, 0.0)),
+            "phase_high_deg": np.degrees(np.minimum(phase + doubt.imag, np.pi / 2.0)),
         }
     )
 

@@ -439,6 +439,19 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
             },
         )
     ],
+    "bands": [
+        Layout(
+            {
+                "mix": "mix",
+                "deviation_E": "model's error of ln E, from the other five",
+                "deviation_phase_deg": "of the phase, °",
+                "E_in_doubts": "moduli in doubts alone",
+                "phase_in_doubts": "phases",
+                "E_in_band": "moduli in band",
+                "phase_in_band": "phases in band",
+            },
+        )
+    ],
     "wrong_recipes": [
         Layout(
             {
