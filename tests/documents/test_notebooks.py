@@ -11,9 +11,15 @@ from nbclient import NotebookClient
 NOTEBOOKS = Path(__file__).parents[2] / "notebooks"
 SHOWN = {  # in some output
     "diagnosis": ["channel_delay", "0.000788", "Mix-B", "2S2P1D", "71 tests used"],
+    "forecast": [
+        "Forecast(HMA H0: 20 points",
+        "the modulus of the aggregate, x 1.25",
+        "factor, rms",
+        "in the band",
+    ],
     "specimen": ["Packing(700 spheres", "bonds by facets", "E_law_MPa", "0.02943", "0.00981"],
 }
-PICTURES = {"diagnosis": 2, "specimen": 1}
+PICTURES = {"diagnosis": 2, "forecast": 2, "specimen": 1}
 
 
 def test_each_notebook_is_checked():

@@ -81,7 +81,7 @@ PAGES = {
     "samples": "2 Preparation",
     "simulations": "3 Bending tests",
     "table4": "3 Bending tests",
-    "timings": "7 About this run",
+    "timings": "8 About this run",
 }
 
 if POURED:
@@ -212,6 +212,12 @@ if FAMILIES:
         "specimen": [f"<results>/diagnosis/specimens/{FIRST}.h5"],
         "ladder": ["<results>/ladder.csv"],
     }
+
+FORECAST = MAIN and CLONE and not BARE and STUDY["study"] == "paper"  # beside the study: mixes from their recipes
+if FORECAST:
+    FIGURES["fig_forecast"] = ("7 Forecast", {"points": ["results/forecast/mixes/points.csv"]})
+    PAGES["forecasts"] = "7 Forecast"
+    TABLES["forecasts"] = {"overall": ["results/forecast/mixes/overall.csv"]}
 
 COMPUTED = [
     DIAGNOSED,

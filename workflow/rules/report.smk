@@ -162,7 +162,7 @@ rule provenance:
         report(
             "<results>/provenance.json",
             caption="../report/provenance.rst",
-            category="7 About this run",
+            category="8 About this run",
             labels={"result": title("provenance")},
         ),
     conda:

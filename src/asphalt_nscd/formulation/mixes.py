@@ -188,7 +188,7 @@ def _shifted(levels: tuple[LevelResult, ...], stone: Solid, decades: float, pair
 
 @dataclass(frozen=True)
 class Calibrated:
-    """Two inputs that were set on one mix: pressure in dry contacts; modulus of the aggregate, or the binder's shift."""
+    """Two inputs set on one mix: pressure in dry contacts; modulus of the aggregate, or the shift of the binder."""
 
     recipe: Recipe
     settings: Settings

@@ -1,0 +1,84 @@
+"""A mix whose binder is known by its penetration grade alone: the paper's, against the laws of its Table 3.
+
+Stiffness of a binder after mixing by Ullidtz & Larsen (1983), a fit to van der Poel's nomograph, from its penetration
+before: 0.01 to 0.1 s, 20 to 60 K below the softening point, index of penetration -1 to 1. It gives no phase; over the
+time of loading it is a power law, whose phase is that of its exponent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.files.csvinput import Limits, read_csv
+from asphalt_nscd.formulation.forecast import Networks, Settings, modulus_of
+from asphalt_nscd.formulation.recipe import Grading, Recipe
+from asphalt_nscd.rheology.published_laws import read_published
+
+EXPONENT = 0.368
+TIMES, BELOW = (0.01, 0.1), (20.0, 60.0)  # s; K under the softening point
+PENETRATIONS = {"soft": 50.0, "middle": 42.0, "hard": 35.0}  # 0.1 mm, of a 35/50
+FREQUENCIES = (3.0, 6.0, 10.0)  # Hz of the paper, of a time of loading 1 / omega in TIMES
+
+
+def softening_point(penetration: float) -> float:
+    """Ring and ball [degC] of the binder in the mix, from its penetration [0.1 mm] before mixing."""
+    return 98.4 - 26.4 * float(np.log10(0.65 * penetration))
+
+
+def stiffness(penetration: float, temperature: np.ndarray, omega: np.ndarray) -> np.ndarray:
+    """E* [Pa] of the binder in the mix at temperatures [degC] and omega [rad/s]; nan where none is known."""
+    log = np.log10(penetration)
+    index = (27.0 * log - 21.65) / (76.35 * log - 232.82)
+    below = softening_point(penetration) - np.asarray(temperature, float)
+    modulus = 1e6 * 1.157e-7 * omega**EXPONENT * np.exp(-index) * np.maximum(below, 0.0) ** 5
+    known = (below >= BELOW[0]) & (below <= BELOW[1]) & (1 / omega >= TIMES[0]) & (1 / omega <= TIMES[1])
+    return np.where(known, modulus, np.nan) * np.exp(0.5j * np.pi * EXPONENT)
+
+
+def compare_paper(
+    grading: str | Path,
+    laws: str | Path,
+    recipe: Recipe,
+    networks: Networks,
+    progress: Callable[[str, float, float], None],
+) -> pd.DataFrame:
+    """A row for each temperature and frequency: |E*| [MPa] and phase of Table 3, and forecast from the grade.
+
+    grading: diameter_mm, passing_percent; laws: as Table 3. All else is that of the recipe: the paper gives neither
+    binder content nor air voids nor densities.
+    """
+    table = read_csv(grading)
+    table.require(["diameter_mm", "passing_percent"])
+    sieve = 1e-3 * table.numbers("diameter_mm", Limits(1e-3, 100.0, "give it in mm"))
+    passing = 0.01 * table.numbers("passing_percent", Limits(0.0, 100.0, "give per cent that passes"))
+    order = np.argsort(sieve)
+    own = replace(recipe, grading=Grading(sieve[order], passing[order]), file=str(grading))
+    progress("networks", 0, 1)
+    levels = networks.chain(own, Settings(), 1)
+    progress("networks", 1, 1)
+    rows = []
+    for temperature, law in zip(*read_published(laws), strict=True):
+        omega = 2.0 * np.pi * np.array(FREQUENCIES)
+        measured = law.complex_modulus(omega)
+        made = {
+            name: modulus_of(levels, recipe.aggregate, stiffness(penetration, temperature, omega))
+            for name, penetration in PENETRATIONS.items()
+        }
+        for k, frequency in enumerate(FREQUENCIES):
+            if all(np.isfinite(found[k]) for found in made.values()):
+                rows.append(
+                    {
+                        "temperature_C": temperature,
+                        "frequency_Hz": frequency,
+                        "E_table3_MPa": 1e-6 * abs(measured[k]),
+                        **{f"E_{name}_MPa": 1e-6 * abs(found[k]) for name, found in made.items()},
+                        "phase_table3_deg": np.degrees(np.angle(measured[k])),
+                        "phase_middle_deg": np.degrees(np.angle(made["middle"][k])),
+                    }
+                )
+    return pd.DataFrame(rows)
