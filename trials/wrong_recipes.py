@@ -65,8 +65,11 @@ TRUTHS: dict[str, Callable[[Recipe], np.ndarray]] = {"differential": differentia
 
 def measured(
     truth: str, recipe: Recipe, name: str, size: float, rng: np.random.Generator
-) -> tuple[np.ndarray, np.ndarray]:
-    """ln(E* of a mix with a wrong input / E* of its reference), and of densities over the recipe's; with scatter."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """ln(E* of a mix with a wrong input / of its reference), ln E* of the reference, ln of densities over the recipe's.
+
+    All with scatter; that of the reference's level and tilt moves no point along its curve and is left out.
+    """
     stone = replace(recipe.aggregate, modulus=rng.uniform(45e9, 75e9))
     right = replace(recipe, aggregate=stone)
     pressure = (rng.uniform(*RELAXED) / skeleton(right, 1.0)) ** 3
@@ -75,14 +78,16 @@ def measured(
         other = replace(other, frequency=other.frequency * 10.0**size)
     pressed = pressure * 10.0**size if name == "dry contacts" else pressure
     model = TRUTHS[truth]
-    ratio = np.log((model(other) + skeleton(other, pressed)) / (model(right) + skeleton(right, pressure)))
+    known = np.log(model(right) + skeleton(right, pressure))
+    ratio = np.log(model(other) + skeleton(other, pressed)) - known
     decades = np.log10(recipe.frequency)
     n, off = decades.size, rng.standard_normal
     level = wrong_inputs.LEVEL * off() + wrong_inputs.TILT * off() * (decades - decades.mean())
     phase = wrong_inputs.PHASE * off() + wrong_inputs.PHASE_POINT * off(n)
     ratio = ratio + level + wrong_inputs.POINT * off(n) + 1j * phase
+    known = known + wrong_inputs.POINT * off(n) + 1j * wrong_inputs.PHASE_POINT * off(n)
     weighed = np.log(wrong_inputs.densities(other) / wrong_inputs.densities(recipe))
-    return ratio, weighed + off(2) * [wrong_inputs.DENSITY, wrong_inputs.MAXIMUM]
+    return ratio, known, weighed + off(2) * [wrong_inputs.DENSITY, wrong_inputs.MAXIMUM]
 
 
 def campaign(recipe: Recipe, changes: wrong_inputs.Changes, draws: int) -> pd.DataFrame:
@@ -99,8 +104,9 @@ def campaign(recipe: Recipe, changes: wrong_inputs.Changes, draws: int) -> pd.Da
                     rng = np.random.default_rng([len(rows), draws])
                     found = []
                     for _ in range(draws if times else 4 * draws):
-                        ratio, density = measured(truth, recipe, name, size, rng)
-                        found.append(wrong_inputs.find(changes, ratio, density if weighed else None).inputs)
+                        ratio, known, density = measured(truth, recipe, name, size, rng)
+                        own = wrong_inputs.along_reference(changes, known)
+                        found.append(wrong_inputs.find(own, ratio, density if weighed else None).inputs)
                     count = len(found)
                     rows.append(
                         {

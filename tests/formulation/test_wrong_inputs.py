@@ -9,7 +9,15 @@ import pytest
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.formulation import wrong_inputs
 from asphalt_nscd.formulation.forecast import Networks
-from asphalt_nscd.formulation.wrong_inputs import changed, changes_of, densities, find, limits, read_ratio
+from asphalt_nscd.formulation.wrong_inputs import (
+    along_reference,
+    changed,
+    changes_of,
+    densities,
+    find,
+    limits,
+    read_ratio,
+)
 
 
 @pytest.fixture(scope="module")
@@ -44,6 +52,35 @@ def test_densities_tell_voids_from_binder(changes):
     assert find(changes, ratio).inputs != ("air voids",)
 
 
+def other_mix(omega):
+    """ln E* of a mix that is not the forecast's: a skeleton beside a power law that bends."""
+    return np.log(3e7 + 4e9 / (1 + 0.5 * (1j * omega) ** -0.4 + 0.02 * (1j * omega) ** -0.9))
+
+
+@pytest.fixture(scope="module")
+def many(recipe, packing):
+    points = replace(recipe, frequency=np.geomspace(1e-4, 50, 20), temperature=np.full(20, 15.0))
+    return changes_of(points, Networks(lambda level, seed: packing))
+
+
+@pytest.mark.parametrize("decades", [0.6, -0.45])
+def test_a_stiffer_binder_moves_a_mix_along_its_own_curve(many, decades):
+    """Whatever the mix: named alone without densities, its size roughly."""
+    reference = other_mix(many.omega)
+    found = find(along_reference(many, reference), other_mix(many.omega * 10**decades) - reference)
+    assert found.inputs == ("binder stiffness",)
+    assert found.size["binder stiffness"] == pytest.approx(decades, abs=0.2)
+
+
+def test_a_stiffer_skeleton_is_no_stiffer_binder(many):
+    """Named alone with densities; without them no input but the binder's stiffness is."""
+    reference = other_mix(many.omega)
+    own = along_reference(many, reference)
+    ratio = np.log(np.exp(reference) + 6e7) - reference
+    assert find(own, ratio, np.zeros(2)).inputs == ("dry contacts",)
+    assert set(find(own, ratio).inputs) == {"dry contacts", "air voids", "binder content"}
+
+
 def test_nothing_is_named_where_only_the_level_differs(changes):
     ratio = np.full(changes.omega.size, 0.06 + 0.005j)
     assert find(changes, ratio).inputs == ()
@@ -65,10 +102,11 @@ def test_tables_are_compared_where_both_have_points(tmp_path, recipe):
     }
     pd.DataFrame(rows).to_csv(tmp_path / "one.csv", index=False)
     pd.DataFrame(rows | {"E_MPa": 1e3, "phase_deg": 15}).iloc[1:].to_csv(tmp_path / "two.csv", index=False)
-    asked, ratio = read_ratio(tmp_path / "one.csv", tmp_path / "two.csv", recipe)
+    asked, ratio, known = read_ratio(tmp_path / "one.csv", tmp_path / "two.csv", recipe)
     assert asked.frequency.tolist() == [2, 4, 8]
     assert np.exp(ratio.real) == pytest.approx([2, 3, 4])
     assert np.degrees(ratio.imag) == pytest.approx(5.0)
+    assert np.exp(known.real) == pytest.approx([1e9] * 3) and np.degrees(known.imag) == pytest.approx(15.0)
     with pytest.raises(InputError, match="one.csv: temperature_C differs from 30 degC.*add binder.shift"):
         law = replace(recipe.binder, shift=replace(recipe.binder.shift, reference_temperature=30.0))
         read_ratio(tmp_path / "one.csv", tmp_path / "two.csv", replace(recipe, binder=law))

@@ -12,7 +12,7 @@ import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
-from asphalt_nscd.api.pictures import drawing
+from asphalt_nscd.api.pictures import drawing, shown_in_notebooks
 from asphalt_nscd.formulation import written
 from asphalt_nscd.formulation.forecast import Forecast as ForecastOfLevels
 from asphalt_nscd.formulation.forecast import Networks, kept_in
@@ -61,14 +61,14 @@ class Forecast:
         with drawing():
             from asphalt_nscd.reporting.figures.forecast_panels import curves
 
-        return curves(self.found, self.table, self.rivals)
+        return shown_in_notebooks(curves(self.found, self.table, self.rivals))
 
     def plot_levels(self) -> Figure:
         """The grading, and a cut through the packing of each level."""
         with drawing():
             from asphalt_nscd.reporting.figures.forecast_panels import levels
 
-        return levels(self.found)
+        return shown_in_notebooks(levels(self.found))
 
     def write(self, folder: str | Path) -> list[str]:
         """Write the files of `asphalt-nscd forecast`, its page excepted; their names."""

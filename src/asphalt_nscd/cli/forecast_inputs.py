@@ -44,11 +44,11 @@ def command(
 
     if densities and densities[0] > densities[1]:
         raise InputError("--densities: the bulk density is above the maximum; give the bulk density first.")
-    asked, ratio = wrong_inputs.read_ratio(measured, reference, read_recipe(recipe))
+    asked, ratio, known = wrong_inputs.read_ratio(measured, reference, read_recipe(recipe))
     with bars("", on_terminal=True) as progress:
         changes = wrong_inputs.changes_of(asked, Networks(kept_in(packings, progress)))
     weighed = np.log(np.array(densities) / wrong_inputs.densities(asked)) if densities else None
-    finding = wrong_inputs.find(changes, ratio, weighed)
+    finding = wrong_inputs.find(wrong_inputs.along_reference(changes, known), ratio, weighed)
     table = wrong_inputs.table(finding, wrong_inputs.limits(changes, weighed is not None))
     write_table(output, table)
     click.echo(f"Wrong: {' or '.join(finding.inputs) or 'no input that can be noticed'}.")

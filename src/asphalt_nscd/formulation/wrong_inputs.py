@@ -1,7 +1,9 @@
 """Which input of a recipe is wrong: a mix held against a reference of the same recipe whose inputs are right.
 
 What the forecast itself gets wrong is the same for both and cancels in ln(E* of the mix / E* of the reference). What is
-left is compared with what each input alone would change. Its size is free; its shape may be off by SHAPE.
+left is compared with what each input alone would change. Its size is free; its shape may be off by SHAPE. A binder that
+is stiffer by a shift in time moves the mix along the reference's own curve (in the Black diagram: on it), whatever the
+model: that change is taken from the reference and not from the forecast.
 """
 
 from __future__ import annotations
@@ -33,6 +35,8 @@ UNITS = {
 }
 FINE = 41  # sizes at which each input is tried
 SHAPE = 1.0  # of a change: how far its shape over frequency may be off, one standard deviation
+SHAPE_OF_REFERENCE = 0.3  # likewise of one along the reference's curve: binders that age flatten too
+DEGREE = 6  # of the polynomial through the reference's curve, at most a third of its points
 WEAKER = 3.0  # by so much another model may be less sensitive to an input; limits count on it
 ALONG = 1.5  # decades of frequency over which it is off alike
 # Standard deviations of ln|E*| and phase [rad] of a mean of specimens over another: all points, tilt, each point.
@@ -40,6 +44,7 @@ LEVEL, TILT, POINT = 0.05, 0.01, 0.02
 PHASE, PHASE_POINT = np.radians(0.5), np.radians(0.5)
 DENSITY, MAXIMUM = 0.003, 0.002  # of the logarithms of bulk and maximum density, likewise
 NOTICED, NAMED = 12.0, 6.0  # twice the gain of log likelihood over no error, and over another input
+NAMED_SHARE = 0.001  # of the gain over no error, if that is more: where gains are large, so are misfits
 
 
 @dataclass(frozen=True)
@@ -50,6 +55,7 @@ class Changes:
     size: dict[str, np.ndarray]
     log: dict[str, np.ndarray]
     density: dict[str, np.ndarray]
+    shape: dict[str, float]  # how far each may be off
 
 
 @dataclass(frozen=True)
@@ -61,8 +67,10 @@ class Finding:
     size: dict[str, float]  # that fits best
 
 
-def read_ratio(measured: str | Path, reference: str | Path, recipe: Recipe) -> tuple[Recipe, np.ndarray]:
-    """The recipe at the points that two tables share, and ln(E* of the first / of the second) there (n,).
+def read_ratio(
+    measured: str | Path, reference: str | Path, recipe: Recipe
+) -> tuple[Recipe, np.ndarray, np.ndarray]:
+    """The recipe at the points that two tables share, ln(E* of the first / of the second) and ln E* of the second (n,).
 
     Both have temperature_C, frequency_Hz, E_MPa, phase_deg; rows of one point are averaged.
     """
@@ -70,7 +78,8 @@ def read_ratio(measured: str | Path, reference: str | Path, recipe: Recipe) -> t
     shared = mix.index.intersection(known.index)
     if len(shared) < 3:
         raise InputError(f"{measured}: shares {len(shared)} points with {reference}; at least 3 are needed.")
-    ratio = (mix.loc[shared] - known.loc[shared]).to_numpy()
+    base = known.loc[shared].to_numpy()
+    ratio = mix.loc[shared].to_numpy() - base
     temperature, frequency = np.array([*shared]).T
     only = recipe.binder.shift.reference_temperature
     if not recipe.shifted and (temperature != only).any():
@@ -78,7 +87,7 @@ def read_ratio(measured: str | Path, reference: str | Path, recipe: Recipe) -> t
             f"{measured}: temperature_C differs from {only:g} degC, at which alone the binder's law holds; add "
             f"binder.shift to the recipe."
         )
-    return replace(recipe, temperature=temperature, frequency=frequency), ratio
+    return replace(recipe, temperature=temperature, frequency=frequency), ratio, base
 
 
 def _by_point(path: str | Path) -> pd.Series:
@@ -131,7 +140,25 @@ def changes_of(recipe: Recipe, networks: Networks) -> Changes:
             for k in (0, 1)
         )
     shift = recipe.binder.shift.factor(recipe.temperature) if recipe.shifted else 1.0
-    return Changes(2.0 * np.pi * recipe.frequency * shift, fine, log, density)
+    return Changes(2.0 * np.pi * recipe.frequency * shift, fine, log, density, dict.fromkeys(SIZES, SHAPE))
+
+
+def along_reference(changes: Changes, reference: np.ndarray) -> Changes:
+    """The same, the change by a stiffer binder taken from ln E* (n,) of the reference as far as it was measured."""
+    decades, name = np.log10(changes.omega), "binder stiffness"
+    degree = min(DEGREE, decades.size // 3)
+    middle, span = 0.5 * (decades.min() + decades.max()), max(float(np.ptp(decades)), 1e-9)
+
+    def curve(at: np.ndarray) -> np.ndarray:
+        basis = np.vander((at - middle) / span, degree + 1)
+        return basis @ fitted
+
+    fitted = np.linalg.lstsq(np.vander((decades - middle) / span, degree + 1), reference, rcond=None)[0]
+    at = decades + changes.size[name][:, None]
+    inside = (at >= decades.min()) & (at <= decades.max())
+    moved = np.array([curve(row) for row in at]) - curve(decades)
+    log = changes.log | {name: np.where(inside, moved, changes.log[name])}
+    return replace(changes, log=log, shape=changes.shape | {name: SHAPE_OF_REFERENCE})
 
 
 def find(changes: Changes, ratio: np.ndarray, density: np.ndarray | None = None) -> Finding:
@@ -142,13 +169,15 @@ def find(changes: Changes, ratio: np.ndarray, density: np.ndarray | None = None)
         gain[name] = float(2.0 * (tried.max() - tried[sizes == 0.0][0]))
         best[name] = float(sizes[int(np.argmax(tried))])
     order = sorted(gain, key=lambda name: -gain[name])
-    if gain[order[0]] < NOTICED:
+    largest = gain[order[0]]
+    if largest < NOTICED:
         return Finding((), gain, best)
-    likely = [name for name in order if gain[name] > gain[order[0]] - NAMED]
-    if (
-        likely[0] == "dry contacts" and "binder stiffness" not in likely
-    ):  # aged mixes look like that (docs/forecast.md)
-        likely.append("binder stiffness")
+    lead = max(NAMED, NAMED_SHARE * largest)
+    likely = [name for name in order if gain[name] > largest - lead]
+    if density is None and likely != [
+        "binder stiffness"
+    ]:  # the others soften or stiffen alike (docs/forecast.md)
+        likely += [name for name in order if name not in likely and name != "binder stiffness"]
     return Finding(tuple(likely), gain, best)
 
 
@@ -197,7 +226,8 @@ def _log_likelihood(changes: Changes, ratio: np.ndarray, density: np.ndarray | N
     for left, size, common, point in parts:
         off = np.abs(size)
         total += _normal(
-            left, common + point**2 * np.eye(n) + SHAPE**2 * off[:, :, None] * off[:, None] * alike
+            left,
+            common + point**2 * np.eye(n) + changes.shape[name] ** 2 * off[:, :, None] * off[:, None] * alike,
         )
     if density is not None:
         off = (density - changes.density[name]) / [DENSITY, MAXIMUM]
