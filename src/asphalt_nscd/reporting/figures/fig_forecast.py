@@ -16,7 +16,7 @@ SHOWN: dict[str, tuple[str, str, Any, float]] = {
     "hirsch": ("Hirsch", style.GREY, (0, (5, 1.5)), 0.9),
     "mori_tanaka": ("Mori–Tanaka", style.GREY, (0, (1.2, 1.2)), 0.9),
 }
-SHIFTED = "decades slower"  # in the name of the forecast whose warm mixes have a slower binder
+SHIFTED = "set on W0"  # in the name of the forecast whose warm mixes have a binder of their own
 
 
 @style.journal
