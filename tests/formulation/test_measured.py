@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.formulation.forecast import Networks, Settings, modulus_of
-from asphalt_nscd.formulation.mixes import best_map, binder_shift, read_pairs
+from asphalt_nscd.formulation.forecast import Networks, Settings, forecast, modulus_of
+from asphalt_nscd.formulation.mixes import bands, best_map, binder_shift, read_pairs
 from asphalt_nscd.formulation.recipe import read_recipe
 from asphalt_nscd.formulation.voids import compare_voids
 
@@ -62,6 +62,28 @@ def test_a_binder_of_another_temperature_is_found(pairs, networks, decades):
 
     drawn = Drawn(pair.name, pair.recipe, pair.mix)
     assert binder_shift(drawn, levels, pair.recipe) == pytest.approx(decades, abs=1e-3)
+
+
+def test_a_band_takes_the_models_error_from_the_other_mixes(pairs, networks):
+    """Mixes that the forecast misses by known factors: each is judged by what the others missed."""
+    first = forecast(pairs[0].recipe, networks, seeds=(1,))
+    factors = (1.0, 1.3, 1.3, 3.0)
+
+    class Drawn(type(pairs[0])):
+        measured = None
+
+    drawn = []
+    for number, factor in enumerate(factors):
+        one = Drawn(str(number), pairs[0].recipe, pairs[0].mix)
+        object.__setattr__(one, "measured", first.modulus * factor)
+        drawn.append(one)
+    found = bands(drawn, networks).set_index("mix")
+    others = [
+        np.sqrt(np.mean([np.log(f) ** 2 for k, f in enumerate(factors) if k != own])) for own in range(4)
+    ]
+    assert found["deviation_E"].tolist() == pytest.approx(others)
+    assert found["E_in_band"].tolist() == [1.0, 1.0, 1.0, 0.0]
+    assert found["phase_in_band"].tolist() == [1.0] * 4 and found["deviation_phase_deg"].max() < 1e-9
 
 
 def campaign(folder, slope):

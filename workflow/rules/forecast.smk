@@ -83,6 +83,26 @@ rule forecast_voids:
         "asphalt-nscd forecast-voids {input.recipe} --campaign data/ncat --packings {input.packings} --output {output} > {log} 2>&1"
 
 
+rule forecast_paper:
+    # The paper's mix from its grading and the grade of its binder, beside its Table 3.
+    input:
+        recipe=RECIPE,
+        grading="data/paper/table1_grading.csv",
+        laws="data/paper/table3_burgers.csv",
+        code=code("forecast_paper"),
+    output:
+        table="results/forecast/paper_mix.csv",
+        packings=directory("results/forecast/paper_packings"),
+    conda:
+        ENVIRONMENT
+    log:
+        "results/forecast/logs/paper.log",
+    message:
+        "Forecast the paper's mix from the grade of its binder"
+    shell:
+        "asphalt-nscd forecast-paper {input.recipe} --grading {input.grading} --laws {input.laws} --packings {output.packings} --output {output.table} > {log} 2>&1"
+
+
 rule forecast_wrong_recipes:
     # Recipes with one wrong input, drawn by models that are not the forecast's. Only on request.
     input:
@@ -154,6 +174,7 @@ rule publish_forecast:
         errors="results/forecast/mixes/errors.csv",
         bands="results/forecast/mixes/bands.csv",
         voids="results/forecast/voids.csv",
+        paper="results/forecast/paper_mix.csv",
         wrong="results/forecast/wrong_recipes.csv",
         figure="results/forecast/figures/fig_forecast.png",
         provenance="results/forecast/provenance.json",
@@ -163,4 +184,4 @@ rule publish_forecast:
     message:
         "Copy the table of forecasts and its figure, and fill the table of docs/forecast.md"
     shell:
-        "asphalt-nscd publish {input.overall} {input.errors} {input.bands} {input.voids} {input.wrong} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block bands={input.bands} --block voids={input.voids} --block wrong_recipes={input.wrong}"
+        "asphalt-nscd publish {input.overall} {input.errors} {input.bands} {input.voids} {input.paper} {input.wrong} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block bands={input.bands} --block voids={input.voids} --block paper_mix={input.paper} --block wrong_recipes={input.wrong}"

@@ -429,8 +429,8 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
             {
                 "temperature_C": "°C",
                 "frequency_Hz": "Hz",
-                "E_MPa": "mean modulus, MPa",
-                "measured_percent": "measured, % for 1 % of air",
+                "E_MPa": "mean, MPa",
+                "measured_percent": "measured, %",
                 "standard_error_percent": "standard error",
                 "probability": "probability",
                 "forecast_percent": "forecast",
@@ -439,16 +439,31 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
             },
         )
     ],
+    "paper_mix": [
+        Layout(
+            {
+                "temperature_C": "°C",
+                "frequency_Hz": "Hz",
+                "E_table3_MPa": "Table 3, MPa",
+                "E_soft_MPa": "50, MPa",
+                "E_middle_MPa": "42, MPa",
+                "E_hard_MPa": "35, MPa",
+                "phase_table3_deg": "Table 3, °",
+                "phase_middle_deg": "42, °",
+            },
+            figures=3,
+        )
+    ],
     "bands": [
         Layout(
             {
                 "mix": "mix",
-                "deviation_E": "model's error of ln E, from the other five",
-                "deviation_phase_deg": "of the phase, °",
-                "E_in_doubts": "moduli in doubts alone",
-                "phase_in_doubts": "phases",
-                "E_in_band": "moduli in band",
-                "phase_in_band": "phases in band",
+                "deviation_E": "error of ln E",
+                "deviation_phase_deg": "of phase, °",
+                "E_in_doubts": "E in doubts",
+                "phase_in_doubts": "phase in doubts",
+                "E_in_band": "E in band",
+                "phase_in_band": "phase in band",
             },
         )
     ],
@@ -498,14 +513,15 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
             {
                 "temperature_C": "°C",
                 "frequency_Hz": "Hz",
-                "E_MPa": "stepped, MPa",
-                "E_frequency_domain_MPa": "harmonic, MPa",
-                "E_difference_percent": "apart, %",
-                "phase_deg": "stepped, °",
-                "phase_frequency_domain_deg": "harmonic, °",
-                "phase_difference_deg": "apart, °",
+                "E_MPa": "MPa",
+                "phase_deg": "°",
+                "E_difference_percent": "from harmonic, %",
+                "phase_difference_deg": "from harmonic, °",
+                "E_from_map_percent": "from map, %",
+                "phase_from_map_deg": "from map, °",
                 "cpu_s": "CPU, s",
-            }
+            },
+            figures=3,
         ),
         Layout(
             {
