@@ -55,7 +55,9 @@ class Changes:
     size: dict[str, np.ndarray]
     log: dict[str, np.ndarray]
     density: dict[str, np.ndarray]
-    shape: dict[str, float]  # how far each may be off
+    shape: dict[
+        str, float | np.ndarray
+    ]  # how far each may be off, at all sizes and points or at each (sizes, n)
 
 
 @dataclass(frozen=True)
@@ -140,7 +142,8 @@ def changes_of(recipe: Recipe, networks: Networks) -> Changes:
             for k in (0, 1)
         )
     shift = recipe.binder.shift.factor(recipe.temperature) if recipe.shifted else 1.0
-    return Changes(2.0 * np.pi * recipe.frequency * shift, fine, log, density, dict.fromkeys(SIZES, SHAPE))
+    shape: dict[str, float | np.ndarray] = dict.fromkeys(SIZES, SHAPE)
+    return Changes(2.0 * np.pi * recipe.frequency * shift, fine, log, density, shape)
 
 
 def along_reference(changes: Changes, reference: np.ndarray) -> Changes:
@@ -158,7 +161,8 @@ def along_reference(changes: Changes, reference: np.ndarray) -> Changes:
     inside = (at >= decades.min()) & (at <= decades.max())
     moved = np.array([curve(row) for row in at]) - curve(decades)
     log = changes.log | {name: np.where(inside, moved, changes.log[name])}
-    return replace(changes, log=log, shape=changes.shape | {name: SHAPE_OF_REFERENCE})
+    own = np.where(inside, SHAPE_OF_REFERENCE, SHAPE)
+    return replace(changes, log=log, shape=changes.shape | {name: own})
 
 
 def find(changes: Changes, ratio: np.ndarray, density: np.ndarray | None = None) -> Finding:
@@ -224,10 +228,10 @@ def _log_likelihood(changes: Changes, ratio: np.ndarray, density: np.ndarray | N
     )
     total = np.zeros(len(log))
     for left, size, common, point in parts:
-        off = np.abs(size)
+        off = changes.shape[name] * np.abs(size)
         total += _normal(
             left,
-            common + point**2 * np.eye(n) + changes.shape[name] ** 2 * off[:, :, None] * off[:, None] * alike,
+            common + point**2 * np.eye(n) + off[:, :, None] * off[:, None] * alike,
         )
     if density is not None:
         off = (density - changes.density[name]) / [DENSITY, MAXIMUM]
