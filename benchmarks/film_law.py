@@ -153,10 +153,10 @@ def shears_summary(table: pd.DataFrame) -> pd.DataFrame:
     """Errors, percent: a row for each ratio of radii between free sides and each modulus of the lattice."""
     rows = []
     for (test, ratio, modulus), same in table.groupby(["test", "ratio", "M_over_Ea"], sort=False):
-        errors = 100.0 * same.set_index("gap_over_smaller_radius")["error"].round(3)
+        errors = (100.0 * same.set_index("gap_over_smaller_radius")["error"]).round(1)
         named = {"test": test, "R2 / R1": ratio, "M / Ea": modulus}
         rows.append(named | {f"gap {gap:g}": value for gap, value in errors.items()})
-    return pd.DataFrame(rows).round(1)
+    return pd.DataFrame(rows)
 
 
 def pairs_summary(table: pd.DataFrame) -> pd.DataFrame:
