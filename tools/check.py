@@ -49,6 +49,7 @@ PUBLISHED = (
     "forecast",
     "fuzz",
     "mapping",
+    "mutants",
     "paper",
     "verification",
 )

@@ -183,6 +183,10 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
     "blind_reported": [Layout(_CRITERIA)],
     "machines": [Layout({"what": "what", "target": "target"} | _CRITERIA)],
     "attack": [Layout({"what": "what", "target": "target", "percent_before": "before"} | _CRITERIA)],
+    "mutants": [
+        Layout({"room": "folder", "mutants": "tried", "noticed": "noticed"}),
+        Notes(["room"], "alive"),
+    ],
     "fatigue": [Layout({"sample": "sample", "strain_1e-6": "strain, 10⁻⁶", "cycles": "cycles"}, figures=3)],
     "fatigue_summary": [
         Layout({"what": "what", "here": "here", "beside": "beside", "beside_is": "which is"}, figures=3)
