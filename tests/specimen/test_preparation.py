@@ -167,3 +167,42 @@ def test_two_threads_pour_the_same_layer(monkeypatch):
     for name, array in one[0].items():
         np.testing.assert_array_equal(array, two[0][name])
     assert one[1] | {"cpu_s": 0.0} == two[1] | {"cpu_s": 0.0}
+
+
+def test_forces_of_contacts_push_and_bear_the_layer(poured):
+    arrays = poured.arrays
+    bodies, force, position = arrays["contacts/bodies"], arrays["contacts/force"], arrays["position"]
+    n = arrays["radius"].size
+    weight = preparation.DENSITY * 9.81 * 4.0 / 3.0 * np.pi * arrays["radius"] ** 3
+    assert -force[bodies[:, 1] >= n].sum(axis=0)[2] == pytest.approx(weight.sum(), rel=0.01)
+    between = bodies[:, 1] < n
+    apart = position[bodies[between, 1]] - position[bodies[between, 0]]
+    assert ((apart * force[between]).sum(axis=1) > 0.0).all()
+    resultant = np.zeros((n, 3))
+    np.add.at(resultant, bodies[:, 0], -force)
+    np.add.at(resultant, bodies[between, 1], force[between])
+    resultant[:, 2] -= weight
+    assert np.linalg.norm(resultant, axis=1).mean() < 0.01 * np.linalg.norm(force, axis=1).mean()
+
+
+def test_a_layer_at_rest_that_is_poured_on_stays_where_it_is(folder, poured):
+    still = Pouring(BOX, vibration=Vibration(duration=0.0))
+    deposit(folder / "deposit.h5", still, folder / "again.h5")
+    again = load(folder / "again.h5", "deposit")
+    assert np.array_equal(again.arrays["initial_position"], poured.arrays["position"])
+    moved = np.linalg.norm(again.arrays["position"] - poured.arrays["position"], axis=1)
+    assert np.median(moved) < 1e-5  # a loose grain may roll
+    assert again.attributes["layer_height_m"] == pytest.approx(poured.attributes["layer_height_m"], rel=1e-3)
+    with pytest.raises(InputError, match="spheres of the packing lie outside"):
+        deposit(folder / "deposit.h5", Pouring((0.03, 0.01, 0.14)), folder / "again.h5")
+
+
+def test_a_sphere_that_rebounds_rests_later_by_what_theory_says():
+    """From a height h it bounces for t (1 + e)/(1 - e), t = sqrt(2 h/g), instead of t."""
+    height, taken = 0.02, []
+    for restitution in (0.0, 0.5):
+        pouring = Pouring((0.01, 0.01, 0.1), vibration=Vibration(duration=0.0), restitution=restitution)
+        start = np.array([[0.005, 0.005, 2e-3 + height]]), np.array([2e-3])
+        _, said = preparation.pour_on(*start, pouring)
+        taken.append(said["steps"] * said["time_step"])
+    assert taken[1] - taken[0] == pytest.approx(2.0 * np.sqrt(2.0 * height / 9.81), abs=0.011)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,6 +21,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.geometry import read_shape
 from asphalt_nscd.measurements.shape import Shape
+from asphalt_nscd.nscd.core_cache import is_compiled
 from asphalt_nscd.packings.incoming import as_deposit
 from asphalt_nscd.packings.incoming import read_packing as read_spheres
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
@@ -30,6 +32,7 @@ from asphalt_nscd.specimen.preparation import (
     Cutting,
     Pouring,
     bonded,
+    pour_on,
     specimen_of,
     unrest,
 )
@@ -82,6 +85,24 @@ class Packing(Spheres):
     def spheres(self) -> pd.DataFrame:
         """One row for each sphere: x_m, y_m, z_m, radius_m."""
         return pd.DataFrame(np.column_stack([self.position_m, self.radius_m]), columns=SPHERE_COLUMNS)
+
+    @property
+    def contacts(self) -> pd.DataFrame:
+        """One row for each contact that bears something: bodies first and second, and the force on the second [N].
+
+        Bodies n and above are planes: x = 0, y = 0, the floor, then the sides across and the top. Raises InputError for
+        spheres that were not poured here.
+
+        >>> packing = pour({8.0: 40}, (0.04, 0.03, 0.12), vibration=Vibration(duration=0.0))
+        >>> floor = packing.contacts.query("second == 40 + 2")
+        >>> bool(abs(floor["force_z_N"].sum() / (2600 * 9.81 * 40 * np.pi / 6 * 0.008**3) + 1) < 0.01)  # their weight
+        True
+        """
+        if "contacts/force" not in self.arrays:
+            raise InputError("packing: it holds no forces; pour it here, or go on from it with `pour`.")
+        bodies, force = self.arrays["contacts/bodies"], self.arrays["contacts/force"]
+        columns = dict(zip(("force_x_N", "force_y_N", "force_z_N"), force.T, strict=True))
+        return pd.DataFrame({"first": bodies[:, 0], "second": bodies[:, 1], **columns})
 
     def __repr__(self) -> str:
         said = self.attributes
@@ -179,7 +200,7 @@ class Specimen(Spheres):
 
 @checked
 def pour(
-    counts: str | Path | pd.DataFrame | Mapping[float, int],
+    counts: str | Path | pd.DataFrame | Mapping[float, int] | Packing,
     box_m: tuple[float, float, float],
     *,
     seed: int = 0,
@@ -193,7 +214,8 @@ def pour(
     Parameters
     ----------
     counts : mapping, path or DataFrame
-        Number of spheres by diameter in mm, {6.0: 120, 10.0: 30}, or a table diameter_mm,count.
+        Number of spheres by diameter in mm, {6.0: 120, 10.0: 30}, or a table diameter_mm,count. A packing goes on
+        from where its spheres stand: with other friction, or vibrated again.
     box_m : tuple of float
         Length, width and height [m].
     seed : int
@@ -229,7 +251,12 @@ def pour(
     (40, True)
     """
     pouring = Pouring(box_m, seed, friction, vibration, time_step_s, threads)
-    arrays, attributes = pour_spheres(_counts(counts), pouring)
+    if not is_compiled("granular.step"):
+        print("pour: compiling the core, once for this version: half a minute", file=sys.stderr)
+    if isinstance(counts, Packing):
+        arrays, attributes = pour_on(counts.position_m, counts.radius_m, pouring)
+    else:
+        arrays, attributes = pour_spheres(_counts(counts), pouring)
     if doubt := unrest(attributes):
         warnings.warn(doubt, stacklevel=3)
     return Packing(arrays, attributes)

@@ -11,7 +11,12 @@ _POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.deposit.Vibrati
 
 
 @click.command()
-@click.option("--counts", required=True, type=_options.File, help="Table diameter_mm,count.")
+@click.option(
+    "--counts",
+    required=True,
+    type=_options.File,
+    help="Table diameter_mm,count; or a deposit, .h5, to go on from where its spheres stand.",
+)
 @click.option("--box-m", required=True, type=_options.Numbers(3), help="Length,width,height of the box, m.")
 @click.option("--seed", required=True, type=click.IntRange(0), help="Seed of the random lattice.")
 @click.option(
@@ -38,6 +43,12 @@ _POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.deposit.Vibrati
     type=_options.Of(f"{_VIBRATION}.duration"),
     help="Duration of the vibration, s; 0 for none.",
 )
+@click.option(
+    "--restitution",
+    default=0.0,
+    type=_options.Of(f"{_POURING}.restitution"),
+    help="Speed after an impact over that before it.",
+)
 @click.option("--time-step-s", default=4e-4, type=_options.Of(f"{_POURING}.time_step"), help="Time step, s.")
 @click.option(
     "--threads",
@@ -48,14 +59,23 @@ _POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.deposit.Vibrati
 @_options.output
 @_options.gather("vibration", stroke="stroke_mm", frequency="vibration_hz", duration="vibration_s")
 @_options.gather(
-    "pouring", box="box_m", seed="seed", friction="friction", time_step="time_step_s", threads="threads"
+    "pouring",
+    box="box_m",
+    seed="seed",
+    friction="friction",
+    restitution="restitution",
+    time_step="time_step_s",
+    threads="threads",
 )
 def command(counts: Path, pouring: dict[str, Any], vibration: dict[str, float], output: Path) -> None:
     """Pour spheres from a random lattice by gravity, then vibrate the layer with the top wall."""
+    from asphalt_nscd.nscd.core_cache import is_compiled
     from asphalt_nscd.specimen.deposit import Vibration
     from asphalt_nscd.specimen.preparation import Pouring, deposit, unrest
 
     vibration["stroke"] *= 1e-3
+    if not is_compiled("granular.step"):
+        click.echo("compiling the core, once for this version: half a minute", err=True)
     with _progress.bars("s") as progress:
         attributes = deposit(counts, Pouring(vibration=Vibration(**vibration), **pouring), output, progress)
     if doubt := unrest(attributes):

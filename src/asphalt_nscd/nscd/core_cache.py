@@ -15,6 +15,11 @@ def core_folder() -> str:
     return str(Path(cache_base()) / f"core-{digest.hexdigest()[:16]}")
 
 
+def is_compiled(kernel: str) -> bool:
+    """Whether a kernel, named as `granular.step`, stands in that folder."""
+    return any(Path(core_folder()).glob(f"*/{kernel}-*.nbi"))
+
+
 def cache_base() -> str:
     """The folder of all that is compiled, of these sources and others."""
     told = os.environ.get("ASPHALT_NSCD_CACHE")

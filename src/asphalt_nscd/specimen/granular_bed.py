@@ -312,12 +312,9 @@ class GranularBed:
         The force on all planes against the weight, less one; the mean resultant on a sphere, its weight
         included, over the mean contact force.
         """
-        assert self._start is not None
         n = self.radius.size
         weight = self.gravity / self.inverse_mass[:n, None] * time_step  # as impulses
-        first = np.repeat(np.arange(self._start.size - 1), np.diff(self._start))
-        pushed = np.flatnonzero(self.impulse.any(axis=1))
-        first, second, impulse = first[pushed], self._other[pushed], self.impulse[pushed]
+        first, second, impulse = self._pushed()
         force = np.zeros_like(self.velocity[:, :3])
         np.add.at(force, first, -impulse)
         np.add.at(force, second, impulse)
@@ -325,3 +322,18 @@ class GranularBed:
         carried = force[n:].sum(axis=0) @ total / (total @ total)
         resultant = np.linalg.norm(force[:n] + weight, axis=1).mean()
         return abs(float(carried) - 1.0), float(resultant / np.linalg.norm(impulse, axis=1).mean())
+
+    def contact_forces(self, time_step: float) -> tuple[np.ndarray, np.ndarray]:
+        """Bodies (c, 2) of the contacts that bore something in the last step, of time_step [s], and forces (c, 3) [N].
+
+        Bodies n and above are planes. A force acts on the second body, its opposite on the first.
+        """
+        first, second, impulse = self._pushed()
+        return np.stack([first, second], axis=1), impulse / time_step
+
+    def _pushed(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """First and second body (c,) and impulse (c, 3) [N s] of contacts that had one in the last step."""
+        assert self._start is not None
+        first = np.repeat(np.arange(self._start.size - 1), np.diff(self._start))
+        pushed = np.flatnonzero(self.impulse.any(axis=1))
+        return first[pushed], self._other[pushed], self.impulse[pushed]

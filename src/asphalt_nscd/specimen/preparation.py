@@ -62,6 +62,7 @@ class Pouring(Ranged):
     vibration: Vibration = Vibration()
     time_step: float = within(4e-4, "time_step_s", low=1e-6, high=1e-3)  # s
     threads: int = 1  # changes no number
+    restitution: float = within(0.0, low=0.0, below=1.0)  # of an impact, of spheres and walls
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -96,13 +97,18 @@ class Cutting(Ranged):
 
 
 def deposit(
-    counts_table: str | Path,
+    spheres: str | Path,
     pouring: Pouring,
     output: str | Path,
     progress: Progress = lambda stage, done, total: None,
 ) -> Mapping[str, Any]:
-    """Pour the spheres of counts_table, vibrate them, and save; the attributes of the file."""
-    arrays, attributes = pour(read_counts(counts_table), pouring, progress)
+    """Pour the spheres of a table of counts, or go on with those of a deposit file, and save; the file's attributes."""
+    path = Path(spheres)
+    if path.suffix == ".h5":
+        kept = load(path, DEPOSIT).arrays
+        arrays, attributes = pour_on(kept["position"], kept["radius"], pouring, progress)
+    else:
+        arrays, attributes = pour(read_counts(path), pouring, progress)
     save(output, DEPOSIT, arrays, attributes)
     return attributes
 
@@ -116,14 +122,35 @@ def pour(
 
     Arrays and attributes of a deposit file.
     """
-    began = time.process_time()
-    box, seed, friction, time_step = pouring.box, pouring.seed, pouring.friction, pouring.time_step
-    vibration = pouring.vibration
-    diameters, counts = spheres
-    position, radius = random_lattice(diameters, counts, box, np.random.default_rng(seed))
-    numerics = PouringNumerics.of(radius, time_step)
-    bed = GranularBed.in_box(position, radius, box, DENSITY, friction)
+    rng = np.random.default_rng(pouring.seed)
+    bed = _bed(*random_lattice(*spheres, pouring.box, rng), pouring)
     bed.let_fall()
+    return _settled(bed, pouring, progress)
+
+
+def pour_on(
+    position: np.ndarray,
+    radius: np.ndarray,
+    pouring: Pouring,
+    progress: Progress = lambda stage, done, total: None,
+) -> Content:
+    """The same from where spheres stand: position (n, 3) [m], radius (n,) [m]."""
+    if (position < 0.0).any() or (position > pouring.box).any():
+        raise InputError(
+            f"box_m = {pouring.box}: spheres of the packing lie outside; give a box that holds them."
+        )
+    return _settled(_bed(position, radius, pouring), pouring, progress)
+
+
+def _bed(position: np.ndarray, radius: np.ndarray, pouring: Pouring) -> GranularBed:
+    return GranularBed.in_box(position, radius, pouring.box, DENSITY, pouring.friction, pouring.restitution)
+
+
+def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
+    """Let a bed come to rest, vibrate it, and let it come to rest."""
+    began = time.process_time()
+    box, vibration, position, radius = pouring.box, pouring.vibration, bed.position.copy(), bed.radius
+    numerics = PouringNumerics.of(radius, pouring.time_step)
     history, pressure = (
         PouringHistory(),
         bed.weight() / (box[0] * box[1]) if vibration.duration > 0.0 else 0.0,
@@ -145,8 +172,9 @@ def pour(
             "time step, or leave out the smallest spheres."
         )
     attributes = {
-        "seed": seed,
-        "friction": friction,
+        "seed": pouring.seed,
+        "friction": pouring.friction,
+        "restitution": pouring.restitution,
         "stroke_m": vibration.stroke,
         "vibration_Hz": vibration.frequency,
         "vibration_s": vibration.duration,
@@ -161,7 +189,10 @@ def pour(
         **asdict(numerics),
         "cpu_s": time.process_time() - began,
     }
+    bodies, force = bed.contact_forces(pouring.time_step)
     arrays = {
+        "contacts/bodies": bodies,
+        "contacts/force": force,
         "initial_position": position,
         "poured_position": poured,
         "position": bed.position,
