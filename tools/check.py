@@ -51,6 +51,7 @@ PUBLISHED = (
     "mapping",
     "mutants",
     "paper",
+    "rigs",
     "verification",
 )
 TAKEN = ("simulations.csv", "likely.csv", "facets.csv", "extended.csv")  # of full simulations
