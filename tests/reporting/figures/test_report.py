@@ -120,7 +120,7 @@ def test_packings_of_another_program_are_named(page, results, tmp_path):
         [tmp_path / "map.png"],
         results.ladder(),
     )
-    assert "bonded spheres, from packings of another program (a.csv, b.csv), in" in said["simulated"][0]
+    assert "bonded spheres, from packings of another program (a.csv, b.csv), tested" in said["simulated"][0]
 
 
 def test_one_number_for_before_stands_on_the_first_page(page, tmp_path):

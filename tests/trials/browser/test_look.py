@@ -49,6 +49,8 @@ def test_report_has_nothing_to_complain_of(tmp_path, width):
     (tmp_path / "workflow.html").touch()
     sentence = ["A sentence about 120 moduli."]
     page = {
+        "lead": [("What is wrong", sentence[0])],
+        "bars": [("|E*|", [("as in the paper", "11.1", 100.0), ("one law", "2.5", 22.5)])],
         "measured": sentence, "simulated": sentence, "wrong": sentence, "orders": sentence,
         "law": ["a law", "Established."],
         "found": [("Data", ["Good."]), ("Simulation", ["Right."]), ("Unexplained", sentence)],
