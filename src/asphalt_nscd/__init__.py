@@ -33,6 +33,7 @@ _NAMES = {
     "Simulated": "diagnosis.run",
     "Specimen": "api.specimens",
     "Test": "api.bending",
+    "Surfaces": "specimen.preparation",
     "Vibration": "specimen.deposit",
     "bend": "api.bending",
     "compare": "api.comparison",

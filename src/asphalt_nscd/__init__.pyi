@@ -30,5 +30,6 @@ from asphalt_nscd.diagnosis.run import Draws as Draws
 from asphalt_nscd.diagnosis.run import Simulated as Simulated
 from asphalt_nscd.files.errors import InputError as InputError
 from asphalt_nscd.specimen.deposit import Vibration as Vibration
+from asphalt_nscd.specimen.preparation import Surfaces as Surfaces
 
 __version__: str

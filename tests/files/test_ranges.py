@@ -13,7 +13,7 @@ from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.cli import _options
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import Cutting, Pouring
+from asphalt_nscd.specimen.preparation import Cutting, Pouring, Surfaces
 
 NAN, INF, BOX = float("nan"), float("inf"), (0.1, 0.1, 0.1)
 
@@ -34,7 +34,7 @@ NAN, INF, BOX = float("nan"), float("inf"), (0.1, 0.1, 0.1)
         (lambda: Bonds(head="loose"), "bonds: head = 'loose' is not known; give one of free, blocked."),
         (lambda: Pouring(BOX, time_step=-1e-4), "pouring: time_step_s = -0.0001; give a number at least"),
         (lambda: Pouring(BOX, time_step=0.1), "pouring: time_step_s = 0.1;"),
-        (lambda: Pouring(BOX, friction=-0.5), "pouring: friction = -0.5;"),
+        (lambda: Surfaces(friction=-0.5), "surfaces: friction = -0.5;"),
         (lambda: Pouring(BOX, seed=-1), "pouring: seed = -1; give a number at least 0."),
         (lambda: Pouring((0.1, NAN, 0.1)), "box_m = (0.1, nan, 0.1): give length, width and height"),
         (lambda: Vibration(stroke=np.float64(-1e-3)), "vibration: stroke_m = -0.001;"),

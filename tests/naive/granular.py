@@ -32,6 +32,7 @@ def naive_step(
 ):  # fmt: skip
     """Returns (position, velocity, impulses) after dt. impulses: {(i, j): (3,)} acts on body j.
 
+    friction: between spheres, with planes.
     slabs: {(i, j): number} of the slab of each pair in the order of visits, -1 where it is with the last body.
     velocity (n + p, 6): linear and angular velocity times radius; planes last, prescribed. A mass (n + 1,)
     is that of the last plane too, which its drive (speed, largest push) moves along z.
@@ -105,7 +106,7 @@ def naive_step(
             opening = on_first @ new[i] + on_second @ new[j] - [target, 0, 0]
             excess = -opening[0]
             pace = delassus if turn in (0, ROUND - 1) else delassus / RELAXATION
-            r = coulomb(pace, opening - pace @ local[c], friction)
+            r = coulomb(pace, opening - pace @ local[c], friction[j >= n])
             delta, local[c] = r - local[c], r
             new[i] += inverse[i] * (on_first.T @ delta)
             new[j] += inverse[j] * (on_second.T @ delta)

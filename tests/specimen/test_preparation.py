@@ -12,6 +12,7 @@ from asphalt_nscd.specimen.deposit import Vibration
 from asphalt_nscd.specimen.preparation import (
     Cutting,
     Pouring,
+    Surfaces,
     deposit,
     layer_statistics,
     read_specimen,
@@ -147,7 +148,7 @@ def test_a_box_in_millimetres_is_refused_before_anything_is_poured():
     with pytest.raises(
         InputError, match=r"a box of 100 x 20 x 120 m is longer than 10 m; give its sides in m, not in"
     ):
-        preparation.pour(spheres, Pouring((100.0, 20.0, 120.0), 0, 0.2))
+        preparation.pour(spheres, Pouring((100.0, 20.0, 120.0), 0))
 
 
 @pytest.mark.parametrize("threads", [0, -1, 3])
@@ -201,8 +202,28 @@ def test_a_sphere_that_rebounds_rests_later_by_what_theory_says():
     """From a height h it bounces for t (1 + e)/(1 - e), t = sqrt(2 h/g), instead of t."""
     height, taken = 0.02, []
     for restitution in (0.0, 0.5):
-        pouring = Pouring((0.01, 0.01, 0.1), vibration=Vibration(duration=0.0), restitution=restitution)
+        surfaces = Surfaces(restitution=restitution)
+        pouring = Pouring((0.01, 0.01, 0.1), surfaces=surfaces, vibration=Vibration(duration=0.0))
         start = np.array([[0.005, 0.005, 2e-3 + height]]), np.array([2e-3])
         _, said = preparation.pour_on(*start, pouring)
         taken.append(said["steps"] * said["time_step"])
     assert taken[1] - taken[0] == pytest.approx(2.0 * np.sqrt(2.0 * height / 9.81), abs=0.011)
+
+
+def test_smooth_walls_bear_a_layer_from_below_alone():
+    """Between grains as rough as ever: the sides push, and hold nothing up. Rough walls hold up a part of it."""
+    spheres, borne = (np.array([2e-3, 4e-3]), np.array([400, 60])), []
+    for wall_friction in (0.0, None):
+        surfaces = Surfaces(0.3, wall_friction)
+        arrays, said = preparation.pour(spheres, Pouring(BOX, 1, surfaces, vibration=Vibration(duration=0.0)))
+        assert said["wall_friction"] == (0.3 if wall_friction is None else 0.0)
+        n, bodies, force = arrays["radius"].size, arrays["contacts/bodies"], arrays["contacts/force"]
+        side = np.isin(bodies[:, 1], [n, n + 1, n + 3, n + 4])
+        along = np.linalg.norm(force[side], axis=1) - np.abs(force[side][:, :2]).max(axis=1)
+        assert (along.max() > 0.0) == (wall_friction is None)
+        between = bodies[:, 1] < n
+        apart = arrays["position"][bodies[between, 1]] - arrays["position"][bodies[between, 0]]
+        normal = (apart * force[between]).sum(axis=1) / np.linalg.norm(apart, axis=1)
+        assert (np.linalg.norm(force[between], axis=1) > 1.01 * normal).any()  # grains rub as ever
+        borne.append(-force[side][:, 2].sum() / -force[bodies[:, 1] >= n][:, 2].sum())
+    assert abs(borne[0]) < 1e-12 and borne[1] > 1e-3

@@ -31,6 +31,7 @@ from asphalt_nscd.specimen.preparation import (
     SPECIMEN,
     Cutting,
     Pouring,
+    Surfaces,
     bonded,
     pour_on,
     specimen_of,
@@ -204,7 +205,7 @@ def pour(
     box_m: tuple[float, float, float],
     *,
     seed: int = 0,
-    friction: float = 0.2,
+    surfaces: Surfaces = Surfaces(),  # noqa: B008  frozen
     vibration: Vibration = Vibration(),  # noqa: B008  frozen
     time_step_s: float = 4e-4,
     threads: int = 1,
@@ -215,13 +216,13 @@ def pour(
     ----------
     counts : mapping, path or DataFrame
         Number of spheres by diameter in mm, {6.0: 120, 10.0: 30}, or a table diameter_mm,count. A packing goes on
-        from where its spheres stand: with other friction, or vibrated again.
+        from where its spheres stand: with other surfaces, or vibrated again.
     box_m : tuple of float
         Length, width and height [m].
     seed : int
         Of the lattice. The same seed gives the same packing.
-    friction : float
-        Of spheres and walls.
+    surfaces : Surfaces
+        Friction between spheres and with walls, and restitution of impacts.
     vibration : Vibration
         Stroke [m], frequency [Hz], duration [s]; a duration of 0 is none.
     time_step_s : float
@@ -250,7 +251,7 @@ def pour(
     >>> packing.radius_m.size, 0.4 < packing.attributes["solid_fraction"] < 0.7
     (40, True)
     """
-    pouring = Pouring(box_m, seed, friction, vibration, time_step_s, threads)
+    pouring = Pouring(box_m, seed, surfaces, vibration, time_step_s, threads)
     if not is_compiled("granular.step"):
         print("pour: compiling the core, once for this version: half a minute", file=sys.stderr)
     if isinstance(counts, Packing):

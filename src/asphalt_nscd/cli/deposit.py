@@ -7,7 +7,8 @@ import click
 
 from asphalt_nscd.cli import _options, _progress
 
-_POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.deposit.Vibration"
+_POURING, _SURFACES = "specimen.preparation.Pouring", "specimen.preparation.Surfaces"
+_VIBRATION = "specimen.deposit.Vibration"
 
 
 @click.command()
@@ -22,8 +23,14 @@ _POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.deposit.Vibrati
 @click.option(
     "--friction",
     default=0.2,
-    type=_options.Of(f"{_POURING}.friction"),
-    help="Coefficient of friction between spheres and with walls.",
+    type=_options.Of(f"{_SURFACES}.friction"),
+    help="Coefficient of friction between spheres.",
+)
+@click.option(
+    "--wall-friction",
+    default=None,
+    type=_options.Of(f"{_SURFACES}.wall_friction"),
+    help="The same with walls; if not given, that between spheres.",
 )
 @click.option(
     "--stroke-mm",
@@ -46,7 +53,7 @@ _POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.deposit.Vibrati
 @click.option(
     "--restitution",
     default=0.0,
-    type=_options.Of(f"{_POURING}.restitution"),
+    type=_options.Of(f"{_SURFACES}.restitution"),
     help="Speed after an impact over that before it.",
 )
 @click.option("--time-step-s", default=4e-4, type=_options.Of(f"{_POURING}.time_step"), help="Time step, s.")
@@ -62,21 +69,27 @@ _POURING, _VIBRATION = "specimen.preparation.Pouring", "specimen.deposit.Vibrati
     "pouring",
     box="box_m",
     seed="seed",
-    friction="friction",
-    restitution="restitution",
     time_step="time_step_s",
     threads="threads",
 )
-def command(counts: Path, pouring: dict[str, Any], vibration: dict[str, float], output: Path) -> None:
+@_options.gather("surfaces", friction="friction", wall_friction="wall_friction", restitution="restitution")
+def command(
+    counts: Path,
+    pouring: dict[str, Any],
+    surfaces: dict[str, float],
+    vibration: dict[str, float],
+    output: Path,
+) -> None:
     """Pour spheres from a random lattice by gravity, then vibrate the layer with the top wall."""
     from asphalt_nscd.nscd.core_cache import is_compiled
     from asphalt_nscd.specimen.deposit import Vibration
-    from asphalt_nscd.specimen.preparation import Pouring, deposit, unrest
+    from asphalt_nscd.specimen.preparation import Pouring, Surfaces, deposit, unrest
 
     vibration["stroke"] *= 1e-3
     if not is_compiled("granular.step"):
         click.echo("compiling the core, once for this version: half a minute", err=True)
     with _progress.bars("s") as progress:
-        attributes = deposit(counts, Pouring(vibration=Vibration(**vibration), **pouring), output, progress)
+        fallen = Pouring(surfaces=Surfaces(**surfaces), vibration=Vibration(**vibration), **pouring)
+        attributes = deposit(counts, fallen, output, progress)
     if doubt := unrest(attributes):
         click.echo(f"warning: {doubt}", err=True)

@@ -82,8 +82,9 @@ class GranularBed:
     inverse_mass: np.ndarray  # (n + p,) 1/kg
     plane_point: np.ndarray  # (p, 3) m
     plane_normal: np.ndarray  # (p, 3), pointing to the spheres
-    friction: float
+    friction: float  # of spheres
     restitution: float = 0.0
+    wall_friction: float | None = None  # None: that of spheres
     gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
     time: float = 0.0
     steps: int = 0
@@ -115,6 +116,7 @@ class GranularBed:
         density: float,
         friction: float,
         restitution: float = 0.0,
+        wall_friction: float | None = None,
     ) -> GranularBed:
         """Spheres at rest in a box [0, length] x [0, width] x [0, height]; plane 5 is its top."""
         size = np.asarray(box, float)
@@ -130,6 +132,7 @@ class GranularBed:
             plane_normal=normal,
             friction=friction,
             restitution=restitution,
+            wall_friction=wall_friction,
         )
 
     def let_fall(self) -> None:
@@ -169,7 +172,7 @@ class GranularBed:
             self._workspace,
             self.drive,
             dt,
-            self.friction,
+            (self.friction, self.friction if self.wall_friction is None else self.wall_friction),
             self.restitution,
             numerics.recovery_speed,
             numerics.allowed_overlap,

@@ -53,16 +53,28 @@ TOUCHING = 1e-6  # m, gap below which two spheres count as touching
 
 
 @dataclass(frozen=True)
+class Surfaces(Ranged):
+    """Of grains and walls while they are poured.
+
+    >>> Surfaces(friction=0.3, wall_friction=0.0).friction  # rough grains between smooth walls
+    0.3
+    """
+
+    friction: float = within(0.2, low=0.0, high=100.0)  # between spheres
+    wall_friction: float | None = within(None, low=0.0, high=100.0)  # with walls; None: that between spheres
+    restitution: float = within(0.0, low=0.0, below=1.0)  # of an impact, with spheres and walls
+
+
+@dataclass(frozen=True)
 class Pouring(Ranged):
     """Where spheres fall, and how."""
 
     box: tuple[float, float, float]  # length, width, height, m
     seed: int = within(0, low=0)  # of the random lattice
-    friction: float = within(0.2, low=0.0, high=100.0)  # of spheres and walls
+    surfaces: Surfaces = Surfaces()
     vibration: Vibration = Vibration()
     time_step: float = within(4e-4, "time_step_s", low=1e-6, high=1e-3)  # s
     threads: int = 1  # changes no number
-    restitution: float = within(0.0, low=0.0, below=1.0)  # of an impact, of spheres and walls
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -143,7 +155,16 @@ def pour_on(
 
 
 def _bed(position: np.ndarray, radius: np.ndarray, pouring: Pouring) -> GranularBed:
-    return GranularBed.in_box(position, radius, pouring.box, DENSITY, pouring.friction, pouring.restitution)
+    surfaces = pouring.surfaces
+    return GranularBed.in_box(
+        position,
+        radius,
+        pouring.box,
+        DENSITY,
+        surfaces.friction,
+        surfaces.restitution,
+        surfaces.wall_friction,
+    )
 
 
 def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
@@ -173,8 +194,9 @@ def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
         )
     attributes = {
         "seed": pouring.seed,
-        "friction": pouring.friction,
-        "restitution": pouring.restitution,
+        "friction": bed.friction,
+        "wall_friction": bed.friction if bed.wall_friction is None else bed.wall_friction,
+        "restitution": bed.restitution,
         "stroke_m": vibration.stroke,
         "vibration_Hz": vibration.frequency,
         "vibration_s": vibration.duration,

@@ -104,7 +104,7 @@ def test_sweeps_block_by_block_are_those_one_by_one(relaxation):
     last = np.empty(len(workspace.motion), np.int32)
     blocks, begin, count, visits = slabs.blocks, 0, slabs.begin[1], range(300)
     for quiet, calm in ((0.3, np.inf), (np.inf, 0.5)):
-        *sums, noted = sweep_blocks(blocks, begin, count, 8, 0.3, relaxation, quiet, calm, workspace)
+        *sums, noted = sweep_blocks(blocks, begin, count, 8, (0.3, 0.3), relaxation, quiet, calm, workspace)
         *expected, lively, kinds = sweep_one_by_one(
             bodies, packed, motion, 0.3, visits, relaxation, quiet, calm
         )

@@ -48,6 +48,7 @@ def test_naive_twin(restitution, recovery_speed, allowed_overlap, penetration, l
     rng = np.random.default_rng(9 if times == 1 else 17)
     position, radius = random_lattice(np.array([3e-3, 6e-3]), times * np.array([10, 3]), box, rng)
     pile = balls(position, radius, box, 0.4, restitution)
+    pile.wall_friction = 0.2
     pile.team = Team(1 if times == 1 else 2)
     pile.velocity[: radius.size] = rng.normal(0, 0.5, (radius.size, 6))
     pile.position[1] = pile.position[0] + (radius[:2].sum() - 1e-5) * np.array([0.6, 0.0, 0.8])  # an overlap
@@ -71,7 +72,7 @@ def test_naive_twin(restitution, recovery_speed, allowed_overlap, penetration, l
         most_slabs = max(most_slabs, *slabs.values())
         position, velocity, impulses = naive_step(
             position, radius, velocity, mass(pile), points, pile.plane_normal, pile.gravity, impulses,
-            dt=settings.time_step, friction=0.4, restitution=restitution, recovery_speed=recovery_speed,
+            dt=settings.time_step, friction=(0.4, 0.2), restitution=restitution, recovery_speed=recovery_speed,
             allowed_overlap=allowed_overlap,
             margin=meeting_gap(settings, velocity, plane_velocity), tolerance=settings.tolerance, most_sweeps=40,
             penetration=settings.falling_penetration, enough_sweeps=settings.falling_sweeps, slabs=slabs,
@@ -94,6 +95,7 @@ def test_naive_twin_of_the_driven_wall(push):
     rng = np.random.default_rng(9)
     position, radius = random_lattice(np.array([3e-3, 6e-3]), np.array([10, 3]), (0.012,) * 3, rng)
     pile = balls(position, radius, (0.012,) * 3, 0.4)
+    pile.wall_friction = 0.2
     pile.velocity[: radius.size] = rng.normal(0, 0.2, (radius.size, 6))
     pile.hang_wall(pile.top() + 1e-5, 2e-3)
     pile.drive[:] = -0.2, push
@@ -107,7 +109,7 @@ def test_naive_twin_of_the_driven_wall(push):
         pile.advance(settings)
         position, velocity, impulses = naive_step(
             position, radius, velocity, masses, points, pile.plane_normal, pile.gravity, impulses,
-            dt=settings.time_step, friction=0.4, restitution=0.0, recovery_speed=0.0, allowed_overlap=0.0,
+            dt=settings.time_step, friction=(0.4, 0.2), restitution=0.0, recovery_speed=0.0, allowed_overlap=0.0,
             margin=meeting_gap(settings, velocity, faster), tolerance=1e-7, most_sweeps=60,
             drive=pile.drive, slabs=slab_numbers(pile),
         )  # fmt: skip

@@ -48,7 +48,7 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
             np.zeros(32, int),
             slabs,
             workspace,
-            0.5,
+            (0.5, 0.5),
             np.zeros(2),
             tolerance,
             np.inf,
@@ -63,7 +63,7 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
     once_more = [
         sweep_blocks(
             slabs.blocks, slabs.begin[slab], slabs.begin[slab + 1] - slabs.begin[slab], WIDTH * slabs.begin[slab],
-            0.5, 1.0, 0.0, np.inf, workspace,
+            (0.5, 0.5), 1.0, 0.0, np.inf, workspace,
         )
         for slab in sorted(numbers, key=lambda slab: slab % 2)
     ]  # fmt: skip

@@ -88,6 +88,7 @@ def sweep_blocks(blocks, begin, count, noted_from, friction, relaxation, quiet, 
     Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than
     they may by more than `calm` [m/s], are noted in workspace.lively from `noted_from` on. Returns the sums of
     squares of the change of impulse and of the impulse, the largest excess of speed [m/s], how many were noted.
+    friction: between bodies that yield, with those that do not.
     """
     packed, motion = workspace.packed, workspace.motion
     changed, size, fastest = zeros(), zeros(), zeros()
@@ -95,7 +96,8 @@ def sweep_blocks(blocks, begin, count, noted_from, friction, relaxation, quiet, 
     for block in range(begin, begin + count):
         contact = gather(packed, blocks, block, 0)
         i, j = gather(motion, blocks, block, 1), gather(motion, blocks, block, 2)
-        x, y, z, excess = new_impulse(contact, i, j, broadcast(friction), broadcast(relaxation))
+        rough = select_greater(j[3], zeros(), broadcast(friction[0]), broadcast(friction[1]))
+        x, y, z, excess = new_impulse(contact, i, j, rough, broadcast(relaxation))
         dx, dy, dz = x - contact[3], y - contact[4], z - contact[5]
         push(motion, blocks, block, contact, i, j, dx, dy, dz)
         nx, ny, nz = contact[:3]
@@ -150,15 +152,17 @@ def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, quiet, c
     """A sweep over every other slab from part[0] on, below part[1].
 
     Over all contacts, or over those that were noted. Notes contacts anew if `quiet` or `calm` is finite (sweep_blocks).
+    friction: between spheres, with walls; all contacts of the last slab are with the last wall, which may yield.
     """
     account = workspace.account
     for s in range(part[0], part[1], 2):
         start, count, of_lively = slabs.begin[s], slabs.begin[s + 1] - slabs.begin[s], WIDTH * slabs.begin[s]
         blocks = slabs.blocks
+        rough = friction if s < slabs.begin.shape[0] - 2 else (friction[1], friction[1])
         if not everyone:
             blocks, start, count = workspace.lively_blocks, of_lively, int(account[s, LIVELY_BLOCKS])
         changed, size, fastest, noted = sweep_blocks(
-            blocks, start, count, of_lively, friction, relaxation, quiet, calm, workspace
+            blocks, start, count, of_lively, rough, relaxation, quiet, calm, workspace
         )
         if everyone:
             account[s, CHANGED], account[s, SIZE] = changed, size

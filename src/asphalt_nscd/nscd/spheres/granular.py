@@ -237,6 +237,7 @@ def step(
     slabs: the pairs (Slabs); workspace: for at least as many (Workspace).
     Overlaps beyond allowed_overlap [m] are undone, no faster than by recovery_speed [m/s] (zero: never).
     Sweeps end as in sweep_until; penetration [m] is what a step may add to an overlap.
+    friction: between spheres, with planes.
     drive (2,): speed [m/s] and largest impulse [N s] of the last plane where its mass is finite (guide_wall).
     Returns (sweeps, relative change of the last sweep, largest overlap at the start [m]).
     """
