@@ -333,6 +333,33 @@ rule publish_films:
         "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark --document docs --block films={input.table}"
 
 
+rule benchmark_density:
+    # How dense a layer becomes, by the height of its fall and the friction of the walls. A minute: only on request.
+    input:
+        compiled="<results>/compiled/deposit",
+        counts=STUDY["specimens"]["counts_table"],
+        code=["benchmarks/density.py", code("deposit")],
+    output:
+        "results/benchmark/density.csv",
+    log:
+        "results/benchmark/logs/density.log",
+    message:
+        "Pour from three heights, and between smooth walls"
+    shell:
+        MEASURE + "/density.py {input.counts} --output {output} > {log} 2>&1"
+
+
+rule publish_density:
+    # What is committed of them, and their table in docs. Only on request: snakemake --cores 1 publish_density
+    input:
+        table="results/benchmark/density.csv",
+        code=code("publish"),
+    message:
+        "Copy the densities of layers, and fill their table in docs"
+    shell:
+        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark --document docs --block density={input.table}"
+
+
 rule benchmark_provenance:
     input:
         "results/benchmark/benchmark.csv",
