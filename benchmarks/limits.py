@@ -58,7 +58,9 @@ def sweep_all(slabs, workspace, friction, sweeps):
     for _ in range(sweeps):
         for s in range(slabs.begin.shape[0] - 1):
             count = slabs.begin[s + 1] - slabs.begin[s]
-            sweep_blocks(slabs.blocks, slabs.begin[s], count, 0, friction, 1.0, np.inf, np.inf, workspace)
+            sweep_blocks(
+                slabs.blocks, slabs.begin[s], count, 0, (friction, friction), 1.0, np.inf, np.inf, workspace
+            )
 
 
 def sphere_sweeps(deposit: Path, _: Path) -> Work:

@@ -119,9 +119,15 @@ def pour(rng: Random) -> Call:
     box = tuple(1e-3 * diameters.max() * rng.uniform([1.0, 1.0, 3.0], [6.0, 6.0, 30.0]))
     vibration = of_ranges(an.Vibration, rng, stroke=3e-3, frequency=30.0, duration=0.1)
     step = number(rng, Range(low=1e-6, high=1e-3), 4e-4)
-    friction, seed = number(rng, Range(low=0.0, high=100.0), 0.3), int(rng.integers(0, 2**32))
+    surfaces = of_ranges(an.Surfaces, rng, friction=0.3, wall_friction=0.3, restitution=0.1)
+    seed = int(rng.integers(0, 2**32))
     return lambda: an.pour(
-        counts, box, seed=seed, friction=friction, vibration=an.Vibration(**vibration), time_step_s=step
+        counts,
+        box,
+        seed=seed,
+        surfaces=an.Surfaces(**surfaces),
+        vibration=an.Vibration(**vibration),
+        time_step_s=step,
     )
 
 
