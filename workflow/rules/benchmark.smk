@@ -118,15 +118,14 @@ rule benchmark_limits:
 
 
 rule publish_limits:
-    # What is committed of them, and their table in docs. Only on request: snakemake --cores 2 publish_limits
+    # What is committed of them. Only on request: snakemake --cores 2 publish_limits
     input:
         table="results/benchmark/limits.csv",
         code=code("publish"),
     message:
-        "Copy the limits of the stages, and fill their table in docs"
+        "Copy the limits of the stages"
     shell:
         "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark"
-        " --document docs --block limits={input.table}"
 
 
 rule benchmark_layer:
@@ -166,18 +165,17 @@ rule benchmark_million:
 
 
 rule publish_layer:
-    # What is committed of these, and their tables in docs. Only on request: snakemake --cores 2 publish_layer
+    # What is committed of these. Only on request: snakemake --cores 2 publish_layer
     input:
         layer="results/benchmark/layer.csv",
         threads="results/benchmark/threads.csv",
         million="results/benchmark/million.csv",
         code=code("publish"),
     message:
-        "Copy the costs of the large layer, and fill their tables in docs"
+        "Copy the costs of the large layer"
     shell:
         "asphalt-nscd publish {input.layer} {input.threads} {input.million} --root results/benchmark"
-        " --output results/published/benchmark --document docs"
-        " --block layer={input.layer} --block threads={input.threads} --block million={input.million}"
+        " --output results/published/benchmark"
 
 
 rule benchmark_growth:

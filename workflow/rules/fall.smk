@@ -142,6 +142,6 @@ rule publish_fall:
     conda:
         ENVIRONMENT
     message:
-        "Copy the table and the figure of the fall, and fill the table of docs/core.md"
+        "Copy the table and the figure of the fall"
     shell:
-        "asphalt-nscd publish {input.table} {input.figure} {input.provenance} --root results/fall --output results/published/fall --document docs --block falls={input.table}"
+        "asphalt-nscd publish {input.table} {input.figure} {input.provenance} --root results/fall --output results/published/fall"

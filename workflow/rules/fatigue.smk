@@ -163,6 +163,6 @@ rule publish_fatigue:
     conda:
         ENVIRONMENT
     message:
-        "Copy the tables of fatigue and its figure, and fill the tables of docs/fatigue.md"
+        "Copy the tables of fatigue and its figure, and fill the summary of docs/fatigue.md"
     shell:
-        "asphalt-nscd publish {input.table} {input.summary} {input.figure} {input.provenance} --root results/fatigue --output results/published/fatigue --document docs --block fatigue={input.table} --block fatigue_summary={input.summary}"
+        "asphalt-nscd publish {input.table} {input.summary} {input.figure} {input.provenance} --root results/fatigue --output results/published/fatigue --document docs --block fatigue_summary={input.summary}"

@@ -151,4 +151,4 @@ rule publish_mapping:
     message:
         "Copy the table of mappings and its figure, and fill the table of docs/mapping.md"
     shell:
-        "asphalt-nscd publish {input.table} {input.poisson} {input.figure} {input.provenance} --root results/mapping --output results/published/mapping --document docs --block mapping={input.summary} --block poisson={input.poisson}"
+        "asphalt-nscd publish {input.table} {input.poisson} {input.figure} {input.provenance} --root results/mapping --output results/published/mapping --document docs --block mapping={input.summary}"

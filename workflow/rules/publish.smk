@@ -2,9 +2,8 @@
 #   snakemake --cores 1 publish
 
 BLOCKS = {"samples": "<results>/samples.csv", "timings": "<results>/timings.md"}
-BLOCKS |= {name: "<results>/ladder.csv" for name in ("ladder", "gain")} if COMMON_LAW else {}
-BLOCKS |= {"families": "<results>/families.csv"} if FAMILIES else {}
-BLOCKS |= {name: f"<results>/{name}.csv" for name in ("bond_readings", "levels", "reconstructions", "smoothness", "ensemble", "time_steps", "rivals") if name in TABLES}
+BLOCKS |= {"ladder": "<results>/ladder.csv"} if COMMON_LAW else {}
+BLOCKS |= {name: f"<results>/{name}.csv" for name in ("bond_readings", "reconstructions", "time_steps") if name in TABLES}
 BLOCKS |= {"outputs": "<results>/outputs.csv"} if "outputs" in TABLES else {}
 
 
@@ -162,9 +161,9 @@ rule publish_cluster:
         provenance="results/cluster/provenance.json",
         code=code("publish"),
     message:
-        "Copy what a run through Slurm cost, and fill its table into docs"
+        "Copy what a run through Slurm cost"
     shell:
-        "asphalt-nscd publish {input.table} {input.provenance} --root results/cluster --output results/published/cluster --document docs --block cluster={input.table}"
+        "asphalt-nscd publish {input.table} {input.provenance} --root results/cluster --output results/published/cluster"
 
 
 rule rule_graph:

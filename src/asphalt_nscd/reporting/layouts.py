@@ -52,55 +52,23 @@ class Notes:
 
 
 @dataclass(frozen=True)
-class Pivot:
-    """One quantity in two directions: a row for each value of one column, a column for each value of another."""
-
-    down: str
-    heading: str
-    across: str
-    value: str
-    sentence: str = ""
-
-    @property
-    def columns(self) -> tuple[str, str, str]:
-        """What the table must hold."""
-        return self.down, self.across, self.value
-
-    def markdown(self, table: pd.DataFrame) -> str:
-        """The table for a page of the documents, rows and columns in the order of their values."""
-        grid = table.pivot(index=self.down, columns=self.across, values=self.value)
-        shown = grid.rename(columns="{:g}".format).rename_axis(self.heading).reset_index()
-        return f"{self.sentence}\n\n" + _grid(shown, figures=3)
-
-
-@dataclass(frozen=True)
 class Rungs:
-    """Errors of one quantity in ladder.csv: a row for each temperature, a column for each rung.
-
-    besides: columns that are not of a rung alone, with their headings: "law" is that of the first rung, "held_out" that
-    of the last. scatter: whether that of one test stands at the end.
-    """
+    """Errors of one quantity in ladder.csv: a row for each temperature, a column for each rung."""
 
     quantity: str
-    besides: Mapping[str, str] = field(default_factory=dict)
-    sentence: str = ""
-    scatter: bool = False
+    sentence: str
 
     def markdown(self, table: pd.DataFrame) -> str:
         """The table for a page of the documents, a column for each rung."""
-        error, rungs = f"mre_{self.quantity}", list(dict.fromkeys(table["rung"]))
+        error = f"mre_{self.quantity}"
         by = {rung: rows.set_index("temperature_C") for rung, rows in table.groupby("rung", sort=False)}
-        first, last = by[rungs[0]], by[rungs[-1]]
+        first = next(iter(by.values()))
         columns = {}
         if f"{error}_published_percent" in first:
             columns["printed"] = first[f"{error}_published_percent"]
-        columns |= {rung: by[rung][f"{error}_percent"] for rung in rungs}
-        for kind, heading in self.besides.items():
-            columns[heading] = (last if kind == "held_out" else first)[f"{error}_{kind}_percent"]
-        if self.scatter:
-            columns["scatter"] = first[f"scatter_{self.quantity}_percent"]
+        columns |= {rung: rows[f"{error}_percent"] for rung, rows in by.items()}
         shown = pd.DataFrame(columns).rename_axis("T, °C").reset_index()
-        return (f"{self.sentence}\n\n" if self.sentence else "") + _grid(shown, figures=3)
+        return f"{self.sentence}\n\n" + _grid(shown, figures=3)
 
 
 def shown(block: str, table: pd.DataFrame) -> str:
@@ -123,10 +91,20 @@ _CRITERIA = {
     "of": "of",
     "met": "met",
 }
-BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
+BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
     "ladder": [
-        Rungs("E", sentence="Modulus |E\\*|, mean relative error in percent:"),
-        Rungs("phase", sentence="Phase angle, mean relative error in percent:"),
+        Rungs("E", "Modulus |E\\*|, mean relative error in percent:"),
+        Rungs("phase", "Phase angle, mean relative error in percent:"),
+    ],
+    "calls": [
+        Layout(
+            {"function": "function"}
+            | {
+                name: name.replace("_", " ")
+                for name in ("calls", "result", "sentence", "traceback", "no_end")
+            },
+            where={"function": ("all",)},
+        )
     ],
     "wild": [
         Layout(
@@ -145,20 +123,13 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
         Layout(
             {
                 "sample": "sample",
-                "spheres": "spheres",
                 "bonds": "bonds",
                 "solid_fraction": "solid fraction",
                 "tests_with_broken_bonds": "breaks",
                 "E_over_law": "E over law",
-                "E_over_law_lowest": "least",
-                "E_over_law_highest": "most",
                 "largest_phase_difference_deg": "phase off, °",
             }
         ),
-    ],
-    "gain": [
-        Rungs("E", {"law": "Burgers", "held_out": "held out"}, "Modulus |E\\*|, percent:", scatter=True),
-        Rungs("phase", {"law": "Burgers", "held_out": "held out"}, "Phase angle, percent:", scatter=True),
     ],
     "outputs": [
         Layout({"in the paper": "in the paper", "files": "files", "minutes": "minutes"}, figures=3),
@@ -166,6 +137,7 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
     "blind": [
         Layout(
             _CRITERIA,
+            where={"met": ("yes", "no")},
             shorter={
                 "the same of averages over specimens, which hide what one of them does": (
                     "the same of averages over specimens"
@@ -179,15 +151,14 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
             },
         )
     ],
-    "blind_real": [Layout(_CRITERIA)],
+    "blind_real": [Layout(_CRITERIA, where={"met": ("yes", "no")})],
     "blind_reported": [Layout(_CRITERIA)],
-    "machines": [Layout({"what": "what", "target": "target"} | _CRITERIA)],
-    "attack": [Layout({"what": "what", "target": "target", "percent_before": "before"} | _CRITERIA)],
+    "machines": [Layout(_CRITERIA)],
+    "attack": [Layout(_CRITERIA, where={"met": ("no",)})],
     "mutants": [
         Layout({"room": "folder", "mutants": "tried", "noticed": "noticed"}),
         Notes(["room"], "alive"),
     ],
-    "fatigue": [Layout({"sample": "sample", "strain_1e-6": "strain, 10⁻⁶", "cycles": "cycles"}, figures=3)],
     "fatigue_summary": [
         Layout({"what": "what", "here": "here", "beside": "beside", "beside_is": "which is"}, figures=3)
     ],
@@ -209,37 +180,13 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
             {
                 "mapping": "bonds",
                 "kt_over_kn": "kt / kn",
-                "spheres": "spheres",
-                "packings": "packings",
                 "least E / law": "least",
                 "mean": "mean",
                 "largest": "largest",
                 "in tension": "in tension",
                 "Poisson's ratio": "ν",
             },
-            where={"spheres": (1000, 14160)},
-        )
-    ],
-    "poisson": [
-        Layout(
-            {name: name for name in ("kt / kn", "affine E", "network E")}
-            | {"affine Poisson's ratio": "affine ν", "network Poisson's ratio": "network ν"},
-            where={"kt / kn": (0.02, 0.2, 0.37, 0.5, 1, 2, 10)},
-        )
-    ],
-    "cluster": [
-        Layout(
-            {"what": "what", "paper": "paper"},
-            where={
-                "what": (
-                    "Slurm jobs",
-                    "steps in them",
-                    "own cost, percent of what is held",
-                    "seconds from first to last",
-                    "files of results compared",
-                    "files that differ from a run without Slurm",
-                )
-            },
+            where={"spheres": (14160,)},
         )
     ],
     "outside": [
@@ -249,10 +196,7 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
                 "seed": "seed",
                 "bonds": "bonds",
                 "solid_fraction": "solid fraction",
-                "coordination": "contacts",
-                "E_GPa": "modulus, GPa",
                 "E_over_law": "over law",
-                "phase_deg": "phase, °",
             }
         ),
         Notes(["poured_by", "bonds"], "remark"),
@@ -295,22 +239,6 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
             figures=3,
         )
     ],
-    "levels": [
-        Layout(
-            {
-                "reading": "reading",
-                "temperature_C": "T, °C",
-                "broken_bonds": "broken",
-                "unbroken": "without strength",
-                "E_over_law": "with it",
-                "expected": "expected",
-                "published_E_percent": "printed, %",
-                "allowed": "allowed",
-            },
-            shorter={"dmin after the reduction of volume, looser layer": "likeliest"},
-            where={"temperature_C": (-10, 30)},
-        )
-    ],
     "time_steps": [
         Layout(
             {
@@ -320,70 +248,6 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
                 "sweeps_per_step": "sweeps",
                 "E_over_solution": "over solved",
                 "phase_difference_deg": "phase off, °",
-                "right": "right",
-            },
-            figures=3,
-        )
-    ],
-    "smoothness": [
-        Pivot(
-            "temperature_C",
-            "T, °C",
-            "phase_weight",
-            "scatter_percent",
-            "Scatter that meets both errors at T, for a weight of the phase of:",
-        )
-    ],
-    "ensemble": [
-        Layout(
-            {
-                "tests": "tests",
-                f"burgers_{quantity}_percent": "Burgers, printed",
-                f"nearest_{quantity}_percent": "one law, nearest data",
-                f"mean_{quantity}_percent": "mean of draws",
-                f"lowest_{quantity}_percent": "lowest",
-                f"highest_{quantity}_percent": "highest",
-            },
-            sentence,
-            figures=3,
-        )
-        for quantity, sentence in (
-            ("E", "Modulus |E\\*|, mean relative error in percent:"),
-            ("phase", "Phase angle, mean relative error in percent:"),
-        )
-    ],
-    "rivals": [
-        Layout(
-            {"data": "data", "law": "law"}
-            | {
-                f"{kind}_{quantity}_percent": heading
-                for kind, heading in (
-                    ("fitted", "fitted"),
-                    ("inner_temperatures", "inner T"),
-                    ("end_temperatures", "end T"),
-                    ("inner_frequencies", "inner f"),
-                    ("end_frequencies", "end f"),
-                )
-            },
-            sentence,
-            figures=3,
-            where={"data": ("reconstructed", "ncat_N2-1_RH")},
-        )
-        for quantity, sentence in (
-            ("E", "Modulus |E\\*|, mean relative error in percent:"),
-            ("phase", "Phase angle, mean relative error in percent:"),
-        )
-    ],
-    "families": [
-        Layout(
-            {
-                "data": "data",
-                "mre_E_burgers_percent": "modulus, Burgers",
-                "mre_E_law_percent": "one law",
-                "mre_E_held_out_percent": "left out",
-                "mre_phase_burgers_percent": "phase, Burgers",
-                "mre_phase_law_percent": "one law ",
-                "mre_phase_held_out_percent": "left out ",
             },
             figures=3,
         )
@@ -392,18 +256,6 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
         Layout(
             {"case": "table", "cpu_s": "CPU time, s", "memory_MB": "memory, MB"},
         )
-    ],
-    "layer": [
-        Layout(
-            {
-                "stage": "stage",
-                "threads": "threads",
-                "wall_s": "wall time, s",
-                "cpu_s": "CPU time, s",
-                "memory_MB": "memory, MB",
-            }
-        ),
-        Notes(["stage"], "remark"),
     ],
     "forecast": [
         Layout(
@@ -486,32 +338,6 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
             },
         )
     ],
-    "threads": [
-        Layout(
-            {
-                "work": "work",
-                "spheres": "spheres",
-                "threads": "threads",
-                "speed_up": "times as fast as one",
-                "lowest": "lowest",
-                "highest": "highest",
-                "wall_s_of_one": "wall time of one, s",
-            }
-        )
-    ],
-    "limits": [
-        Layout(
-            {
-                "work": "work",
-                "alone_s": "alone, s",
-                "slower": "on both, times as long",
-                "bytes": "bytes",
-                "all_cores_GB_s": "on both, GB/s",
-                "of_copy_percent": "of copying, %",
-            },
-            figures=3,
-        )
-    ],
     "films": [
         Layout(
             {
@@ -520,38 +346,12 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
                 "E_MPa": "MPa",
                 "phase_deg": "°",
                 "E_difference_percent": "from harmonic, %",
-                "phase_difference_deg": "from harmonic, °",
+                "phase_difference_deg": " °",
                 "E_from_map_percent": "from map, %",
-                "phase_from_map_deg": "from map, °",
+                "phase_from_map_deg": "° ",
                 "cpu_s": "CPU, s",
             },
             figures=3,
-        ),
-        Layout(
-            {
-                "temperature_C": "°C",
-                "frequency_Hz": "Hz",
-                "least_bond_MPa": "least, MPa",
-                "largest_bond_MPa": "largest, MPa",
-                "least_bond_phase_deg": "least, °",
-                "largest_bond_phase_deg": "largest, °",
-                "classes": "classes",
-                "rms_bond_error_percent": "rms error, %",
-                "largest_bond_error_percent": "largest, %",
-            },
-            "Single bonds: their moduli and phases, and what their chains miss anywhere in the band:",
-        ),
-    ],
-    "million": [
-        Layout(
-            {
-                "stage": "stage",
-                "exponent_of_time": "exponent of time",
-                "threads": "threads",
-                "speed_up": "times as fast as one",
-                "wall_h": "wall time, h",
-                "memory_GB": "memory, GB",
-            }
         )
     ],
     "growth": [
@@ -559,10 +359,9 @@ BLOCKS: dict[str, list[Layout | Notes | Pivot | Rungs]] = {
             {
                 "stage": "stage",
                 "to": "spheres",
-                "exponent_of_time": "exponent of time",
-                "last_exponent_of_time": "last",
+                "last_exponent_of_time": "exponent of time",
                 "cpu_s_of_largest": "CPU time, s",
-                "last_exponent_of_memory": "of memory, last",
+                "last_exponent_of_memory": "of memory",
                 "memory_MB_of_largest": "MB",
             },
         ),
