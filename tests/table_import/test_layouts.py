@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import zipfile
 from itertools import product
 
 import pytest
@@ -138,6 +139,31 @@ FILES = {
             ["phi (°)"], [None, "f (Hz)"], *matrix(phase, corner="T (°C)", s=s))], TESTS),
     "specimen above": ({f"Sheet{s}": under(s, ["Specimen", f"Core {s}"], ["Air voids (%)", 5.1]) for s in "AB"}, TESTS),
     "sections": ([*under("A", ["Specimen", "Core A"]), [], *under("B", ["Specimen", "Core B"])], TESTS),
+    "matrices, a sheet for each specimen": (
+        {s: [["|E*| (MPa)"], *matrix(modulus, corner="T (°C) \\ f (Hz)", s=s), [],
+             ["Phase (°)"], *matrix(phase, corner="T (°C) \\ f (Hz)", s=s)] for s in "AB"}, TESTS),
+    "title with en": (
+        {"Module": [["Module complexe |E*| en MPa"], *matrix(modulus, corner="T (°C) \\ f (Hz)")],
+         "Angle": [["Angle de phase en °"], *matrix(phase, corner="T (°C) \\ f (Hz)")]}, OF_A),
+    "two languages": (
+        long(["Température / Temperature (°C)", "Fréquence / Frequency (Hz)",
+              "Module complexe / Complex modulus (MPa)", "Déphasage / Phase angle (°)"]), TESTS),
+    "German in the genitive": (
+        long(["Prüftemp. [°C]", "Frequenz [1/s]", "Betrag des komplexen Moduls |E*| [N/mm²]",
+              "Phasenverschiebungswinkel φ [°]"]), TESTS),
+    "French without accents": (
+        long(["Temperature essai (C)", "Frequence (Hz)", "Norme du module (MPa)", "Angle (degres)"]), TESTS),
+    "Spanish": (long(["Temp. (°C)", "Frec. (Hz)", "Rigidez (MPa)", "Desfase (°)"]), TESTS),
+    "Portuguese": (
+        long(["Temperatura (°C)", "Frequência (Hz)", "Módulo dinâmico (MPa)", "Ângulo de fase (°)"]), TESTS),
+    "target and actual": (
+        [["Core", "Target temperature (°C)", "Actual temperature (°C)", "Target frequency (Hz)",
+          "Actual frequency (Hz)", "E* (MPa)", "phi (°)"],
+         *([s, t + 0.2, t, f + 0.01, f, e, p] for (s, t, f), (e, p) in TESTS.items())], TESTS),
+    "target alone": (long(["Target temperature (°C)", "Target frequency (Hz)", "E* (MPa)", "phi (°)"]), TESTS),
+    "remarks beside": (
+        [[*row, None, "Air voids", 5.1] if n in (1, 3) else row
+         for n, row in enumerate(long([*KEYS, "E* (MPa)", "phi (°)"]))], TESTS),
     "E1 and E2": (long([*KEYS, "E1 (MPa)", "E2 (MPa)"], parts), TESTS),
     "E' and E''": (long([*KEYS, "E′ (MPa)", "E″ (MPa)"], parts), TESTS),
     "tan delta": (long([*KEYS, "|E*| (MPa)", "tan δ"], lambda e, p: (e, math.tan(math.radians(p)))), TESTS),
@@ -171,6 +197,56 @@ def test_what_laboratories_have_is_read(tmp_path, name, ending):
     assert found.keys() == tests.keys()
     for key, (e, p) in tests.items():
         assert found[key] == (pytest.approx(e, rel=1e-9), pytest.approx(p, abs=1e-6))
+
+
+@pytest.mark.parametrize(
+    ("names", "convert", "sentence"),
+    [
+        (["T (°C)", "log f (Hz)", "E* (MPa)", "phi (°)"], lambda t, f, e, p: (t, math.log10(f), e, p),
+         "column 'log f (Hz)' holds logarithms; give the numbers themselves"),
+        (["T (°C)", "f (Hz)", "log |E*| (MPa)", "phi (°)"], lambda t, f, e, p: (t, f, math.log10(e), p),
+         "column 'log |E*| (MPa)' holds logarithms"),
+        (["T (°C)", "Reduced frequency (Hz)", "E* (MPa)", "phi (°)"], lambda t, f, e, p: (t, f * 9, e, p),
+         "column 'Reduced frequency (Hz)' is of a master curve; give temperature and frequency of each test"),
+        (["T (°C)", "f (Hz)", "quantity", "value"], lambda t, f, e, p: (t, f, "E* (MPa)" if f > 1 else "phi (°)", e),
+         "column 'quantity' says what stands in each line; give |E*| and phase a column each"),
+        (["T (°C)", "f (Hz)", "E* (MPa)", "lag"], lambda t, f, e, p: (t, f, e, f"{p}°"), "no column for phase"),
+    ],
+)  # fmt: skip
+def test_what_stands_in_place_of_a_quantity_is_named(tmp_path, names, convert, sentence):
+    rows = [["Core", *names], *([s, *convert(t, f, *both)] for (s, t, f), both in TESTS.items())]
+    assert sentence in refusal(tmp_path, rows)
+
+
+@pytest.mark.parametrize("name", ["log f (Hz)", "Reduced frequency (Hz)"])
+def test_what_is_derived_is_not_chosen_either(tmp_path, name):
+    rows = [["Core", "T (°C)", name, "E* (MPa)", "phi (°)"], *([*k, *both] for k, both in TESTS.items())]
+    assert "give a column of what was measured" in refusal(tmp_path, rows, frequency_Hz=name)
+
+
+def test_numbers_beside_the_table_are_not_passed_over(tmp_path):
+    rows = [[*row, None, 7.0] if n == 1 else row for n, row in enumerate(FILES["E1 and E2"][0])]
+    assert "7 fields under 5 column names" in refusal(tmp_path, rows)
+
+
+@pytest.mark.parametrize("mark", ["   ", " | "])
+def test_columns_that_nothing_separates(tmp_path, mark):
+    rows = [[mark.join(map(str, row))] for row in [[*KEYS, "E (MPa)", "phi (°)"], [4, 10, 9000, 12]]]
+    assert "neither semicolons nor tabs nor commas separate its columns" in refusal(tmp_path, rows)
+
+
+def test_files_that_are_no_tables_are_told_by_what_they_hold(tmp_path):
+    from asphalt_nscd.table_import.campaign import read_campaign
+
+    (tmp_path / "t.csv").write_bytes(b"%PDF-1.7\n\xe2\xe3\xcf\xd3\n" + bytes(range(1, 256)))
+    with zipfile.ZipFile(tmp_path / "t.xlsx", "w") as archive:
+        archive.writestr("mimetype", "application/vnd.oasis.opendocument.spreadsheet")
+    for name, sentence in (
+        ("t.csv", "not text; give CSV"),
+        ("t.xlsx", "of another kind than XLSX; save it as"),
+    ):
+        with pytest.raises(InputError, match=sentence):
+            read_campaign([tmp_path / name])
 
 
 def test_what_was_converted_is_said(tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import openpyxl
+import pytest
 from table_import.slips import HEADER, ROWS, as_is, read, refusal, said
 
 from asphalt_nscd.table_import.campaign import read_campaign
@@ -24,6 +25,24 @@ def test_all_sheets_of_one_layout_are_read_as_specimens(tmp_path):
     )
     alone = read_campaign([tmp_path / "t.xlsx"], sheet="B")[0]
     assert len(alone.table.lines) == 4 and alone.files == (tmp_path / "t.xlsx",)
+
+
+@pytest.mark.parametrize("name", ["Summary", "Sheet1"])
+def test_a_sheet_whose_headings_say_means_is_no_specimen(tmp_path, name):
+    head = ["T (°C)", "f (Hz)", "Average |E*| (MPa)", "Std Dev |E*| (MPa)", "Average phase (°)"]
+    rows = [[*row[1:3], row[3] + 3, 12.1, row[4]] for row in ROWS[:4]]
+    campaign = read(tmp_path, by_specimen((name, [head, *rows])), "t.xlsx")
+    assert campaign.table.columns == as_is(tmp_path)
+    assert said(campaign, f"sheet {name}")
+
+
+@pytest.mark.parametrize("name", ["Master curve", "Curve"])
+def test_a_sheet_of_the_master_curve_is_passed_over(tmp_path, name):
+    head = ["T (°C)", "Reduced frequency (Hz)", "|E*| (MPa)", "Predicted |E*| (MPa)"]
+    curve = (name, [head, *([*row[1:4], row[3]] for row in ROWS)])
+    campaign = read(tmp_path, {"Data": [HEADER, *ROWS]} | dict([curve]), "t.xlsx")
+    assert campaign.table.columns == as_is(tmp_path)
+    assert said(campaign, f"skipped sheet {name} of t.xlsx")
 
 
 def test_each_sheet_may_have_its_line_of_units(tmp_path):

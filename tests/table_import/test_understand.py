@@ -150,7 +150,7 @@ LONG = "T_C;f_Hz;E_MPa;phi_deg"
          "column 'E' does not say its unit; write it after the name, as in E (MPa)."),
         ("T_C;f_Hz;F0_N;z0_m;phi_rad", "15;10;9;9;2",
          'if it is that of force over displacement, say so with --column psi_rad="phi_rad"'),
-        ("T_C;f_Hz;E_MPa;angle", "15;10;9000;20", "no column for phase (found: T_C, f_Hz, E_MPa, angle)"),
+        ("T_C;f_Hz;E_MPa;lag", "15;10;9000;20", "no column for phase (found: T_C, f_Hz, E_MPa, lag)"),
         ("f_Hz;E_MPa at 15 °C;phi_deg at 20 °C", "10;9000;20", "but not the same for all quantities"),
         ("T_C;f_Hz;E_MPa at 15 °C;phi_deg at 15 °C", "10;9;9000;20", "but not the same for all quantities"),
         (LONG, "15;10;9000,5;20.1", "'9000,5' (line 2) and '20.1' (line 2) have different decimal marks"),

@@ -19,6 +19,7 @@ from asphalt_nscd.table_import.contested import refuse_mislabelled
 from asphalt_nscd.table_import.exports import blocks
 from asphalt_nscd.table_import.headings import require_rows, sections, tabulated, with_units
 from asphalt_nscd.table_import.matrices import matrix_cells
+from asphalt_nscd.table_import.melt import holds_means
 from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
 from asphalt_nscd.table_import.quantities import QUALITY
 from asphalt_nscd.table_import.schemes import schemes_in
@@ -169,6 +170,9 @@ def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, 
             skipped.append(refused(f"sheet {one.name} of {path.name}", error, place))
     if not parts:
         raise NotTests(f"{path}: no sheet holds tests; it has {listed(skipped)}; give a table of moduli.")
+    if not all(part.means for part in parts):
+        skipped += [SkippedFile(part.source, "means of other sheets") for part in parts if part.means]
+        parts = [part for part in parts if not part.means]
     read = list(dict.fromkeys(part.source.rpartition(", sheet ")[2] for part in parts))
     notes.append(
         f"{counted(len(read), 'sheet')} of {path.name} read: {', '.join(read)}; --sheet takes one alone"
@@ -195,14 +199,11 @@ def _sheet(path: Path, sheet: Sheet, chosen: Mapping[str, str] | None, alone: bo
             )
             for one in exported
         ]
-    return [
-        Part(
-            path,
-            understand(_table(path, rows, notes, None if alone else str(sheet.name), chosen or {}), chosen),
-            False,
-        )
+    tables = [
+        _table(path, rows, notes, None if alone else str(sheet.name), chosen or {})
         for rows in sections(sheet.rows)
     ]
+    return [Part(path, understand(table, chosen), False, means=holds_means(table)) for table in tables]
 
 
 def _table(

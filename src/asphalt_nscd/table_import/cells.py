@@ -113,7 +113,18 @@ def as_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
         rows.pop(0)
     # A column without a name is called by its number.
     header = [name or f"column {place}" for place, name in enumerate(rows[0][1], start=1)]
-    return Cells(path, header, _fitted(path, header, rows[1:]), notes)
+    return Cells(
+        path, header, _fitted(path, header, _without_remarks_beside(rows[1:], len(header), notes)), notes
+    )
+
+
+def _without_remarks_beside(rows: list[Row], size: int, notes: list[str]) -> list[Row]:
+    """Rows without what stands beside the table, behind a column left empty, and begins with a word in each row."""
+    beside = [cells[size:] for _, cells in rows if len(cells) > size]
+    if not beside or any(cells[0] or re.match(r"[-+]?[.,]?\d", _first(cells)) for cells in beside):
+        return rows
+    notes.append(f"beside the table, passed over: {', '.join(repr(_first(cells)) for cells in beside[:3])}")
+    return [(line, cells[:size]) for line, cells in rows]
 
 
 def _trimmed(cells: list[str]) -> list[str]:
@@ -179,6 +190,9 @@ def _text(path: Path) -> tuple[list[Row], list[str]]:
 def _decoded(path: Path) -> tuple[str, list[str]]:
     data = path.read_bytes()
     codec = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+    not_text = InputError(f"{path}: not text; give CSV, TSV or XLSX.")
+    if data.startswith(b"%PDF-") or (codec != "utf-16" and b"\0" in data):
+        raise not_text
     notes = ["read as UTF-16"] if codec == "utf-16" else []
     try:
         text = data.decode(codec)
@@ -189,7 +203,7 @@ def _decoded(path: Path) -> tuple[str, list[str]]:
             raise InputError(f"{path}: neither UTF-8 nor Windows text (cp1252); save it as UTF-8.") from None
         notes = ["text read as Windows (cp1252), for it is not UTF-8"]
     if "\0" in text:
-        raise InputError(f"{path}: not text; give CSV, TSV or XLSX.")
+        raise not_text
     return text, notes
 
 
@@ -216,6 +230,10 @@ def _workbook(path: Path, sheet: str | None) -> list[Sheet]:
     except InputError:
         raise
     except Exception as error:  # a damaged file raises nearly anything
+        if _is_other_workbook(path):
+            raise InputError(
+                f"{path}: a workbook of another kind than XLSX; save it as XLSX or CSV."
+            ) from None
         raise InputError(f"{path}: cannot be read as XLSX ({type(error).__name__}); save it anew.") from None
     if sheet is not None and sheet not in names:
         raise InputError(f"{path}: no sheet {sheet!r}; give one of {', '.join(names)}.")
@@ -227,6 +245,15 @@ def _workbook(path: Path, sheet: str | None) -> list[Sheet]:
         for name, rows in filled.items()
         if name in (shown or filled)
     ]
+
+
+def _is_other_workbook(path: Path) -> bool:
+    """Whether an archive holds an OpenDocument or a binary workbook."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return not {"mimetype", "xl/workbook.bin"}.isdisjoint(archive.namelist())
+    except zipfile.BadZipFile:
+        return False
 
 
 def _sheet_rows(sheet: object) -> list[Row]:

@@ -11,7 +11,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.decimals import number
 from asphalt_nscd.table_import.heading import without_condition
-from asphalt_nscd.table_import.quantities import MEASURED, Column, recognise, unit_in
+from asphalt_nscd.table_import.quantities import MEASURED, Column, derived, recognise, unit_in
 
 Place = tuple[int, Column]  # of a column, and what it holds
 _ANGULAR = re.compile(r"omega|ω|angular|kreis|pulsation", re.IGNORECASE)
@@ -43,6 +43,12 @@ def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Pl
         ]
         if len(places) != 1:
             raise InputError(f"{cells.path}: no column {name!r}; its columns are {', '.join(cells.header)}.")
+        if kind := derived(cells.header[places[0]]):
+            raise InputError(
+                f"{cells.path}: --column {wanted}: column {name!r} holds "
+                + ("logarithms" if kind == "logarithm" else "values reduced to one temperature")
+                + "; give a column of what was measured."
+            )
         _require_unit(cells, places[0], wanted, column)
         found[column.quantity] = [(places[0], column)]
     return found

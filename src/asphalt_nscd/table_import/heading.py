@@ -14,7 +14,7 @@ from asphalt_nscd.table_import.quantities import Column, recognise
 
 SPECIMEN, CELSIUS, FAHRENHEIT, HERTZ = "specimen", "T (°C)", "T (°F)", "f (Hz)"
 MEAN = "Mean"  # in place of a specimen
-KEYS = ("temperature_C", "nominal_temperature_C", "frequency_Hz")
+KEYS = ("temperature_C", "nominal_temperature_C", "frequency_Hz", "nominal_frequency_Hz")
 LABELS = ("specimen", "replicate", "mix", "origin")
 _BEFORE = (
     r"(?:(?:\b(?:at|à|bei|for|für|temperature|température|temperatur|temp|frequency|fréquence|frequenz|freq|[Tfθ])\b\.?"
@@ -36,7 +36,7 @@ _SPECIMEN = re.compile(
 )
 _TRAILING = re.compile(r"(?P<name>.*\S)(?:[\s_.#-]*(?P<at>\d{1,3})|[\s_-]+(?P<letter>[A-Z]\d{0,3}))")
 _MEAN = re.compile(
-    r"(?<!\w)(?:mean|average|avg|moyenne|moy|mittelwert|mittel|media|promedio)\b\.?", re.IGNORECASE
+    r"(?<!\w)(?:mean|average|avg|moyenne?|moy|mittelwert|mittel|media|promedio)\b\.?", re.IGNORECASE
 )
 _SPREAD = re.compile(
     r"(?<!\w)(?:std|s\.?d|st\.?\s?dev|standard deviation|c\.?o\.?v|cv|coefficient of variation|[ée]cart[- ]type|"

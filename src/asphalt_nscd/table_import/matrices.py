@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
@@ -12,6 +12,7 @@ from asphalt_nscd.table_import.cells import Cells, Row, Sheet
 from asphalt_nscd.table_import.decimals import like_below
 from asphalt_nscd.table_import.heading import KEYS, SPECIMEN, Heading, condition, known, read_heading
 from asphalt_nscd.table_import.headings import NUMBER, told_above
+from asphalt_nscd.table_import.sheets import OF_OTHERS
 
 _ABSENT = ("", "-", "--", "–", "n/a", "na", "#n/a")
 _ABOVE = 4  # lines above a matrix that say what it is
@@ -47,9 +48,17 @@ def matrix_cells(path: Path, sheets: Sequence[Sheet], notes: list[str]) -> Cells
     headings: dict[str, str] = {}
     axes: set[tuple[str, str]] = set()
     for sheet in sheets:
-        called = "" if sheet.name is None else sheet.name
-        for found, axis, named in _matrices(path, sheet.rows, called if len(sheets) > 1 else ""):
-            values += found
+        called = "" if sheet.name is None or len(sheets) == 1 else sheet.name
+        matrices = list(_matrices(path, sheet.rows, called))
+        # A sheet with all quantities of its tests is a specimen's.
+        whole = len({value.quantity for found, _, _ in matrices for value in found}) > 1
+        if whole and called and OF_OTHERS.match(called):
+            notes.append(f"skipped sheet {called}, computed of others")
+            continue
+        for found, axis, named in matrices:
+            values += (
+                [replace(one, key=(one.key[0] or called, *one.key[1:])) for one in found] if whole else found
+            )
             axes.add(axis)
             for quantity, name in named.items():
                 if headings.setdefault(quantity, name) != name:

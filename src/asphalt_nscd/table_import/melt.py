@@ -48,8 +48,15 @@ def held(cells: Cells) -> set[str]:
     """Quantities that the columns and their headings give."""
     found = set()
     for heading in headings_of(cells):
-        found |= {column.quantity for name in (heading.name, *heading.at) if (column := known(name))}
+        told = [name for name, text in heading.at.items() if text != MEAN]
+        found |= {column.quantity for name in (heading.name, *told) if (column := known(name))}
     return found
+
+
+def holds_means(cells: Cells) -> bool:
+    """Whether all results of a table are means."""
+    results = [one for one in headings_of(cells) if one.is_result]
+    return bool(results) and all(one.at.get(SPECIMEN) == MEAN for one in results)
 
 
 def melted(cells: Cells) -> Cells:

@@ -24,8 +24,8 @@ _LEAST = 2  # frequencies for that: of one, the retest may be the mend
 class Part:
     """Tests of one file or sheet, or of one block of an export.
 
-    tested: when, as the header has it. repeated: whether it was marked as a repetition. contested, unnamed: see
-    `Block`.
+    means: its results are means. tested: when, as the header has it. repeated: whether it was marked as a
+    repetition. contested, unnamed: see `Block`.
     """
 
     path: Path
@@ -35,6 +35,7 @@ class Part:
     tested: str = ""
     contested: str = ""
     unnamed: bool = False
+    means: bool = False
 
     @property
     def source(self) -> str:

@@ -27,7 +27,7 @@ _NUMBER = {"": (1.0, 0.0)}
 MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
     "specimen": (
         "specimen sample specimenid sampleid specimenno sampleno éprouvette prüfkörper probekörper probe "
-        "proben core beam cylinder puck carotte bohrkern probeta muestra provino",
+        "proben core beam cylinder puck carotte bohrkern probeta muestra provino corpodeprova",
         {},
     ),
     "replicate": ("replicate rep repeat", {}),
@@ -41,19 +41,21 @@ MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
         _CELSIUS,
     ),
     "temperature_C": (
-        "T temp temperature averagetemperature temperatur prüftemperatur temperatura temperatuur θ",
+        "T temp temperature averagetemperature temperatur prüftemperatur prüftemp temperatura temperatuur θ",
         _CELSIUS,
     ),
+    "nominal_frequency_Hz": ("targetfrequency setfrequency nominalfrequency sollfrequenz", _HERTZ),
     "frequency_Hz": (
-        "f freq frequency loadingfrequency fréquence frequenz prüffrequenz belastungsfrequenz frecuencia frequenza "
-        "omega ω angularfrequency kreisfrequenz pulsation",
+        "f freq frequency loadingfrequency fréquence frequenz prüffrequenz belastungsfrequenz frec frecuencia "
+        "frequenza frequência omega ω angularfrequency kreisfrequenz pulsation",
         _HERTZ,
     ),
     "E_MPa": (
         "E Estar modulus dynamicmodulus dynmodulus complexmodulus stiffness stiffnessmodulus norm norme magnitude "
         "absolutevalue module modulecomplexe modulerigidité rigidité steifigkeit steifigkeitsmodul modul emodul "
-        "komplexermodul komplexeremodul dynamischermodul dynamischeremodul betrag absolutwert módulodinámico "
-        "módulocomplejo rigidez modulocomplesso modulodinamico rigidezza stijfheid",
+        "komplexermodul komplexenmoduls komplexeremodul dynamischermodul dynamischeremodul absoluteremodul betrag "
+        "absolutwert módulodinámico módulocomplejo módulocomplexo rigidez modulocomplesso modulodinamico rigidezza "
+        "stijfheid",
         _MEGAPASCAL,
     ),
     "E1_MPa": (
@@ -69,8 +71,9 @@ MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
         dict.fromkeys(("", "-", "1"), (1.0, 0.0)),
     ),
     "phase_deg": (
-        "phi φ ϕ delta δ phase phaseangle phaselag phaseshift phangle lossangle anglephase déphasage phasenwinkel "
-        "phasenverschiebung verlustwinkel ángulofase angolofase",
+        "phi φ ϕ delta δ phase phaseangle phaselag phaseshift phangle lossangle angle anglephase déphasage "
+        "phasenwinkel phasenverschiebung phasenverschiebungswinkel verlustwinkel ángulofase desfase desfasaje "
+        "desfasagem angolofase sfasamento",
         _DEGREE,
     ),
     "F0_N": ("F F0 force forceamplitude", _NEWTON),
@@ -126,7 +129,7 @@ ABSENT = (
 # Words that a name may carry beside that of its quantity.
 _BESIDE = frozenset(
     "of the du de des d la le l der di del test testing tested sollicitation essai mesuré measured "
-    "gemessen no nr n # id name nom number nummer num label code".split()
+    "gemessen actual ist no nr n # id name nom number nummer num label code".split()
 )
 _PRIMES = str.maketrans({**dict.fromkeys("’′´", "'"), **dict.fromkeys("”″", '"')})
 _PART = re.compile(r"E[\s_]*(1|2|'|''|\")")  # of E*, in French and in English
@@ -172,6 +175,15 @@ def recognise(header: str, known: dict = MEASURED) -> Column | None:
     return None
 
 
+def derived(header: str) -> str:
+    """What a column holds in place of a measured quantity: "logarithm", "reduced" to one temperature; else empty."""
+    if re.match(r"\W*(?:log|lg|ln)(?:10)?(?![a-z])", header, re.IGNORECASE):
+        return "logarithm"
+    return (
+        "reduced" if re.search(r"reduced|réduite|reduziert|reducida|ridotta", header, re.IGNORECASE) else ""
+    )
+
+
 def spellings(known: dict = MEASURED) -> str:
     """A line for each column: its name, those that people give it, and the units understood."""
     return "\n".join(
@@ -199,7 +211,7 @@ def _splits(header: str) -> Iterator[tuple[str, str]]:
     parted = re.fullmatch(r"(.*\S)\s*/\s*(\S+)", header)
     for match in (
         re.fullmatch(r"(.+?)\s*,\s*([^,]+)", header),
-        re.fullmatch(r"(.+?)\s+in\s+(\S+)", header),
+        re.fullmatch(r"(.+?)\s+(?:in|en|em)\s+(\S+)", header),
         re.fullmatch(r"(.+?)\s*[\s_]\s*(\S+)", header),
         re.fullmatch(r"(.*\S)\s*([°º]\s*[CF])", header),
         parted,
@@ -225,6 +237,10 @@ def _spelled(unit: str) -> str:
         "degrees": "deg",
         "degré": "deg",
         "degrés": "deg",
+        "degre": "deg",
+        "degres": "deg",
+        "grados": "deg",
+        "1/s": "Hz",
         "radian": "rad",
         "radians": "rad",
         "celsius": "C",
@@ -250,14 +266,14 @@ def _quantity(stem: str, known: dict, qualified: bool) -> str | None:
     alone = _named(stem, known, qualified)
     if alone:
         return alone
-    words = [word for word in re.split(r"[\s_-]+|(?<=\bd)['’]|(?<=\bl)['’]", stem) if word]
+    words = [word for word in re.split(r"[\s_/-]+|(?<=\bd)['’]|(?<=\bl)['’]", stem) if word]
     words = [word for word in words if _folded(word.strip(".:°º")) not in _BESIDE]
-    # As in `Dynamic modulus |E*|` or `Norme du module complexe`, where both parts name it.
-    for place in range(len(words)):
-        parts = {_named(" ".join(part), known, qualified) for part in (words[:place], words[place:]) if part}
-        if len(parts) == 1 and None not in parts:
-            return parts.pop()
-    return None
+    # As in `Dynamic modulus |E*|` or `Fréquence / Frequency`, where each part names it: up to each word, by what.
+    named: list[set[str]] = [set(known)]
+    for end in range(1, len(words) + 1):
+        parts = ((start, _named(" ".join(words[start:end]), known, qualified)) for start in range(end))
+        named.append({quantity for start, quantity in parts if quantity in named[start]})
+    return next(iter(named[-1])) if words and len(named[-1]) == 1 else None
 
 
 def _named(stem: str, known: dict, qualified: bool) -> str | None:

@@ -13,15 +13,16 @@ from asphalt_nscd.table_import.names import specimen_of
 from asphalt_nscd.table_import.quantities import recognise
 
 _TEMPERATURE = re.compile(r"(?:T\s*=?\s*)?([-−+]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\.?\s*)?C", re.IGNORECASE)
-_OF_OTHERS = re.compile(
-    r"\W*(?:mean|average|avg|moyenne|mittel|media|std|stat|summary|zusammenfassung|synth|résumé|resume)",
+OF_OTHERS = re.compile(
+    r"\W*(?:mean|average|avg|moyenne|mittel|media|std|stat|summary|zusammenfassung|synth|résumé|resume|"
+    r"fit(?:s|ted)?\b|model|predict|master\s*-?(?:curve|kurve)|courbe ma[iî]tresse)",
     re.IGNORECASE,
 )
 
 
 def of_other_sheets(name: str, cells: Cells) -> bool:
     """Whether a sheet holds what was computed of others: its name says so, and no column names specimens."""
-    return bool(_OF_OTHERS.match(name)) and "specimen" not in held(cells)
+    return bool(OF_OTHERS.match(name)) and "specimen" not in held(cells)
 
 
 def told_by_sheet(cells: Cells, name: str, chosen: Mapping[str, str]) -> Cells:

@@ -13,11 +13,11 @@ from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, REDUCED_COLUMNS
 from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.columns import Place, as_written, chosen_columns, one_of
 from asphalt_nscd.table_import.decimals import decimal_mark, number, with_point
-from asphalt_nscd.table_import.heading import read_heading
+from asphalt_nscd.table_import.heading import known, read_heading
 from asphalt_nscd.table_import.headings import with_units
 from asphalt_nscd.table_import.melt import melted
 from asphalt_nscd.table_import.parts_of_modulus import WAYS, with_whole_modulus
-from asphalt_nscd.table_import.quantities import ABSENT, QUALITY, Column, recognise
+from asphalt_nscd.table_import.quantities import ABSENT, QUALITY, Column, derived, recognise
 from asphalt_nscd.table_import.rows import CARRIED, tests_in
 
 TEXTS = ("specimen", "replicate", "origin")
@@ -148,8 +148,9 @@ def _columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
             raise InputError(f"{cells.path}: {error}") from None
         if column is not None and place not in taken and column.quantity not in settled:
             found.setdefault(column.quantity, []).append((place, column))
-    if "temperature_C" not in found and "nominal_temperature_C" in found:
-        found["temperature_C"] = found.pop("nominal_temperature_C")
+    for key, nominal in zip(KEYS, ("nominal_temperature_C", "nominal_frequency_Hz"), strict=True):
+        if key not in found and nominal in found:
+            found[key] = found.pop(nominal)
     return found
 
 
@@ -195,6 +196,7 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
                 f"{cells.path}: column {cells.header[place]!r} does not say whose phase it is; if it is that of "
                 f'{of}, say so with --column {as_written(wanted, column)}="{cells.header[place]}".'
             )
+    _require_plain(cells, missing["moduli"])
     form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant
     nothing = {"E_MPa", "F0_N", "z0_m"}.isdisjoint(columns)
     *words, last = (_WORDS[name] for name in missing[form])
@@ -205,13 +207,37 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     )
 
 
+def _require_plain(cells: Cells, missing: Sequence[str]) -> None:
+    """Refuse what stands in place of a quantity that is missing, each with its own mend."""
+    if len(cells.header) == 1:
+        raise NotTests(
+            f"{cells.path}: neither semicolons nor tabs nor commas separate its columns; open it in a spreadsheet, "
+            "part the columns there, and save it as CSV or XLSX."
+        )
+    for kind, name in ((kind, name) for name in cells.header if (kind := derived(name))):
+        if kind == "logarithm" and not {"frequency_Hz", "E_MPa"}.isdisjoint(missing):
+            raise InputError(
+                f"{cells.path}: column {name!r} holds logarithms; give the numbers themselves, =10^x in a spreadsheet."
+            )
+        if kind == "reduced" and "frequency_Hz" in missing:
+            raise NotTests(
+                f"{cells.path}: column {name!r} is of a master curve; give temperature and frequency of each test."
+            )
+    for place, name in enumerate(cells.header):
+        held = {
+            column.quantity for _, row in cells.rows if (column := known(row[place])) and column.unit != ""
+        }
+        if len(held) > 1:
+            raise InputError(
+                f"{cells.path}: column {name!r} says what stands in each line; give |E*| and phase a column each."
+            )
+
+
 def _all_known(cells: Cells, columns: Mapping[str, list[Place]]) -> bool:
     """Whether no column is left that could hold the phase: numbers under a name that is not known."""
     read = {place for places in columns.values() for place, _ in places}
     left = set(range(len(cells.header))) - read
-    return not any(
-        number(row[place].replace(",", "."), ".") is not None for _, row in cells.rows for place in left
-    )
+    return not any(re.match(r"[-+]?[.,]?\d", row[place]) for _, row in cells.rows for place in left)
 
 
 def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[str, list[str]], str]:
