@@ -267,32 +267,17 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             },
             figures=3,
         ),
-        Layout(
-            {
-                "forecast": "factor of modulus",
-                "factor_H0": "H0",
-                "factor_H3": "H3",
-                "factor_H9": "H9",
-                "factor_W0": "W0",
-                "factor_W3": "W3",
-                "factor_W6": "W6",
-            },
-            figures=3,
-        ),
     ],
     "voids": [
         Layout(
             {
                 "temperature_C": "°C",
                 "frequency_Hz": "Hz",
-                "E_MPa": "mean, MPa",
                 "measured_percent": "measured, %",
                 "standard_error_percent": "standard error",
-                "probability": "probability",
                 "forecast_percent": "forecast",
-                "hirsch_percent": "Hirsch",
-                "witczak_percent": "Witczak",
             },
+            figures=3,
         )
     ],
     "paper_mix": [
@@ -307,20 +292,8 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "phase_table3_deg": "Table 3, °",
                 "phase_middle_deg": "42, °",
             },
+            where={"frequency_Hz": (10,)},
             figures=3,
-        )
-    ],
-    "bands": [
-        Layout(
-            {
-                "mix": "mix",
-                "deviation_E": "error of ln E",
-                "deviation_phase_deg": "of phase, °",
-                "E_in_doubts": "E in doubts",
-                "phase_in_doubts": "phase in doubts",
-                "E_in_band": "E in band",
-                "phase_in_band": "phase in band",
-            },
         )
     ],
     "wrong_recipes": [
@@ -329,13 +302,19 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "truth": "truth",
                 "densities": "weighed",
                 "wrong": "input",
-                "limits": "limits",
                 "size": "off by",
                 "named": "named",
                 "among_several": "in a group",
                 "not_noticed": "missed",
                 "named_wrongly": "wrong",
             },
+            where={"limits": (3,)},
+        )
+    ],
+    "film_cells": [
+        Layout(
+            {name: name for name in ("spheres", "fraction", "M / Ea", "voxels", "network", "E, %", "G, %")},
+            where={"M / Ea": (0.2, 0.01, 0.0001)},
         )
     ],
     "films": [
