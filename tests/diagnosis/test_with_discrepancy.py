@@ -17,13 +17,16 @@ pytestmark = pytest.mark.slow
 LAW = HuetSayegh(
     static_modulus=80e6, glassy_modulus=32e9, k=0.22, h=0.6, delta=2.3, tau=0.3, shift=WLF(18.0, 140.0, 15.0)
 )
-TEMPERATURES, FREQUENCIES = (-10.0, 4.0, 21.0, 37.0, 54.0), (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)
+CYLINDERS = (-10.0, 4.0, 21.0, 37.0, 54.0), (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)
+TRAPEZOIDS = (-10.0, 0.0, 10.0, 15.0, 20.0, 30.0), (3.0, 6.0, 10.0, 25.0, 30.0, 40.0)
 
 
-def table(offset: float = 0.0, delay: float = 0.0, broken: float = 1.0, seed: int = 3) -> Observations:
+def table(
+    offset: float = 0.0, delay: float = 0.0, broken: float = 1.0, seed: int = 3, design: tuple = CYLINDERS
+) -> Observations:
     """Three specimens; hot isotherms break causality, `broken` times; offset [deg] and delay [s] in every test."""
     random = np.random.default_rng(seed)
-    grid = np.array([(s, t, f) for s in range(3) for t in TEMPERATURES for f in FREQUENCIES])
+    grid = np.array([(s, t, f) for s in range(3) for t in design[0] for f in design[1]])
     temperature, frequency = grid[:, 1], grid[:, 2]
     omega = 2.0 * np.pi * frequency
     modulus = LAW.complex_modulus(omega, temperature)
@@ -67,6 +70,31 @@ def test_an_effect_of_all_tests_is_found_beside_broken_isotherms(hidden):
     sizes_known = with_discrepancy.of_taken(state, candidate).std_error * candidate.typical[0]
     assert sizes_known < error < 2.0 * sizes_known
     assert with_discrepancy.hangs_on(state, candidate) == []
+
+
+def test_a_second_process_that_no_size_of_its_own_carries_takes_no_probability_from_a_delay():
+    """With it among the names, the delay has 0.85."""
+    taken, _, _ = climbed(table(delay=6e-5, broken=0.0, design=TRAPEZOIDS))
+    assert [one.candidate.cause.name for one in taken] == ["channel_delay"]
+    assert taken[0].probability > 0.97
+
+
+def test_what_competes_for_a_name_has_a_size_and_shapes_of_its_own():
+    observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
+    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    by_name = {cause.name: cause for cause in CATALOGUE}
+
+    def stands(name: str, *values: float) -> tuple[bool, bool]:
+        state = with_discrepancy.with_causes(begun, (Candidate(by_name[name], None, values),))
+        taken = state.fitted.active[-1]
+        return with_discrepancy._stands(state, taken, with_discrepancy.of_taken(state, taken)), bool(
+            taken.at_bounds
+        )
+
+    assert stands("channel_delay", 6e-5) == (True, False)
+    assert stands("guide_friction", 1e6)[0] is False  # its interval holds zero
+    assert stands("secondary_process", 1e9, -3.0, 30.0, 0.6)[0] is False
 
 
 def test_a_cause_of_an_isotherm_is_no_hindrance_where_that_isotherm_is_left_out():

@@ -181,8 +181,7 @@ def _at_bounds(ladder: Ladder) -> list[str]:
         f"{_in_unit(value, parameter.unit)}, so that its standard error means nothing; the true one may lie beyond, "
         "or the cause be another."
         for candidate in ladder.rungs[-1].after.active
-        for parameter, value in zip(candidate.cause.parameters, candidate.values, strict=True)
-        if np.isclose(value, [parameter.low, parameter.high], rtol=1e-6, atol=0.0).any() and value
+        for parameter, value in candidate.at_bounds
     ]
 
 

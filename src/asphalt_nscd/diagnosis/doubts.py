@@ -57,10 +57,9 @@ def find_doubts(
 
 def _of_size(candidate: Candidate, observed: Observations) -> Iterator[str]:
     """A size at the bound of the search, and one that these tests cannot have."""
-    for parameter, value in zip(candidate.cause.parameters, candidate.values, strict=True):
-        if value and np.isclose(value, [parameter.low, parameter.high], rtol=1e-6, atol=0.0).any():
-            unit = "" if parameter.unit in ("1", "-") else f" {parameter.unit}"
-            yield f"Its {parameter.name.replace('_', ' ')} stands at the bound of {value:g}{unit}"
+    for parameter, value in candidate.at_bounds:
+        unit = "" if parameter.unit in ("1", "-") else f" {parameter.unit}"
+        yield f"Its {parameter.name.replace('_', ' ')} stands at the bound of {value:g}{unit}"
     yield from filter(None, [candidate.cause.impossible(np.array(candidate.values), observed)])
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dposv
 
 from asphalt_nscd.diagnosis.bases import Base, FlexibleSpectrum
-from asphalt_nscd.diagnosis.causes._cause import Cause, Place
+from asphalt_nscd.diagnosis.causes._cause import Cause, Parameter, Place
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
@@ -43,6 +43,15 @@ class Candidate:
     def typical(self) -> Vector:
         """Usual size (p,) of each parameter, in its unit."""
         return np.array([parameter.typical for parameter in self.cause.parameters])
+
+    @property
+    def at_bounds(self) -> list[tuple[Parameter, float]]:
+        """Parameters that stand at a bound of their range, with their values; an absent cause has none."""
+        return [
+            (parameter, value)
+            for parameter, value in zip(self.cause.parameters, self.values, strict=True)
+            if value and np.isclose(value, [parameter.low, parameter.high], rtol=1e-6, atol=0.0).any()
+        ]
 
     def with_values(self, values: Vector) -> Candidate:
         """The same candidate with these parameters (p,)."""

@@ -20,6 +20,7 @@ from asphalt_nscd.diagnosis.chance import Scores
 from asphalt_nscd.diagnosis.criteria import (
     ABSORBED,
     ALPHA_PER_STEP,
+    CONFIDENCE,
     HIDES,
     MOST_CAUSES,
     POSSIBLE,
@@ -217,17 +218,11 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
             taken = after.fitted.active[-1]
             own = of_taken(after, taken)
             z[k] = max(z[k], abs(own.z))
+            if not _stands(after, taken, own):
+                continue
             odds[k] = log_odds(taken, state.plain.observed, gain, own.std_error * float(taken.typical[0]))
             if z[k] > least:
                 refits.append((gain, k, after))
-    if not refits:
-        return None
-    # A cause with shapes of its own follows almost any structure: it must be carried by the whole table.
-    refits = [
-        refit
-        for refit in refits
-        if len(candidates[refit[1]].values) == 1 or not hangs_on(refit[2], refit[2].fitted.active[-1])
-    ]
     if not refits:
         return None
     most = max(gain for gain, _, _ in refits)
@@ -240,6 +235,17 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         return None
     p_value = chance.tail(by_chance, float(z[k]))
     return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k], shared)
+
+
+def _stands(state: State, taken: Candidate, own: Estimate) -> bool:
+    """Whether a cause competes for the place of the next name: what does not takes no probability from one that does.
+
+    Its size is not zero. One with shapes of its own follows almost any structure: it must be carried by the whole
+    table, and its shapes must not be at the edge of what they may be.
+    """
+    if abs(own.z) < CONFIDENCE:
+        return False
+    return len(taken.values) == 1 or not (taken.at_bounds or hangs_on(state, taken))
 
 
 def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate], Direction]:
