@@ -19,7 +19,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.special import logsumexp, stdtr
 
-from asphalt_nscd.diagnosis import quality, within_isotherm
+from asphalt_nscd.diagnosis import contested, quality, within_isotherm
 from asphalt_nscd.diagnosis.copies import copied
 from asphalt_nscd.diagnosis.exchanged import Exchange
 from asphalt_nscd.diagnosis.observations import Observations
@@ -38,6 +38,10 @@ BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1
 BREAKS = BENDS > np.radians(1.0)
 LEAST_FREEDOM = 4  # of the replicates of an isotherm
 SHARED = "every specimen contradicts its isotherm here in the same way: look for a common cause, not for a bad test"
+HALVES = (
+    "readings of its sweep contradict each other, and this one is off the level that the specimen has against the "
+    "others at other temperatures"
+)
 ONE_WITNESS = "its modulus and phase agree with the other frequencies"
 IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may be no more than nearly smooth
 
@@ -106,18 +110,23 @@ def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspe
     agree = (np.sign(apart) == np.sign(left)) & ~broken[:, None]
     supported = agree & ((doubtful & far) | ((single < LEANING) & (chance * values < VERY_FAR)))
     out |= supported.any(axis=1)
-    listed = (out & loo.in_place & ~copies) | (worst < NOTABLE * limit)
+    out, turned = contested.put_right(observed, out)
+    listed = ((out & loo.in_place & ~copies) | (worst < NOTABLE * limit)) & ~turned
     # Beside a wrong phase the modulus seems wrong too: the less likely of the two is named, or the one with a witness.
     wrong = np.where(supported | ~supported.any(axis=1, keepdims=True), single, 1.0).argmin(axis=1)
     found = []
-    for row in np.flatnonzero(out | listed | flagged | far.any(axis=1)):
+    for row in np.flatnonzero(out | listed | flagged | (far.any(axis=1) & ~turned)):
         block = observed.names[observed.specimen[row]], float(observed.isotherm[row])
         reasons = [one.reason(*block) for one in copied_blocks if row in one.rows]
-        reasons += [_exchange_reason(observed, one) for one in loo.exchanged if row in one.rows]
+        reasons += [
+            _exchange_reason(observed, one) for one in loo.exchanged if row in one.rows and not turned[row]
+        ]
+        reasons += [HALVES] * bool(turned[row] and out[row])
         reasons += [_causal_reason(observed, loo, int(row), int(wrong[row]))] if listed[row] else []
         reasons += flags[row] + [ONE_WITNESS] * bool(flagged[row] and loo.judged[row] and not listed[row])
         reasons += [
-            _replicate_reason(observed, apart, int(row), int(column)) for column in np.flatnonzero(far[row])
+            _replicate_reason(observed, apart, int(row), int(column))
+            for column in np.flatnonzero(far[row] & ~turned[row])
         ]
         reasons += [SHARED] * bool(shared[row])
         found.append(Suspect(int(row), tuple(reasons), not bool(out[row])))

@@ -1,0 +1,79 @@
+"""Which half of a sweep is wrong is asked of the other specimens; that something is wrong is not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from test_suspects import LAW, altered, out, row_of
+
+from asphalt_nscd.diagnosis import contested, suspects
+from asphalt_nscd.diagnosis.observations import Observations
+
+FREQUENCIES = np.array([3.0, 10.0, 25.0, 40.0])
+TEMPERATURES = np.array([4.0, 21.0, 37.0])
+
+
+def campaign(specimens=3, isotherms=TEMPERATURES):
+    specimen, temperature, frequency = (
+        values.ravel() for values in np.meshgrid(np.arange(specimens), isotherms, FREQUENCIES, indexing="ij")
+    )
+    random = np.random.default_rng(4)
+    noise = random.normal(0.0, 0.005, (2, specimen.size))
+    level = np.array([0.1, -0.05, 0.0, 0.02])[specimen]
+    modulus = LAW.complex_modulus(2.0 * np.pi * frequency, temperature)
+    modulus = modulus * np.exp(level + noise[0] + 0.5j * noise[1])
+    ones = np.ones(specimen.size)
+    names = ("A", "B", "C", "D")[:specimens]
+    return Observations(specimen, names, temperature, frequency, modulus, ones, 0.0 * ones)
+
+
+def rows_of(observed, *frequencies):
+    """Of specimen B at 21 degC."""
+    return [row_of(observed, 1, 21.0, f) for f in frequencies]
+
+
+def mask(observed, rows):
+    return np.isin(np.arange(observed.size), rows)
+
+
+@pytest.mark.parametrize("specimens", [2, 3, 4])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_of_two_halves_the_one_off_the_level_of_its_specimen_is_left_out(specimens, sign):
+    observed = campaign(specimens)
+    wrong, right = rows_of(observed, 10.0, 25.0), rows_of(observed, 3.0, 40.0)
+    observed = altered(observed, wrong, sign * 0.26, sign * 4.0)
+    for accused in (right, right[:1], [*right, wrong[0]], wrong):
+        now, turned = contested.put_right(observed, mask(observed, accused))
+        assert np.flatnonzero(now).tolist() == wrong
+        assert np.flatnonzero(turned).tolist() == ([] if accused is wrong else sorted(wrong + right))
+
+
+def test_what_stays_is_not_accused_where_it_is_on_the_level_too_or_most_of_a_sweep_is_off():
+    observed = campaign()
+    right = mask(observed, rows_of(observed, 3.0, 40.0))
+    three = rows_of(observed, 3.0, 10.0, 25.0)
+    for table, accused in (
+        (observed, right),
+        (altered(observed, three, 0.26), mask(observed, rows_of(observed, 40.0))),
+        (altered(observed, rows_of(observed, *FREQUENCIES), 0.26), right),
+    ):
+        now, turned = contested.put_right(table, accused)
+        assert (now == accused).all() and not turned.any()
+
+
+@pytest.mark.parametrize("alone", [{"specimens": 1}, {"isotherms": TEMPERATURES[1:2]}])
+def test_without_other_specimens_or_isotherms_nothing_is_turned(alone):
+    observed = campaign(**alone)
+    row = int(np.flatnonzero(observed.frequency == 10.0)[-1])
+    accused = mask(observed, [row + 1])
+    now, turned = contested.put_right(altered(observed, [row], 0.26), accused)
+    assert (now == accused).all() and not turned.any()
+
+
+def test_a_pair_of_wrong_readings_in_four_is_left_out_and_the_reason_says_who_tells():
+    observed = campaign()
+    wrong = rows_of(observed, 10.0, 25.0)
+    observed = altered(observed, wrong, np.log(1.3), 4.0)
+    assert out(observed) == wrong
+    for one in suspects.find(observed):
+        assert one.reasons == (suspects.HALVES,) or one.used
