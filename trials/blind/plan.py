@@ -18,7 +18,7 @@ from .design import factorial
 from .laws import SHAPES
 from .outside import OUTSIDE
 
-SEED = 20261125  # of the campaign; another one draws other mixes, places and signs
+SEED = 20261126  # of the campaign; another one draws other mixes, places and signs
 RATIOS = (1.0, 2.0, 3.0, 5.0)
 JUDGED = 3.0  # ratio at which the campaign is judged
 AT_LIMIT = 5.3  # visible strength of an effect at its limit: threshold 3.7 and 1.6 for 95 %
