@@ -121,7 +121,10 @@ def test_from_drop_to_download(page, address, tmp_path):
     choose(page, f"{row}.querySelector('select')", "E_GPa")
     until(page, "!document.getElementById('go').hidden && document.getElementById('error').hidden")
     assert page.evaluate(f"{row}.cells[2].textContent") == "E in GPa, as you chose"
-    assert page.evaluate("document.getElementById('what').textContent") == "60 tests in t.xlsx"
+    assert (
+        page.evaluate("document.getElementById('what').textContent")
+        == "60 tests of 3 specimens (A, B, C) in t.xlsx"
+    )
     choose(page, "document.getElementById('kind')", "tension-compression")
     until(page, "document.getElementById('notes').textContent.length > 0")
     for width in (1280, 390):

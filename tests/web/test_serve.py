@@ -141,6 +141,45 @@ def test_html_in_cells_is_text(tmp_path):
     )  # handed on as it is: the page makes text of it
 
 
+def test_sentences_name_the_menus_of_the_page(client):
+    def error(table):
+        return dropped(client, ("t.csv", table.encode())).get_json()["error"]
+
+    assert error(TABLE.replace("E (MPa)", "S (MPa)")).endswith("or name a column of yours in its menu below.")
+    assert error(TABLE.replace("specimen", "x")).endswith("or say which is one, in its menu below.")
+    notes = dropped(client, ("t.csv", TABLE.encode())).get_json()["notes"]
+    assert "which test gave the moduli is not said; choose it in the menu" in notes
+    assert not any("--" in note for note in notes)
+
+
+def test_columns_of_matrices_and_means_are_shown_as_they_were_read(tmp_path):
+    book = openpyxl.Workbook()
+    book.remove(book.active)
+    for name, title in (("E", "|E*| (MPa)"), ("P", "Phase (°)")):
+        sheet = book.create_sheet(name)
+        for row in ([title], ["T (°C) \\ f (Hz)", 1, 10], [4, 9.0, 8.0], [21, 7.0, 6.0]):
+            sheet.append(row)
+    book.save(tmp_path / "t.xlsx")
+    read = read_tables([tmp_path / "t.xlsx"], Choices())
+    assert [one["quantity"] for one in read["columns"]] == [
+        "temperature_C",
+        "frequency_Hz",
+        "E_MPa",
+        "phase_deg",
+    ]
+    book = openpyxl.Workbook()
+    for name in "AB":
+        sheet = book.create_sheet(name)
+        for row in (line.split(",")[1:] for line in TABLE.splitlines() if line[0] in ("s", name)):
+            sheet.append([float(cell) + (name == "B") if cell[0].isdigit() else cell for cell in row])
+    for row in (["T (°C)", "f (Hz)", "Mean E (MPa)", "Mean phi (°)"], [4, 10, 17800, 11.2]):
+        book.active.append(row)
+    book.save(tmp_path / "t.xlsx")
+    read = read_tables([tmp_path / "t.xlsx"], Choices())
+    assert read["specimens"] == ["A", "B"]
+    assert [one["name"] for one in read["columns"]] == ["T (°C)", "f (Hz)", "E (MPa)", "phi (°)"]
+
+
 def test_work_that_takes_too_long_is_stopped(tmp_path):
     (tmp_path / "t.csv").write_text(TABLE)
     job = Job("read", [tmp_path / "t.csv"], Choices(), None, 0.0)

@@ -11,7 +11,7 @@ def command(port: int, browser: bool) -> None:
     import webbrowser
 
     try:
-        from werkzeug.serving import make_server
+        from werkzeug.serving import WSGIRequestHandler, make_server
 
         from asphalt_nscd.web.app import create_app
     except ModuleNotFoundError as error:
@@ -20,8 +20,15 @@ def command(port: int, browser: bool) -> None:
         raise click.ClickException(
             f"this command needs {error.name}; pip install 'asphalt-nscd[web]'."
         ) from None
+
+    class Quiet(WSGIRequestHandler):
+        """Each request would print a line; what fails is still told."""
+
+        def log_request(self, code: int | str = "-", size: int | str = "-") -> None:
+            pass
+
     app = create_app()
-    server = make_server("127.0.0.1", port, app, threaded=True)
+    server = make_server("127.0.0.1", port, app, threaded=True, request_handler=Quiet)
     address = f"http://127.0.0.1:{server.server_port}/{app.config['TOKEN']}/"
     click.echo(f"Drop measurements on {address}\nCtrl-C ends it and removes what was dropped.")
     if browser:

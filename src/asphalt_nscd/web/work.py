@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import re
 import sys
 import time
 import traceback
@@ -11,9 +12,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from asphalt_nscd.files.errors import InputError
+
+if TYPE_CHECKING:
+    from asphalt_nscd.table_import.cells import Cells
 
 MOST_MEMORY = 4 * 2**30  # bytes of addresses
 SECONDS_TO_READ = 60.0
@@ -21,6 +25,16 @@ SECONDS_TO_DIAGNOSE = 900.0
 ROWS_SHOWN = 6
 TOO_LONG = "this took too long; give the table of results of one campaign alone."
 BROKEN = "this could not be done, and the fault is ours; the terminal of `asphalt-nscd serve` says where."
+
+# What sentences say of options, and where the page has them.
+_MENUS = (
+    (r'with --column \S+="[^"]*"', "in its menu below"),
+    (r'write --column \S+="[^"]*"', "choose so in its menu below"),
+    (r"--column \S+: ", ""),
+    (r"say --measured-in(?: bending or tension-compression| bending)?", "choose it in the menu"),
+    (r"; --sheet takes one alone", ""),
+    (r"give it with --sheet", "give it alone"),
+)
 
 
 @dataclass(frozen=True)
@@ -99,7 +113,7 @@ def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, outpu
             content = _diagnosed(paths, choices, output, lambda *said: pipe.send(("progress", said)))
         pipe.send(("done", content))
     except InputError as error:
-        pipe.send(("failed", {"error": _without_folder(str(error), paths), "columns": _columns(paths)}))
+        pipe.send(("failed", {"error": _for_the_page(str(error), paths), "columns": _columns(paths)}))
     except MemoryError:
         pipe.send(("failed", {"error": "the file needs too much memory; give the table of results alone."}))
     except Exception:
@@ -117,11 +131,13 @@ def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
     return {
         "form": form,
         "test_type": campaign.test_type,
-        "notes": [_without_folder(note, paths) for note in campaign.notes],
+        "notes": [_for_the_page(note, paths) for note in campaign.notes],
         "tests": len(campaign.table.lines),
+        "specimens": list(dict.fromkeys(table["specimen"])),
         "header": shown,
         "rows": [
-            [table[name][row] for name in shown] for row in range(min(ROWS_SHOWN, len(campaign.table.lines)))
+            [_rounded(table[name][row]) for name in shown]
+            for row in range(min(ROWS_SHOWN, len(campaign.table.lines)))
         ],
         "columns": _columns(paths),
     }
@@ -129,14 +145,12 @@ def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
 
 def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
     """Each column of the files, by its name, with the quantity and the unit it is taken for and its first cells."""
-    from asphalt_nscd.table_import.cells import read_sheets
-    from asphalt_nscd.table_import.headings import tabulated
     from asphalt_nscd.table_import.melt import headings_of
 
     found: dict[str, dict[str, str]] = {}
     for path in paths:
         try:
-            tables = [tabulated(path, sheet.rows, []) for sheet in read_sheets(path)]
+            tables = _tables(path)
         except InputError:
             continue
         for cells in tables:
@@ -158,6 +172,27 @@ def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
     return list(found.values())[:60]
 
 
+def _tables(path: Path) -> list[Cells]:
+    """The tables of a file: its matrices as one, else each sheet but those of means of others."""
+    from asphalt_nscd.table_import.cells import read_sheets
+    from asphalt_nscd.table_import.headings import tabulated
+    from asphalt_nscd.table_import.matrices import matrix_cells
+    from asphalt_nscd.table_import.melt import holds_means
+    from asphalt_nscd.table_import.sheets import of_other_sheets
+
+    sheets = read_sheets(path)
+    if (cells := matrix_cells(path, sheets, [])) is not None:
+        return [cells]
+    tables = [(str(sheet.name), tabulated(path, sheet.rows, [])) for sheet in sheets]
+    own = [cells for name, cells in tables if not of_other_sheets(name, cells) and not holds_means(cells)]
+    return own or [cells for _, cells in tables]
+
+
+def _rounded(text: str) -> str:
+    """A number to six digits, as a first look needs it; other text as it is."""
+    return f"{float(text):.6g}" if re.fullmatch(r"-?\d+\.\d{3,}", text) else text
+
+
 def _not_said(quantity: str) -> str:
     """In place of a unit that a column does not say; empty where the quantity has none."""
     from asphalt_nscd.table_import.quantities import MEASURED
@@ -165,11 +200,13 @@ def _not_said(quantity: str) -> str:
     return "not said" if quantity in MEASURED and MEASURED[quantity][1] else ""
 
 
-def _without_folder(text: str, paths: Sequence[Path]) -> str:
-    """A sentence with the names of the files alone."""
+def _for_the_page(text: str, paths: Sequence[Path]) -> str:
+    """A sentence with the names of the files alone, and with menus for options of the command line."""
     for path in paths:
         text = text.replace(str(path), path.name)
         text = text.replace(f"{path.parent}{os.sep}", "")
+    for option, menu in _MENUS:
+        text = re.sub(option, menu, text)
     return text
 
 
