@@ -78,3 +78,26 @@ def test_suspect_tests_and_notes_of_a_diagnosis_stand_in_the_workbook(folder, mo
     assert book["Suspects"]["A2"].data_type == "s"  # no formula
     assert book["Notes"]["A2"].value == "Look at the clamp."
     assert "Unexplained" not in book.sheetnames
+
+
+def test_charts_read_the_rows_of_their_mix_and_print_on_a_page(tmp_path):
+    """Ten mixes: each line over its own rows, none looking like another, and no sheet wider than a page."""
+    from asphalt_nscd.exports.workbook import plots_of_mixes, write_sheets
+
+    rows = [(f"M{k}", 10.0**n, 1234.56789 * (k + 1), 12.5) for k in range(10) for n in range(3)]
+    curves = pd.DataFrame(rows, columns=["mix", "frequency_Hz", "E_MPa", "phase_deg"])
+    write_sheets(tmp_path / "t.xlsx", {"Curves": curves}, plots_of_mixes(curves, "Curves"))
+    book = openpyxl.load_workbook(tmp_path / "t.xlsx")
+    cells = book["Curves"]
+    looks = set()
+    for series in book["Charts"]._charts[0].series:
+        first, last = map(int, re.findall(r"\$(\d+)", series.yVal.numRef.f))
+        assert {cells.cell(row, 1).value for row in range(first, last + 1)} == {series.tx.v}
+        assert series.xVal.numRef.f == f"'Curves'!$B${first}:$B${last}"
+        line = series.graphicalProperties.line
+        looks.add((line.solidFill.srgbClr, line.dashStyle))
+    assert len(looks) == 10
+    assert cells["C2"].value == 1234.56789 and cells["C2"].number_format == "0.0"
+    assert all(cells.column_dimensions[letter].width >= 11 for letter in "ABCD")  # no ### for 8.5604E+07
+    for sheet in book:
+        assert (sheet.sheet_properties.pageSetUpPr.fitToPage, sheet.page_setup.fitToWidth) == (True, 1)

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 from openpyxl import Workbook
 from openpyxl.chart import Reference, ScatterChart, Series
+from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
-WIDE, HIGH = 17.0, 9.5  # cm
+WIDE, HIGH = 16.5, 9.5  # cm
 ROWS = 20  # of the sheet that a chart covers
 COLOURS = ("1F4E79", "C0504D", "9BBB59", "8064A2", "F79646", "4BACC6", "7F7F7F", "B8860B")
 
@@ -61,6 +62,16 @@ def draw(book: Workbook, plots: Sequence[Plot]) -> None:
             if series is not None:
                 chart.series.append(series)
         sheet.add_chart(chart, f"A{1 + number * ROWS}")
+    fit_to_page(sheet)
+    sheet.page_setup.fitToHeight = 1
+
+
+def fit_to_page(sheet: Worksheet, landscape: bool = False) -> None:
+    """Print all columns within the width of an A4 page."""
+    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
+    sheet.page_setup.paperSize = sheet.PAPERSIZE_A4
+    sheet.page_setup.orientation = "landscape" if landscape else "portrait"
+    sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
 
 
 def _series(book: Workbook, line: Line, drawn: dict[str, str]) -> Series | None:
@@ -79,6 +90,7 @@ def _series(book: Workbook, line: Line, drawn: dict[str, str]) -> Series | None:
     owner = line.name.split(",")[0]
     colour = drawn.setdefault(owner, COLOURS[len(drawn) % len(COLOURS)])
     series.smooth = False
+    again = (list(drawn).index(owner) // len(COLOURS)) % 2 == 1  # a colour that comes a second time
     look = series.graphicalProperties.line
     if line.points:
         series.marker.symbol, series.marker.size = "circle", 5
@@ -88,8 +100,8 @@ def _series(book: Workbook, line: Line, drawn: dict[str, str]) -> Series | None:
     else:
         series.marker.symbol = "none"
         look.solidFill, look.width = colour, 9525 if line.dashed else 19050  # EMU
-        if line.dashed:
-            look.dashStyle = "dash"
+        if line.dashed or again:
+            look.dashStyle = "dash" if line.dashed else "lgDashDot"
     return series
 
 

@@ -21,10 +21,13 @@ from asphalt_nscd.exports import charts
 from asphalt_nscd.exports.card import Card
 from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.store import atomic_path
+from asphalt_nscd.files.words import specimen_named
 
 IN_A_DECADE = 8  # frequencies of the master curve
 STEP = 5.0  # K, of the shift factors
 WIDEST = 90  # characters of a column
+NUMBER = 10  # characters of the longest number that is shown, -1.2345E-03
+COLUMNS_UPRIGHT = 6  # more are printed on a page laid across
 DATE = b"1980-01-01T00:00:00Z"  # where the dates of zip archives begin
 
 HEADINGS = {
@@ -141,14 +144,14 @@ def _plots_of_mix(tests: pd.DataFrame) -> list[charts.Plot]:
         value = f"{stem}_{unit}"
         lines += [
             charts.Line(
-                f"specimen {name}", "Corrected", "reduced_frequency_Hz", value, (low, high), points=True
+                specimen_named(name), "Corrected", "reduced_frequency_Hz", value, (low, high), points=True
             )
             for name, low, high in rows.itertuples()
         ]
         title = "|E*| [MPa]" if stem == "E" else "phase [°]"
         plots.append(charts.Plot(title, "reduced frequency [Hz]", title, lines, log_y=log))
     black = [
-        charts.Line(f"specimen {name}", "Corrected", "phase_deg", "E_MPa", (low, high), points=True)
+        charts.Line(specimen_named(name), "Corrected", "phase_deg", "E_MPa", (low, high), points=True)
         for name, low, high in rows.itertuples()
     ]
     black.append(charts.Line("mix", "Master curve", "phase_deg", "E_MPa"))
@@ -309,10 +312,10 @@ def _fill(book: Workbook, title: str, frame: pd.DataFrame) -> None:
         for cell in cells:
             if isinstance(cell.value, str):
                 cell.data_type = "s"  # text that begins with = is no formula
-            elif isinstance(cell.value, float) and _wide(cell.value):
-                cell.number_format = "0.0000E+00"
+            elif isinstance(cell.value, float):
+                cell.number_format = _shown(cell.value)
     for number, name in enumerate(frame.columns, start=1):
-        longest = max([len(str(name)), *(len(v) for v in frame[name] if isinstance(v, str))])
+        longest = max([NUMBER, len(str(name)), *(len(v) for v in frame[name] if isinstance(v, str))])
         sheet.column_dimensions[get_column_letter(number)].width = min(longest + 2, WIDEST)
     for cell in sheet[1]:
         cell.font, cell.alignment = Font(bold=True), Alignment(wrap_text=True, vertical="top")
@@ -320,6 +323,7 @@ def _fill(book: Workbook, title: str, frame: pd.DataFrame) -> None:
         for (cell,) in sheet.iter_rows(min_row=2, max_col=1):
             cell.alignment = Alignment(wrap_text=True, vertical="top")
     sheet.freeze_panes = "A2"
+    charts.fit_to_page(sheet, landscape=len(frame.columns) > COLUMNS_UPRIGHT)
 
 
 def _cell(value: Any) -> Any:
@@ -331,5 +335,10 @@ def _cell(value: Any) -> Any:
     return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
-def _wide(value: float) -> bool:
-    return value != 0.0 and not 1e-2 <= abs(value) < 1e5
+def _shown(value: float) -> str:
+    """How a spreadsheet shows a number, whose cell holds all digits: to five, and no more than were needed."""
+    if value == round(value, 2) and abs(value) < 1e5:
+        return "General"
+    if not 1e-2 <= abs(value) < 1e5:
+        return "0.0000E+00"
+    return "0" if abs(value) >= 1e4 else f"0.{'0' * (4 - int(np.floor(np.log10(max(abs(value), 1.0)))))}"
