@@ -59,3 +59,25 @@ def test_slope_and_curvature_are_those_of_wlf():
     x = np.zeros(base.parameters)
     x[-3:-1] = np.log(18.0 / 120.0), base.log_odds(1.0 / 120.0)
     assert base.log_shift(x, np.array([30.0]))[0] == pytest.approx(-LN10 * 18.0 * 15.0 / (120.0 + 15.0))
+
+
+def test_the_departure_of_a_shift_is_a_cube_of_the_distance_to_the_middle():
+    base = FlexibleSpectrum(TIMES, 15.0, 25.0, 15.0, 0.2)
+    x, temperature = np.zeros(base.parameters), np.array([-10.0, 15.0, 40.0, 65.0])
+    x[-3:-1] = np.log(0.12), base.log_odds(0.008)
+    straight = base.log_shift(x, temperature)[0]
+    x[-1] = 0.3
+    assert base.log_shift(x, temperature)[0] - straight == pytest.approx([-0.3, 0.0, 0.3, 2.4])
+
+
+def test_derivatives_of_the_modulus_are_its_differences():
+    base = FlexibleSpectrum(TIMES, 15.0, 25.0, 15.0, 0.2)
+    x = np.random.default_rng(3).normal(0.0, 0.5, base.parameters) + np.linspace(18.0, 22.0, base.parameters)
+    x[-3:] = np.log(0.12), base.log_odds(0.008), 0.3
+    temperature = np.array([-10.0, 5.0, 15.0, 30.0])
+    omega = 2.0 * np.pi * np.array([0.1, 1.0, 10.0, 30.0])
+    modulus, slope = base.modulus(x, omega, temperature)
+    for k, along in enumerate(slope.T):
+        step = 1e-5 * (np.arange(x.size) == k)
+        up, down = (base.modulus(x + sign * step, omega, temperature)[0] for sign in (1.0, -1.0))
+        np.testing.assert_allclose(along, (up - down) / 2e-5, rtol=1e-6, atol=1e-6 * np.abs(modulus).max())

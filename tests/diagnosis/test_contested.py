@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 from test_suspects import LAW, altered, out, row_of
@@ -19,7 +21,7 @@ def campaign(specimens=3, isotherms=TEMPERATURES):
     )
     random = np.random.default_rng(4)
     noise = random.normal(0.0, 0.005, (2, specimen.size))
-    level = np.array([0.1, -0.05, 0.0, 0.02])[specimen]
+    level = (1.0 + 0.2j) * np.array([0.5, -0.5, 0.0, 0.2])[specimen]
     modulus = LAW.complex_modulus(2.0 * np.pi * frequency, temperature)
     modulus = modulus * np.exp(level + noise[0] + 0.5j * noise[1])
     ones = np.ones(specimen.size)
@@ -59,6 +61,15 @@ def test_what_stays_is_not_accused_where_it_is_on_the_level_too_or_most_of_a_swe
     ):
         now, turned = contested.put_right(table, accused)
         assert (now == accused).all() and not turned.any()
+
+
+def test_scatter_turns_nothing():
+    observed = campaign(4)
+    for sweep in np.arange(observed.size).reshape(-1, FREQUENCIES.size):
+        for pair in combinations(sweep, 2):
+            accused = mask(observed, pair)
+            now, turned = contested.put_right(observed, accused)
+            assert (now == accused).all() and not turned.any()
 
 
 @pytest.mark.parametrize("alone", [{"specimens": 1}, {"isotherms": TEMPERATURES[1:2]}])

@@ -82,6 +82,24 @@ def test_twice_the_scatter_doubles_a_limit(table, fit):  # noqa: F811
         assert 1.7 < twice[one.key] / once[one.key] < 2.01
 
 
+def test_the_law_is_fitted_again_where_it_leaves_less_than_a_twentieth_of_an_effect(fit, monkeypatch):  # noqa: F811
+    joint, fitted = fit
+    absent = [one.with_values(np.zeros(1)) for one in ACTIVE[:2]]
+    square = (joint.noise.whiten(chance.candidate_directions(joint, fitted, absent)) ** 2).sum(axis=0)
+    refitted = []
+
+    def by_refit(joint, fitted, candidate, size, threshold):
+        refitted.append(candidate.key)
+        return 2.0
+
+    monkeypatch.setattr(limits, "_by_refit", by_refit)
+    found = Scores(np.zeros(2), np.array([0.04, 0.06]) * square, np.ones(2, bool), np.eye(2))
+    sizes, _ = limits.detection_limits(joint, fitted, absent, found, THRESHOLD)
+    assert refitted == [absent[0].key]
+    for one, factor, information in zip(absent, (2.0, 1.0), found.information, strict=True):
+        assert sizes[one.key] == pytest.approx(factor * THRESHOLD / np.sqrt(information) * one.typical[0])
+
+
 def test_causes_are_alike_if_three_limits_do_not_part_them():
     """Of two directions with correlation r, that of z leaves z^2 (1 - r^2) to the other."""
     one, other = (Candidate(CAUSES[name], None, (0.0,)) for name in ("phase_offset", "channel_delay"))

@@ -79,6 +79,27 @@ def test_a_second_process_that_no_size_of_its_own_carries_takes_no_probability_f
     assert taken[0].probability > 0.97
 
 
+def test_each_shape_of_a_cause_costs_two_of_its_gain(monkeypatch):
+    observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
+    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    misfits, gains = {}, {}
+
+    def stands(state, taken, own):
+        misfits[taken.cause.name] = state.misfit
+        return True
+
+    def log_odds(candidate, observed, gain, std_error):
+        gains[candidate.cause.name] = gain
+        return 0.0
+
+    monkeypatch.setattr(with_discrepancy, "_stands", stands)
+    monkeypatch.setattr(with_discrepancy, "log_odds", log_odds)
+    with_discrepancy._next(begun, with_discrepancy.survey(begun, CATALOGUE), 500, np.random.default_rng(0))
+    for name, shapes in (("channel_delay", 0), ("secondary_process", 3)):
+        assert gains[name] == pytest.approx(begun.misfit - misfits[name] - 2.0 * shapes)
+
+
 def test_what_competes_for_a_name_has_a_size_and_shapes_of_its_own():
     observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
@@ -95,6 +116,24 @@ def test_what_competes_for_a_name_has_a_size_and_shapes_of_its_own():
     assert stands("channel_delay", 6e-5) == (True, False)
     assert stands("guide_friction", 1e6)[0] is False  # its interval holds zero
     assert stands("secondary_process", 1e9, -3.0, 30.0, 0.6)[0] is False
+
+
+@pytest.mark.parametrize(
+    ("values", "carried", "stands"),
+    [
+        ((1e9, -3.0, 30.0, 0.6), [], True),
+        ((1e9, -3.0, 30.0, 0.6), ["10 Hz"], False),
+        ((1e9, -3.0, 10.0, 0.6), [], False),  # its energy is at a bound
+        ((1e9, -3.0, 30.0, 1.0), [], False),
+    ],
+)
+def test_a_cause_with_shapes_competes_if_all_carry_it_and_no_shape_is_at_a_bound(
+    monkeypatch, values, carried, stands
+):
+    second = next(cause for cause in CATALOGUE if cause.name == "secondary_process")
+    monkeypatch.setattr(with_discrepancy, "hangs_on", lambda state, candidate: carried)
+    own = discrepancy.Estimate(np.zeros(0), 0.0, amplitude=9.0, std_error=1.0)
+    assert with_discrepancy._stands(None, Candidate(second, None, values), own) is stands
 
 
 def test_a_cause_of_an_isotherm_is_no_hindrance_where_that_isotherm_is_left_out():
