@@ -25,6 +25,7 @@ def test_outside_the_nomograph_nothing_is_known():
     assert np.isnan(stiffness(40.0, np.array([-20.0, 45.0]), omega[1])).all()
 
 
+@pytest.mark.filterwarnings("error")  # where the nomograph knows no stiffness, nothing is computed
 def test_the_papers_mix(recipe, packing):
     found = compare_paper(
         "data/paper/table1_grading.csv",

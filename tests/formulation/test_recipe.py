@@ -52,11 +52,17 @@ BAD = [
     ("grading", None, "grading: None is not of type 'object'"),
     ("grading", {10: 100, 2: 1, 0.063: 0.5}, "grading: the grains of the mix fill 86 % .* a packing reaches"),
     ("grading", {10: 100, 2: 100, 0.063: 100}, "grading: the grains of the mastic fill"),
+    (
+        "grading",
+        {10: 100, 6: 72, 4: 56, 2: 41},
+        "grading: 41 % passes the finest sieve, 2 mm; add finer ones",
+    ),
     ("temperatures_C", [40], "temperatures_C: 40 degC, but the binder's law has no shift"),
     ("temperatures_C", 20, "temperatures_C: 20 is not of type 'array'"),
     ("temperatures_C", [293], "temperatures_C.0: 293 is greater than the maximum"),
     ("frequencies_Hz", [1, 10], "frequencies_Hz and angular_frequencies_rad_s; give one"),
-    ("angular_frequencies_rad_s", [0, 1], "angular_frequencies_rad_s.0: 0 is less than or equal"),
+    ("angular_frequencies_rad_s", [0, 1], "angular_frequencies_rad_s.0: 0 is less than the minimum"),
+    ("angular_frequencies_rad_s", [1e300], "angular_frequencies_rad_s.0: 1e.300 is greater than the maximum"),
     ("angular_frequencies_rad_s", [INF], "angular_frequencies_rad_s.0: inf is no finite number"),
     ("colour", "black", "'colour' was unexpected"),
 ]
@@ -67,6 +73,11 @@ BAD_BINDERS = [
     ("k", 0.7, "binder: needs 0 < k <= h < 1"),
     ("k", 1.2, "binder.k: 1.2 is greater than or equal"),
     ("tau_s", NAN, "binder.tau_s: nan is no finite number"),
+    (
+        "shift",
+        {"wlf_C1": 20, "wlf_C2_K": 20},
+        "temperatures_C: WLF shift: it is not defined 20 K below 15 degC",
+    ),
     ("gamma", 3, "binder: .*'gamma' was unexpected"),
     ("shift", {"wlf_C1": 20}, "binder.shift: 'wlf_C2_K' is a required property"),
     ("shift", {"activation_energy_J_mol": 150}, "binder.shift.activation_energy_J_mol: 150 is less"),
@@ -93,6 +104,12 @@ def test_a_bad_recipe_is_refused_in_one_sentence(content, tmp_path, where, value
 def test_a_bad_binder_is_refused(content, tmp_path, key, value, said):
     content["binder"][key] = value
     assert re.search(said, refusal(content, tmp_path))
+
+
+def test_a_temperature_that_the_recipe_does_not_state_is_told(content):
+    assert "15 °C stands for it" in recipe_of(content).caveat
+    content["binder"]["reference_temperature_C"] = 15
+    assert recipe_of(content).caveat == ""
 
 
 @pytest.mark.parametrize("missing", ["binder", "air_voids_percent", "aggregate", "density_kg_m3", "grading"])

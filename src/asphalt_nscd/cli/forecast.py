@@ -41,6 +41,9 @@ def command(recipe: Path, output: Path, packings: Path | None, seeds: int, page:
     if page:
         names.append(write_page(found, output).name)
     frame = points(found)
-    click.echo(f"{asked.name}: forecast of {len(frame)} points, nothing fitted.")
-    click.echo(frame[[*frame.columns[:6]]].round(1).to_string(index=False, max_rows=40))
+    click.echo(f"{asked.name}: forecast of {len(frame)} points, nothing fitted. {asked.caveat}".rstrip())
+    shown = (
+        frame[[*frame.columns[:6]]].round(1).assign(frequency_Hz=frame["frequency_Hz"].map("{:.3g}".format))
+    )
+    click.echo(shown.to_string(index=False, max_rows=40))
     click.echo(f"\nWritten to {output}: {', '.join(names)}.")

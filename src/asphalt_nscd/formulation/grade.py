@@ -64,21 +64,25 @@ def compare_paper(
     rows = []
     for temperature, law in zip(*read_published(laws), strict=True):
         omega = 2.0 * np.pi * np.array(FREQUENCIES)
-        measured = law.complex_modulus(omega)
-        made = {
-            name: modulus_of(levels, recipe.aggregate, stiffness(penetration, temperature, omega))
-            for name, penetration in PENETRATIONS.items()
-        }
-        for k, frequency in enumerate(FREQUENCIES):
-            if all(np.isfinite(found[k]) for found in made.values()):
-                rows.append(
-                    {
-                        "temperature_C": temperature,
-                        "frequency_Hz": frequency,
-                        "E_table3_MPa": 1e-6 * abs(measured[k]),
-                        **{f"E_{name}_MPa": 1e-6 * abs(found[k]) for name, found in made.items()},
-                        "phase_table3_deg": np.degrees(np.angle(measured[k])),
-                        "phase_middle_deg": np.degrees(np.angle(made["middle"][k])),
-                    }
-                )
+        binder = np.array(
+            [stiffness(penetration, temperature, omega) for penetration in PENETRATIONS.values()]
+        )
+        known = np.isfinite(binder).all(axis=0)
+        measured = law.complex_modulus(omega[known])
+        made = modulus_of(levels, recipe.aggregate, binder[:, known])
+        middle = made[list(PENETRATIONS).index("middle")]
+        for k, frequency in enumerate(np.array(FREQUENCIES)[known]):
+            rows.append(
+                {
+                    "temperature_C": temperature,
+                    "frequency_Hz": frequency,
+                    "E_table3_MPa": 1e-6 * abs(measured[k]),
+                    **{
+                        f"E_{name}_MPa": 1e-6 * abs(found[k])
+                        for name, found in zip(PENETRATIONS, made, strict=True)
+                    },
+                    "phase_table3_deg": np.degrees(np.angle(measured[k])),
+                    "phase_middle_deg": np.degrees(np.angle(middle[k])),
+                }
+            )
     return pd.DataFrame(rows)

@@ -25,6 +25,7 @@ DEFAULT_FREQUENCIES = (0.1, 0.3, 1.0, 3.0, 10.0, 25.0)  # Hz
 DEFAULT_TEMPERATURES = (-10.0, 0.0, 10.0, 15.0, 20.0, 30.0)  # degC, of a binder with a shift
 UNSTATED = 15.0  # degC, what an unstated reference temperature is called
 COARSE = 0.5e-3  # m, the coarsest sieve of a grading at least
+FINE = 0.15e-3  # m, the finest sieve of a grading at most, unless nothing passes it
 LEAST_VOIDS = 0.3  # per cent, if any: less is a share of one
 LARGEST_MISFIT = 0.3  # rms of ln E* of a binder's law about its table
 DENSEST = 0.92  # of the volume: more solids than any grading packs
@@ -54,6 +55,7 @@ class Recipe:
     file: str  # for messages
     binder: Spectrum
     shifted: bool
+    temperature_stated: bool  # else UNSTATED stands for it
     binder_share: float  # of the mass of the mix
     voids: float  # of the volume of the mix
     aggregate_density: float
@@ -68,6 +70,13 @@ class Recipe:
         """Volume of the aggregate over that of aggregate and binder."""
         stone = (1.0 - self.binder_share) / self.aggregate_density
         return stone / (stone + self.binder_share / self.binder_density)
+
+    @property
+    def caveat(self) -> str:
+        """What a reader of the temperatures must know; empty where they are the recipe's own."""
+        if self.temperature_stated:
+            return ""
+        return f"The recipe states no temperature of its binder's law: {UNSTATED:g} °C stands for it."
 
     def binder_modulus(self) -> np.ndarray:
         """E* [Pa] of the binder at each point."""
@@ -115,6 +124,7 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
         file=str(path),
         binder=binder,
         shifted=shifted,
+        temperature_stated={"table", "reference_temperature_C"}.intersection(content["binder"]) != set(),
         binder_share=content["binder_percent_by_mass"] / 100.0,
         voids=content["air_voids_percent"] / 100.0,
         aggregate_density=content["density_kg_m3"]["aggregate"],
@@ -168,6 +178,11 @@ def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
         raise InputError(
             f"{path}: grading: sieves go from {1e3 * sieve[0]:g} to {1e3 * sieve[-1]:g} mm; the finest may be 0.001, "
             f"the coarsest {1e3 * COARSE:g} to 100; give them in mm."
+        )
+    if sieve[0] > FINE and passing[0] > 0.0:
+        raise InputError(
+            f"{path}: grading: {100 * passing[0]:g} % passes the finest sieve, {1e3 * sieve[0]:g} mm; add finer ones, "
+            f"to 0.063 mm."
         )
     falls = np.flatnonzero(np.diff(passing) < 0.0)
     if falls.size:
@@ -255,5 +270,9 @@ def _points(
                     f"{path}: temperatures_C: {asked:g} degC, but the binder's law has no shift from its "
                     f"{reference:g} degC; add binder.shift, or leave temperatures_C out."
                 )
+    try:
+        binder.shift.factor(temperature)
+    except InputError as error:
+        raise InputError(f"{path}: temperatures_C: {error}") from None
     grid = np.meshgrid(temperature, frequency, indexing="ij")
     return grid[0].ravel(), grid[1].ravel()

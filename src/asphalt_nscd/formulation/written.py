@@ -119,6 +119,7 @@ def summary(found: Forecast) -> dict[str, Any]:
         "kind": "forecast",
         "recipe": recipe.name,
         "source": recipe.source,
+        "temperature_stated": recipe.temperature_stated,
         "aggregate_volume_percent": 100.0 * recipe.aggregate_fraction * (1.0 - recipe.voids),
         "binder_volume_percent": 100.0 * (1.0 - recipe.aggregate_fraction) * (1.0 - recipe.voids),
         "air_voids_percent": 100.0 * recipe.voids,

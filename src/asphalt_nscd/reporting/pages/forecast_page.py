@@ -62,7 +62,8 @@ def _answer(found: Forecast, said: dict) -> list[str]:
     return [
         f"|E*| = {middle.E_MPa:.0f} MPa ({middle.E_low_MPa:.0f} to {middle.E_high_MPa:.0f}) and phase "
         f"{middle.phase_deg:.1f}° ({middle.phase_low_deg:.1f} to {middle.phase_high_deg:.1f}) at "
-        f"{middle.frequency_Hz:.3g} Hz and {middle.temperature_C:g} °C. forecast.csv has all {len(frame)} points.",
+        f"{middle.frequency_Hz:.3g} Hz and {middle.temperature_C:g} °C. {found.recipe.caveat} forecast.csv has all "
+        f"{len(frame)} points.",
         f"By volume: {said['aggregate_volume_percent']:.1f} % aggregate, {said['binder_volume_percent']:.1f} % binder, "
         f"{said['air_voids_percent']:.1f} % air. The binder coats the grains {said['film_thickness_um']:.1f} µm thick.",
     ]
