@@ -27,6 +27,7 @@ ROOMS := $(filter-out asphalt_nscd.cli asphalt_nscd.specimen,$(patsubst src/asph
 	$(wildcard src/asphalt_nscd/*/__init__.py)))
 CONFIG ?=
 READY := .venv/.ready
+TOOLS := .venv/.tools
 
 # Packages compile their bytecode once, at installation, not in every job.
 unexport PYTHONDONTWRITEBYTECODE
@@ -70,39 +71,42 @@ benchmark: $(READY)
 	@.venv/bin/snakemake benchmark --logger steps --cores 1 --configfile config/paper.yaml
 	@echo "Tables: $(CURDIR)/results/benchmark/benchmark.csv, growth.csv"
 
-test: $(READY)
+test: $(TOOLS)
 	.venv/bin/python -m pytest
 
-test-fast: $(READY)
+test-fast: $(TOOLS)
 	.venv/bin/python -m pytest -m "not slow"
 
-check: $(READY)
+check: $(TOOLS)
 	@.venv/bin/python tools/check.py
 
-faults: $(READY)
+faults: $(TOOLS)
 	@PYTHONPATH=trials .venv/bin/python -m faults
 
-fuzz: $(READY)
+fuzz: $(TOOLS)
 	@PYTHONPATH=trials:tests .venv/bin/python -m fuzz
 	@OPENBLAS_NUM_THREADS=1 PYTHONPATH=trials:tests .venv/bin/python -m fuzz.diagnoses 1000 \
 		$(if $(filter all,$(CORES)),,--jobs $(CORES)) --output results/fuzz
 	@OPENBLAS_NUM_THREADS=1 PYTHONPATH=trials:tests .venv/bin/python -m fuzz.calls --output results/calls
 
-cluster: $(READY)
+cluster: $(TOOLS)
 	@PYTHONPATH=trials .venv/bin/python -m cluster
 
-api: $(READY)
+api: $(TOOLS)
 	@.venv/bin/pdoc --docformat numpy --output-directory docs/api asphalt_nscd $(ROOMS)
 	@echo "Reference: $(CURDIR)/docs/api/index.html"
 
-docs: $(READY) api
+docs: $(TOOLS) api
 	@NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict # with --quiet it would be silent on dead links
 	@echo "Site: $(CURDIR)/site/index.html"
 
-lint: $(READY)
+lint: $(TOOLS)
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
 
-$(READY): requirements.txt pyproject.toml
-	@sh tools/venv.sh
+$(READY): requirements-study.txt pyproject.toml
+	@sh tools/venv.sh study
+
+$(TOOLS): $(READY) requirements.txt
+	@sh tools/venv.sh tools

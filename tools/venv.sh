@@ -1,5 +1,8 @@
 #!/bin/sh
-# Make the environment .venv from requirements.txt, with the newest suitable Python and plain pip.
+# Make the environment .venv, with the newest suitable Python and plain pip.
+#   sh tools/venv.sh study    from requirements-study.txt
+#   sh tools/venv.sh tools    add the rest of requirements.txt to it: tests, checks, documents
+#   sh tools/venv.sh          both
 set -eu
 
 LOWEST_MINOR=11 # requires-python of pyproject.toml
@@ -37,26 +40,36 @@ find_python() {
 }
 
 # Debian ships Python without ensurepip unless python3-venv is installed; a pip outside serves as well.
-make_venv() {
-    rm -rf "$VENV"
+choose_pip() {
     if "$python" -c "import ensurepip" >/dev/null 2>&1; then
-        "$python" -m venv "$VENV"
-        pip="$VENV/bin/python -m pip"
+        pip="$VENV/bin/python -m pip" without=
     elif "$python" -m pip --version >/dev/null 2>&1; then
-        "$python" -m venv --without-pip "$VENV"
-        pip="$python -m pip --python $VENV/bin/python"
+        pip="$python -m pip --python $VENV/bin/python" without=--without-pip
     else
         fail "$python has neither ensurepip nor pip; install them (Debian: apt install python3-venv)" \
             "and run make again."
     fi
 }
 
+add() {
+    $pip install --quiet --disable-pip-version-check --compile --require-hashes --requirement "$1"
+}
+
 cd "$(dirname "$0")/.."
 python=$(find_python)
-echo "Setting up $VENV with $("$python" --version)."
-make_venv
-$pip install --quiet --disable-pip-version-check --compile --require-hashes --requirement requirements.txt
-$pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable . \
-    --editable plugins/snakemake-logger-plugin-steps --editable plugins/snakemake-executor-plugin-slurm-chunks
-"$VENV/bin/python" -m compileall -q src
-pwd >"$VENV/.ready"
+choose_pip
+if [ "${1:-}" != tools ]; then
+    echo "Setting up $VENV with $("$python" --version)."
+    rm -rf "$VENV"
+    "$python" -m venv $without "$VENV"
+    add requirements-study.txt
+    $pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable . \
+        --editable plugins/snakemake-logger-plugin-steps --editable plugins/snakemake-executor-plugin-slurm-chunks
+    "$VENV/bin/python" -m compileall -q src
+    pwd >"$VENV/.ready"
+fi
+if [ "${1:-}" != study ]; then
+    echo "Adding tests, checks and documents to $VENV."
+    add requirements.txt
+    : >"$VENV/.tools"
+fi

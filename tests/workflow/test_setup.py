@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -44,10 +45,12 @@ def install(machine: Path, name: str, minor: int, ensurepip: bool = True, pip: b
     path.chmod(0o755)
 
 
-def set_up(machine: Path, **environment: str) -> tuple[subprocess.CompletedProcess[str], list[str]]:
+def set_up(
+    machine: Path, *what: str, **environment: str
+) -> tuple[subprocess.CompletedProcess[str], list[str]]:
     notes = machine / "notes"
     done = subprocess.run(
-        ["sh", "tools/venv.sh"],
+        ["sh", "tools/venv.sh", *what],
         cwd=machine / "clone",
         capture_output=True,
         text=True,
@@ -62,9 +65,19 @@ def test_newest_python_is_taken_and_hashes_are_required(machine):
     done, notes = set_up(machine)
     assert done.returncode == 0, done.stderr
     assert notes[0] == "3.13: -m venv .venv"
-    assert "--require-hashes --requirement requirements.txt" in notes[1]
+    assert "--require-hashes --requirement requirements-study.txt" in notes[1]
     assert "--no-deps --no-build-isolation --editable ." in notes[2]
     assert (machine / "clone/.venv/.ready").read_text() == f"{machine / 'clone'}\n"
+
+
+def test_a_study_does_not_wait_for_tools_which_are_added_when_asked_for(machine):
+    install(machine, "python3", 12)
+    _, notes = set_up(machine, "study")
+    assert not any("--requirement requirements.txt" in note for note in notes)
+    assert (machine / "clone/.venv/.ready").exists() and not (machine / "clone/.venv/.tools").exists()
+    _, both = set_up(machine, "tools")
+    assert len(both) == len(notes) + 1 and "--require-hashes --requirement requirements.txt" in both[-1]
+    assert (machine / "clone/.venv/.tools").exists()
 
 
 def test_half_made_environment_is_replaced(machine):
@@ -131,3 +144,13 @@ def test_lock_holds_hashes_and_no_addresses():
     names = {pin.split("==")[0] for pin in pins}
     assert {"snakemake", "numba", "h5py", "click", "tqdm", "pytest", "setuptools"} <= names
     assert "://" not in lock
+
+
+def test_lock_of_a_study_is_part_of_the_lock_of_all():
+    study, whole = (
+        set(re.findall(r"^([\w-]+==[\w.]+).*\\\n((?:    --hash=.*\n)+)", (ROOT / name).read_text(), re.M))
+        for name in ("requirements-study.txt", "requirements.txt")
+    )
+    assert study < whole
+    names = {pin.split("==")[0] for pin, _ in study}
+    assert {"snakemake", "rich", "flask", "setuptools"} <= names and not {"pytest", "vtk", "mypy"} & names
