@@ -5,10 +5,12 @@ import pytest
 
 from asphalt_nscd.formulation.forecast import Networks, Settings, forecast, modulus_of
 from asphalt_nscd.formulation.levels import levels_of
-from asphalt_nscd.formulation.network import Physics, contents_of, films_of, level_map
+from asphalt_nscd.formulation.network import Physics, bond_stiffness, contents_of, films_of, level_map
 from asphalt_nscd.formulation.rivals import mori_tanaka
 from asphalt_nscd.formulation.static_map import RATIOS, fit_map
 from asphalt_nscd.formulation.written import law_of_mix, points, summary
+from asphalt_nscd.nscd.bonds.statics import Statics
+from asphalt_nscd.specimen.prism import pulled_system, static_motion, stretched
 
 BULK = 2.5e9
 
@@ -129,6 +131,27 @@ def test_law_of_the_mix_follows_the_forecast(found, tmp_path):
     law = Law(law_of_mix(found))
     frequency = found.recipe.frequency
     assert np.log(law.complex_modulus(frequency) / found.modulus) == pytest.approx(0.0, abs=2e-3)
+
+
+@pytest.mark.parametrize("other", [Physics(), Physics(film=6e-6, void_share=0.3)])
+def test_factors_left_by_other_films_change_no_map(recipe, contents, mortar, other):
+    physics = Physics(film=6e-6, void_share=0.1, skeleton_pressure=1e4)
+    prism, stone = contents.prism, recipe.aggregate
+    system = pulled_system(prism, np.zeros(3 * prism.network.first.size))
+    values = []
+    for weight in bond_stiffness(contents, mortar, stone, BULK, physics, RATIOS) / stone.modulus:
+        pulled = replace(system, weight=weight)
+        values.append(stretched(prism, pulled, static_motion(pulled))[0])
+    level_map(contents, mortar, stone, BULK, other)
+    found = level_map(contents, mortar, stone, BULK, physics)
+    assert found(RATIOS) == pytest.approx(fit_map(np.array(values))(RATIOS), rel=1e-7)
+
+
+def test_static_motion_that_is_not_found_is_no_motion(contents):
+    prism = contents.prism
+    system = pulled_system(prism, np.ones(3 * prism.network.first.size))
+    with pytest.raises(ArithmeticError, match="not found"):
+        Statics(system, 1e-30, 2, 2).motion(system.weight)
 
 
 def test_maps_are_solved_once(recipe, packing, monkeypatch):

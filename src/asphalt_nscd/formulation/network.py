@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -12,6 +13,7 @@ from asphalt_nscd.formulation.levels import Level
 from asphalt_nscd.formulation.packing import LARGEST, LevelPacking
 from asphalt_nscd.formulation.static_map import RATIOS, StaticMap, fit_map
 from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.nscd.bonds.statics import Statics
 from asphalt_nscd.specimen.network import facet_network
 from asphalt_nscd.specimen.prism import cut_prism, pulled_system, stretched
 from asphalt_nscd.specimen.trimming import Specimen, layer_height
@@ -21,6 +23,9 @@ POINTS = 200_000  # thrown into the prism to find its solid fraction
 CONTACT = 0.01  # of the smaller radius: a smaller gap in the poured layer is a contact
 THINNEST = 1e-5  # film over the distance of the centres; a sphere cut by a plate has none
 ABSENT = 1e-6  # of its stiffness: a film that is a void
+NEIGHBOURS = 3  # ratios that share factors, made at the middle one
+TOLERANCE = 1e-10  # of the static solutions
+MOST_ITERATIONS = 25  # of one with the factors of a neighbour, or of another map
 
 
 @dataclass(frozen=True)
@@ -40,7 +45,7 @@ class Physics:
     squeezed: bool = True
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Contents:
     """A prism of a level's packing: spheres at their own size, and what its volume holds."""
 
@@ -94,11 +99,24 @@ def level_map(
     contents: Contents, level: Level, grain: Solid, matrix_bulk: float, physics: Physics
 ) -> StaticMap:
     """Young's modulus of a level over that of its grains as a function of that of its matrix, likewise."""
+    stiffness = bond_stiffness(contents, level, grain, matrix_bulk, physics, RATIOS) / grain.modulus
+    found = np.empty(RATIOS.size)
+    for statics, group in zip(
+        _statics(contents), np.arange(RATIOS.size).reshape(-1, NEIGHBOURS), strict=True
+    ):
+        for k in np.roll(group, -(NEIGHBOURS // 2)):
+            system = replace(statics.system, weight=stiffness[k])
+            found[k] = stretched(contents.prism, system, statics.motion(stiffness[k]))[0]
+    return fit_map(found)
+
+
+@lru_cache(maxsize=4)  # the levels of a mix: factors of more would fill the memory
+def _statics(contents: Contents) -> list[Statics]:
+    """One for each group of neighbours among RATIOS. Factors serve all maps of a network: films change, not bonds."""
     system = pulled_system(contents.prism, np.zeros(3 * contents.prism.network.first.size))
-    found = []
-    for own in bond_stiffness(contents, level, grain, matrix_bulk, physics, RATIOS):
-        found.append(stretched(contents.prism, replace(system, weight=own / grain.modulus))[0])
-    return fit_map(np.array(found))
+    return [
+        Statics(system, TOLERANCE, MOST_ITERATIONS, MOST_ITERATIONS) for _ in range(RATIOS.size // NEIGHBOURS)
+    ]
 
 
 def bond_stiffness(

@@ -48,7 +48,8 @@ def pull(prism: Specimen, share: np.ndarray) -> tuple[float, float]:
 
     share (3,): normal and two tangential stiffnesses of a bond over A / l. See `stretched`.
     """
-    return stretched(prism, pulled_system(prism, (prism.network.form[:, None] * share).ravel()))
+    system = pulled_system(prism, (prism.network.form[:, None] * share).ravel())
+    return stretched(prism, system, static_motion(system))
 
 
 def pulled_system(prism: Specimen, weight: np.ndarray) -> BondedSystem:
@@ -71,15 +72,16 @@ def pulled_system(prism: Specimen, weight: np.ndarray) -> BondedSystem:
     )
 
 
-def stretched(prism: Specimen, system: BondedSystem) -> tuple[float, float]:
+def stretched(prism: Specimen, system: BondedSystem, motion: np.ndarray) -> tuple[float, float]:
     """(E over the modulus to which the weights refer, Poisson's ratio) of a prism pulled; its `pulled_system`.
+
+    motion (d,): its displacements where the plates part by one.
 
     The plates neither turn nor contract. Strains are slopes of a line through the displacements of the spheres in
     the middle third of the length; Poisson's ratio is the mean of both lateral ones. Force over the nominal section
     b e.
     """
     n, geometry = prism.radius.size, prism.geometry
-    motion = _drawn(system)
     middle = np.abs(prism.position[:, 2] - geometry.h / 2) < MEASURED * geometry.h / 2
     along = motion[: 6 * n].reshape(n, 6)[middle, :3]
     strain = [np.polyfit(prism.position[middle, k], along[:, k], 1)[0] for k in range(3)]
@@ -87,7 +89,7 @@ def stretched(prism: Specimen, system: BondedSystem) -> tuple[float, float]:
     return stress / strain[2], -(strain[0] + strain[1]) / (2.0 * strain[2])
 
 
-def _drawn(system: BondedSystem) -> np.ndarray:
+def static_motion(system: BondedSystem) -> np.ndarray:
     """Static motion (d,) of a system whose driven degree of freedom moves by one."""
     free, k = system.free, system.stiffness()
     matrix, coupling = k[free][:, free].tocsc(), k[free][:, [system.driven]].toarray()[:, 0]
@@ -99,7 +101,7 @@ def _drawn(system: BondedSystem) -> np.ndarray:
 
 def static_ratio(system: BondedSystem, shape: Shape) -> float:
     """c: static |E*| of a test by its form factor, over the modulus of the bonds."""
-    return shape.form_factor() * stiffness(system, _drawn(system))
+    return shape.form_factor() * stiffness(system, static_motion(system))
 
 
 def stiffness(system: BondedSystem, motion: np.ndarray) -> float:

@@ -12,15 +12,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, SuperLU, cg
 
-from asphalt_nscd.nscd.bonds.implicit_operator import factorise
-from asphalt_nscd.nscd.bonds.multigrid import Multigrid
+from asphalt_nscd.nscd.bonds.statics import Statics
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 
 LEFT = 1e-3  # of the stiffness of a bond that is lost: spheres on lost bonds alone keep their place
 TOLERANCE = 1e-6  # of the static solution
-MOST_ITERATIONS = 15  # of a solution; the matrix is factorised anew after one that took more
+ENOUGH_ITERATIONS = 15  # of a solution with factors of the bonds as they were
 
 
 @dataclass(frozen=True)
@@ -76,9 +74,11 @@ def tire(
     """
     tires = np.isfinite(system.strength)
     damage, cycles = np.zeros(length.size), 0.0
-    statics, rows = _Statics(system), []
+    statics, rows = Statics(system, TOLERANCE, ENOUGH_ITERATIONS, 20 * ENOUGH_ITERATIONS), []
     while True:
-        opening, stiffness = statics.opening(remaining_stiffness(damage))
+        weight = system.weight * remaining_stiffness(damage)
+        opening = system.operator @ statics.motion(weight)
+        stiffness = float(weight @ opening**2)
         rows.append((cycles, stiffness, np.count_nonzero(damage >= 1.0)))
         if stiffness <= until * rows[0][1]:
             break
@@ -111,49 +111,3 @@ def _step_that_takes(lost: float, energy: np.ndarray, speed: np.ndarray, damage:
             return np.inf
         step += gap / slope
     return step
-
-
-class _Statics:
-    """The static motion while bonds tire: conjugate gradients, with factors of the bonds as they were for a while."""
-
-    def __init__(self, system: BondedSystem) -> None:
-        self.system = system
-        self.motion = np.zeros(system.mass.size)
-        self.motion[system.driven] = 1.0
-        self.operator, self.transpose = system.operator, system.operator.T.tocsr()
-        self.factor: SuperLU | Multigrid | None = None
-
-    def opening(self, share: np.ndarray) -> tuple[np.ndarray, float]:
-        """Openings (3 b,) per unit displacement of the head, and its stiffness over modulus [m]."""
-        system, free = self.system, self.system.free
-        weight = system.weight * share
-        if self.factor is None:
-            self.factor = factorise(system.stiffness(weight)[free][:, free].tocsc(), system)
-
-        def force(motion: np.ndarray) -> np.ndarray:
-            return np.asarray(self.transpose @ (weight * (self.operator @ motion)))
-
-        def of_free(part: np.ndarray) -> np.ndarray:
-            whole = np.zeros_like(self.motion)
-            whole[free] = part
-            return force(whole)[free]
-
-        head = np.zeros_like(self.motion)
-        head[system.driven] = 1.0
-        taken: list[None] = []
-        matrix, near = ((free.size, free.size) for _ in range(2))
-        self.motion[free], failed = cg(
-            LinearOperator(matrix, of_free, dtype=float),
-            -force(head)[free],
-            x0=self.motion[free],
-            rtol=TOLERANCE,
-            maxiter=20 * MOST_ITERATIONS,
-            M=LinearOperator(near, self.factor.solve, dtype=float),
-            callback=lambda _: taken.append(None),
-        )
-        if failed:
-            raise ArithmeticError("the static motion of the damaged specimen was not found")
-        if len(taken) > MOST_ITERATIONS:
-            self.factor = None
-        opening = self.operator @ self.motion
-        return opening, float(weight @ opening**2)
