@@ -43,6 +43,29 @@ def test_estimates_spread_is_that_of_causes_without_a_name():
     assert Ladder(None, None).estimates_spread == 1.0
 
 
+def test_the_name_that_is_least_sure_is_the_one_whose_interval_holds_zero_by_most(fit):  # noqa: F811
+    joint, fitted = fit
+    offset, delay = (
+        Candidate(CAUSES[n], None, (v,)) for n, v in (("phase_offset", 1.0), ("channel_delay", 1e-4))
+    )
+    both = joint.linearise(fitted.law, fitted.scales, (offset, delay))
+    rungs = [Rung(one, 0.001, None, both, (), 0.99, 0.99) for one in (offset, delay)]
+
+    def unsure(of_offset, of_delay, spread=0.0):
+        sizes = {
+            offset.key: (1.0, of_offset),
+            delay.key: (1e-4, of_delay),
+            ("moving_mass", None): (spread, 1.0),
+        }
+        return Ladder(joint, fitted, rungs=rungs, estimates=sizes).unsure
+
+    assert unsure(0.45, 0.45e-4) is None
+    assert unsure(0.55, 0.45e-4) == offset and unsure(0.55, 0.60e-4) == delay
+    assert (
+        unsure(0.45, 0.40e-4, spread=3.0) == offset
+    )  # the estimates of this table spread three times as far
+
+
 def test_specimens_with_frequencies_of_their_own_are_noticed_and_scatter_is_not(fit):  # noqa: F811
     joint, fitted = fit
     empty = [one.p_value for seed in range(40) for one in ladder._interactions(*redrawn(joint, fitted, seed))]
