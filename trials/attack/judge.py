@@ -114,6 +114,11 @@ def told(fault: Fault, campaign: Campaign, content: Content, answer: str) -> boo
     return whole or bool(rows.sum() < len(rows) and np.mean(hit) >= HALF)
 
 
+def _said(answer: str) -> bool:
+    """Whether an answer holds a certain cause: a fault of the tests, or an effect of the mix."""
+    return "\nEffect " in answer or not ("None found" in answer or "None is certain" in answer)
+
+
 def _sweep(one: Mapping[str, Any], fault: Fault) -> bool:
     return one["specimen"] == fault.specimen and _same(one["temperature_C"], fault.temperature)
 
@@ -156,7 +161,7 @@ def judged(
         "wrong_possible": sum(not e.get("established") for e in false),
         "wrong_names": " ".join(_label(e) for e in false),
         "hold_zero": sum(_holds_zero(e) for e in names(content)),
-        "unsaid": bool(confident) and ("None found" in answer or "None is certain" in answer),
+        "unsaid": bool(confident) and not _said(answer),
         "good_rejected": int((gone & ~excused).sum()),
         "broken": campaign.broken is not None,
         "broken_found": campaign.broken is not None and _broken_found(campaign, contradictory, gone),

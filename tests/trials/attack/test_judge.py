@@ -121,6 +121,12 @@ def test_intervals_with_zero_and_causes_kept_back_are_seen():
     assert (
         kept["unsaid"]
         and not row(None, "nothing", answer="Fault  Self-heating", ladder=[entry("self_heating")])["unsaid"]
+        and not row(
+            None,
+            "nothing",
+            answer="Fault  None is certain.\nEffect  Self heating",
+            ladder=[entry("self_heating")],
+        )["unsaid"]
     )
 
 
