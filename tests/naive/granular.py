@@ -166,7 +166,7 @@ def blocks_in_order(bodies, fixed, width=8):
 
 
 def sweep_one_by_one(bodies, packed, motion, friction, visits, relaxation, quiet, calm):
-    """A sweep over contacts, one after another; rows as in `Room`, changed in place.
+    """A sweep over contacts, one after another; rows as in `Workspace`, changed in place.
 
     Returns the sums of squares of the change of impulse and of the impulse, the largest excess, the noted contacts,
     and how many opened or stayed open, stuck and slipped.

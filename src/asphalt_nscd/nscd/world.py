@@ -137,7 +137,7 @@ class World:
             beyond = np.zeros_like(explicit)  # of the openings, what is not linear in the motion [m/s]
             for _ in range(MOST_TURNS):
                 start = factor.solve(push + operator.T @ (scaled * (explicit - beyond)))
-                velocity = contacts.meet(start, factor, dt)
+                velocity = contacts.solve(start, factor, dt)
                 position, rotation = self._moved(dt * velocity)
                 rate = (self._openings(position, rotation)[0] - opening) / dt
                 last, beyond = beyond, rate - operator @ velocity
@@ -262,7 +262,7 @@ class _Contacts:
         friction = np.where(spheres, around.friction, around.wall_friction)
         return cls(rows, gap, friction, rows[:0], np.empty(0))
 
-    def meet(self, velocity: np.ndarray, factor: SuperLU, dt: float) -> np.ndarray:
+    def solve(self, velocity: np.ndarray, factor: SuperLU, dt: float) -> np.ndarray:
         """The velocity (6 n,) after the impulses of all that would close within the step."""
         gap, touching = np.maximum(self.gap, 0.0), np.zeros(self.gap.size, bool)
         corrected = velocity
