@@ -178,7 +178,7 @@ class Team:
     def run(self, kernel: Callable[..., Any], *arguments: Any) -> list[Any]:
         """kernel(rank, members, barrier, *arguments) by all members; what each returned.
 
-        The kernel is compiled for teams and begins with `arrive`. If one member fails or the caller is interrupted,
+        The kernel is compiled for teams and begins with `mark_started`. If one member fails or the caller is interrupted,
         meetings end.
         """
         barrier = np.zeros(32, np.int64)
