@@ -178,8 +178,8 @@ class Team:
     def run(self, kernel: Callable[..., Any], *arguments: Any) -> list[Any]:
         """kernel(rank, members, barrier, *arguments) by all members; what each returned.
 
-        The kernel is compiled for teams and begins with `mark_started`. If one member fails or the caller is interrupted,
-        meetings end.
+        The kernel is compiled for teams and begins with `mark_started`. If one member fails or the caller is
+        interrupted, meetings end.
         """
         barrier = np.zeros(32, np.int64)
         try:
