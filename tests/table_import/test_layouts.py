@@ -229,6 +229,16 @@ def test_numbers_beside_the_table_are_not_passed_over(tmp_path):
     assert "7 fields under 5 column names" in refusal(tmp_path, rows)
 
 
+def test_a_text_is_no_name_of_a_column(tmp_path):
+    """Nor is it searched word by word: eight thousand took minutes."""
+    long_name = "E / " * 50 + "E (MPa)"
+    assert "no column for |E*|" in refusal(tmp_path, [[*KEYS, long_name, "phi (°)"], [4, 10, 9000, 12]])
+    assert (
+        "no column for |E*|"
+        not in read(tmp_path, [[*KEYS, long_name[-23:], "phi (°)"], [4, 10, 9000, 12]]).notes
+    )
+
+
 @pytest.mark.parametrize("mark", ["   ", " | "])
 def test_columns_that_nothing_separates(tmp_path, mark):
     rows = [[mark.join(map(str, row))] for row in [[*KEYS, "E (MPa)", "phi (°)"], [4, 10, 9000, 12]]]

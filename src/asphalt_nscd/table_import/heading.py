@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.table_import.quantities import Column, recognise
+from asphalt_nscd.table_import.quantities import LONGEST_NAME, Column, recognise
 
 SPECIMEN, CELSIUS, FAHRENHEIT, HERTZ = "specimen", "T (°C)", "T (°F)", "f (Hz)"
 MEAN = "Mean"  # in place of a specimen
@@ -79,7 +79,7 @@ def known(name: str) -> Column | None:
 
 def read_heading(text: str) -> Heading:
     """The heading of one cell."""
-    if known(text) is not None:
+    if len(text) > LONGEST_NAME or known(text) is not None:
         return Heading(text)
     if _SPREAD.search(text):
         stem = _SPREAD.sub(" ", text)
@@ -104,7 +104,7 @@ def read_heading(text: str) -> Heading:
 def condition(text: str) -> dict[str, str]:
     """What a cell says that holds nothing but conditions, `T = 4 °C`, `10 Hz`, `Spec. 1`; else empty."""
     at: dict[str, str] = {}
-    return at if not _tidy(_taken(text, at)) else {}
+    return at if len(text) <= LONGEST_NAME and not _tidy(_taken(text, at)) else {}
 
 
 def without_condition(name: str) -> str:

@@ -126,6 +126,7 @@ ABSENT = (
         "#zahl!",
     ),
 )
+LONGEST_NAME = 200  # characters; what is longer names no column, and would be searched for long
 # Words that a name may carry beside that of its quantity.
 _BESIDE = frozenset(
     "of the du de des d la le l der di del test testing tested sollicitation essai mesuré measured "
@@ -151,6 +152,8 @@ class Column:
 
 def recognise(header: str, known: dict = MEASURED) -> Column | None:
     """The column that a name stands for, None if it is none of those known; refuses another's unit."""
+    if len(header) > LONGEST_NAME:
+        return None
     if header in known:  # one of ours
         units = known[header][1]
         return Column(header, header.rpartition("_")[2] if units and units is not _NUMBER else "")

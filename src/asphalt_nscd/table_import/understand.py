@@ -202,7 +202,7 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     *words, last = (_WORDS[name] for name in missing[form])
     wanted = f"columns for {', '.join(words)} and {last}" if words else f"column for {last}"
     raise (NotTests if nothing else InputError)(
-        f"{cells.path}: no {wanted} (found: {', '.join(cells.header)}); write names with units, or name a column of "
+        f"{cells.path}: no {wanted} (found: {', '.join(name[:60] for name in cells.header)}); write names with units, or name a column of "
         f'yours with --column {missing[form][0]}="its name".'
     )
 
