@@ -200,9 +200,10 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant
     nothing = {"E_MPa", "F0_N", "z0_m"}.isdisjoint(columns)
     *words, last = (_WORDS[name] for name in missing[form])
+    named = ", ".join(name[:60] for name in cells.header)
     wanted = f"columns for {', '.join(words)} and {last}" if words else f"column for {last}"
     raise (NotTests if nothing else InputError)(
-        f"{cells.path}: no {wanted} (found: {', '.join(name[:60] for name in cells.header)}); write names with units, or name a column of "
+        f"{cells.path}: no {wanted} (found: {named}); write names with units, or name a column of "
         f'yours with --column {missing[form][0]}="its name".'
     )
 
