@@ -86,7 +86,9 @@ def test_every_cause_has_an_effect_to_be_held_against():
     """Named in CONTRIBUTING: a new cause is entered in EXPECTED, with its effect written down independently."""
     of_temperature = {"temperature_bias", "self_heating"}
     assert set(EXPECTED) | of_temperature == set(CAUSES)
-    assert set(criteria.EXPECTED) == set(CAUSES)  # its chance and usual size, without which it has no probability
+    assert set(criteria.EXPECTED) == set(
+        CAUSES
+    )  # its chance and usual size, without which it has no probability
 
 
 @pytest.mark.parametrize("cause", CATALOGUE, ids=lambda cause: cause.name)
