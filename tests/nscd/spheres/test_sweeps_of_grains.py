@@ -86,7 +86,7 @@ def sweeps_of_a_squeezed_grain(relaxation):
         if abs(motion[1, 2]) < 1e-6:
             np.testing.assert_allclose(workspace.packed[contacts, 5], -125.0, rtol=1e-5)  # both stop it
             return sweep
-        sweep_blocks(slabs.blocks, 0, slabs.begin[1], 0, 0.0, relaxation, np.inf, np.inf, workspace)
+        sweep_blocks(slabs.blocks, 0, slabs.begin[1], 0, (0.0, 0.0), relaxation, np.inf, np.inf, workspace)
     raise AssertionError("not at rest")
 
 
