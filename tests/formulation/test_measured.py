@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.optimize import minimize_scalar
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.formulation.forecast import Networks, Settings, forecast, modulus_of
@@ -32,6 +33,36 @@ def test_pairs_are_read_with_their_laws(pairs):
     )
     found = pairs[0].mix.complex_modulus(1.0, 15.0)
     assert found == pytest.approx(1e6 * by_hand, rel=1e-9)
+
+
+def test_warm_binders_are_slower_than_their_mixes_and_hot_ones_are_not(pairs):
+    """Decades by which each is slower than H0, as docs/forecast.md tells them."""
+    by_name = {pair.name: pair for pair in pairs}
+    hot = by_name["H0"]
+
+    def slower(law, of):
+        def off(decades):
+            found = law.complex_modulus(hot.omega, hot.recipe.temperature)
+            moved = of.complex_modulus(hot.omega * 10.0**decades, hot.recipe.temperature)
+            return float((np.abs(np.log(found / moved)) ** 2).sum())
+
+        return minimize_scalar(off, bounds=(-4.0, 4.0), method="bounded").x
+
+    told = {
+        "H3": (0.41, 0.44),
+        "H9": (0.76, 0.80),
+        "W0": (0.82, -0.23),
+        "W3": (1.55, 0.82),
+        "W6": (2.37, 1.82),
+    }
+    for name, (binder, mix) in told.items():
+        assert slower(by_name[name].recipe.binder, hot.recipe.binder) == pytest.approx(binder, abs=0.006)
+        assert slower(by_name[name].mix, hot.mix) == pytest.approx(mix, abs=0.006)
+    told_glass = [
+        by_name[w].mix.glassy_modulus / by_name[h].mix.glassy_modulus
+        for w, h in zip(("W0", "W3", "W6"), ("H0", "H3", "H9"), strict=True)
+    ]
+    assert told_glass == pytest.approx([0.81, 0.86, 0.91], abs=0.006)
 
 
 def test_no_map_fits_warm_and_hot_mixes(pairs):
