@@ -6,6 +6,7 @@ import pytest
 from asphalt_nscd.formulation.forecast import Networks, Settings, forecast, modulus_of
 from asphalt_nscd.formulation.levels import levels_of
 from asphalt_nscd.formulation.network import Physics, bond_stiffness, contents_of, films_of, level_map
+from asphalt_nscd.formulation.recipe import recipe_of
 from asphalt_nscd.formulation.rivals import mori_tanaka
 from asphalt_nscd.formulation.static_map import RATIOS, fit_map
 from asphalt_nscd.formulation.written import law_of_mix, points, summary
@@ -152,6 +153,18 @@ def test_static_motion_that_is_not_found_is_no_motion(contents):
     system = pulled_system(prism, np.ones(3 * prism.network.first.size))
     with pytest.raises(ArithmeticError, match="not found"):
         Statics(system, 1e-30, 2, 2).motion(system.weight)
+
+
+@pytest.mark.parametrize("temperatures", [[20], [5, 20], [0, 10, 20]])
+def test_a_shifted_binder_gives_a_law_at_few_temperatures(content, packing, temperatures):
+    from asphalt_nscd.api.laws import Law
+
+    content["binder"] |= {"reference_temperature_C": 15, "shift": {"wlf_C1": 20, "wlf_C2_K": 150}}
+    asked = recipe_of(content | {"temperatures_C": temperatures, "angular_frequencies_rad_s": [10.0]})
+    made = forecast(asked, Networks(lambda level, seed: packing), seeds=(1,))
+    law = Law(law_of_mix(made))
+    found = law.complex_modulus(asked.frequency, asked.temperature)
+    assert np.log(found / made.modulus) == pytest.approx(0.0, abs=0.05)
 
 
 def test_maps_are_solved_once(recipe, packing, monkeypatch):

@@ -21,6 +21,10 @@ from asphalt_nscd.rheology.spectrum_io import spectrum_content
 
 TABLE, RIVAL_TABLE, LAW, SUMMARY = "forecast.csv", "rivals.csv", "law.json", "forecast.json"
 CHAIN_ERROR = 1e-3  # of ln E*
+FURTHER, SPREAD = (
+    np.array([0.0, 10.0, 20.0]),
+    np.geomspace(0.1, 100.0, 7),
+)  # K, rad/s: points of a law beside those asked
 SHOWN = (1e5, 1e6, 1e7, 1e8, 1e9)  # Pa, of the binder, at which amplifications are told
 WORDS = {
     "packing": "the packing drawn",
@@ -68,9 +72,15 @@ def law_of_mix(found: Forecast) -> dict[str, Any]:
 
     if recipe.shifted:
         kind = "wlf" if isinstance(shift, WLF) else "arrhenius"
-        fit = fit_spectrum(
-            omega, recipe.temperature, found.modulus, shift.reference_temperature, Form(shift=kind)
-        )
+        temperature, modulus = recipe.temperature, found.modulus
+        if np.unique(temperature).size < 3 or temperature.size < 9:  # too few for shift and shape
+            for further in shift.reference_temperature + FURTHER:
+                modulus = np.append(modulus, found.modulus_at(SPREAD, further))
+                omega, temperature = (
+                    np.append(omega, SPREAD),
+                    np.append(temperature, np.full_like(SPREAD, further)),
+                )
+        fit = fit_spectrum(omega, temperature, modulus, shift.reference_temperature, Form(shift=kind))
         return spectrum_content(
             fit.law, source=source, rms_log_residual=fit.rms_log_residual, unseen=fit.unseen
         )
