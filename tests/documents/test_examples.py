@@ -17,7 +17,7 @@ MODULES = [
     "bending.fatigue", "bending.rig", "diagnosis.run", "files.errors", "files.words", "measurements.signals",
     "bending.hold", "measurements.twopoint",
     "nscd.contacts.friction", "rheology.burgers", "rheology.chain", "rheology.fitting", "rheology.shift",
-    "rheology.spectrum", "specimen.deposit",
+    "rheology.spectrum", "specimen.deposit", "specimen.preparation",
 ]  # fmt: skip
 
 
