@@ -210,7 +210,8 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
 
 def _require_plain(cells: Cells, missing: Sequence[str]) -> None:
     """Refuse what stands in place of a quantity that is missing, each with its own mend."""
-    if len(cells.header) == 1 and len(cells.header[0].replace("|", " ").split()) > 2:  # a name and its unit are two
+    words = cells.header[0].replace("|", " ").split()  # a name and its unit are two
+    if len(cells.header) == 1 and len(words) > 2:
         raise NotTests(
             f"{cells.path}: neither semicolons nor tabs nor commas separate its columns; open it in a spreadsheet, "
             "part the columns there, and save it as CSV or XLSX."
