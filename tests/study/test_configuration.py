@@ -1,6 +1,8 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 from pathlib import Path
 
 import pandas as pd
@@ -252,3 +254,15 @@ def test_the_specimen_says_what_is_simulated(config):
     sentence = refusal(config | {"test": "bending"})
     assert "test.type is 'bending', but specimens.geometry has the keys of 'tension-compression'" in sentence
     assert "test.type" in refusal(config | {"test": "torsion"})
+
+
+@pytest.mark.parametrize("study", ["paper", "smoke"])
+def test_a_study_is_planned_without_numpy(study):
+    """By a Snakemake of one's own, whose jobs have an environment of their own."""
+    script = (
+        "import sys, yaml; sys.modules['numpy'] = None\n"
+        "from asphalt_nscd.study.configuration import complete_study\n"
+        f"config = yaml.safe_load(open('config/{study}.yaml'))\n"
+        "complete_study(config, 'it', 'workflow/schemas/study.schema.yaml')\n"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True, cwd=ROOT)

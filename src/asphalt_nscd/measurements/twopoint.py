@@ -15,10 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from asphalt_nscd.files.csvinput import Limits
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.paper import BENDING
+from asphalt_nscd.measurements.paper import PAPER_AMPLITUDE as PAPER_AMPLITUDE
 from asphalt_nscd.measurements.shape import Shape
 
 HEAD_SHARE_OF_MASS = 0.135  # part of the specimen's mass that moves with the head, Eq. (1)
-PAPER_AMPLITUDE = 63e-6  # m, of a head 250 mm above a foot 56 mm wide
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Geometry(Shape):
     mass: float
     mobile_mass: float
 
-    test: ClassVar[str] = "bending"
+    test: ClassVar[str] = BENDING
     axis: ClassVar[int] = 0
     # Wide enough for any two-point bending rig, narrow enough to catch metres under a name in mm.
     limits: ClassVar[dict[str, Limits]] = {

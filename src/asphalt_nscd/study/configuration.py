@@ -16,8 +16,7 @@ from jsonschema.exceptions import ValidationError, best_match
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file, require_readable
-from asphalt_nscd.measurements.geometry import USUAL, read_shape, test_of
-from asphalt_nscd.measurements.twopoint import PAPER_AMPLITUDE, Geometry
+from asphalt_nscd.measurements.paper import BENDING, PAPER_AMPLITUDE
 
 # YAML 1.1 reads 5e-5 as text, because it has no decimal point; the author meant a number.
 _SCIENTIFIC = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
@@ -255,7 +254,11 @@ def _check(study: dict[str, Any], source: str) -> None:
 def _check_geometry(study: dict[str, Any], source: str) -> None:
     """The simulated specimen is the measured one where that is the same for all, or that of the test named."""
     kind = study["test"].get("type")
-    if "geometry" not in study["specimens"] and kind not in (None, Geometry.test):
+    if "geometry" not in study["specimens"] and kind not in (None, BENDING):
+        from asphalt_nscd.measurements.geometry import (
+            USUAL,
+        )  # with numpy, which planning the paper does without
+
         study["specimens"]["geometry"] = USUAL[kind].keys()
     if "geometry" not in study["specimens"]:
         if isinstance(study["geometry"], str):
@@ -269,7 +272,11 @@ def _check_geometry(study: dict[str, Any], source: str) -> None:
             raise InputError(
                 f"{source}: {where}.b_mm must not be larger than B_mm; exchange them if they are swapped."
             )
-    simulated = test_of(study["specimens"]["geometry"])
+    geometry, simulated = study["specimens"]["geometry"], BENDING
+    if "b_mm" not in geometry:
+        from asphalt_nscd.measurements.geometry import read_shape, test_of
+
+        simulated = test_of(geometry)
     if kind not in (None, simulated):
         raise InputError(
             f"{source}: test.type is {kind!r}, but specimens.geometry has the keys of {simulated!r}; leave out one of "
@@ -278,8 +285,8 @@ def _check_geometry(study: dict[str, Any], source: str) -> None:
     study["test"]["type"] = simulated
     if "amplitude_m" not in study["test"]:
         study["test"]["amplitude_m"] = PAPER_AMPLITUDE
-        if simulated != Geometry.test:
-            usual = read_shape(study["specimens"]["geometry"]).usual_amplitude()
+        if simulated != BENDING:
+            usual = read_shape(geometry).usual_amplitude()
             study["test"]["amplitude_m"] = float(label(usual))
 
 
