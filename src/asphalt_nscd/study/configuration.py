@@ -253,6 +253,7 @@ def _check(study: dict[str, Any], source: str) -> None:
 
 def _check_geometry(study: dict[str, Any], source: str) -> None:
     """The simulated specimen is the measured one where that is the same for all, or that of the test named."""
+    # Modules that need numpy are imported where they are used: Snakemake alone plans a bending study without it.
     kind = study["test"].get("type")
     if "geometry" not in study["specimens"] and kind not in (None, BENDING):
         from asphalt_nscd.measurements.geometry import (
