@@ -7,6 +7,7 @@ sigmoid of AASHTO R 84 and that of Christensen, Anderson and Marasteanu (CAM); c
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, Protocol
@@ -165,7 +166,7 @@ def _log_slopes(law: HuetSayegh | TwoS2P1D, omega: ArrayLike, temperature: Array
 
 
 @dataclass(frozen=True)
-class OfModulus:
+class OfModulus(ABC):
     """A law of |E*| alone, smooth over ln(frequency): its phase is the one that Kramers and Kronig require.
 
     phase(x) = 1/pi int s(x + u) ln coth(|u|/2) du, with s = d ln|E*| / dx and x = ln(frequency) (Bode 1945). Where s
@@ -177,13 +178,13 @@ class OfModulus:
     tau: float
     shift: WLF | Arrhenius
 
+    @abstractmethod
     def log_modulus(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
         """ln |E*| [ln Pa] at ln(omega tau a_T)."""
-        raise NotImplementedError
 
+    @abstractmethod
     def log_slope(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
         """Its derivative."""
-        raise NotImplementedError
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
         """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
