@@ -120,7 +120,7 @@ def _notes(content: Content) -> list[str]:
     if read.get("test_type") == UNKNOWN:
         said.append(
             "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. "
-            "Add --measured-in bending or tension-compression."
+            "Say whether it was bending or tension-compression: by --measured-in, or in the menu of the page."
         )
     if read.get("off_target"):
         said.append(
