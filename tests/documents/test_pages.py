@@ -88,6 +88,8 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
         ("calls", "calls/calls"),
         ("outside", "benchmark/outside"),
         ("films", "benchmark/films"),
+        ("voids", "forecast/voids"),
+        ("wrong_recipes", "forecast/wrong_recipes"),
         ("benchmark", "benchmark/beside"),
         ("growth", "benchmark/growth"),
     ],

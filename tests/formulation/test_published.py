@@ -20,13 +20,9 @@ def test_errors_of_the_forecast(page):
     assert f"within a factor of {row.factor_all:.2f} and {row.phase_all_deg:.1f}°" in text
 
 
-def test_hirsch_and_what_is_set_on_one_mix():
+def test_what_is_set_on_one_mix():
     text = " ".join((ROOT / "docs/forecast.md").read_text(encoding="utf-8").split())
-    hirsch = OVERALL.loc["hirsch"]
-    assert f"{hirsch.factor_all:.2f} and {hirsch.phase_all_deg:.1f}°" in text
     hot = OVERALL[OVERALL.index.str.startswith("binder ")].iloc[0]
-    decades = hot.name.split()[1]
-    assert f"{decades} decades stiffer" in text
     blind = hot[["phase_H3_deg", "phase_H9_deg"]].max()
     assert (
         f"H3 and H9 are within {100 * (hot[['factor_H3', 'factor_H9']].max() - 1):.0f} % and {blind:.1f}°"
@@ -56,9 +52,4 @@ def test_how_far_the_cost_of_air_is_from_measured():
     off = (table["forecast_percent"] - table["measured_percent"]) / table["standard_error_percent"]
     text = " ".join((ROOT / "docs/forecast.md").read_text(encoding="utf-8").split())
     assert f"{off[:-1].min():.1f} to {off[:-1].max():.1f} standard errors off" in text
-    pooled = table.iloc[-1]
-    assert (
-        f"{-pooled.measured_percent:.1f} ± {pooled.standard_error_percent:.1f} % for a percent of air, forecast "
-        f"{-pooled.forecast_percent:.1f} %"
-    ) in text
-    assert f"probability of {pooled.probability:.2f}" in text
+    assert f"probability of {table.iloc[-1].probability:.2f}" in text
