@@ -32,12 +32,23 @@ _ROWS = (tuple, list, np.ndarray)
 
 
 def checked(function: Callable[P, R]) -> Callable[P, R]:
-    """The same function; an argument that is not what its annotation says raises InputError.
+    """Let a function refuse, with InputError, an argument that is not what its annotation says.
 
     BLAS has one thread while it runs: its many small products take several times as long on more.
 
-    Looked at are numbers, texts, paths, mappings, tuples of them, and classes with such fields; not other annotations.
+    Parameters
+    ----------
+    function : callable
+        Annotated. Looked at are numbers, texts, paths, mappings, tuples of them, and classes with such
+        fields; not other annotations.
 
+    Returns
+    -------
+    callable
+        The same function, checked.
+
+    Examples
+    --------
     >>> @checked
     ... def double(frequency_Hz: float) -> float:
     ...     return 2 * frequency_Hz

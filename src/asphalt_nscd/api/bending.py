@@ -33,6 +33,17 @@ MODELS_KEPT = 4
 class Test(Result):
     """One test: E* and the record of force and displacement behind it.
 
+    Parameters
+    ----------
+    arrays : mapping of str to ndarray
+        Of the file: time_s, displacement_m and force_N (s,), and the instants that were kept.
+    attributes : mapping
+        Of the file; names end in their unit: E_MPa, phase_deg, E_law_MPa, phase_law_deg, amplitude_m.
+    name : str, optional
+        Of the specimen in messages.
+
+    Examples
+    --------
     >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
     >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
     >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}
@@ -50,31 +61,72 @@ class Test(Result):
 
     @property
     def complex_modulus(self) -> complex:
-        """E* [Pa] by Eqs. (1)-(2), from the harmonic of the last two cycles."""
+        """E* by Eqs. (1)-(2), from the harmonic of the last two cycles.
+
+        Returns
+        -------
+        complex
+            E* [Pa].
+        """
         return complex(1e6 * self.E_MPa * np.exp(1j * np.radians(self.phase_deg)))
 
     @property
     def E_MPa(self) -> float:
-        """|E*| [MPa]."""
+        """The norm of E*.
+
+        Returns
+        -------
+        float
+            |E*| [MPa].
+        """
         return float(self.attributes["E_MPa"])
 
     @property
     def phase_deg(self) -> float:
-        """Phase of E* [degrees]."""
+        """The phase of E*.
+
+        Returns
+        -------
+        float
+            Phase [degrees].
+        """
         return float(self.attributes["phase_deg"])
 
     @property
     def broken_bonds(self) -> int:
-        """How many bonds broke; E* is then that of a damaged specimen."""
+        """How many bonds broke; E* is then that of a damaged specimen.
+
+        Returns
+        -------
+        int
+            Number of bonds.
+        """
         return int(self.attributes["broken_bonds"])
 
     @property
     def history(self) -> pd.DataFrame:
-        """time_s, displacement_m and force_N of the head, one row for each step while it moves."""
+        """The record of the head.
+
+        Returns
+        -------
+        DataFrame
+            One row for each step while it moves: time_s, displacement_m, force_N.
+        """
         return pd.DataFrame({name: self.arrays[name] for name in ("time_s", "displacement_m", "force_N")})
 
     def plot(self) -> Figure:
-        """Force against displacement: the loop, whose first cycles hold the transient."""
+        """Draw force against displacement: the loop, whose first cycles hold the transient.
+
+        Returns
+        -------
+        Figure
+            A Matplotlib figure; `savefig` writes it.
+
+        Raises
+        ------
+        ModuleNotFoundError
+            Where Matplotlib, of the extra `figures`, is not installed.
+        """
         with drawing():
             from matplotlib.figure import Figure
 

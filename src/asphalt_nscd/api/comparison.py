@@ -23,8 +23,15 @@ Progress = Callable[[str, float, float], None]
 
 @dataclass(frozen=True)
 class Comparison:
-    """One diagnosis for each mix, by its name.
+    """Several mixes beside each other.
 
+    Parameters
+    ----------
+    diagnoses : mapping of str to Diagnosis
+        By the name of the mix.
+
+    Examples
+    --------
     >>> both = compare(["data/ncat/N1-1_RH.csv", "data/ncat/N2-1_RH.csv"])  # doctest: +SKIP
     """
 
@@ -56,9 +63,14 @@ class Comparison:
 
     @property
     def table(self) -> pd.DataFrame:
-        """One row for each mix, the stiffest first: |E*| and phase at 15 degC and 10 Hz with 95 % intervals.
+        """The mixes by their modulus at 15 degC and 10 Hz.
 
-        rank_low, rank_high: 95 % interval of the rank, from what the moduli leave open.
+        Returns
+        -------
+        DataFrame
+            One row for each mix, the stiffest first: |E*| [MPa] and phase [degrees] with 95 % intervals,
+            verdict, causes, tests, tests left out. rank_low, rank_high: 95 % interval of the rank, from what
+            the moduli leave open.
         """
         rows = []
         for name, diagnosis in self.diagnoses.items():
@@ -82,7 +94,13 @@ class Comparison:
 
     @property
     def curves(self) -> pd.DataFrame:
-        """E* of each mix over its tested band at 15 degC, with 95 % intervals."""
+        """E* of each mix over its tested band at 15 degC.
+
+        Returns
+        -------
+        DataFrame
+            One row for each mix and frequency, with 95 % intervals.
+        """
         made = {name: one.outcome.diagnosis for name, one in self.diagnoses.items()}
         parts = [
             master_curve(one, EN_12697_26[0]).assign(mix=name)

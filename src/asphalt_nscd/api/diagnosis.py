@@ -39,6 +39,13 @@ class Diagnosis:
 
     `str(diagnosis)` is what the command line prints.
 
+    Parameters
+    ----------
+    outcome : diagnosis.run.Outcome
+        What `diagnose` or `Diagnosis.read` found.
+
+    Examples
+    --------
     >>> diagnosis = diagnose("data/tutorial/exports", draws=Draws(500))
     >>> diagnosis.verdict, diagnosis.law.kind
     ('explained', '2s2p1d')
@@ -51,7 +58,23 @@ class Diagnosis:
 
     @classmethod
     def read(cls, folder: str | Path) -> Diagnosis:
-        """The diagnosis in a folder that `write` or `asphalt-nscd diagnose` made."""
+        """Read the diagnosis that `write` or `asphalt-nscd diagnose` left.
+
+        Parameters
+        ----------
+        folder : path
+            Its folder, with diagnosis.json, residuals.csv and causality.csv.
+
+        Returns
+        -------
+        Diagnosis
+            The same diagnosis, without what `verify_limits` and `same_machine` need.
+
+        Raises
+        ------
+        InputError
+            Where a file is missing or is not of a diagnosis.
+        """
         folder = Path(folder)
         content = read_diagnosis([folder / "diagnosis.json"])
         tables = []
@@ -67,33 +90,60 @@ class Diagnosis:
 
     @property
     def content(self) -> Mapping[str, Any]:
-        """Everything, as in diagnosis.json; its keys are described in diagnosis/diagnosis.schema.yaml."""
+        """Everything, as in diagnosis.json.
+
+        Returns
+        -------
+        mapping
+            Its keys are described in diagnosis/diagnosis.schema.yaml.
+        """
         return self.outcome.content
 
     @property
     def verdict(self) -> str:
-        """One of explained, unexplained_structure, nothing_to_explain."""
+        """The answer in one word.
+
+        Returns
+        -------
+        str
+            "explained", "unexplained_structure" or "nothing_to_explain".
+        """
         return str(self.content["verdict"])
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences on how the table was read and on what was found."""
+        """What a reader must know of how the table was read and of what was found.
+
+        Returns
+        -------
+        tuple of str
+            Sentences.
+        """
         return (*self.content.get("reading", {}).get("notes", ()), *self.content["notes"])
 
     @property
     def ladder(self) -> pd.DataFrame:
-        """One row for each cause named, in the order found.
+        """The causes that were named, in the order found.
 
-        value and std_error [unit] are those of its amplitude. error_...: mean relative errors [%] without and with
-        it. established: whether it stays whichever isotherm, frequency or specimen is left out; else it is the
-        likeliest, `hangs_on` names what must not be left out, `as_good` what fits as well, and `doubts` says why an
-        unknown effect may stand behind it.
+        Returns
+        -------
+        DataFrame
+            One row for each. value and std_error [unit] are those of its amplitude. error_...: mean relative
+            errors [%] without and with it. established: whether it stays whichever isotherm, frequency or
+            specimen is left out; else it is the likeliest, `hangs_on` names what must not be left out,
+            `as_good` what fits as well, and `doubts` says why an unknown effect may stand behind it.
         """
         return pd.DataFrame([_rung(rung) for rung in self.content["ladder"]], columns=_LADDER)
 
     @property
     def suspects(self) -> pd.DataFrame:
-        """One row for each doubtful test: specimen, temperature_C, frequency_Hz, used, reasons."""
+        """The doubtful tests.
+
+        Returns
+        -------
+        DataFrame
+            One row for each: specimen, temperature_C, frequency_Hz, used, reasons.
+        """
         rows = [
             {**one, "reasons": "; ".join(one["reasons"])} for one in self.content.get("suspect_tests", [])
         ]
@@ -101,7 +151,14 @@ class Diagnosis:
 
     @property
     def limits(self) -> pd.DataFrame:
-        """Amplitude [unit] of each cause that these data would show in 19 of 20 cases; where: specimen or degC."""
+        """The least amplitude of each cause that these data would show in 19 of 20 cases.
+
+        Returns
+        -------
+        DataFrame
+            One row for each cause and place: cause, confined_to, where (a specimen or degC), value [unit],
+            unit.
+        """
         rows = []
         for cause, limit in self.content["detection_limits"].items():
             for where, value in limit.get("places", {"": limit["value"]}).items():
@@ -110,34 +167,78 @@ class Diagnosis:
 
     @property
     def residuals(self) -> pd.DataFrame:
-        """Each test used: measured, simulated before and after, ln(measured / simulated) in % and degrees."""
+        """Measured and simulated moduli of each test used.
+
+        Returns
+        -------
+        DataFrame
+            One row for each test: measured, simulated before and after, and ln(measured / simulated) in % and
+            degrees.
+        """
         return self.outcome.residuals
 
     @property
     def causality(self) -> pd.DataFrame:
-        """Each test: phase measured, and phase that its |E*| and its isotherm require (Kramers and Kronig)."""
+        """The phase that causality allows each test (Kramers and Kronig).
+
+        Returns
+        -------
+        DataFrame
+            One row for each test: phase measured, and phase that its |E*| and its isotherm require [degrees].
+        """
         return self.outcome.causality
 
     @property
     def laws(self) -> pd.DataFrame:
-        """One row for each law that can be fitted: its number of parameters, mean relative errors [%], if `law`."""
+        """How well each law follows the tests.
+
+        Returns
+        -------
+        DataFrame
+            One row for each law that can be fitted: its number of parameters, mean relative errors [%], and
+            whether it is `law`.
+        """
         return pd.DataFrame(self.content.get("laws", []))
 
     @cached_property
     def law(self) -> Law | None:
-        """The law of the mix without the named causes, with a shift; None where one isotherm was tested."""
+        """The law of the mix without the named causes, with a shift.
+
+        Returns
+        -------
+        Law or None
+            None where one isotherm was tested.
+        """
         return None if self.outcome.law is None else Law(self.outcome.law)
 
     def plot_black(self) -> Figure:
-        """Black diagram and Cole-Cole plane: points measured, lines simulated."""
+        """Draw the Black diagram and the Cole-Cole plane: points measured, lines simulated.
+
+        Returns
+        -------
+        Figure
+            A Matplotlib figure.
+        """
         return self._figure("fig_black")
 
     def plot_master_curve(self) -> Figure:
-        """|E*|, phase and their residuals against reduced frequency, and the shift factors."""
+        """Draw |E*|, phase and their residuals against reduced frequency, and the shift factors.
+
+        Returns
+        -------
+        Figure
+            A Matplotlib figure.
+        """
         return self._figure("fig_master")
 
     def plot_residuals(self) -> Figure:
-        """Residuals over temperature and frequency, before and after."""
+        """Draw the residuals over temperature and frequency, before and after.
+
+        Returns
+        -------
+        Figure
+            A Matplotlib figure.
+        """
         return self._figure("fig_residual_map")
 
     def verify_limits(self, processes: int | None = None, progress: Progress = lambda *_: None) -> Diagnosis:
@@ -170,14 +271,36 @@ class Diagnosis:
         return Diagnosis(self.outcome.with_limits(verify(made, trials, progress)))
 
     def to_json(self, path: str | Path | None = None) -> str:
-        """The content of diagnosis.json as text; written to a path if one is given."""
+        """The content of diagnosis.json as text.
+
+        Parameters
+        ----------
+        path : path, optional
+            Also written there, if one is given.
+
+        Returns
+        -------
+        str
+            JSON.
+        """
         text = json.dumps(self.content, indent=2)
         if path is not None:
             write_json(path, self.content)
         return text
 
     def write(self, folder: str | Path) -> str:
-        """Write diagnosis.json, residuals.csv, causality.csv and law.json; what the command line prints."""
+        """Write diagnosis.json, residuals.csv, causality.csv and law.json.
+
+        Parameters
+        ----------
+        folder : path
+            Made where it does not exist.
+
+        Returns
+        -------
+        str
+            What the command line prints.
+        """
         return self.outcome.written(folder)
 
     def _figure(self, name: str) -> Figure:
@@ -192,7 +315,13 @@ class Diagnosis:
 
     @property
     def details(self) -> str:
-        """The answer with its reasons, as `asphalt-nscd diagnose --details` prints it."""
+        """The answer with its reasons.
+
+        Returns
+        -------
+        str
+            Text, as `asphalt-nscd diagnose --details` prints it.
+        """
         return summary(self.content)
 
     def __str__(self) -> str:
@@ -277,10 +406,18 @@ def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
 class Known:
     """What is known beside the table.
 
-    static_modulus_MPa: of the mix at long times. scatter: standard deviations of one test, |E*| in % and phase in
-    degrees; else they come from replicates. law: "2s2p1d", "huet-sayegh", "sigmoid" (AASHTO R 84, MEPDG) or "cam", the
-    form that the law of the mix is given; all four are compared.
+    Parameters
+    ----------
+    static_modulus_MPa : float, optional
+        Of the mix at long times [MPa].
+    scatter : tuple of float, optional
+        Standard deviations of one test: |E*| in % and phase in degrees; else they come from replicates.
+    law : str
+        Form that the law of the mix is given: "2s2p1d", "huet-sayegh", "sigmoid" (AASHTO R 84, MEPDG) or
+        "cam". All four are compared.
 
+    Examples
+    --------
     >>> Known(scatter=(3.0, 0.5)).static_modulus_MPa is None
     True
     """

@@ -22,10 +22,23 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ExportSettings:
-    """Largest errors of the Prony series over the tested band, Poisson's ratio, units and name of the material.
+    """How closely a Prony series follows its law, and what the file says beside it.
 
-    poisson: None for 0.35, said to be assumed. units: "SI" or "mm-N-MPa".
+    Parameters
+    ----------
+    error_percent : float
+        Largest error of |E*| over the tested band [%].
+    error_deg : float
+        Largest error of the phase over the tested band [degrees].
+    poisson : float, optional
+        Poisson's ratio; None for 0.35, said to be assumed.
+    units : str
+        "SI" or "mm-N-MPa".
+    name : str
+        Of the material.
 
+    Examples
+    --------
     >>> ExportSettings(error_percent=0.5, poisson=0.4, units="mm-N-MPa").error_deg
     0.5
     """
@@ -37,7 +50,18 @@ class ExportSettings:
     name: str = "ASPHALT"
 
     def of_card(self) -> Settings:
-        """As the exports take them."""
+        """The same as the exports take it.
+
+        Returns
+        -------
+        Settings
+            Errors, Poisson's ratio, units and name.
+
+        Raises
+        ------
+        InputError
+            For units that are not known, or an error not greater than zero.
+        """
         if self.units not in UNITS:
             raise InputError(f"units {self.units!r} are not known; give one of {', '.join(UNITS)}.")
         if not (self.error_percent > 0.0 and self.error_deg > 0.0):

@@ -30,6 +30,13 @@ Progress = Callable[[str, float, float], None]
 class Forecast:
     """|E*| and phase of a mix that follow from its recipe alone; nothing is fitted to the mix.
 
+    Parameters
+    ----------
+    found : formulation.forecast.Forecast
+        What `forecast` computed, level by level.
+
+    Examples
+    --------
     >>> mix = forecast("data/forecast/recipe.yaml")  # doctest: +SKIP
     >>> mix.table, mix.law, mix.summary["largest_doubt"], mix.plot()  # doctest: +SKIP
     """
@@ -38,40 +45,88 @@ class Forecast:
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """One row for each temperature [degC] and frequency [Hz]: |E*| [MPa], phase [deg], low and high of both."""
+        """The forecast at each temperature and frequency of the recipe.
+
+        Returns
+        -------
+        DataFrame
+            One row for each temperature [degC] and frequency [Hz]: |E*| [MPa], phase [degrees], low and high
+            of both.
+        """
         return written.points(self.found)
 
     @cached_property
     def rivals(self) -> pd.DataFrame:
-        """The same points as mean fields and regressions forecast them."""
+        """The same points as mean fields and regressions forecast them.
+
+        Returns
+        -------
+        DataFrame
+            One row for each point and rival.
+        """
         return written.rival_points(self.found)
 
     @cached_property
     def law(self) -> Law:
-        """The law of the mix: 2S2P1D where the binder's law has a shift, else a Kelvin chain at its temperature."""
+        """The law of the mix.
+
+        Returns
+        -------
+        Law
+            2S2P1D where the binder's law has a shift, else a Kelvin chain at its temperature.
+        """
         return Law(written.law_of_mix(self.found))
 
     @cached_property
     def summary(self) -> Mapping[str, Any]:
-        """Levels, volume fractions, packings, amplifications, and what each doubt changes."""
+        """What the forecast rests on.
+
+        Returns
+        -------
+        mapping
+            Levels, volume fractions, packings, amplifications, and what each doubt changes.
+        """
         return written.summary(self.found)
 
     def plot(self) -> Figure:
-        """|E*| and phase against reduced frequency, and the Black diagram, beside rivals."""
+        """Draw |E*| and phase against reduced frequency, and the Black diagram, beside rivals.
+
+        Returns
+        -------
+        Figure
+            A Matplotlib figure.
+        """
         with drawing():
             from asphalt_nscd.reporting.figures.forecast_panels import curves
 
         return shown_in_notebooks(curves(self.found, self.table, self.rivals))
 
     def plot_levels(self) -> Figure:
-        """The grading, and a cut through the packing of each level."""
+        """Draw the grading, and a cut through the packing of each level.
+
+        Returns
+        -------
+        Figure
+            A Matplotlib figure.
+        """
         with drawing():
             from asphalt_nscd.reporting.figures.forecast_panels import levels
 
         return shown_in_notebooks(levels(self.found))
 
     def write(self, folder: str | Path) -> list[str]:
-        """Write the files of `asphalt-nscd forecast`, its page excepted; their names."""
+        """Write the files of `asphalt-nscd forecast`, its page excepted.
+
+        Parameters
+        ----------
+        folder : path
+            Made where it does not exist.
+
+        Returns
+        -------
+        list of str
+            Names of the files.
+        """
         return written.write(self.found, folder)
 
     def __repr__(self) -> str:

@@ -36,13 +36,27 @@ MARGIN = 2.0  # of its band to either side of the tested frequency, for the tran
 class Law:
     """A law of E*, of one temperature (Burgers, Kelvin chain) or of all (with their shift).
 
+    Parameters
+    ----------
+    content : mapping
+        As its JSON file has it; `Law.read` and `fit` make it.
+    source : path
+        Of the file; the frequencies and temperatures in a table of tests beside it are the band of an export.
+
+    Raises
+    ------
+    InputError
+        Where the content is that of no law.
+
+    Examples
+    --------
     >>> law = Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
     >>> print(f"{abs(law.complex_modulus(10.0)) / 1e9:.2f} GPa")  # Table 3 of the paper, at 10 Hz
     18.70 GPa
     """
 
-    content: Mapping[str, Any]  # as its JSON file has it
-    source: Path = Path("in memory", "law.json")  # of the file; tests beside it are its band
+    content: Mapping[str, Any]
+    source: Path = Path("in memory", "law.json")
 
     def __post_init__(self) -> None:
         if not isinstance(self.content, Mapping):
@@ -51,7 +65,23 @@ class Law:
 
     @classmethod
     def read(cls, path: str | Path) -> Law:
-        """The law in a file of `fit`, `diagnose` or `chain-law`."""
+        """Read a law from the file that `fit`, `diagnose` or `chain-law` wrote.
+
+        Parameters
+        ----------
+        path : path
+            JSON file.
+
+        Returns
+        -------
+        Law
+            The law.
+
+        Raises
+        ------
+        InputError
+            Where the file is missing or holds no law.
+        """
         return cls(read_json(path), Path(path))
 
     @classmethod
@@ -84,19 +114,35 @@ class Law:
 
     @property
     def kind(self) -> str:
-        """One of burgers, kelvin_chain, 2s2p1d, huet-sayegh, sigmoid, cam."""
+        """The form of the law.
+
+        Returns
+        -------
+        str
+            "burgers", "kelvin_chain", "2s2p1d", "huet-sayegh", "sigmoid" or "cam".
+        """
         return self._parsed.kind
 
     @property
     def temperature_C(self) -> float | None:
-        """The only temperature for which the law holds; None if it holds for all."""
+        """The only temperature for which the law holds.
+
+        Returns
+        -------
+        float or None
+            [degC]; None if it holds for all.
+        """
         return self._parsed.temperature if self.kind in ONE_TEMPERATURE else None
 
     @property
     def parameters(self) -> pd.DataFrame:
-        """Value and standard error of each parameter, and whether the tests determine it.
+        """The parameters of the law.
 
-        The index carries the units: E_glassy_Pa, tau_s.
+        Returns
+        -------
+        DataFrame
+            value and std_error of each parameter, and whether the tests determine it. The index carries the
+            units: E_glassy_Pa, tau_s.
         """
         parsed = self._parsed
         names = [name for name in parsed.parameters if name != "reference_temperature_C"]
@@ -146,13 +192,35 @@ class Law:
         return np.asarray(law.complex_modulus(omega))
 
     def shift_factor(self, temperature_C: ArrayLike) -> NDArray[np.float64]:
-        """a_T: reduced frequency over frequency at temperatures [degC]."""
+        """Shift of frequency with temperature.
+
+        Parameters
+        ----------
+        temperature_C : array_like
+            Temperatures [degC].
+
+        Returns
+        -------
+        ndarray
+            a_T: reduced frequency over frequency; 1 at the reference temperature.
+
+        Raises
+        ------
+        InputError
+            For a law of one temperature.
+        """
         if self.temperature_C is not None:
             raise InputError(f"{self.source}: a law of one temperature has no shift; give a law of all.")
         return self._parsed.factor(_numbers(temperature_C, "temperature_C"))
 
     def write(self, path: str | Path) -> None:
-        """Write the law as JSON, as the command line does."""
+        """Write the law as JSON, as the command line does.
+
+        Parameters
+        ----------
+        path : path
+            File to write.
+        """
         write_json(path, dict(self.content))
 
     def of_bonds(self, frequency_Hz: float, temperature_C: float, highest_Hz: float | None = None) -> Law:
@@ -180,7 +248,18 @@ class Law:
 
     @property
     def bonds(self) -> Burgers | KelvinChain:
-        """What a bond needs of a law of one temperature; see `of_bonds`."""
+        """What a bond needs of a law of one temperature.
+
+        Returns
+        -------
+        Burgers or KelvinChain
+            The law, see `of_bonds`.
+
+        Raises
+        ------
+        InputError
+            For a law of all temperatures.
+        """
         law = self._parsed.law
         if not isinstance(law, Burgers | KelvinChain):
             raise InputError(f"{self.source}: a law of all temperatures; take `of_bonds` at one.")

@@ -15,7 +15,22 @@ SCREEN_DPI = 160  # figures have the size of a journal column, 90 mm
 
 
 def sheet(title: str, rows: Mapping[str, str], notes: Sequence[str] = ()) -> str:
-    """An object as HTML: its title, a row for each quantity with its value and unit, and notes to unfold."""
+    """An object as HTML.
+
+    Parameters
+    ----------
+    title : str
+        Its heading.
+    rows : mapping of str to str
+        By the name of each quantity, its value and unit.
+    notes : sequence of str
+        Sentences to unfold.
+
+    Returns
+    -------
+    str
+        A table; all text is escaped.
+    """
     cells = "".join(
         f"<tr><th>{escape(name)}</th><td>{escape(value)}</td></tr>" for name, value in rows.items()
     )
@@ -35,7 +50,18 @@ def drawing() -> Iterator[None]:
 
 
 def shown_in_notebooks(figure: Figure) -> Figure:
-    """The figure, which Jupyter then shows without pyplot."""
+    """Let Jupyter show a figure without pyplot.
+
+    Parameters
+    ----------
+    figure : Figure
+        Is changed.
+
+    Returns
+    -------
+    Figure
+        The same figure.
+    """
 
     def png() -> bytes:
         content = BytesIO()

@@ -14,7 +14,17 @@ from asphalt_nscd.files.store import load, save
 
 @dataclass(frozen=True)
 class Result:
-    """Arrays and attributes; names of attributes end in their unit."""
+    """Arrays and attributes that a step of the simulation leaves.
+
+    Parameters
+    ----------
+    arrays : mapping of str to ndarray
+        By their place in the HDF5 file.
+    attributes : mapping
+        Of the file; names end in their unit.
+    name : str
+        In messages.
+    """
 
     kind: ClassVar[str]  # of its file
 
@@ -24,10 +34,32 @@ class Result:
 
     @classmethod
     def read(cls, path: str | Path) -> Self:
-        """From a file of the command line, or of `write`."""
+        """Read a file of the command line, or of `write`.
+
+        Parameters
+        ----------
+        path : path
+            HDF5 file of this kind.
+
+        Returns
+        -------
+        Packing, Specimen or Test
+            Of the class that reads.
+
+        Raises
+        ------
+        InputError
+            Where the file is missing, damaged or of another kind.
+        """
         record = load(path, cls.kind)
         return cls(record.arrays, record.attributes, Path(path).stem)
 
     def write(self, path: str | Path) -> None:
-        """To an HDF5 file that the command line reads."""
+        """Write an HDF5 file that the command line reads.
+
+        Parameters
+        ----------
+        path : path
+            File to write.
+        """
         save(path, self.kind, self.arrays, self.attributes)

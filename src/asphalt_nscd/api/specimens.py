@@ -49,12 +49,24 @@ class Spheres(Result):
 
     @property
     def position_m(self) -> np.ndarray:
-        """Centres (n, 3) [m]."""
+        """Centres of the spheres.
+
+        Returns
+        -------
+        ndarray (n, 3)
+            One row x, y, z [m] for each sphere.
+        """
         return self.arrays["position"]
 
     @property
     def radius_m(self) -> np.ndarray:
-        """Radii (n,) [m]."""
+        """Radii of the spheres.
+
+        Returns
+        -------
+        ndarray (n,)
+            Radii [m].
+        """
         return self.arrays["radius"]
 
     @property
@@ -65,6 +77,18 @@ class Spheres(Result):
 class Packing(Spheres):
     """Spheres at rest in a box [0, length] x [0, width] x [0, height], z upwards.
 
+    Parameters
+    ----------
+    arrays : mapping of str to ndarray
+        Of the file: "position" (n, 3) and "radius" (n,) [m], "box" (3,) [m], and of what was poured
+        "contacts/bodies" (c, 2) and "contacts/force" (c, 3) [N].
+    attributes : mapping
+        Of the file; names end in their unit: layer_height_m, solid_fraction, largest_overlap_m.
+    name : str, optional
+        Of the packing in messages.
+
+    Examples
+    --------
     >>> packing = pour({8.0: 40}, (0.04, 0.03, 0.12), vibration=Vibration(duration=0.0))
     >>> list(packing.spheres), len(packing.spheres), packing.box_m.tolist()
     (['x_m', 'y_m', 'z_m', 'radius_m'], 40, [0.04, 0.03, 0.12])
@@ -74,26 +98,55 @@ class Packing(Spheres):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """How a file of another program was read; none for what was poured here."""
+        """How a file of another program was read.
+
+        Returns
+        -------
+        tuple of str
+            Sentences; none for what was poured here.
+        """
         return tuple(filter(None, str(self.attributes.get("notes", "")).split("\n")))
 
     @property
     def box_m(self) -> np.ndarray:
-        """Length, width and height (3,) [m]."""
+        """The box that the spheres were poured into.
+
+        Returns
+        -------
+        ndarray (3,)
+            Length, width and height [m].
+        """
         return self.arrays["box"]
 
     @property
     def spheres(self) -> pd.DataFrame:
-        """One row for each sphere: x_m, y_m, z_m, radius_m."""
+        """The spheres as a table.
+
+        Returns
+        -------
+        DataFrame
+            One row for each sphere: x_m, y_m, z_m, radius_m.
+        """
         return pd.DataFrame(np.column_stack([self.position_m, self.radius_m]), columns=SPHERE_COLUMNS)
 
     @property
     def contacts(self) -> pd.DataFrame:
-        """One row for each contact that bears something: bodies first and second, and the force on the second [N].
+        """The contacts that bear something.
 
-        Bodies n and above are planes: x = 0, y = 0, the floor, then the sides across and the top. Raises InputError for
-        spheres that were not poured here.
+        Returns
+        -------
+        DataFrame
+            One row for each contact: bodies first and second, and the force on the second, force_x_N,
+            force_y_N, force_z_N [N]. Bodies n and above are planes: x = 0, y = 0, the floor, then the sides
+            across and the top.
 
+        Raises
+        ------
+        InputError
+            For spheres that were not poured here, of which no force is known.
+
+        Examples
+        --------
         >>> packing = pour({8.0: 40}, (0.04, 0.03, 0.12), vibration=Vibration(duration=0.0))
         >>> floor = packing.contacts.query("second == 40 + 2")
         >>> bool(abs(floor["force_z_N"].sum() / (2600 * 9.81 * 40 * np.pi / 6 * 0.008**3) + 1) < 0.01)  # their weight
@@ -132,9 +185,20 @@ class Packing(Spheres):
 class Specimen(Spheres):
     """Bonded spheres between the foot (z = 0) and the head (z = h).
 
-    The head is driven along x in bending, along z in tension-compression. The origin is the middle of the foot. Radii
-    are those after the reduction of volume.
+    The head is driven along x in bending, along z in tension-compression. The origin is the middle of the
+    foot. Radii are those after the reduction of volume.
 
+    Parameters
+    ----------
+    arrays : mapping of str to ndarray
+        Of the file: spheres, bonds and their areas; `bonds` and `position_m` show them.
+    attributes : mapping
+        Of the file: lengths [m] and masses [kg] of the geometry, and how it was cut.
+    name : str, optional
+        Of the specimen in messages.
+
+    Examples
+    --------
     >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
     >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}
     >>> beam = specimen(packing, g)
@@ -146,17 +210,36 @@ class Specimen(Spheres):
 
     @cached_property
     def bonded(self) -> BondedSpheres:
-        """The same as the core takes it."""
+        """The same as the core takes it.
+
+        Returns
+        -------
+        specimen.trimming.Specimen
+            Positions, radii, network and geometry.
+        """
         return specimen_of((dict(self.arrays), dict(self.attributes)))
 
     @property
     def geometry(self) -> Shape:
-        """Lengths [m] and masses [kg], a class for each test (docs/geometries.md)."""
+        """The geometry of the test that the specimen was cut for.
+
+        Returns
+        -------
+        Shape
+            Lengths [m] and masses [kg]; a class for each test (docs/geometries.md).
+        """
         return self.bonded.geometry
 
     @property
     def bonds(self) -> pd.DataFrame:
-        """One row for each bond: bodies first and second (n and above: plates), gap_m, length_m, area_m2."""
+        """The bonds as a table.
+
+        Returns
+        -------
+        DataFrame
+            One row for each bond: bodies first and second (n and above: plates), gap_m, length_m [m], area_m2
+            [m2].
+        """
         network = self.bonded.network
         return pd.DataFrame(
             {

@@ -25,7 +25,29 @@ def campaign_in(
     columns: Mapping[str, str] | None = None,
     measured_in: str | None = None,
 ) -> Campaign:
-    """A path, a folder, several of them, or a DataFrame as a campaign."""
+    """Measurements in any form that people have them, as a campaign.
+
+    Parameters
+    ----------
+    measurements : path, folder, several of them, DataFrame or Campaign
+        What is read.
+    sheet : str, optional
+        Of an XLSX file; else every sheet that holds tests.
+    columns : mapping of str to str, optional
+        What a column holds where its name does not say it.
+    measured_in : str, optional
+        "bending" or "tension-compression"; else what the files say.
+
+    Returns
+    -------
+    Campaign
+        Tests in SI units, with notes on how they were read.
+
+    Raises
+    ------
+    InputError
+        For what holds no tests, or a test type that is not known.
+    """
     if measured_in not in (None, *TEST_TYPES):
         raise InputError(f"measured_in {measured_in!r} is not known; give one of {', '.join(TEST_TYPES)}.")
     if isinstance(measurements, Campaign):
@@ -42,7 +64,23 @@ def campaign_in(
 
 
 def observed_in(measurements: Any) -> tuple[Observations, str, str]:
-    """The tests as arrays, what a refusal calls their table, and their origin."""
+    """The tests of measurements as arrays, taken at the geometry of the paper.
+
+    Parameters
+    ----------
+    measurements : path, folder, several of them, or DataFrame
+        What is read.
+
+    Returns
+    -------
+    tuple (Observations, str, str)
+        The tests, what a refusal calls their table, and their origin.
+
+    Raises
+    ------
+    InputError
+        For what holds no tests.
+    """
     campaign = campaign_in(measurements)
     observed, origin = read_observations(campaign, PAPER_GEOMETRY)
     return observed, str(campaign.table.path), origin

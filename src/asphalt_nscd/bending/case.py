@@ -26,25 +26,67 @@ MOST_STEPS = 5_000_000  # of a test, which keeps some 200 bytes of each
 
 @dataclass(frozen=True)
 class LoadCase:
-    """The actuator follows A sin(2 pi f t) from t = 0; the rig stands between it, the head and the record."""
+    """The actuator follows A sin(2 pi f t) from t = 0; the rig stands between it, the head and the record.
 
-    frequency: float  # f, Hz
-    amplitude: float = PAPER_AMPLITUDE  # A, m; N where by_force
+    Parameters
+    ----------
+    frequency : float
+        f of the actuator [Hz].
+    amplitude : float
+        A of the actuator [m]; of its force [N] where `by_force`.
+    cycles : float
+        How many; the last two give E*.
+    rig : Rig
+        Devices at the head, and errors of the measuring channel.
+    by_force : bool
+        Whether the actuator commands the force; its displacement is then measured.
+    """
+
+    frequency: float
+    amplitude: float = PAPER_AMPLITUDE
     cycles: float = 5.0
     rig: Rig = Rig()
-    by_force: bool = False  # the actuator commands the force, and its displacement is measured
+    by_force: bool = False
 
     @property
     def omega(self) -> float:
-        """2 pi f [rad/s]."""
+        """Angular frequency.
+
+        Returns
+        -------
+        float
+            2 pi f [rad/s].
+        """
         return 2.0 * np.pi * self.frequency
 
     def actuator(self, time: Vector) -> Vector:
-        """Displacement z (s,) [m] of the actuator at the times (s,) [s]."""
+        """What the actuator does.
+
+        Parameters
+        ----------
+        time : ndarray (s,)
+            Times [s].
+
+        Returns
+        -------
+        ndarray (s,)
+            Displacement z of the actuator [m].
+        """
         return self.amplitude * np.sin(self.omega * time)
 
     def recorded(self, time: Vector) -> Vector:
-        """The same as the measuring channel records it: late by its delay and its phase offset."""
+        """What the measuring channel records of the actuator: late by its delay and its phase offset.
+
+        Parameters
+        ----------
+        time : ndarray (s,)
+            Times [s].
+
+        Returns
+        -------
+        ndarray (s,)
+            Displacement [m].
+        """
         angle = self.omega * (time - self.rig.channel_delay) - self.rig.phase_offset
         return np.where(angle > 0.0, self.amplitude * np.sin(angle), 0.0)
 
@@ -53,37 +95,97 @@ class LoadCase:
 class Numerics(Ranged):
     """How a test is computed.
 
-    method: one of METHODS; "harmonic" gives the steady oscillation of the unbroken system, without gravity or
-    transient. scheme: one of nscd.stepping.scheme.SCHEMES, for "reduced" and "condensed". tolerance and
-    most_sweeps stop the Gauss-Seidel iterations of "sweeps".
+    Parameters
+    ----------
+    time_step : float
+        Of implicit steps [s].
+    rest_steps : int
+        Under gravity, before the head moves.
+    method : str
+        "reduced", "condensed", "sweeps", or "harmonic", which gives the steady oscillation of the unbroken
+        system, without gravity or transient.
+    scheme : str
+        One of `nscd.stepping.scheme.SCHEMES`, for "reduced" and "condensed".
+    tolerance : float
+        Relative change in a sweep that ends the Gauss-Seidel iterations of "sweeps".
+    most_sweeps : int
+        In a step of "sweeps".
 
+    Examples
+    --------
     >>> Numerics(time_step=1e-3).times(LoadCase(frequency=100.0, cycles=0.3)).round(6).tolist()
     [0.001, 0.002, 0.003]
     """
 
-    time_step: float = within(5e-5, "time_step_s", above=0.0)  # s
-    rest_steps: int = within(1000, low=0, high=MOST_STEPS)  # under gravity, before the head moves
+    time_step: float = within(5e-5, "time_step_s", above=0.0)
+    rest_steps: int = within(1000, low=0, high=MOST_STEPS)
     method: str = one_of("reduced", METHODS)
     scheme: str = one_of("euler", SCHEMES)
-    tolerance: float = within(1e-4, low=0.0)  # relative change in a sweep
-    most_sweeps: int = within(50, low=1)  # in a step
+    tolerance: float = within(1e-4, low=0.0)
+    most_sweeps: int = within(50, low=1)
 
     def steps(self, case: LoadCase) -> int:
-        """How many while the head moves."""
+        """Number of steps while the head moves.
+
+        Parameters
+        ----------
+        case : LoadCase
+            Frequency and cycles.
+
+        Returns
+        -------
+        int
+            Steps of `time_step`.
+        """
         return round(min(case.cycles / case.frequency / self.time_step, 1e18))
 
     def times(self, case: LoadCase) -> Vector:
-        """Ends of the steps (s,) [s] while the head moves."""
+        """Ends of the steps while the head moves.
+
+        Parameters
+        ----------
+        case : LoadCase
+            Frequency and cycles.
+
+        Returns
+        -------
+        ndarray (s,)
+            Times [s].
+        """
         return self.time_step * np.arange(1.0, self.steps(case) + 1.0)
 
     def framed(self, case: LoadCase, count: int) -> NDArray[np.int64]:
-        """`count` (f,) of the steps of `times`, evenly over the last cycle, its end included."""
+        """The steps to keep, evenly over the last cycle, its end included.
+
+        Parameters
+        ----------
+        case : LoadCase
+            Frequency and cycles.
+        count : int
+            How many instants.
+
+        Returns
+        -------
+        ndarray of int (f,)
+            Places in `times`.
+        """
         times = self.times(case)
         last = np.flatnonzero(times > times[-1] - (1.0 - 1e-9) / case.frequency)
         return np.unique(last[-1] - np.round(np.arange(count) * last.size / max(count, 1)).astype(int))
 
     def driven(self, case: LoadCase) -> Vector:
-        """Displacement of the actuator [m] in every step, those at rest included."""
+        """Displacement of the actuator in every step, those at rest included.
+
+        Parameters
+        ----------
+        case : LoadCase
+            Frequency, amplitude and cycles.
+
+        Returns
+        -------
+        ndarray (rest_steps + s,)
+            [m].
+        """
         return np.concatenate([np.zeros(self.rest_steps), case.actuator(self.times(case))])
 
 
@@ -91,9 +193,17 @@ class Numerics(Ranged):
 class RunOptions:
     """What a run tells and keeps.
 
-    energy: keep the energy account of a reduced run too; it then makes its steps one by one. checkpoint: where the
-    run is kept, and from where it goes on; "reduced" and "condensed". frames: how many instants of the last cycle
-    to keep with the motion of all spheres and the force of all bonds; the run then makes its steps one by one.
+    Parameters
+    ----------
+    progress : callable
+        Called with (steps done, steps in all).
+    energy : bool
+        Keep the energy account of a reduced run too; it then makes its steps one by one.
+    checkpoint : Checkpoint, optional
+        Where the run is kept, and from where it goes on; for "reduced" and "condensed".
+    frames : int
+        How many instants of the last cycle to keep with the motion of all spheres and the force of all bonds;
+        the run then makes its steps one by one.
     """
 
     progress: Progress = lambda done, total: None
@@ -106,11 +216,23 @@ class RunOptions:
 class Load(Ranged):
     """What the actuator does, what stands between it, the head and the record, and what is kept of it.
 
-    amplitude_m: without it the strain is usual: in bending that of the paper's 63 um on its own specimen, in
-    tension-compression 50e-6. amplitude_N: of the force, which is then commanded. rig: devices at the head,
-    and errors of the measuring channel. frames: how many instants of the last cycle to keep with the motion of all
-    spheres and the forces of all bonds, for a series of ParaView.
+    Parameters
+    ----------
+    amplitude_m : float, optional
+        Of the head [m]. Without it the strain is usual: in bending that of the paper's 63 um on its own
+        specimen, in tension-compression 50e-6.
+    cycles : float
+        How many; the last two give E*.
+    rig : Rig
+        Devices at the head, and errors of the measuring channel.
+    frames : int
+        How many instants of the last cycle to keep with the motion of all spheres and the forces of all
+        bonds, for a series of ParaView.
+    amplitude_N : float, optional
+        Of the force [N], which is then commanded.
 
+    Examples
+    --------
     >>> from asphalt_nscd.measurements.twopoint import PAPER
     >>> print(f"{Load(frames=24).at(10.0, PAPER).amplitude:.2g} m")
     6.3e-05 m
@@ -123,7 +245,25 @@ class Load(Ranged):
     amplitude_N: float | None = within(None, above=0.0)
 
     def at(self, frequency_Hz: float, shape: Shape) -> LoadCase:
-        """The case of one frequency [Hz] on specimens of a geometry."""
+        """The case of one frequency on specimens of a geometry.
+
+        Parameters
+        ----------
+        frequency_Hz : float
+            Of the actuator [Hz].
+        shape : Shape
+            Geometry, whose usual amplitude is taken where none is given.
+
+        Returns
+        -------
+        LoadCase
+            What the actuator does.
+
+        Raises
+        ------
+        InputError
+            For a frequency that is not greater than zero, or both amplitudes.
+        """
         if not Range(above=0.0).holds(frequency_Hz):
             raise InputError(f"frequency_Hz = {frequency_Hz:g}: give a frequency greater than zero.")
         if self.amplitude_N is not None:
@@ -135,7 +275,22 @@ class Load(Ranged):
 
 
 def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) -> None:
-    """InputError where a method cannot do what is asked of it."""
+    """Refuse what a method cannot do.
+
+    Parameters
+    ----------
+    case : LoadCase
+        What the actuator does.
+    numerics : Numerics
+        Method, scheme and step.
+    options : RunOptions
+        What is to be kept.
+
+    Raises
+    ------
+    InputError
+        For too many steps, or a method without the rig, scheme, checkpoint or frames that are asked for.
+    """
     method, scheme, count = numerics.method, numerics.scheme, numerics.steps(case) + numerics.rest_steps
     if count > MOST_STEPS:
         raise InputError(

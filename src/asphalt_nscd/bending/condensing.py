@@ -25,9 +25,21 @@ KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the
 class Bonds(Ranged):
     """What bonds are beside their law, and whether the head rotates.
 
-    head: "free" or "blocked". poisson: nu of Eqs. (8)-(11), for bonds by area "paper"; kt_over_kn: tangential over
-    normal stiffness, for "facets". yield_Pa: stress at which a bond breaks. friction: where its gap then closes.
+    Parameters
+    ----------
+    head : str
+        "free" or "blocked".
+    poisson : float
+        nu of Eqs. (8)-(11), for bonds by area "paper".
+    kt_over_kn : float
+        Tangential over normal stiffness, for bonds by area "facets".
+    yield_Pa : float
+        Stress at which a bond breaks [Pa].
+    friction : float
+        Where the gap of a broken bond closes.
 
+    Examples
+    --------
     >>> Bonds(head="blocked", yield_Pa=5e6).kt_over_kn
     1.0
     """

@@ -29,11 +29,19 @@ MOST_CYCLES = 10_000  # one by one
 
 @dataclass(frozen=True)
 class FatigueLaw(Ranged):
-    """The law of a bond: of its damage, which is 1 when it is lost, each cycle adds 1e-6 (e / endured)^exponent.
+    """How fast a bond tires: each cycle adds 1e-6 (e / endured)^exponent to its damage, and at 1 it is lost.
 
-    e: amplitude of its opening over its length. endured: the e that uses a bond up in a million cycles. The exponent
-    is minus one over the slope b of the Wöhler line of specimens, log e = log e6 + b log (N / 1e6).
+    e is the amplitude of its opening over its length.
 
+    Parameters
+    ----------
+    endured : float
+        The e that uses a bond up in a million cycles.
+    exponent : float
+        Minus one over the slope b of the Wöhler line of specimens, log e = log e6 + b log (N / 1e6).
+
+    Examples
+    --------
     >>> law = FatigueLaw(endured=100e-6, exponent=5.0)
     >>> float(law.rate(np.array([200e-6]))[0]).__round__(9)
     3.2e-05
@@ -43,7 +51,18 @@ class FatigueLaw(Ranged):
     exponent: float = within(5.0, low=1.0, high=20.0)
 
     def rate(self, amplitude: np.ndarray) -> np.ndarray:
-        """Damage per cycle of bonds at amplitudes (b,) of strain."""
+        """Damage per cycle.
+
+        Parameters
+        ----------
+        amplitude : ndarray (b,)
+            Of the strain of each bond, its opening over its length.
+
+        Returns
+        -------
+        ndarray (b,)
+            Damage that one cycle adds.
+        """
         return np.asarray((amplitude / self.endured) ** self.exponent / MILLION)
 
 

@@ -22,10 +22,27 @@ from asphalt_nscd.rheology.maxwell import of_chain
 
 @dataclass(frozen=True)
 class Hold(Ranged):
-    """What is held, for how long [s], in how many equal steps.
+    """What is held, for how long, in how many equal steps.
 
-    force_N: creep. displacement_m: relaxation; so too without either, at the amplitude of usual tests.
+    Parameters
+    ----------
+    duration_s : float
+        Of the test [s].
+    steps : int
+        Of equal length.
+    force_N : float, optional
+        Held on the head [N]: creep.
+    displacement_m : float, optional
+        Held at the head [m]: relaxation. Without either it is relaxation too, at the amplitude of usual
+        tests.
 
+    Raises
+    ------
+    InputError
+        For force and displacement together, or a zero held.
+
+    Examples
+    --------
     >>> Hold(duration_s=10.0, steps=500, force_N=300.0).time_step
     0.02
     """
@@ -44,20 +61,51 @@ class Hold(Ranged):
 
     @property
     def time_step(self) -> float:
-        """Seconds."""
+        """Length of a step.
+
+        Returns
+        -------
+        float
+            [s].
+        """
         return self.duration_s / self.steps
 
     @property
     def band(self) -> tuple[float, float]:
-        """Frequencies [Hz] that a law must hold for: 1 / (2 pi t) at the last and the first time t."""
+        """Frequencies that a law must hold for.
+
+        Returns
+        -------
+        tuple of float
+            [Hz]: 1 / (2 pi t) at the last and at the first time t.
+        """
         return 0.5 / np.pi / self.duration_s, 0.5 / np.pi / self.time_step
 
 
 def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
-    """time_s, displacement_m, force_N; of creep D_1_GPa and D_law_1_GPa, of relaxation E_MPa and E_law_MPa.
+    """Hold a force or a displacement of the head from rest, and set the closed form of the law beside.
 
-    By the form factor of the test, inertia not counted. `attrs`: broken_bonds, residual of the full equations.
-    Weight is left out.
+    By the form factor of the test; inertia is not counted, weight is left out.
+
+    Parameters
+    ----------
+    model : Model
+        Condensed specimen.
+    law : Burgers or KelvinChain
+        Of the bonds, in the band of `held`.
+    held : Hold
+        What is held.
+
+    Returns
+    -------
+    DataFrame
+        One row for each step: time_s, displacement_m, force_N; of creep D_1_GPa and D_law_1_GPa, of
+        relaxation E_MPa and E_law_MPa. `attrs`: broken_bonds, residual of the full equations.
+
+    Raises
+    ------
+    InputError
+        Where the specimen breaks in two.
     """
     chain = law.as_chain() if isinstance(law, Burgers) else law
     dt, geometry = held.time_step, model.geometry

@@ -25,13 +25,32 @@ SIGNED = ("channel_delay", "phase_offset", "head_mass")
 class Rig(HeadDevices):
     """Devices at the head and the measuring channel; all zero: the test as the reduction takes it.
 
-    clamp_compliance [m/N]: of the clamp between actuator, which is driven and measured, and head;
-    guide_stiffness [N/m], guide_friction [N]: spring and Coulomb slider between head and ground;
-    head_mass [kg]: moves with the head beside the mobile mass of the geometry, negative where that was
-    taken too large, which a compliant clamp does not allow; channel_delay [s]:
-    of the displacement behind the force; phase_offset [rad]: the same as a constant angle. Both of
-    the channel, of either sign, add to the phase: E_apparent = E exp(i (omega delay + offset)).
+    Delay and offset of the channel, of either sign, add to the phase: E_apparent = E exp(i (omega delay +
+    offset)).
 
+    Parameters
+    ----------
+    clamp_compliance : float
+        Of the clamp between actuator, which is driven and measured, and head [m/N].
+    guide_stiffness : float
+        Of a spring between head and ground [N/m].
+    guide_friction : float
+        Of a Coulomb slider between head and ground [N].
+    head_mass : float
+        Moves with the head beside the mobile mass of the geometry [kg]; negative where that was taken too
+        large, which a compliant clamp does not allow.
+    channel_delay : float
+        Of the displacement behind the force [s].
+    phase_offset : float
+        The same as a constant angle [rad].
+
+    Raises
+    ------
+    InputError
+        For a value that is not finite or may not be negative.
+
+    Examples
+    --------
     >>> Rig(clamp_compliance=1e-8, channel_delay=0.8e-3).is_rigid, Rig(channel_delay=0.8e-3).is_rigid
     (False, True)
     """
@@ -53,21 +72,57 @@ class Rig(HeadDevices):
 
     @property
     def is_rigid(self) -> bool:
-        """Whether the specimen's head is driven itself, with nothing beside it."""
+        """Whether the specimen's head is driven itself, with nothing beside it.
+
+        Returns
+        -------
+        bool
+            True without devices; errors of the channel do not count.
+        """
         return not any(self.of_head)
 
     def columns(self) -> dict[str, float]:
-        """Values by KEYS, as files and tables name them."""
+        """Values as files and tables name them.
+
+        Returns
+        -------
+        dict of str to float
+            By `KEYS`, which end in their units.
+        """
         return {KEYS[name]: float(value) for name, value in asdict(self).items()}
 
 
 def write_rig(path: str | Path, rig: Rig) -> None:
-    """Write a rig as JSON."""
+    """Write a rig as JSON.
+
+    Parameters
+    ----------
+    path : path
+        File to write.
+    rig : Rig
+        What it holds.
+    """
     write_json(path, rig.columns())
 
 
 def read_rig(path: str | Path) -> Rig:
-    """Read a rig; keys that are absent are zero, unknown ones are refused."""
+    """Read a rig; keys that are absent are zero.
+
+    Parameters
+    ----------
+    path : path
+        JSON file with keys among `KEYS`.
+
+    Returns
+    -------
+    Rig
+        The rig.
+
+    Raises
+    ------
+    InputError
+        For keys that are not known, and values that are no number or out of range.
+    """
     content = read_json(path)
     if not isinstance(content, dict):
         raise InputError(f"{path}: not a rig; give an object with keys among {', '.join(KEYS.values())}.")

@@ -120,6 +120,15 @@ class Outcome:
 class Draws:
     """Of the chance level: how many, and the seed of their random numbers.
 
+    Parameters
+    ----------
+    number : int
+        Tables drawn without any cause.
+    seed : int
+        The same seed gives the same diagnosis.
+
+    Examples
+    --------
     >>> Draws(500)
     Draws(number=500, seed=0)
     """
@@ -132,10 +141,17 @@ class Draws:
 class Simulated:
     """What was simulated of the tests that are diagnosed.
 
-    campaign: table of simulated tests, to say what in them is numerics; facets: of the same tests with bonds that are
-    facets, to judge bond_mapping; specimen: numerical specimen, a file of `asphalt-nscd reduced-specimen`; else the
-    one shipped.
+    Parameters
+    ----------
+    campaign : path, optional
+        Table of simulated tests, to say what in them is numerics.
+    facets : path, optional
+        Table of the same tests with bonds that are facets, to judge bond_mapping.
+    specimen : path, optional
+        Numerical specimen, a file of `asphalt-nscd reduced-specimen`; else the one shipped.
 
+    Examples
+    --------
     >>> Simulated(campaign="results/smoke/simulations.csv").specimen is None
     True
     """
@@ -147,8 +163,24 @@ class Simulated:
 
 @dataclass(frozen=True)
 class Stated:
-    """What the user says. static_modulus [Pa]; scatter: of |E*| (relative) and phase [rad]; law: one of `LAWS`, fitted.
+    """What the user says beside the table.
 
+    Parameters
+    ----------
+    static_modulus : float, optional
+        Of the mix [Pa].
+    scatter : tuple of float, optional
+        Of |E*| (relative) and of the phase [rad].
+    law : str
+        One of `LAWS`, the form that is fitted.
+
+    Raises
+    ------
+    InputError
+        For a law that is not known.
+
+    Examples
+    --------
     >>> Stated().law
     '2s2p1d'
     """

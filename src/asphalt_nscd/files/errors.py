@@ -17,10 +17,16 @@ RESULTS, PUBLISHED = "results", "published"
 class InputError(Exception):
     r"""Input that cannot be used.
 
-    The message is one sentence that names the file, the row or key, and the mend. The command
-    line prints it alone, without a traceback, and exits with status 2. What it quotes from a file
-    may hold anything: it stays one line, and of a length to be read.
+    The message is one sentence that names the file, the row or key, and the mend. The command line prints it
+    alone, without a traceback, and exits with status 2.
 
+    Parameters
+    ----------
+    message : str
+        What it quotes from a file may hold anything: it stays one line, and of a length to be read.
+
+    Examples
+    --------
     >>> raise InputError("mix.csv, line 3: E_MPa = -5;\n give a modulus greater than zero.")
     Traceback (most recent call last):
     asphalt_nscd.files.errors.InputError: mix.csv, line 3: E_MPa = -5; give a modulus greater than zero.

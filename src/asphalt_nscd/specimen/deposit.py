@@ -23,15 +23,26 @@ Progress = Callable[[str, float, float], None]
 
 @dataclass(frozen=True)
 class Vibration(Ranged):
-    """Of the top wall, after pouring.
+    """Vibration of the top wall, after pouring.
 
+    Parameters
+    ----------
+    stroke : float
+        Crest to crest [m].
+    frequency : float
+        [Hz].
+    duration : float
+        [s]; zero for none.
+
+    Examples
+    --------
     >>> Vibration(duration=0.0).stroke  # pour without; the stroke of the paper
     0.006
     """
 
-    stroke: float = within(6e-3, "stroke_m", low=0.0, high=1.0)  # m, crest to crest
-    frequency: float = within(30.0, "frequency_Hz", above=0.0, high=1e3)  # Hz
-    duration: float = within(1.0, "duration_s", low=0.0, high=60.0)  # s; zero for none
+    stroke: float = within(6e-3, "stroke_m", low=0.0, high=1.0)
+    frequency: float = within(30.0, "frequency_Hz", above=0.0, high=1e3)
+    duration: float = within(1.0, "duration_s", low=0.0, high=60.0)
 
 
 @dataclass

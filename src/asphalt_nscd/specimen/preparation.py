@@ -54,15 +54,26 @@ TOUCHING = 1e-6  # m, gap below which two spheres count as touching
 
 @dataclass(frozen=True)
 class Surfaces(Ranged):
-    """Of grains and walls while they are poured.
+    """Surfaces of grains and walls while they are poured.
 
+    Parameters
+    ----------
+    friction : float
+        Coefficient between spheres.
+    wall_friction : float, optional
+        Coefficient with walls; None for that between spheres.
+    restitution : float
+        Of an impact, with spheres and walls.
+
+    Examples
+    --------
     >>> Surfaces(friction=0.3, wall_friction=0.0).friction  # rough grains between smooth walls
     0.3
     """
 
-    friction: float = within(0.2, low=0.0, high=100.0)  # between spheres
-    wall_friction: float | None = within(None, low=0.0, high=100.0)  # with walls; None: that between spheres
-    restitution: float = within(0.0, low=0.0, below=1.0)  # of an impact, with spheres and walls
+    friction: float = within(0.2, low=0.0, high=100.0)
+    wall_friction: float | None = within(None, low=0.0, high=100.0)
+    restitution: float = within(0.0, low=0.0, below=1.0)
 
 
 @dataclass(frozen=True)

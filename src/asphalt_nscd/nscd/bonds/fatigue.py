@@ -38,15 +38,38 @@ class Jumps:
 
 @dataclass(frozen=True)
 class FatigueHistory:
-    """What became of the bonds; a row for each jump, its start."""
+    """What became of the bonds; a row for each jump, its start.
 
-    cycles: np.ndarray  # (j,)
-    stiffness: np.ndarray  # (j,) of the head, over that of sound bonds
-    lost: np.ndarray  # (j,) bonds
-    damage: np.ndarray  # (b,) of bonds, at the end
+    Parameters
+    ----------
+    cycles : ndarray (j,)
+        Cycles gone.
+    stiffness : ndarray (j,)
+        Of the head, over that of sound bonds.
+    lost : ndarray (j,)
+        Number of bonds lost.
+    damage : ndarray (b,)
+        Of each bond, at the end.
+    """
+
+    cycles: np.ndarray
+    stiffness: np.ndarray
+    lost: np.ndarray
+    damage: np.ndarray
 
     def life(self, share: float = 0.5) -> float:
-        """Cycles at which this share of the stiffness is left, interpolated."""
+        """Cycles at which a share of the stiffness is left, interpolated between jumps.
+
+        Parameters
+        ----------
+        share : float
+            Of the stiffness of sound bonds.
+
+        Returns
+        -------
+        float
+            Cycles; NaN where the stiffness stays above the share.
+        """
         return float(np.interp(-share, -self.stiffness, self.cycles, right=np.nan))
 
 

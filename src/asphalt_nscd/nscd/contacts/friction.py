@@ -29,23 +29,58 @@ PATIENCE = 60  # steps of a path that may pass without the error falling to a ha
 
 @dataclass(frozen=True)
 class ContactSolution:
-    """Reactions with their error. Only where `converged` are they a solution."""
+    """Reactions with their error. Only where `converged` are they a solution.
 
-    reactions: np.ndarray  # r (3 c,) [N s]
-    velocities: np.ndarray  # u = W r + q (3 c,) [m/s]
-    error: float  # natural map in the given units, comparable with Siconos's
-    scaled_error: float  # natural map in units of energy
-    sweeps: int  # of Gauss-Seidel
-    steps: int  # of the interior path and of Newton's method: one factorisation each, or more
-    converged: bool  # both errors within the tolerance
+    Parameters
+    ----------
+    reactions : ndarray (3 c,)
+        r [N s].
+    velocities : ndarray (3 c,)
+        u = W r + q [m/s].
+    error : float
+        Natural map in the given units, comparable with Siconos's.
+    scaled_error : float
+        Natural map in units of energy.
+    sweeps : int
+        Of Gauss-Seidel.
+    steps : int
+        Of the interior path and of Newton's method: one factorisation each, or more.
+    converged : bool
+        Whether both errors are within the tolerance.
+    """
+
+    reactions: np.ndarray
+    velocities: np.ndarray
+    error: float
+    scaled_error: float
+    sweeps: int
+    steps: int
+    converged: bool
 
     @property
     def iterations(self) -> int:
-        """Sweeps and steps together."""
+        """Sweeps and steps together.
+
+        Returns
+        -------
+        int
+            Their number.
+        """
         return self.sweeps + self.steps
 
     def require_converged(self) -> ContactSolution:
-        """Itself, or ArithmeticError that says how far it is."""
+        """Refuse reactions that are no solution.
+
+        Returns
+        -------
+        ContactSolution
+            Itself.
+
+        Raises
+        ------
+        ArithmeticError
+            Which says how far it is from one.
+        """
         if not self.converged:
             worst = max(self.error, self.scaled_error)
             raise ArithmeticError(

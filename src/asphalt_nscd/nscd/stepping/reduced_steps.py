@@ -18,7 +18,7 @@ def advance_reduced(run: ReducedRun) -> tuple[int, int, int]:
 
     Parameters
     ----------
-    run
+    run : ReducedRun
         Its arrays are contiguous doubles; the last nine change in place.
 
     Returns
