@@ -178,10 +178,6 @@ if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= 
         "profile": FIGURES["fig08"][1]["test"],
     }
 
-if STUDY["study"] == "paper":
-    # Only for the README, see publish.smk.
-    TABLES["outputs"] = {"outputs": [shipped("data/paper/outputs.csv")], "timings": ["<results>/timings.csv"]}
-
 if COMMON_LAW:
     PAGES["extended"] = "0 Diagnosis"
     PAGES["prony"] = "0 Diagnosis"

@@ -1,18 +1,37 @@
-"""Stiffness of a bond that is a film of matrix between two elastic spheres (docs/film.md).
+"""Stiffness of a bond that is a film of matrix between two elastic spheres; docs/film.md says how right it is.
 
-The facet of the power diagram is taken as a disc around the line of centres. On a line at distance r from it stand
-grain, film of thickness h(r), grain. The film's deviatoric stress D e acts along the line. The film, squeezed,
-must flow out between the grains or be compressed: its pressure obeys Reynolds' equation
+The facet of the power diagram is taken as a disc around the line of centres; r is the distance from that line.
+
+**Lines.** On a line at r stand grain, film of thickness h(r), grain, in series under the stress 2 G e. Beyond the
+smaller grain the line runs through matrix and one grain, beyond both through matrix alone.
+
+**Pressure.** The film, squeezed, must flow out or be compressed. Its pressure obeys Reynolds' equation
 
     -(1/r) d/dr(r h^3/(12 G c) dp/dr) + p h / (K - 2 G/3) = h (e_film - e_grain),   p = 0 at the rim of the facet,
 
-c = 1 + c1 (s1^2 + s2^2) + c2 s1 s2 of the slopes s of both surfaces: second order of lubrication (Jeffrey & Onishi
-1984). The mean stress of the facet compresses grains over their whole length, what exceeds it over about the width of
-the spot on which it acts (`SPOT`).
+c = 1 + c1 (s1^2 + s2^2) + c2 s1 s2 of the slopes s = r/R of both surfaces. With c1 = 19/30 and c2 = -11/15, and no fit,
+lines and pressure give the exact solution for rigid spheres up to its second term (Jeffrey & Onishi 1984), for every
+ratio of radii lambda = R2/R1, with a = R1 R2 / (R1 + R2):
 
-A network of such pairs has the shear modulus of the mix, but not its Poisson's ratio: the pressure that all films share
-is no matter of pairs. `film_stiffness` scales them to the Young's modulus that belongs to this shear modulus, so that
-one material gives the bond of docs/mapping.md, k = E A / l for normal and shear.
+    k = 6 pi G a^2 / h + 6 pi G R1 lambda (1 + 7 lambda + lambda^2) / (5 (1 + lambda)^3) ln(1/h) + ...
+
+A film that cannot flow has a layer's stiffness K + 4 G / 3. K governs films thinner than sqrt(G/K) of their width.
+
+**Grains that yield.** The mean stress of the facet compresses grains over their whole length, what exceeds it over
+about the width of the spot on which it acts, as in Hertz's contact: 3.3 (1 - nu^2) sqrt(r^2 + 3/4 a h). The factors 3.3
+(`SPOT`) and 3/4 are fitted to finite elements of two spheres, and nothing else is.
+
+**Shear.** Strain a packing by eps_xz without turning its grains. On a facet whose normal is z, du_x/dz is that of lines
+in shear and du_z/dx has the mean eps, since neighbours in x move by l eps: k_t = G int dA/h + G A / l, grains in series
+in the first term. Between spheres of different size the film is a wedge; its pressure obeys the equation above with
+p / r^2 added for the flow around. Both have the logarithm of spheres that do not turn (Jeffrey & Onishi 1984):
+
+    k_t = 8 pi G a (2 + lambda + 2 lambda^2) / (5 (1 + lambda)^2) ln(1/h) + ...
+
+**The common pressure.** A network of such pairs has the shear modulus of the mix, but not its Poisson's ratio: the
+pressure lambda tr(eps), which all films share, is no matter of pairs. `film_stiffness` scales the pairs to the Young's
+modulus 9 K G / (3 K + G) of this shear modulus, with K the lower bound of Hashin & Shtrikman; so one material gives
+the bond of docs/mapping.md, k = E A / l for normal and shear.
 """
 
 from __future__ import annotations

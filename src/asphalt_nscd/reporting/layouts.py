@@ -131,9 +131,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             }
         ),
     ],
-    "outputs": [
-        Layout({"in the paper": "in the paper", "files": "files", "minutes": "minutes"}, figures=3),
-    ],
     "blind": [
         Layout(
             _CRITERIA,

@@ -1,3 +1,5 @@
+"""The list of files and rules of the paper names what is there."""
+
 from __future__ import annotations
 
 import re
@@ -5,22 +7,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from asphalt_nscd.reporting.tables.outputs import make
-
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 OUTPUTS = ROOT / "data/paper/outputs.csv"
-
-
-def test_minutes_are_those_of_all_rules_of_a_part(tmp_path):
-    outputs, timings = tmp_path / "outputs.csv", tmp_path / "timings.csv"
-    outputs.write_text(
-        "in_the_paper,rules,files\nTable 4,simulate table4,table4.csv\nFig. 1,fig01,a/ b.pdf\n"
-    )
-    timings.write_text("rule,wall_s\nsimulate,90\ntable4,30\nother,7\n")
-    table = make([outputs], [timings])
-    assert table["minutes"].tolist() == [2.0, 0.0]
-    assert table["rules"].tolist() == ["`simulate`, `table4`", "`fig01`"]
-    assert table["files"].tolist() == ["`table4.csv`", "`a/`, `b.pdf`"]
 
 
 def test_every_rule_and_figure_named_is_one():
