@@ -16,14 +16,35 @@ _TRANSPOSED = "transposed"  # arrays stored so: linear algebra adds in another o
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """Where and how often (in steps) a run is kept; `run` says which run it is."""
+    """Where and how often a run is kept.
+
+    Parameters
+    ----------
+    path : path
+        HDF5 file.
+    every : int
+        Steps between two checkpoints.
+    run : dict
+        Says which run it is; another one is refused.
+    """
 
     path: Path
     every: int
     run: dict[str, float | int | str]
 
     def resume(self) -> dict[str, np.ndarray] | None:
-        """What was kept last, by name; None before the first time. InputError if of another run."""
+        """What was kept last.
+
+        Returns
+        -------
+        dict of str to ndarray, or None
+            By name; None before the first time.
+
+        Raises
+        ------
+        InputError
+            Where the file belongs to another run.
+        """
         if not self.path.exists():
             return None
         record = load(self.path, "checkpoint")
@@ -37,11 +58,30 @@ class Checkpoint:
         return {name: value.T if name in transposed else value for name, value in record.arrays.items()}
 
     def is_due(self, done: int, steps: int) -> bool:
-        """After `done` of all `steps`."""
+        """Whether the run is to be kept now.
+
+        Parameters
+        ----------
+        done : int
+            Steps made.
+        steps : int
+            Steps in all.
+
+        Returns
+        -------
+        bool
+            True after each `every` steps but the last.
+        """
         return done % self.every == 0 and done < steps
 
     def keep(self, arrays: dict[str, np.ndarray]) -> None:
-        """Replace what was kept before; a run killed meanwhile leaves that."""
+        """Replace what was kept before; a run killed meanwhile leaves that.
+
+        Parameters
+        ----------
+        arrays : dict of str to ndarray
+            By name.
+        """
         transposed = [name for name, value in arrays.items() if not value.flags.c_contiguous]
         stored = {name: value.T if name in transposed else value for name, value in arrays.items()}
         save(self.path, "checkpoint", stored, self.run | {_TRANSPOSED: ",".join(transposed)})
@@ -52,6 +92,17 @@ class Checkpoint:
 
 
 def digest(path: str | Path) -> str:
-    """SHA-256 of a file, by which `run` names it."""
+    """What names a file in `run`.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+
+    Returns
+    -------
+    str
+        SHA-256, hexadecimal.
+    """
     with Path(path).open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

@@ -31,9 +31,25 @@ SCALED = ["parameter", "factor"]
 
 
 def collect(tests: Iterable[str | Path]) -> pd.DataFrame:
-    """One row for each test file, in the order given: COLUMNS first, then whatever else they hold.
+    """Test files as one table.
 
-    A law source like "Em:0.5" (one parameter scaled, see `sensitivity`) gives two more columns.
+    Parameters
+    ----------
+    tests : iterable of path
+        HDF5 files of tests.
+
+    Returns
+    -------
+    DataFrame
+        One row for each, in the order given: COLUMNS first, then whatever else they hold. A law source like
+        "Em:0.5" (one parameter scaled, see `sensitivity`) gives two more columns.
+
+    Raises
+    ------
+    InputError
+        For no files.
+    DamagedFile
+        Where one lacks a column.
     """
     rows = []
     for path in tests:

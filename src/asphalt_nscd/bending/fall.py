@@ -20,11 +20,25 @@ from asphalt_nscd.specimen.trimming import Specimen
 
 @dataclass(frozen=True)
 class Fall(Ranged):
-    """How it falls, and how that is computed.
+    """How a specimen falls, and how that is computed.
 
-    height [m] of its lowest point over the floor; tilt [deg] of its axis from upright; sawn: where, as a share of its
-    length from its foot, 0 for whole. frames: instants that are kept, with the first.
+    Parameters
+    ----------
+    height : float
+        Of its lowest point over the floor [m].
+    tilt : float
+        Of its axis from upright [degrees].
+    sawn : float
+        Where it is sawn, as a share of its length from its foot; 0 for whole.
+    duration : float
+        [s].
+    time_step : float
+        [s].
+    frames : int
+        Instants that are kept, with the first.
 
+    Examples
+    --------
     >>> Fall(duration=0.1).steps
     500
     """
@@ -45,7 +59,26 @@ class Fall(Ranged):
 def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> World:
     """The specimen over the floor, at rest, its bonds sawn. Bonds to its plates are left out.
 
-    Raises InputError for one that only plates hold together.
+    Parameters
+    ----------
+    specimen : Specimen
+        Bonded spheres.
+    law : BondLaw
+        Of the bonds.
+    fall : Fall
+        Height, tilt and place of the saw.
+    bonds : Bonds
+        Poisson's ratio, strength and friction of bonds.
+
+    Returns
+    -------
+    World
+        Spheres, bonds and floor.
+
+    Raises
+    ------
+    InputError
+        For a specimen that only plates hold together.
     """
     network, n = specimen.network, specimen.radius.size
     inside = np.maximum(network.first, network.second) < n
@@ -72,10 +105,30 @@ def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> Worl
 
 
 def fell(specimen: Specimen, law: BondLaw, fall: Fall = Fall(), bonds: Bonds = Bonds()) -> Content:
-    """Arrays and attributes of the file of a fall.
+    """Let a specimen fall.
 
-    The account of energy [J] and the largest speed [m/s] at each instant kept; under frames/ what all spheres and bonds
-    do, as of a test. Of the attributes, shares are of the energy that the fall set free, in percent.
+    Parameters
+    ----------
+    specimen : Specimen
+        Bonded spheres.
+    law : BondLaw
+        Of the bonds.
+    fall : Fall
+        How it falls.
+    bonds : Bonds
+        Poisson's ratio, strength and friction of bonds.
+
+    Returns
+    -------
+    tuple of dict
+        Arrays and attributes of the file of a fall: the account of energy [J] and the largest speed [m/s] at
+        each instant kept; under frames/ what all spheres and bonds do, as of a test. Of the attributes,
+        shares are of the energy that the fall set free [%].
+
+    Raises
+    ------
+    InputError
+        For a specimen that only plates hold together.
     """
     world = released(specimen, law, fall, bonds)
     sawn, start = int(world.broken.sum()), world.position.copy()

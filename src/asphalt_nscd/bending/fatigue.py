@@ -67,10 +67,22 @@ class FatigueLaw(Ranged):
 
 
 def largest_strain(geometry: Geometry) -> float:
-    """Strain [1/m] per displacement of the head: largest of the faces in bending theory.
+    """Largest strain of the faces in bending theory, per displacement of the head.
 
     The moment F (h - z) over E e w^2 / 6, w the width at z, and F = E z0 / gamma; EN 12697-24 calls it K_eps.
 
+    Parameters
+    ----------
+    geometry : Geometry
+        Trapezoid.
+
+    Returns
+    -------
+    float
+        [1/m].
+
+    Examples
+    --------
     >>> from asphalt_nscd.measurements.twopoint import PAPER, PAPER_AMPLITUDE
     >>> round(PAPER_AMPLITUDE * largest_strain(PAPER) * 1e6, 1)  # the paper: "less than 50e-6"
     48.6
@@ -81,7 +93,19 @@ def largest_strain(geometry: Geometry) -> float:
 
 
 def largest_strain_at(geometry: Geometry) -> float:
-    """Height [m] of that strain: where the width is twice that of the cone that ends at the head, or the foot."""
+    """Where the largest strain is: where the width is twice that of the cone that ends at the head, or at the
+    foot.
+
+    Parameters
+    ----------
+    geometry : Geometry
+        Trapezoid.
+
+    Returns
+    -------
+    float
+        Height over the foot [m].
+    """
     taper = (geometry.B - geometry.b) / geometry.h
     return 0.0 if taper == 0.0 else max(0.0, 2.0 * geometry.h - geometry.B / taper)
 
@@ -93,9 +117,32 @@ def fatigue(
     bonds: Bonds = Bonds(),
     jumps: Jumps = Jumps(),
 ) -> FatigueHistory:
-    """The course of a test at this strain, largest of bending theory, until FAILURE.
+    """Tire a specimen at constant displacement of its head until FAILURE of its first stiffness.
 
     Bonds to the plates do not tire, as a test that fails at its glue does not count.
+
+    Parameters
+    ----------
+    specimen : Specimen
+        Bonded spheres of a trapezoid.
+    strain_amplitude : float
+        Largest of bending theory.
+    law : FatigueLaw
+        Of the damage of bonds.
+    bonds : Bonds
+        Poisson's ratio of bonds, and how the head is held.
+    jumps : Jumps
+        How many cycles one solution may stand for.
+
+    Returns
+    -------
+    FatigueHistory
+        Cycles, stiffness, lost bonds and damage.
+
+    Raises
+    ------
+    InputError
+        For a specimen that is no trapezoid.
     """
     amplitude = strain_amplitude / largest_strain(_trapezoid(specimen))
     return tire(_system(specimen, bonds), specimen.network.length, law.rate, amplitude, FAILURE, jumps)
@@ -109,10 +156,30 @@ def cycle_by_cycle(
     frequency: float,
     bonds: Bonds = Bonds(),
 ) -> FatigueHistory:
-    """The same by full time steps at frequency [Hz], every cycle of them: with inertia and the law of the bonds.
+    """The same by full time steps, every cycle of them: with inertia and the law of the bonds.
 
-    After each cycle bonds take the damage of the harmonics of their openings in it. The stiffness is |E*| by Eqs.
-    (1)-(2), over that of the third cycle, and no gravity acts.
+    After each cycle bonds take the damage of the harmonics of their openings in it. The stiffness is |E*| by
+    Eqs. (1)-(2), over that of the third cycle, and no gravity acts.
+
+    Parameters
+    ----------
+    specimen : Specimen
+        Bonded spheres of a trapezoid.
+    strain_amplitude : float
+        Largest of bending theory.
+    law : FatigueLaw
+        Of the damage of bonds.
+    bond_law : BondLaw
+        Viscoelastic law of the bonds.
+    frequency : float
+        [Hz].
+    bonds : Bonds
+        Poisson's ratio of bonds, and how the head is held.
+
+    Returns
+    -------
+    FatigueHistory
+        Cycles, stiffness, lost bonds and damage.
     """
     geometry, system = _trapezoid(specimen), _system(specimen, bonds)
     length, tires = specimen.network.length, np.isfinite(system.strength)
@@ -147,12 +214,36 @@ def cycle_by_cycle(
 
 
 def table_of(course: FatigueHistory) -> pd.DataFrame:
-    """cycles, stiffness over the first one, lost_bonds."""
+    """A course as a table.
+
+    Parameters
+    ----------
+    course : FatigueHistory
+        Of `fatigue`.
+
+    Returns
+    -------
+    DataFrame
+        cycles, stiffness over the first one, lost_bonds.
+    """
     return pd.DataFrame({"cycles": course.cycles, "stiffness": course.stiffness, "lost_bonds": course.lost})
 
 
 def profile_of(specimen: Specimen, course: FatigueHistory) -> pd.DataFrame:
-    """Of the bonds in each of LAYERS layers: height_share of its middle, mean damage, share of them lost."""
+    """Damage over the height of the specimen.
+
+    Parameters
+    ----------
+    specimen : Specimen
+        That was tired.
+    course : FatigueHistory
+        Of `fatigue`.
+
+    Returns
+    -------
+    DataFrame
+        Of the bonds in each of LAYERS layers: height_share of its middle, mean damage, share of them lost.
+    """
     layer = np.minimum(LAYERS * specimen.network.point[:, 2] / specimen.geometry.h, LAYERS - 1).astype(int)
     damage = pd.Series(course.damage)
     return pd.DataFrame(

@@ -131,7 +131,18 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
 
 
 def told(table: pd.DataFrame) -> str:
-    """The end of it in one line."""
+    """The end of a hold in one line.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Of `hold`.
+
+    Returns
+    -------
+    str
+        Compliance or modulus beside that of the law, and bonds that broke.
+    """
     last, name = table.iloc[-1], table.columns[3]
     unit = "1/GPa" if name.startswith("D") else "MPa"
     words = (

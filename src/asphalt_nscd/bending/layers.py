@@ -17,10 +17,18 @@ LAYERS = 50
 
 @dataclass(frozen=True)
 class LayerHeights:
-    """Layers of equal height."""
+    """Layers of equal height.
 
-    height: np.ndarray  # (l,) m, of their middles above the foot
-    spheres: np.ndarray  # (l,) number of spheres in each
+    Parameters
+    ----------
+    height : ndarray (l,)
+        Of their middles above the foot [m].
+    spheres : ndarray of int (l,)
+        Number of spheres in each.
+    """
+
+    height: np.ndarray
+    spheres: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -31,7 +39,22 @@ class Layers(LayerHeights):
 
     @classmethod
     def of(cls, sphere_height: np.ndarray, shape: Shape, degrees: int) -> Layers:
-        """sphere_height (n,) [m] in the specimen; degrees d of freedom, six for each sphere first."""
+        """Layers of a specimen.
+
+        Parameters
+        ----------
+        sphere_height : ndarray (n,)
+            In the specimen [m].
+        shape : Shape
+            Geometry; which way it is driven.
+        degrees : int
+            Of freedom d, six for each sphere first.
+
+        Returns
+        -------
+        Layers
+            With what averages over them.
+        """
         from scipy import sparse
 
         edges = np.linspace(0.0, shape.h, LAYERS + 1)

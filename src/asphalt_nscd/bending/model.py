@@ -28,19 +28,39 @@ SHAPE = "shape/"
 
 @dataclass(frozen=True)
 class Model:
-    """A specimen ready for tests."""
+    """A specimen ready for tests.
+
+    Parameters
+    ----------
+    system : BondedSystem
+        Its bonds and masses.
+    basis : ndarray (d, k)
+        Of the reduced form.
+    geometry : Shape
+        Of the specimen.
+    sphere_height : ndarray (n,)
+        Over the foot [m].
+    name : str
+        Of the specimen.
+    head : str
+        "free" or "blocked".
+    stand_by : StandBy, optional
+        Directions for breaks.
+    digest : str
+        Of its file.
+    shape : dict of str to ndarray
+        Spheres and bonds of the specimen, see `_shape`.
+    """
 
     system: BondedSystem
-    basis: np.ndarray  # (d, k) of the reduced form
+    basis: np.ndarray
     geometry: Shape
-    sphere_height: np.ndarray  # (n,) m
+    sphere_height: np.ndarray
     name: str
     head: str
-    stand_by: StandBy | None = None  # directions for breaks
-    digest: str = ""  # of its file
-    shape: dict[str, np.ndarray] = field(
-        default_factory=dict
-    )  # spheres and bonds of the specimen, see `_shape`
+    stand_by: StandBy | None = None
+    digest: str = ""
+    shape: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def whole(self) -> Model:
@@ -72,7 +92,18 @@ class Model:
         return (self.layers.mean @ self.basis).T
 
     def require_whole(self, broken: Sequence[int]) -> None:
-        """Raise InputError where no path of the bonds that are left joins all plates."""
+        """Refuse a specimen in two pieces: where no path of the bonds that are left joins all plates.
+
+        Parameters
+        ----------
+        broken : sequence of int
+            Bonds that broke.
+
+        Raises
+        ------
+        InputError
+            Which says how many broke.
+        """
         if not self.shape:  # of a file of an older version
             return
         left = np.ones(self.bonds, bool)
@@ -99,12 +130,39 @@ class Model:
 
 
 def read_model(path: str | Path) -> Model:
-    """The model in a file made by `condense`."""
+    """Read a model made by `condense`.
+
+    Parameters
+    ----------
+    path : path
+        HDF5 file.
+
+    Returns
+    -------
+    Model
+        The specimen, condensed.
+
+    Raises
+    ------
+    InputError
+        Where the file is missing, damaged or of another kind.
+    """
     return model_of(load(path, "model"))
 
 
 def model_of(record: Record) -> Model:
-    """The model in the content of its file."""
+    """The model in the content of its file.
+
+    Parameters
+    ----------
+    record : Record
+        Arrays, attributes and digest.
+
+    Returns
+    -------
+    Model
+        The specimen, condensed.
+    """
     arrays, attributes = record.arrays, record.attributes
     system = BondedSystem(
         operator=sparse.csr_matrix(

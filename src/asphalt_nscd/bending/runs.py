@@ -36,15 +36,38 @@ RESIDUAL_TOLERANCE = 1e-6  # of the full equations, relative to the load of the 
 
 @dataclass(frozen=True)
 class Frame:
-    """What moves and pulls at one instant; motion from where the specimen stands free of weight."""
+    """What moves and pulls at one instant; motion from where the specimen stands free of weight.
 
-    displacement: Vector  # (d,) m or rad
-    velocity: Vector  # (d,) m/s or rad/s
-    reaction: Vector  # (3 b,) N of the bonds, negative where they pull; zero of the broken ones
+    Parameters
+    ----------
+    displacement : ndarray (d,)
+        [m] or [rad].
+    velocity : ndarray (d,)
+        [m/s] or [rad/s].
+    reaction : ndarray (3 b,)
+        Of the bonds [N], negative where they pull; zero of the broken ones.
+    """
+
+    displacement: Vector
+    velocity: Vector
+    reaction: Vector
 
     @classmethod
     def of(cls, model: Model, state: CondensedState) -> Frame:
-        """Of the full system's state."""
+        """The instant at which the full system stands.
+
+        Parameters
+        ----------
+        model : Model
+            Condensed specimen.
+        state : CondensedState
+            Of the full system.
+
+        Returns
+        -------
+        Frame
+            Its motion and reactions.
+        """
         reaction = model.system.weight * state.sigma
         reaction.reshape(-1, 3)[state.broken] = 0.0
         return cls(state.displacement, state.velocity, reaction)
@@ -52,25 +75,63 @@ class Frame:
 
 @dataclass
 class Histories:
-    """What a run gives, a row for each step, those at rest included."""
+    """What a run gives, a row for each step, those at rest included.
 
-    force: Vector  # (n,) N, of the actuator
-    velocity: Vector  # (n, l) m/s, means of the layers
-    broken: list[int] = field(default_factory=list)  # bonds, in the order in which they broke
-    residual: float = np.nan  # of the full equations; relative change of the last sweep; NaN if not checked
+    Parameters
+    ----------
+    force : ndarray (n,)
+        Of the actuator [N].
+    velocity : ndarray (n, l)
+        Means of the layers [m/s].
+    broken : list of int
+        Bonds, in the order in which they broke.
+    residual : float
+        Of the full equations; of "sweeps" the relative change of the last sweep; NaN if not checked.
+    details : dict
+        How the run went.
+    full_steps : int
+        Made by the full system.
+    done : int
+        Steps made.
+    frames : list of Frame
+        Instants kept.
+    """
+
+    force: Vector
+    velocity: Vector
+    broken: list[int] = field(default_factory=list)
+    residual: float = np.nan
     details: Details = field(default_factory=dict)
-    full_steps: int = 0  # made by the full system
-    done: int = 0  # steps
+    full_steps: int = 0
+    done: int = 0
     frames: list[Frame] = field(default_factory=list)
 
 
 def reduced(
     model: Model | ModelExcerpt, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions
 ) -> Histories:
-    """By the reduced system, and by the full one from where it is needed.
+    """Follow the actuator by the reduced system, and by the full one from where it is needed.
 
-    The compiled kernel makes all steps in one call; where an account, frames, a checkpoint or another scheme than
-    implicit Euler is wanted, they are made one by one.
+    The compiled kernel makes all steps in one call; where an account, frames, a checkpoint or another scheme
+    than implicit Euler is wanted, they are made one by one.
+
+    Parameters
+    ----------
+    model : Model or ModelExcerpt
+        Condensed specimen.
+    law : BondLaw
+        Of the bonds.
+    case : LoadCase
+        What the actuator does.
+    numerics : Numerics
+        Steps and scheme.
+    options : RunOptions
+        What is told and kept.
+
+    Returns
+    -------
+    Histories
+        A row for each step.
     """
     if numerics.scheme == "euler" and not (options.energy or options.frames) and options.checkpoint is None:
         return by_path(model, law, case.rig, numerics.time_step, numerics.driven(case), options)
@@ -86,7 +147,28 @@ def by_path(
     driven: Vector,
     options: RunOptions,
 ) -> Histories:
-    """By the reduced system in one call: the actuator stands at `driven` (n,) [m] at the ends of the steps."""
+    """Follow any path of the actuator by the reduced system in one call.
+
+    Parameters
+    ----------
+    model : Model or ModelExcerpt
+        Condensed specimen.
+    law : BondLaw
+        Of the bonds.
+    devices : HeadDevices
+        At the head.
+    time_step : float
+        [s].
+    driven : ndarray (n,)
+        Where the actuator stands at the ends of the steps [m].
+    options : RunOptions
+        What is told and kept.
+
+    Returns
+    -------
+    Histories
+        A row for each step.
+    """
     stepper = _reduced_stepper(model, law, time_step, devices)
     return _certified(stepper, model, _in_one_call(stepper, model, law, driven, options))
 
@@ -108,7 +190,26 @@ def _certified(stepper: ReducedStepper, model: Model | ModelExcerpt, run: Histor
 def condensed(
     model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions
 ) -> Histories:
-    """By the full system, its bonds condensed, with the energy account."""
+    """Follow the actuator by the full system, its bonds condensed, with the energy account.
+
+    Parameters
+    ----------
+    model : Model
+        Condensed specimen.
+    law : BondLaw
+        Of the bonds.
+    case : LoadCase
+        What the actuator does.
+    numerics : Numerics
+        Steps and scheme.
+    options : RunOptions
+        What is told and kept.
+
+    Returns
+    -------
+    Histories
+        A row for each step.
+    """
     from asphalt_nscd.nscd.stepping.condensed import CondensedState
 
     state = CondensedState.at_rest(model.system, law)
@@ -120,7 +221,26 @@ def condensed(
 
 
 def sweeps(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions) -> Histories:
-    """By Gauss-Seidel on the bonds, as in the paper; bonds do not break."""
+    """Follow the actuator by Gauss-Seidel on the bonds, as in the paper; bonds do not break.
+
+    Parameters
+    ----------
+    model : Model
+        Condensed specimen.
+    law : BondLaw
+        Of the bonds.
+    case : LoadCase
+        What the actuator does.
+    numerics : Numerics
+        Steps, tolerance and number of sweeps.
+    options : RunOptions
+        What is told.
+
+    Returns
+    -------
+    Histories
+        A row for each step.
+    """
     from asphalt_nscd.nscd.stepping.condensed import CondensedState
     from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 

@@ -15,11 +15,35 @@ SOFTNESS = 1e7
 
 
 def tared(model: Model) -> Model:
-    """The model without weight, as a machine shows it that is set to zero with the specimen in it."""
+    """The model without weight, as a machine shows it that is set to zero with the specimen in it.
+
+    Parameters
+    ----------
+    model : Model
+        Condensed specimen.
+
+    Returns
+    -------
+    Model
+        Without load, and without directions for breaks.
+    """
     system = replace(model.system, load=np.zeros_like(model.system.load))
     return replace(model, system=system, stand_by=None)
 
 
 def soft_clamp(model: Model, modulus: float) -> float:
-    """Compliance [m/N] of a clamp by which an actuator commands the force on a specimen of this modulus [Pa]."""
+    """A clamp by which an actuator commands the force.
+
+    Parameters
+    ----------
+    model : Model
+        Condensed specimen.
+    modulus : float
+        Of the specimen [Pa].
+
+    Returns
+    -------
+    float
+        Compliance [m/N].
+    """
     return SOFTNESS * model.geometry.form_factor() / modulus

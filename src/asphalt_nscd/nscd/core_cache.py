@@ -16,7 +16,18 @@ def core_folder() -> str:
 
 
 def is_compiled(kernel: str) -> bool:
-    """Whether a kernel, named as `granular.step`, stands in that folder."""
+    """Whether a kernel has been compiled from these sources.
+
+    Parameters
+    ----------
+    kernel : str
+        Named as `granular.step`.
+
+    Returns
+    -------
+    bool
+        True if it stands in `core_folder`.
+    """
     return any(Path(core_folder()).glob(f"*/{kernel}-*.nbi"))
 
 

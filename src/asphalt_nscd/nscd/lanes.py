@@ -36,7 +36,18 @@ class _LanesModel(models.PrimitiveModel):
 
 
 def aligned(shape: tuple[int, ...]) -> np.ndarray:
-    """Zeros of which each row of lanes is one cache line; rows across two take longer to read."""
+    """Zeros of which each row of lanes is one cache line; rows across two take longer to read.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Of the array.
+
+    Returns
+    -------
+    ndarray
+        Of this shape.
+    """
     size = int(np.prod(shape))
     room = np.zeros(size + WIDTH)
     start = -room.ctypes.data // room.itemsize % WIDTH

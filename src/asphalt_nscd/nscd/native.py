@@ -27,7 +27,20 @@ _loaded: list[Library] = []  # what is freed takes its functions with it
 
 
 def native(name: str, build: Callable[[], tuple[str, str]]) -> int:
-    """Address of the kernel `name`; build() gives (symbol, LLVM assembly) where it has not been compiled yet."""
+    """Address of a kernel.
+
+    Parameters
+    ----------
+    name : str
+        Of the kernel.
+    build : callable
+        Gives (symbol, LLVM assembly) where it has not been compiled yet.
+
+    Returns
+    -------
+    int
+        For a call by ctypes.
+    """
     path = _folder() / f"{name}-{_machine()[1]}.native"
     content = _read(path)
     if content is None:

@@ -58,7 +58,15 @@ def _read(typing_context: Any, array: Any, at: Any) -> Any:
 
 @compiled_for_teams
 def barrier_wait(barrier, members):
-    """Wait until all members are here; then each sees what all others have written."""
+    """Wait until all members are here; then each sees what all others have written.
+
+    Parameters
+    ----------
+    barrier : ndarray
+        Where they meet.
+    members : int
+        How many.
+    """
     if members == 1:
         return
     meeting = _read(barrier, MEETINGS)
@@ -75,13 +83,32 @@ def barrier_wait(barrier, members):
 
 @compiled_for_teams
 def partition(rank, members, count):
-    """First and end of what member `rank` takes of so many things in a row."""
+    """What a member takes of some things in a row.
+
+    Parameters
+    ----------
+    rank, members : int
+        Which member of how many.
+    count : int
+        Things.
+
+    Returns
+    -------
+    tuple of int
+        First and end.
+    """
     return rank * count // members, (rank + 1) * count // members
 
 
 @compiled_for_teams
 def mark_started(barrier):
-    """What a kernel does first: it tells that this member has Python's lock no longer."""
+    """What a kernel does first: it tells that this member has Python's lock no longer.
+
+    Parameters
+    ----------
+    barrier : ndarray
+        Where members meet.
+    """
     _add(barrier, STARTED, 1)
 
 
@@ -168,7 +195,13 @@ class _Member(threading.Thread):
 
 
 class Team:
-    """So many threads, the caller's among them. Close it, or use it as a context."""
+    """So many threads, the caller's among them. Close it, or use it as a context.
+
+    Parameters
+    ----------
+    members : int
+        How many.
+    """
 
     def __init__(self, members: int = 1) -> None:
         self.members = members
@@ -176,10 +209,19 @@ class Team:
         self._others = [_Member(rank, members, self._calls) for rank in range(1, members)]
 
     def run(self, kernel: Callable[..., Any], *arguments: Any) -> list[Any]:
-        """kernel(rank, members, barrier, *arguments) by all members; what each returned.
+        """Run a kernel by all members. If one fails or the caller is interrupted, meetings end.
 
-        The kernel is compiled for teams and begins with `mark_started`. If one member fails or the caller is
-        interrupted, meetings end.
+        Parameters
+        ----------
+        kernel : callable
+            kernel(rank, members, barrier, *arguments), compiled for teams, which begins with `mark_started`.
+        *arguments : object
+            Of the kernel.
+
+        Returns
+        -------
+        list of object
+            What each member returned.
         """
         barrier = np.zeros(32, np.int64)
         try:

@@ -35,40 +35,92 @@ MOST_TURNS = 6  # of a step, in which it learns how far bonds turn
 
 @dataclass(frozen=True)
 class WorldBonds:
-    """Bonds between spheres, as they are where no sphere has turned and none is stressed."""
+    """Bonds between spheres, as they are where no sphere has turned and none is stressed.
 
-    first: np.ndarray  # (b,) sphere
-    second: np.ndarray  # (b,) sphere
-    frame: np.ndarray  # (b, 3, 3) rows: normal from first to second, two tangents
-    point: np.ndarray  # (b, 3) m, where the bond acts
-    weight: np.ndarray  # (3 b,) m, as of a BondedSystem
-    strength: np.ndarray  # (b,) N
+    Parameters
+    ----------
+    first : ndarray (b,)
+        Sphere.
+    second : ndarray (b,)
+        Sphere.
+    frame : ndarray (b, 3, 3)
+        Rows: normal from first to second, two tangents.
+    point : ndarray (b, 3)
+        Where the bond acts [m].
+    weight : ndarray (3 b,)
+        As of a BondedSystem [m].
+    strength : ndarray (b,)
+        [N].
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    frame: np.ndarray
+    point: np.ndarray
+    weight: np.ndarray
+    strength: np.ndarray
 
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What the spheres meet."""
+    """What the spheres meet.
 
-    plane_point: np.ndarray  # (p, 3) m
-    plane_normal: np.ndarray  # (p, 3), pointing to the spheres
-    friction: float  # of spheres on spheres
-    wall_friction: float  # of spheres on planes
-    gravity: tuple[float, float, float] = (0.0, 0.0, -9.81)  # m/s2
+    Parameters
+    ----------
+    plane_point : ndarray (p, 3)
+        [m].
+    plane_normal : ndarray (p, 3)
+        Pointing to the spheres.
+    friction : float
+        Of spheres on spheres.
+    wall_friction : float
+        Of spheres on planes.
+    gravity : tuple of float
+        [m/s2].
+    """
+
+    plane_point: np.ndarray
+    plane_normal: np.ndarray
+    friction: float
+    wall_friction: float
+    gravity: tuple[float, float, float] = (0.0, 0.0, -9.81)
 
 
 @dataclass
 class WorldEnergies:
-    """All in J; stores at the present, less what they were at the beginning; the rest summed since."""
+    """All in J; stores at the present, less what they were at the beginning; the rest summed since.
+
+    Parameters
+    ----------
+    kinetic : float
+        Of all spheres.
+    springs : float
+        Stored in the springs of the bonds.
+    load : float
+        Potential of gravity.
+    dashpots : float
+        Dissipated in the dashpots of the bonds.
+    friction : float
+        Dissipated by tangential impulses of contacts.
+    impact : float
+        Dissipated by normal impulses of contacts.
+    fracture : float
+        Stored by bonds when they broke.
+    numerical : float
+        Dissipated by implicit Euler.
+    turning : float
+        Work of the bonds on that part of their openings which is not linear in the motion.
+    """
 
     kinetic: float = 0.0
-    springs: float = 0.0  # stored in the springs of the bonds
-    load: float = 0.0  # potential of gravity
-    dashpots: float = 0.0  # dissipated in the dashpots of the bonds
-    friction: float = 0.0  # dissipated by tangential impulses of contacts
-    impact: float = 0.0  # dissipated by normal impulses of contacts
-    fracture: float = 0.0  # stored by bonds when they broke
-    numerical: float = 0.0  # dissipated by implicit Euler
-    turning: float = 0.0  # work of the bonds on that part of their openings which is not linear in the motion
+    springs: float = 0.0
+    load: float = 0.0
+    dashpots: float = 0.0
+    friction: float = 0.0
+    impact: float = 0.0
+    fracture: float = 0.0
+    numerical: float = 0.0
+    turning: float = 0.0
 
     @property
     def error(self) -> float:
@@ -77,7 +129,25 @@ class WorldEnergies:
 
 
 class World:
-    """Spheres (n,), some bonded, which advance by steps of dt [s]. Rotations are those since the beginning."""
+    """Spheres (n,), some bonded, which advance by steps. Rotations are those since the beginning.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        [m].
+    mass : ndarray (n, 6)
+        Of translations [kg] and rotations [kg m2].
+    bonds : WorldBonds
+        Between spheres.
+    law : AnyLaw
+        Of the bonds.
+    around : Surroundings
+        What the spheres meet.
+    dt : float
+        Step [s].
+    """
 
     def __init__(
         self,
@@ -113,13 +183,30 @@ class World:
         return self._openings(self.position, self.rotation)[0]
 
     def cut(self, bonds: np.ndarray) -> None:
-        """Break bonds (b,), a mask, as with a saw: what they store is lost."""
+        """Break bonds as with a saw: what they store is lost.
+
+        Parameters
+        ----------
+        bonds : ndarray of bool (b,)
+            Which.
+        """
         now = self._stored()
         self.broken |= bonds
         self._lose(now)
 
     def advance(self) -> int:
-        """One step; how many contacts held. Bonds break one after another, the most overstressed first."""
+        """One step. Bonds break one after another, the most overstressed first.
+
+        Returns
+        -------
+        int
+            How many contacts held.
+
+        Raises
+        ------
+        ArithmeticError
+            Where the motion is not finite.
+        """
         dt, law, before = self.dt, self._step_law, self.velocity
         ahead = self._moved(0.5 * dt * before)
         opening, frame, point = self._openings(*ahead)
@@ -161,7 +248,13 @@ class World:
         return contacts.impulse.size // 3
 
     def fragments(self) -> np.ndarray:
-        """Number (n,) of the fragment that each sphere belongs to, the largest being 0."""
+        """Which fragment each sphere belongs to.
+
+        Returns
+        -------
+        ndarray of int (n,)
+            Number of the fragment, the largest being 0.
+        """
         left = ~self.broken
         number = clusters(self.bonds.first[left], self.bonds.second[left], self.radius.size)
         order = np.argsort(-np.bincount(number), kind="stable")

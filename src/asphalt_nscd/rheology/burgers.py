@@ -13,13 +13,21 @@ from asphalt_nscd.rheology.chain import KelvinChain
 
 @dataclass(frozen=True)
 class Burgers:
-    """Macroscopic Burgers law of one temperature.
+    """Macroscopic Burgers law of one temperature, Eqs. (27)-(29).
 
-    modulus_m, viscosity_m: Maxwell element E_m [Pa], eta_m [Pa s];
-    modulus_k, viscosity_k: Kelvin-Voigt element E_k [Pa], eta_k [Pa s].
+    Parameters
+    ----------
+    modulus_m : float
+        E_m, spring of the Maxwell element [Pa].
+    viscosity_m : float
+        eta_m, dashpot of the Maxwell element [Pa s].
+    modulus_k : float
+        E_k, spring of the Kelvin-Voigt element [Pa].
+    viscosity_k : float
+        eta_k, dashpot of the Kelvin-Voigt element [Pa s].
 
-    The law of Table 3 at 15 degC, at 10 Hz:
-
+    Examples
+    --------
     >>> law = Burgers(modulus_m=24.3e9, viscosity_m=3.71e9, modulus_k=48.4e9, viscosity_k=0.773e9)
     >>> modulus = law.complex_modulus(2 * np.pi * 10)
     >>> print(f"{abs(modulus) / 1e9:.2f} GPa, {np.degrees(np.angle(modulus)):.1f} deg")
@@ -38,11 +46,28 @@ class Burgers:
                 raise InputError(f"Burgers law: {field.name} = {value:g} must be positive; give Pa or Pa s.")
 
     def as_chain(self) -> KelvinChain:
-        """The same law as a Kelvin chain of one element."""
+        """The same law as a Kelvin chain of one element.
+
+        Returns
+        -------
+        KelvinChain
+            The chain; no approximation.
+        """
         return KelvinChain(self.modulus_m, self.viscosity_m, (self.modulus_k,), (self.viscosity_k,))
 
     def complex_compliance(self, omega: ArrayLike) -> NDArray[np.complex128]:
-        """D* = D' - i D'' [1/Pa] at angular frequencies omega [rad/s], Eqs. (28)-(29)."""
+        """Complex compliance, Eqs. (28)-(29).
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequencies [rad/s].
+
+        Returns
+        -------
+        ndarray of complex
+            D* = D' - i D'' [1/Pa], of the shape of omega.
+        """
         i_omega = 1j * np.asarray(omega, dtype=float)
         return (
             1.0 / self.modulus_m
@@ -51,18 +76,50 @@ class Burgers:
         )
 
     def complex_modulus(self, omega: ArrayLike) -> NDArray[np.complex128]:
-        """E* = 1/D* [Pa] at angular frequencies omega [rad/s], Eq. (27)."""
+        """Complex modulus, Eq. (27).
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequencies [rad/s].
+
+        Returns
+        -------
+        ndarray of complex
+            E* = 1/D* [Pa], of the shape of omega.
+        """
         return 1.0 / self.complex_compliance(omega)
 
     def creep_compliance(self, time: ArrayLike) -> NDArray[np.float64]:
-        """Strain per unit of constant stress [1/Pa] at times [s] after loading."""
+        """Strain per unit of constant stress.
+
+        Parameters
+        ----------
+        time : array_like
+            After loading [s].
+
+        Returns
+        -------
+        ndarray
+            D(t) [1/Pa], of the shape of time.
+        """
         return self.as_chain().creep_compliance(time)
 
     def relaxation_modulus(self, time: ArrayLike) -> NDArray[np.float64]:
-        """Stress per unit of constant strain [Pa] at times [s] after loading.
+        """Stress per unit of constant strain.
 
         Inverse Laplace transform of 1/(s D(s)), D(s) = 1/E_m + 1/(s eta_m) + 1/(E_k + s eta_k): two
         exponentials whose rates are the roots of p2 s^2 - p1 s + 1 (Findley, Lai & Onaran 1976, ch. 5).
+
+        Parameters
+        ----------
+        time : array_like
+            After loading [s].
+
+        Returns
+        -------
+        ndarray
+            E(t) [Pa], of the shape of time.
         """
         time = np.asarray(time, dtype=float)
         retardation = self.viscosity_k / self.modulus_k

@@ -24,9 +24,32 @@ def chain_law(
     factor: float,
     output: str | Path,
 ) -> dict[str, Any]:
-    """Write the Kelvin chain of a continuous law at temperature [degC], its moduli times factor.
+    """Write the Kelvin chain of a continuous law at one temperature.
 
-    It follows the law within `tolerance`, |ln(E_chain / E)|, from lowest_hz to highest_hz [Hz].
+    Parameters
+    ----------
+    spectrum : path
+        File of the law of all temperatures.
+    temperature : float
+        [degC].
+    lowest_hz, highest_hz : float
+        The band that it follows the law in [Hz].
+    tolerance : float
+        Largest |ln(E_chain / E)| over the band.
+    factor : float
+        Of its moduli.
+    output : path
+        JSON file to write.
+
+    Returns
+    -------
+    dict
+        Content of the file.
+
+    Raises
+    ------
+    InputError
+        Where no chain of few enough elements meets the tolerance.
     """
     content = chain_at(
         read_spectrum(spectrum), str(spectrum), temperature, (lowest_hz, highest_hz), tolerance, factor
@@ -43,7 +66,33 @@ def chain_at(
     tolerance: float,
     factor: float = 1.0,
 ) -> dict[str, Any]:
-    """The chain of a law called `name`, as its file has it; band: lowest and highest frequency [Hz]."""
+    """The Kelvin chain of a law at one temperature, as its file has it.
+
+    Parameters
+    ----------
+    law : Spectrum
+        Of all temperatures.
+    name : str
+        Of the law, kept as the source.
+    temperature : float
+        [degC].
+    band : tuple of float
+        Lowest and highest frequency [Hz].
+    tolerance : float
+        Largest |ln(E_chain / E)| over the band.
+    factor : float
+        Of the moduli of the chain.
+
+    Returns
+    -------
+    dict
+        Content of the file.
+
+    Raises
+    ------
+    InputError
+        Where no chain of few enough elements meets the tolerance.
+    """
     lowest_hz, highest_hz = band
     try:
         chain, error = kelvin_chain(

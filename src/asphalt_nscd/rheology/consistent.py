@@ -28,7 +28,20 @@ GAIN = 1e4  # brings squares of ln E* to order one
 
 
 def nearest(printed: Printed, wanted: Complex) -> Complex | None:
-    """The ln E* (n,) nearest to those wanted with the law as their fit and its two errors; None where none is found."""
+    """The nearest data of which the law is the fit and its two errors are the printed ones.
+
+    Parameters
+    ----------
+    printed : Printed
+        Law and errors of one temperature.
+    wanted : ndarray of complex (n,)
+        ln E* to be near to.
+
+    Returns
+    -------
+    ndarray of complex (n,) or None
+        ln E*; None where none is found.
+    """
     law = np.log(printed.modulus)
     n, angle = law.size, law.imag
     free = null_space(log_slopes(printed.law, printed.omega).T)  # of errors that leave the fit where it is
@@ -67,9 +80,25 @@ def nearest(printed: Printed, wanted: Complex) -> Complex | None:
 def nearest_law(
     printed: Sequence[Printed], temperature: Vector, smooth: Complex, reference: float
 ) -> tuple[Complex, float]:
-    """ln E* (t, n) of a 2S2P1D law for all temperatures [degC] near data that meet all that is printed.
+    """A 2S2P1D law for all temperatures near data that meet all that is printed.
 
-    And the distance that remains, the root mean square of one part of ln E*. smooth: ln E* of the law to start from.
+    Parameters
+    ----------
+    printed : sequence of Printed (t,)
+        Law and errors of each temperature.
+    temperature : ndarray (t,)
+        [degC].
+    smooth : ndarray of complex (t, n)
+        ln E* of the law to start from.
+    reference : float
+        Temperature of the shift [degC].
+
+    Returns
+    -------
+    ndarray of complex (t, n)
+        ln E* of the law.
+    float
+        The distance that remains, the root mean square of one part of ln E*.
     """
     omega = np.tile(printed[0].omega, len(printed))
     each = np.repeat(temperature, printed[0].omega.size)
@@ -87,7 +116,31 @@ def nearest_law(
 
 
 def draws(printed: Sequence[Printed], law: Complex, scatter: float, number: int, seed: int) -> Complex:
-    """ln E* (number, t, n) that meet all that is printed, about a law (t, n) of ln E* with a scatter of its parts."""
+    """Data that meet all that is printed, scattered about a law.
+
+    Parameters
+    ----------
+    printed : sequence of Printed (t,)
+        Law and errors of each temperature.
+    law : ndarray of complex (t, n)
+        ln E* of the smooth law.
+    scatter : float
+        Standard deviation of each part of ln E*.
+    number : int
+        Of draws.
+    seed : int
+        The same seed gives the same draws.
+
+    Returns
+    -------
+    ndarray of complex
+        (number, t, n) ln E*.
+
+    Raises
+    ------
+    InputError
+        Where no data meet the printed laws and errors.
+    """
     found = np.empty((number, *law.shape), complex)
     for k in range(number):
         random = np.random.default_rng([seed, k])  # a stream of its own: the same draw among two or ten

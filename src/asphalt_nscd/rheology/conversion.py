@@ -21,12 +21,32 @@ FITTED, TESTED = 30, 300  # frequencies in a decade for the fit, and between the
 def kelvin_chain(
     modulus: Modulus, lowest_omega: float, highest_omega: float, tolerance: float = 1e-3
 ) -> tuple[KelvinChain, float]:
-    """(chain, error) with error = max |ln(E_chain / E)| over the band, at most `tolerance`.
+    """A continuous law at one temperature as a Kelvin chain.
 
-    modulus: E* [Pa] at angular frequencies (n,); lowest_omega, highest_omega [rad/s]: the band.
-    Elements are added, their retardation times evenly spaced on a logarithmic scale, until the
-    error is met; compliances are a non-negative least-squares fit, so that the chain is passive.
-    Outside the band it is whatever follows from within.
+    Elements are added, their retardation times evenly spaced on a logarithmic scale, until the error is met;
+    compliances are a non-negative least-squares fit, so that the chain is passive. Outside the band it is
+    whatever follows from within.
+
+    Parameters
+    ----------
+    modulus : callable
+        E* [Pa] at angular frequencies (n,) [rad/s].
+    lowest_omega, highest_omega : float
+        The band [rad/s].
+    tolerance : float
+        Largest error.
+
+    Returns
+    -------
+    KelvinChain
+        The chain.
+    float
+        Its error, max |ln(E_chain / E)| over the band.
+
+    Raises
+    ------
+    InputError
+        For a band that is none, or where more elements than `MOST_ELEMENTS` were needed.
     """
     if not 0.0 < lowest_omega <= highest_omega < np.inf:
         raise InputError(

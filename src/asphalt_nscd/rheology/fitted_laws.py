@@ -17,16 +17,53 @@ from asphalt_nscd.rheology.laws_io import law_content
 
 
 def fit_temperature(measured: str | Path, temperature: float, output: str | Path) -> dict[str, Any]:
-    """Fit the Burgers law to all specimens of a reduced table at one temperature [degC]; write it."""
+    """Fit the Burgers law to all specimens of a reduced table at one temperature, and write it.
+
+    Parameters
+    ----------
+    measured : path
+        Table with temperature_C, frequency_Hz, E_MPa and phase_deg.
+    temperature : float
+        [degC].
+    output : path
+        JSON file to write.
+
+    Returns
+    -------
+    dict
+        Content of the file.
+
+    Raises
+    ------
+    InputError
+        Where the table holds too few frequencies at this temperature.
+    """
     content = burgers_at(read_reduced(measured), temperature, str(measured))
     write_json(output, content)
     return content
 
 
 def burgers_at(frame: pd.DataFrame, temperature: float, name: str) -> dict[str, Any]:
-    """The Burgers law fitted to the rows of one temperature [degC], as its file has it.
+    """The Burgers law fitted to the rows of one temperature, as its file has it.
 
-    frame: columns temperature_C, frequency_Hz, E_MPa, phase_deg; name: of the table, for a refusal.
+    Parameters
+    ----------
+    frame : DataFrame
+        Columns temperature_C, frequency_Hz, E_MPa, phase_deg.
+    temperature : float
+        [degC].
+    name : str
+        Of the table, for a refusal.
+
+    Returns
+    -------
+    dict
+        Content of the file.
+
+    Raises
+    ------
+    InputError
+        Where the table holds too few frequencies at this temperature.
     """
     try:
         points = at_temperature(frame, temperature)

@@ -31,15 +31,29 @@ Vector = NDArray[np.float64]
 class Fit(Generic[Law]):
     """A fitted law.
 
-    std_error: standard error of each parameter, by field name and in its unit, all points taken as
-    independent (a scatter common to a whole specimen is not); None where the points do not outnumber
-    the parameters or do not determine them all. rms_log_residual: root mean square of
-    |ln(E_measured / E_law)| over the points. unseen: parameters that the points do not determine. Those at a
-    bound of the fit or without effect have no standard error, and those of the others hold them fixed.
-    from_prior: those of the unseen that have the value, and nearly the standard error, of a prior.
-    freedom: residuals (two for each point) less the parameters that the points determine. covariance (p, p): of the
-    logarithms of `parameters`, zero where there is no standard error. response (p, 2n): change of these logarithms
-    with ln|E*| and the phase of the points; of_prior (p, p): what the prior leaves open of them.
+    Parameters
+    ----------
+    law : Law
+        With the fitted parameters.
+    std_error : dict of str to float, or None
+        Standard error of each parameter, by field name and in its unit, all points taken as independent (a
+        scatter common to a whole specimen is not). None where the points do not outnumber the parameters or
+        do not determine them all.
+    rms_log_residual : float
+        Root mean square of |ln(E_measured / E_law)| over the points.
+    freedom : int
+        Residuals (two for each point) less the parameters that the points determine.
+    unseen : tuple of str
+        Parameters that the points do not determine. Those at a bound of the fit or without effect have no
+        standard error, and those of the others hold them fixed.
+    from_prior : tuple of str
+        Those of the unseen that have the value, and nearly the standard error, of a prior.
+    covariance : ndarray (p, p), optional
+        Of the logarithms of `parameters`, zero where there is no standard error.
+    response : ndarray (p, 2n), optional
+        Change of these logarithms with ln|E*| and the phase of the points.
+    of_prior : ndarray (p, p), optional
+        What the prior leaves open of these logarithms.
     """
 
     law: Law
@@ -53,7 +67,18 @@ class Fit(Generic[Law]):
     of_prior: NDArray | None = None
 
     def under(self, points: NDArray) -> Fit[Law]:
-        """The same fit to points of another covariance (2n, 2n) of ln|E*|, then of the phase, than it assumed."""
+        """The same fit to points of another covariance than it assumed.
+
+        Parameters
+        ----------
+        points : ndarray (2n, 2n)
+            Covariance of ln|E*|, then of the phase, of the points.
+
+        Returns
+        -------
+        Fit
+            With other standard errors; the law stays.
+        """
         if self.response is None or self.of_prior is None:
             return self
         covariance = self.response @ points @ self.response.T + self.of_prior
@@ -66,15 +91,47 @@ class Fit(Generic[Law]):
         return replace(self, covariance=covariance, std_error=std_error)
 
     def interval(self, name: str, level: float = 0.95) -> tuple[float, float]:
-        """Confidence interval of a parameter that has a standard error: Student's t on its logarithm."""
+        """Confidence interval of a parameter that has a standard error: Student's t on its logarithm.
+
+        Parameters
+        ----------
+        name : str
+            Of the parameter.
+        level : float
+            Probability that the interval holds it.
+
+        Returns
+        -------
+        tuple of float
+            Lower and upper end, in the unit of the parameter.
+        """
         value, error = parameters(self.law)[name], (self.std_error or {})[name]
         factor = float(np.exp(stdtrit(self.freedom, 0.5 + 0.5 * level) * error / value))
         return value / factor, value * factor
 
 
 def fit_burgers(omega: ArrayLike, modulus: ArrayLike) -> Fit[Burgers]:
-    """Burgers law of one temperature from E* [Pa] at angular frequencies omega [rad/s] (vectors).
+    """Fit a Burgers law of one temperature.
 
+    Parameters
+    ----------
+    omega : array_like (n,)
+        Angular frequencies [rad/s].
+    modulus : array_like of complex (n,)
+        E* [Pa].
+
+    Returns
+    -------
+    Fit of Burgers
+        The law and its standard errors.
+
+    Raises
+    ------
+    InputError
+        For fewer than two frequencies, and what `require_points` refuses.
+
+    Examples
+    --------
     >>> omega = 2 * np.pi * np.array([3.0, 10.0, 40.0])
     >>> fit = fit_burgers(omega, Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9).complex_modulus(omega))
     >>> print(f"E_m = {fit.law.modulus_m / 1e9:.1f} GPa, eta_m = {fit.law.viscosity_m / 1e9:.2f} GPa s")
@@ -106,7 +163,27 @@ def fit_burgers(omega: ArrayLike, modulus: ArrayLike) -> Fit[Burgers]:
 
 
 def require_points(omega: ArrayLike, modulus: ArrayLike) -> tuple[Vector, NDArray[np.complex128]]:
-    """Frequencies and moduli as vectors, refused where they cannot be fitted."""
+    """Frequencies and moduli as vectors, refused where they cannot be fitted.
+
+    Parameters
+    ----------
+    omega : array_like
+        Angular frequencies [rad/s].
+    modulus : array_like
+        E* [Pa], one for each.
+
+    Returns
+    -------
+    ndarray (n,)
+        omega.
+    ndarray of complex (n,)
+        E*.
+
+    Raises
+    ------
+    InputError
+        For no points, numbers that differ, or values that are zero, negative or not finite.
+    """
     omega, modulus = np.asarray(omega, dtype=float), np.asarray(modulus, dtype=complex)
     if omega.shape != modulus.shape or omega.ndim != 1 or omega.size == 0:
         raise InputError(
@@ -120,7 +197,20 @@ def require_points(omega: ArrayLike, modulus: ArrayLike) -> tuple[Vector, NDArra
 
 
 def log_residual(measured: NDArray[np.complex128], law: NDArray[np.complex128]) -> Vector:
-    """Relative errors of the norm, then errors of the phase [rad]."""
+    """ln(E_measured / E_law), both parts after each other.
+
+    Parameters
+    ----------
+    measured : ndarray of complex (n,)
+        E* [Pa].
+    law : ndarray of complex (n,)
+        E* [Pa].
+
+    Returns
+    -------
+    ndarray
+        (2n,) Relative errors of the norm, then errors of the phase [rad].
+    """
     ratio = np.log(measured / law)
     return np.concatenate([ratio.real, ratio.imag])
 
@@ -148,10 +238,21 @@ def best_of_starts(
 def covariance_of(
     solution: OptimizeResult, seen: NDArray[np.bool_] | None = None, variance: float | None = None
 ) -> NDArray | None:
-    """Covariance of the fitted x, or of its part `seen` with the rest held, from the Jacobian.
+    """Covariance of fitted coordinates, from the Jacobian.
 
-    variance: of the residuals, where it is known; else it is estimated. None where the points do not outnumber
-    the unknowns or do not determine them all.
+    Parameters
+    ----------
+    solution : OptimizeResult
+        Of `scipy.optimize.least_squares`.
+    seen : ndarray of bool (p,), optional
+        The part of x that is asked for, with the rest held; all of x if None.
+    variance : float, optional
+        Of the residuals, where it is known; else it is estimated.
+
+    Returns
+    -------
+    ndarray (p, p) or None
+        None where the points do not outnumber the unknowns or do not determine them all.
     """
     jacobian = solution.jac if seen is None else solution.jac[:, seen]
     freedom = jacobian.shape[0] - jacobian.shape[1]

@@ -18,7 +18,29 @@ UNITS = {"kPa": 1e3, "Pa": 1.0}  # readings of Table 3; the table prints Pa, kPa
 
 
 def published_law(table: str | Path, temperature: float, unit: str, output: str | Path) -> dict[str, Any]:
-    """Write one row of Table 3 as a law, its numbers read in kPa (the default) or in Pa (as printed)."""
+    """Write one row of Table 3 as a law.
+
+    Parameters
+    ----------
+    table : path
+        CSV of Table 3.
+    temperature : float
+        One of its rows [degC].
+    unit : str
+        "kPa" or "Pa" (as printed), in which its numbers are read.
+    output : path
+        JSON file to write.
+
+    Returns
+    -------
+    dict
+        Content of the file.
+
+    Raises
+    ------
+    InputError
+        For a temperature that the table lacks, or a unit that is not known.
+    """
     temperatures, laws = read_published(table, unit)
     match = np.flatnonzero(np.abs(temperatures - temperature) < SAME_TEMPERATURE)
     if not match.size:
@@ -28,7 +50,27 @@ def published_law(table: str | Path, temperature: float, unit: str, output: str 
 
 
 def read_published(path: str | Path, unit: str = "kPa") -> tuple[np.ndarray, list[Burgers]]:
-    """Temperatures [degC] and Burgers laws of a table like Table 3."""
+    """Read a table like Table 3.
+
+    Parameters
+    ----------
+    path : path
+        CSV file.
+    unit : str
+        "kPa" or "Pa" (as printed), in which its numbers are read.
+
+    Returns
+    -------
+    ndarray (t,)
+        Temperatures [degC].
+    list of Burgers (t,)
+        The law at each.
+
+    Raises
+    ------
+    InputError
+        For a unit that is not known, or a temperature that appears twice.
+    """
     if unit not in UNITS:
         raise InputError(f"unit {unit!r} is not known; read Table 3 in {' or '.join(UNITS)}.")
     table: Table = read_csv(path)

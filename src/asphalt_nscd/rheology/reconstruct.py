@@ -33,15 +33,33 @@ REFERENCE_TEMPERATURE = 15.0  # degC; any choice gives the same law
 
 @dataclass(frozen=True)
 class Sampling:
-    """What is drawn. A scatter is a standard deviation."""
+    """What is drawn. A scatter is a standard deviation.
+
+    Parameters
+    ----------
+    seed : int
+        The same seed gives the same table.
+    specimens : int
+        How many.
+    frequencies : sequence of float
+        [Hz].
+    amplitude : float
+        z0 of the head [m].
+    specimen_scatter : float
+        Of ln|E*| of a whole specimen.
+    modulus_scatter : float
+        Of ln|E*| of a point.
+    phase_scatter_deg : float
+        Of the phase of a point [degrees].
+    """
 
     seed: int
     specimens: int = 4
-    frequencies: Sequence[float] = FREQUENCIES  # Hz
-    amplitude: float = twopoint.PAPER_AMPLITUDE  # z0, m
-    specimen_scatter: float = 0.03  # of ln|E*| of a whole specimen
-    modulus_scatter: float = 0.01  # of ln|E*| of a point
-    phase_scatter_deg: float = 0.3  # of the phase of a point
+    frequencies: Sequence[float] = FREQUENCIES
+    amplitude: float = twopoint.PAPER_AMPLITUDE
+    specimen_scatter: float = 0.03
+    modulus_scatter: float = 0.01
+    phase_scatter_deg: float = 0.3
 
     def __post_init__(self) -> None:
         frequencies = list(self.frequencies)
@@ -65,9 +83,25 @@ def reconstruct_table(
     sampling: Sampling,
     law_output: str | Path | None = None,
 ) -> pd.DataFrame:
-    """Draw peaks (F0, z0, Psi) of specimens "1".."N" at all temperatures of Table 3; write the table.
+    """Draw peaks (F0, z0, Psi) of specimens "1".."N" at all temperatures of Table 3, and write them.
 
-    law_output: where to write the smooth law.
+    Parameters
+    ----------
+    table3 : path
+        CSV of Table 3.
+    geometry : path or mapping
+        Of the specimens, by which Eqs. (1)-(5) are inverted.
+    output : path
+        CSV file to write.
+    sampling : Sampling
+        What is drawn.
+    law_output : path, optional
+        Where to write the smooth law, if at all.
+
+    Returns
+    -------
+    DataFrame
+        One row for each specimen, temperature and frequency.
     """
     names = [str(number + 1) for number in range(sampling.specimens)]
     geometries = read_geometry(geometry, names)
@@ -114,9 +148,21 @@ def reconstruct_table(
 
 
 def fit_published(table3: str | Path) -> tuple[np.ndarray, Fit[Spectrum]]:
-    """Temperatures [degC] of Table 3 (read in kPa), and the smooth law fitted to its isotherms.
+    """The smooth law of the isotherms of Table 3, read in kPa.
 
     The isotherms are taken at the paper's frequencies, those at which the laws were fitted.
+
+    Parameters
+    ----------
+    table3 : path
+        CSV of Table 3.
+
+    Returns
+    -------
+    ndarray (t,)
+        Temperatures [degC].
+    Fit of TwoS2P1D
+        The law, with a WLF shift.
     """
     temperatures, laws = read_published(table3)
     omega = 2.0 * np.pi * np.array(FREQUENCIES)

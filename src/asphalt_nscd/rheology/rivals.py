@@ -23,20 +23,48 @@ BRANCHES = 4
 
 @dataclass(frozen=True)
 class Rival:
-    """A law in coordinates x (p,) of order one, and where its fits start."""
+    """A law in coordinates x (p,) of order one, and where its fits start.
+
+    Parameters
+    ----------
+    name : str
+        Of the law.
+    modulus : callable
+        E* [Pa] of x, omega [rad/s] and temperature [degC].
+    starts : ndarray (s, p)
+        Coordinates from which fits start.
+    low, high : ndarray (p,)
+        Bounds of the coordinates.
+    """
 
     name: str
-    modulus: Callable[[Vector, Vector, Vector], Complex]  # E* [Pa] of x, omega [rad/s], temperature [degC]
-    starts: NDArray[np.float64]  # (s, p)
+    modulus: Callable[[Vector, Vector, Vector], Complex]
+    starts: NDArray[np.float64]
     low: Vector
     high: Vector
 
     def fit(
         self, omega: Vector, temperature: Vector, modulus: Complex, start: Vector | None = None
     ) -> Vector:
-        """Coordinates of least squares of ln E*, from the best of all starts or from one.
+        """Least squares of ln E*.
 
         What the tests do not determine stays near the middle of the starts, wherever the fit starts.
+
+        Parameters
+        ----------
+        omega : ndarray (n,)
+            Angular frequencies [rad/s].
+        temperature : ndarray (n,)
+            [degC].
+        modulus : ndarray of complex (n,)
+            E* [Pa].
+        start : ndarray (p,), optional
+            Coordinates to start from; the best of all starts if None.
+
+        Returns
+        -------
+        ndarray
+            (p,) Coordinates.
         """
         middle = self.starts.mean(axis=0)
 
@@ -58,7 +86,21 @@ class Rival:
 def rivals(omega: Vector, temperature: Vector, modulus: Complex, reference: float) -> Iterator[Rival]:
     """2S2P1D and a Prony series of as many parameters, nine; Huet-Sayegh, eight. All with a WLF shift.
 
-    omega [rad/s], temperature [degC], modulus [Pa]: vectors (n,) of the tests; reference: of the shift [degC].
+    Parameters
+    ----------
+    omega : ndarray (n,)
+        Angular frequencies of the tests [rad/s].
+    temperature : ndarray (n,)
+        [degC].
+    modulus : ndarray of complex (n,)
+        E* [Pa].
+    reference : float
+        Temperature of the shift [degC].
+
+    Yields
+    ------
+    Rival
+        One law after another.
     """
     largest = float(np.abs(modulus).max())
     for name, law in (("2S2P1D", "2s2p1d"), ("Huet-Sayegh", "huet-sayegh")):
@@ -105,9 +147,27 @@ def _prony(omega: Vector, temperature: Vector, largest: float, reference: float)
 def left_out(
     rival: Rival, omega: Vector, temperature: Vector, modulus: Complex, groups: Vector, start: Vector
 ) -> Iterator[tuple[float, Vector]]:
-    """(value, coordinates fitted without it) for each value of `groups` (n,): a temperature or a frequency.
+    """Fit a law without each temperature, or without each frequency.
 
-    start: coordinates from which the fits start; those of a fit to all tests, as `fit` forgets them.
+    Parameters
+    ----------
+    rival : Rival
+        The law.
+    omega : ndarray (n,)
+        Angular frequencies of the tests [rad/s].
+    temperature : ndarray (n,)
+        [degC].
+    modulus : ndarray of complex (n,)
+        E* [Pa].
+    groups : ndarray (n,)
+        Temperature or frequency of each test.
+    start : ndarray (p,)
+        Coordinates from which the fits start; those of a fit to all tests, as `fit` forgets them.
+
+    Yields
+    ------
+    tuple of float and ndarray (p,)
+        Each value of the groups, and the coordinates fitted without it.
     """
     for value in np.unique(groups):
         rest = groups != value

@@ -15,8 +15,19 @@ ZERO_CELSIUS = 273.15  # K
 
 @dataclass(frozen=True)
 class WLF:
-    """Williams, Landel & Ferry (1955): c1 [decades], c2 [K], reference_temperature [degC].
+    """Shift of Williams, Landel & Ferry (1955), log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref).
 
+    Parameters
+    ----------
+    c1 : float
+        [decades].
+    c2 : float
+        [K].
+    reference_temperature : float
+        T_ref [degC].
+
+    Examples
+    --------
     >>> WLF(c1=24.0, c2=160.0, reference_temperature=15.0).factor([5, 15, 25]).round(3).tolist()
     [39.811, 1.0, 0.039]
     """
@@ -26,7 +37,23 @@ class WLF:
     reference_temperature: float
 
     def factor(self, temperature: ArrayLike) -> NDArray[np.float64]:
-        """a_T: reduced frequency over frequency at temperature [degC]; 1 at the reference."""
+        """The shift factor.
+
+        Parameters
+        ----------
+        temperature : array_like
+            [degC].
+
+        Returns
+        -------
+        ndarray
+            a_T, reduced frequency over frequency; 1 at the reference.
+
+        Raises
+        ------
+        InputError
+            Where c2 + T - T_ref is not positive: the shift is not defined there.
+        """
         above = np.asarray(temperature, dtype=float) - self.reference_temperature
         if np.any(self.c2 + above <= 0.0):
             raise InputError(
@@ -36,7 +63,18 @@ class WLF:
         return 10.0 ** (-self.c1 * above / (self.c2 + above))
 
     def log_slopes(self, temperature: ArrayLike) -> NDArray[np.float64]:
-        """Derivatives (n, 2) of ln a_T at temperature (n,) [degC] with respect to ln c1 and ln c2."""
+        """Derivatives of the shift factor.
+
+        Parameters
+        ----------
+        temperature : array_like (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray
+            (n, 2) Of ln a_T with respect to ln c1 and ln c2.
+        """
         above = np.asarray(temperature, dtype=float) - self.reference_temperature
         log_factor = -np.log(10.0) * self.c1 * above / (self.c2 + above)
         return np.column_stack([log_factor, -log_factor * self.c2 / (self.c2 + above)])
@@ -44,8 +82,17 @@ class WLF:
 
 @dataclass(frozen=True)
 class Arrhenius:
-    """One activation_energy [J/mol]; reference_temperature [degC].
+    """Shift by one activation energy Q, ln a_T = Q/R (1/T - 1/T_ref), temperatures in K.
 
+    Parameters
+    ----------
+    activation_energy : float
+        Q [J/mol].
+    reference_temperature : float
+        T_ref [degC].
+
+    Examples
+    --------
     >>> Arrhenius(activation_energy=200e3, reference_temperature=15.0).factor([5, 15, 25]).round(3).tolist()
     [20.11, 1.0, 0.061]
     """
@@ -54,13 +101,35 @@ class Arrhenius:
     reference_temperature: float
 
     def factor(self, temperature: ArrayLike) -> NDArray[np.float64]:
-        """a_T: reduced frequency over frequency at temperature [degC]; 1 at the reference."""
+        """The shift factor.
+
+        Parameters
+        ----------
+        temperature : array_like
+            [degC].
+
+        Returns
+        -------
+        ndarray
+            a_T, reduced frequency over frequency; 1 at the reference.
+        """
         kelvin = np.asarray(temperature, dtype=float) + ZERO_CELSIUS
         inverse = 1.0 / kelvin - 1.0 / (self.reference_temperature + ZERO_CELSIUS)
         return np.exp(self.activation_energy / GAS_CONSTANT * inverse)
 
     def log_slopes(self, temperature: ArrayLike) -> NDArray[np.float64]:
-        """Derivative (n, 1) of ln a_T at temperature (n,) [degC] with respect to ln(activation_energy)."""
+        """Derivative of the shift factor.
+
+        Parameters
+        ----------
+        temperature : array_like (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray
+            (n, 1) Of ln a_T with respect to ln(activation_energy).
+        """
         return np.log(self.factor(temperature))[:, None]
 
 

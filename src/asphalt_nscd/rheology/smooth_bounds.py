@@ -33,9 +33,20 @@ STEP = 1e-5  # of the logarithm of a parameter
 
 @dataclass(frozen=True)
 class Printed:
-    """A law (Burgers) at omega [rad/s], and its mean relative errors of norm and phase against unknown data.
+    """A law, and its mean relative errors of norm and phase against unknown data.
 
-    weight: of the phase in the fit, relative to that of ln|E*|.
+    Parameters
+    ----------
+    law : Burgers
+        Of one temperature.
+    omega : ndarray (n,)
+        Angular frequencies of the data [rad/s].
+    error : float
+        Mean relative error of |E*|.
+    phase_error : float
+        Mean relative error of the phase.
+    weight : float
+        Of the phase in the fit, relative to that of ln|E*|.
     """
 
     law: Burgers
@@ -46,12 +57,31 @@ class Printed:
 
     @property
     def modulus(self) -> NDArray[np.complex128]:
-        """E* (n,) [Pa] of the law."""
+        """E* of the law.
+
+        Returns
+        -------
+        ndarray of complex
+            (n,) [Pa].
+        """
         return self.law.complex_modulus(self.omega)
 
 
 def log_slopes(law: Burgers, omega: Vector) -> NDArray[np.float64]:
-    """Derivatives (2n, 4) of ln|E*| and of the phase [rad] by the logarithms of the law's parameters."""
+    """Derivatives of ln|E*| and of the phase by the logarithms of the law's parameters.
+
+    Parameters
+    ----------
+    law : Burgers
+        Of one temperature.
+    omega : ndarray (n,)
+        Angular frequencies [rad/s].
+
+    Returns
+    -------
+    ndarray
+        (2n, 4) Rows of ln|E*|, then rows of the phase [rad].
+    """
     values = np.array([law.modulus_m, law.viscosity_m, law.modulus_k, law.viscosity_k])
     columns = []
     for k in range(4):
@@ -63,9 +93,20 @@ def log_slopes(law: Burgers, omega: Vector) -> NDArray[np.float64]:
 
 
 def phase_error(printed: Printed, largest: bool) -> float:
-    """Smallest or largest mean relative error of the phase of smooth data, none (nan) where there are no such data.
+    """Bound of the mean relative error of the phase of smooth data that have the law as their fit, and its error
+    of the norm.
 
-    The data have the law as their fit, and its error of the norm.
+    Parameters
+    ----------
+    printed : Printed
+        Law and its error of the norm.
+    largest : bool
+        Whether the largest error is asked for, else the smallest.
+
+    Returns
+    -------
+    float
+        Relative error; NaN where there are no such data.
     """
     return _solved(printed, "largest" if largest else "smallest")
 
@@ -73,7 +114,15 @@ def phase_error(printed: Printed, largest: bool) -> float:
 def least_scatter(printed: Printed) -> float:
     """How far from smooth data must lie that have the law as their fit, and both its errors.
 
-    Largest distance of a point in ln E*, so of ln|E*| as of the phase [rad].
+    Parameters
+    ----------
+    printed : Printed
+        Law and errors.
+
+    Returns
+    -------
+    float
+        Largest distance of a point in ln E*, so of ln|E*| as of the phase [rad].
     """
     return _solved(printed, "scatter")
 

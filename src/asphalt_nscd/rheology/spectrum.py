@@ -41,7 +41,18 @@ class Spectrum(Protocol):
 
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
-        """What its own parameters must satisfy, if these do not: "needs 0 < k < 1". Else nothing."""
+        """What the law's own parameters must satisfy, if these do not.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            Parameters by name, in SI units.
+
+        Returns
+        -------
+        str
+            "needs 0 < k < 1", or nothing.
+        """
 
     title: ClassVar[str]  # as a reader knows it
 
@@ -50,22 +61,58 @@ class Spectrum(Protocol):
         """How frequency and temperature stand for each other."""
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
+        """Complex modulus.
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequencies [rad/s].
+        temperature : array_like
+            [degC], broadcast with omega.
+
+        Returns
+        -------
+        ndarray of complex
+            E* [Pa], of the shape of both together.
+        """
 
     def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Derivatives (n, p) of ln E* with respect to the logarithm of each of its `parameters`.
+        """Derivatives of ln E* with respect to the logarithm of each of its `parameters`.
 
-        omega [rad/s], temperature [degC]: vectors (n,).
+        Parameters
+        ----------
+        omega : array_like (n,)
+            Angular frequencies [rad/s].
+        temperature : array_like (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray of complex
+            (n, p) In the order of `parameters`.
         """
 
 
 @dataclass(frozen=True)
 class HuetSayegh:
-    """Huet-Sayegh law of one mix.
+    """Huet-Sayegh law of one mix (Huet 1963, Sayegh 1967).
 
-    static_modulus, glassy_modulus: limits of E* at zero and infinite frequency [Pa]; k < h: exponents
-    of the parabolic elements; delta: weight of the k element; tau: characteristic time [s] at the
-    reference temperature of the shift.
+    E* = E_0 + (E_inf - E_0) / (1 + delta (i w tau)^-k + (i w tau)^-h), w the reduced angular frequency.
+
+    Parameters
+    ----------
+    static_modulus : float
+        E_0, limit of E* at zero frequency [Pa].
+    glassy_modulus : float
+        E_inf, limit of E* at infinite frequency [Pa].
+    k, h : float
+        Exponents of the parabolic elements, 0 < k <= h < 1.
+    delta : float
+        Weight of the element of exponent k.
+    tau : float
+        Characteristic time [s] at the reference temperature of the shift.
+    shift : WLF or Arrhenius
+        Of frequency with temperature.
     """
 
     title: ClassVar[str] = "Huet-Sayegh"
@@ -84,22 +131,68 @@ class HuetSayegh:
         return _refusal(values)
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
+        """Complex modulus.
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequencies [rad/s].
+        temperature : array_like
+            [degC], broadcast with omega.
+
+        Returns
+        -------
+        ndarray of complex
+            E* [Pa], of the shape of both together.
+        """
         reduced = 1j * np.asarray(omega, dtype=float) * self.tau * self.shift.factor(temperature)
         retarded = 1.0 + self.delta * reduced**-self.k + reduced**-self.h
         return self.static_modulus + (self.glassy_modulus - self.static_modulus) / retarded
 
     def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Derivatives (n, p) of ln E* with respect to the logarithm of each of its `parameters`."""
+        """Derivatives of ln E* with respect to the logarithm of each of its `parameters`.
+
+        Parameters
+        ----------
+        omega : array_like (n,)
+            Angular frequencies [rad/s].
+        temperature : array_like (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray of complex (n, p)
+            In the order of `parameters`.
+        """
         return _log_slopes(self, omega, temperature)
 
 
 @dataclass(frozen=True)
 class TwoS2P1D:
-    """2S2P1D law of one mix.
+    """2S2P1D law of one mix (Olard & Di Benedetto 2003).
 
-    As HuetSayegh, and beta: dashpot, viscosity = (glassy - static) beta tau.
+    E* = E_0 + (E_inf - E_0) / (1 + delta (i w tau)^-k + (i w tau)^-h + 1 / (i w beta tau)), w the reduced
+    angular frequency.
 
+    Parameters
+    ----------
+    static_modulus : float
+        E_0, limit of E* at zero frequency [Pa].
+    glassy_modulus : float
+        E_inf, limit of E* at infinite frequency [Pa].
+    k, h : float
+        Exponents of the parabolic elements, 0 < k <= h < 1.
+    delta : float
+        Weight of the element of exponent k.
+    tau : float
+        Characteristic time [s] at the reference temperature of the shift.
+    beta : float
+        Of the dashpot, viscosity = (E_inf - E_0) beta tau.
+    shift : WLF or Arrhenius
+        Of frequency with temperature.
+
+    Examples
+    --------
     >>> law = TwoS2P1D(30e6, 36e9, k=0.2, h=0.58, delta=2.2, tau=0.06, beta=250.0, shift=WLF(24.0, 160.0, 15.0))
     >>> abs(law.complex_modulus(2 * np.pi * 10, [0, 15, 30]) / 1e6).round().tolist()  # MPa
     [23504.0, 11931.0, 3032.0]
@@ -122,13 +215,39 @@ class TwoS2P1D:
         return _refusal(values)
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
+        """Complex modulus.
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequencies [rad/s].
+        temperature : array_like
+            [degC], broadcast with omega.
+
+        Returns
+        -------
+        ndarray of complex
+            E* [Pa], of the shape of both together.
+        """
         reduced = 1j * np.asarray(omega, dtype=float) * self.tau * self.shift.factor(temperature)
         retarded = 1.0 + self.delta * reduced**-self.k + reduced**-self.h + 1.0 / (reduced * self.beta)
         return self.static_modulus + (self.glassy_modulus - self.static_modulus) / retarded
 
     def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Derivatives (n, p) of ln E* with respect to the logarithm of each of its `parameters`."""
+        """Derivatives of ln E* with respect to the logarithm of each of its `parameters`.
+
+        Parameters
+        ----------
+        omega : array_like (n,)
+            Angular frequencies [rad/s].
+        temperature : array_like (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray of complex
+            (n, p) In the order of `parameters`.
+        """
         return _log_slopes(self, omega, temperature)
 
 
@@ -180,20 +299,68 @@ class OfModulus(ABC):
 
     @abstractmethod
     def log_modulus(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """ln |E*| [ln Pa] at ln(omega tau a_T)."""
+        """ln |E*|.
+
+        Parameters
+        ----------
+        log_reduced : ndarray
+            ln(omega tau a_T).
+
+        Returns
+        -------
+        ndarray
+            [ln Pa], of the same shape.
+        """
 
     @abstractmethod
     def log_slope(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Its derivative."""
+        """Derivative of `log_modulus`.
+
+        Parameters
+        ----------
+        log_reduced : ndarray
+            ln(omega tau a_T).
+
+        Returns
+        -------
+        ndarray
+            d ln|E*| / d ln omega, of the same shape.
+        """
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """E* [Pa] at angular frequencies omega [rad/s] and temperatures [degC], broadcast together."""
+        """Complex modulus.
+
+        Parameters
+        ----------
+        omega : array_like
+            Angular frequencies [rad/s].
+        temperature : array_like
+            [degC], broadcast with omega.
+
+        Returns
+        -------
+        ndarray of complex
+            E* [Pa], of the shape of both together.
+        """
         x = np.log(np.asarray(omega, dtype=float) * self.tau * self.shift.factor(temperature))
         phase = self.log_slope(np.asarray(x)[..., None] + OFFSETS) @ WEIGHTS
         return np.exp(self.log_modulus(x) + 1j * phase)
 
     def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Derivatives (n, p) of ln E* with respect to the logarithm of each of its `parameters`, by differences."""
+        """Derivatives of ln E* with respect to the logarithm of each of its `parameters`, by differences.
+
+        Parameters
+        ----------
+        omega : array_like (n,)
+            Angular frequencies [rad/s].
+        temperature : array_like (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray of complex (n, p)
+            In the order of `parameters`.
+        """
         own = parameter_names(type(self))
         columns = []
         for name in own:
@@ -213,9 +380,21 @@ class OfModulus(ABC):
 class Sigmoid(OfModulus):
     """Sigmoid of AASHTO R 84 and MEPDG, log10|E*| = delta + alpha / (1 + exp(beta + gamma log10 t_r)).
 
-    static_modulus, glassy_modulus: its ends 10^delta and 10^(delta + alpha) [Pa]; tau [s]: where log|E*| is half-way,
-    at the reference temperature of the shift; gamma: slope, -R 84's over ln 10.
+    Parameters
+    ----------
+    static_modulus : float
+        Its lower end 10^delta [Pa].
+    glassy_modulus : float
+        Its upper end 10^(delta + alpha) [Pa].
+    tau : float
+        Where log|E*| is half-way [s], at the reference temperature of the shift.
+    shift : WLF or Arrhenius
+        Of frequency with temperature.
+    gamma : float
+        Slope, -R 84's over ln 10.
 
+    Examples
+    --------
     >>> law = Sigmoid(100e6, 25e9, tau=0.2, gamma=0.25, shift=WLF(24.0, 160.0, 15.0))
     >>> np.degrees(np.angle(law.complex_modulus(2 * np.pi * 10, [0, 15, 30]))).round(1).tolist()
     [12.7, 27.7, 28.3]
@@ -236,23 +415,62 @@ class Sigmoid(OfModulus):
         return "needs 0 < E_static_Pa < E_glassy_Pa, and tau_s and gamma above zero"
 
     def log_modulus(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """ln |E*| [ln Pa] at ln(omega tau a_T)."""
+        """ln |E*|.
+
+        Parameters
+        ----------
+        log_reduced : ndarray
+            ln(omega tau a_T).
+
+        Returns
+        -------
+        ndarray
+            [ln Pa].
+        """
         low, high = np.log(self.static_modulus), np.log(self.glassy_modulus)
         return low + (high - low) * expit(self.gamma * log_reduced)
 
     def log_slope(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Its derivative."""
+        """Derivative of `log_modulus`.
+
+        Parameters
+        ----------
+        log_reduced : ndarray
+            ln(omega tau a_T).
+
+        Returns
+        -------
+        ndarray
+            d ln|E*| / d ln omega.
+        """
         share = expit(self.gamma * log_reduced)
         return np.log(self.glassy_modulus / self.static_modulus) * self.gamma * share * (1.0 - share)
 
 
 @dataclass(frozen=True)
 class CAM(OfModulus):
-    """Modified law of Christensen, Anderson and Marasteanu for mixes (Zeng, Bahia, Zhai, Anderson & Turner 2001).
+    """Modified law of Christensen, Anderson and Marasteanu for mixes (Zeng, Bahia, Zhai, Anderson & Turner
+    2001).
 
-    |E*| = static + (glassy - static) / (1 + (omega tau a_T)^-v)^(w/v); static_modulus, glassy_modulus [Pa]; tau [s]:
-    inverse of the crossover frequency at the reference temperature of the shift; v, w: width and final slope.
+    |E*| = static + (glassy - static) / (1 + (omega tau a_T)^-v)^(w/v).
 
+    Parameters
+    ----------
+    static_modulus : float
+        Limit at zero frequency [Pa].
+    glassy_modulus : float
+        Limit at infinite frequency [Pa].
+    tau : float
+        Inverse of the crossover frequency [s], at the reference temperature of the shift.
+    shift : WLF or Arrhenius
+        Of frequency with temperature.
+    v : float
+        Width of the transition.
+    w : float
+        Final slope of ln|E*| over ln(omega).
+
+    Examples
+    --------
     >>> law = CAM(100e6, 30e9, tau=0.2, v=0.2, w=0.8, shift=WLF(24.0, 160.0, 15.0))
     >>> np.degrees(np.angle(law.complex_modulus(2 * np.pi * 10, [0, 15, 30]))).round(1).tolist()
     [11.7, 26.5, 37.1]
@@ -278,11 +496,33 @@ class CAM(OfModulus):
         return self.static_modulus + above, above * self.w * expit(-self.v * log_reduced)
 
     def log_modulus(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """ln |E*| [ln Pa] at ln(omega tau a_T)."""
+        """ln |E*|.
+
+        Parameters
+        ----------
+        log_reduced : ndarray
+            ln(omega tau a_T).
+
+        Returns
+        -------
+        ndarray
+            [ln Pa], of the same shape.
+        """
         return np.log(self._parts(log_reduced)[0])
 
     def log_slope(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Its derivative."""
+        """Derivative of `log_modulus`.
+
+        Parameters
+        ----------
+        log_reduced : ndarray
+            ln(omega tau a_T).
+
+        Returns
+        -------
+        ndarray
+            d ln|E*| / d ln omega, of the same shape.
+        """
         modulus, slope = self._parts(log_reduced)
         return slope / modulus
 
@@ -291,11 +531,33 @@ LAWS: dict[str, Any] = {"2s2p1d": TwoS2P1D, "huet-sayegh": HuetSayegh, "sigmoid"
 
 
 def parameter_names(kind: type) -> list[str]:
-    """Names of a law's or a shift's own parameters; the reference temperature is a choice, none of them."""
+    """Names of a law's or a shift's own parameters; the reference temperature is a choice, none of them.
+
+    Parameters
+    ----------
+    kind : type
+        Class of the law or of the shift.
+
+    Returns
+    -------
+    list of str
+        In the order of its fields.
+    """
     return [field.name for field in fields(kind) if field.name not in ("shift", "reference_temperature")]
 
 
 def parameters(law: Any) -> dict[str, float]:
-    """Parameters of a law by name, those of its shift, if it has one, at the end."""
+    """Parameters of a law by name, those of its shift, if it has one, at the end.
+
+    Parameters
+    ----------
+    law : Spectrum
+        In SI units.
+
+    Returns
+    -------
+    dict of str to float
+        In the order of `parameter_names`.
+    """
     parts = [law, law.shift] if hasattr(law, "shift") else [law]
     return {name: getattr(part, name) for part in parts for name in parameter_names(type(part))}

@@ -42,7 +42,30 @@ TAUS = np.arange(-12.0, 13.0)
 
 
 class Coordinates:
-    """Coordinates x (p,) of a law of LAWS with a shift of SHIFTS for given tests."""
+    """Coordinates x (p,) of a law with a shift, for given tests.
+
+    Parameters
+    ----------
+    law : str
+        One of LAWS.
+    shift : str
+        One of SHIFTS.
+    omega : ndarray (n,)
+        Angular frequencies of the tests [rad/s].
+    temperature : ndarray (n,)
+        [degC].
+    largest : float
+        Norm of E* of the tests [Pa].
+    reference : float
+        Temperature of the shift [degC].
+    largest_glassy : float
+        Up to which a glassy modulus is sought at least [Pa].
+
+    Raises
+    ------
+    InputError
+        For a law that lacks a parameter from which fits start.
+    """
 
     def __init__(
         self,
@@ -81,7 +104,18 @@ class Coordinates:
         self.high[glassy] = max(self.high[glassy], np.log(max(largest_glassy, largest) / largest))
 
     def build(self, x: Vector) -> Spectrum:
-        """The law at x."""
+        """The law at some coordinates.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Coordinates.
+
+        Returns
+        -------
+        Spectrum
+            The law, with its shift.
+        """
         given = dict(zip(self.names, x.tolist(), strict=True))
         values = {name: self.scales.get(name, 1.0) * float(np.exp(value)) for name, value in given.items()}
         if "h" in values:
@@ -96,7 +130,18 @@ class Coordinates:
         return self.law(**{name: values[name] for name in self.own}, shift=shift)
 
     def log_slopes(self, x: Vector) -> NDArray[np.float64]:
-        """Derivatives (p, p) of the logarithms of the parameters (rows) with respect to x (columns)."""
+        """Derivatives of the logarithms of the parameters.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Coordinates.
+
+        Returns
+        -------
+        ndarray
+            (p, p) A row for each parameter, a column for each coordinate.
+        """
         slope = np.eye(x.size)
         if "h" in self.names:
             k, h = self.names.index("k"), self.names.index("h")
@@ -108,15 +153,43 @@ class Coordinates:
         return slope
 
     def inside(self, x: Vector) -> NDArray[np.bool_]:
-        """Which coordinates are off their bounds."""
+        """Which coordinates are off their bounds.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Coordinates.
+
+        Returns
+        -------
+        ndarray of bool (p,)
+            True inside.
+        """
         return (x > self.low + MARGIN) & (x < self.high - MARGIN)
 
     def random_starts(self, count: int) -> NDArray[np.float64]:
-        """(count, p), uniform over the ranges of the starts."""
+        """Starts that are uniform over their ranges.
+
+        Parameters
+        ----------
+        count : int
+            How many.
+
+        Returns
+        -------
+        ndarray (count, p)
+            The same for every call.
+        """
         return np.random.default_rng(SEED).uniform(self.first, self.last, (count, self.first.size))
 
     def usual_starts(self) -> Iterator[NDArray[np.float64]]:
-        """Groups (t, p) of usual laws that differ by tau; the best of a group is a start."""
+        """Usual laws to start from.
+
+        Yields
+        ------
+        ndarray (t, p)
+            Groups that differ by tau; the best of a group is a start.
+        """
         for guess in (*GUESSES, USUAL["glassy_modulus"].median / self.scales["glassy_modulus"]):
             for slope in SLOPES:
                 x = 0.5 * (self.first + self.last)

@@ -28,10 +28,18 @@ SETTLED, ROUNDS = 1e-4, 30  # relative change of the scatter that ends its searc
 
 @dataclass(frozen=True)
 class Form:
-    """Which law is fitted."""
+    """Which law is fitted.
 
-    law: str = "2s2p1d"  # of LAWS
-    shift: str = "wlf"  # of SHIFTS
+    Parameters
+    ----------
+    law : str
+        One of LAWS.
+    shift : str
+        One of SHIFTS.
+    """
+
+    law: str = "2s2p1d"
+    shift: str = "wlf"
 
 
 def fit_spectrum(
@@ -44,13 +52,36 @@ def fit_spectrum(
     prior: Prior | None = None,
     weights: tuple[ArrayLike, ArrayLike] | None = None,
 ) -> Fit[Spectrum]:
-    """A law of this form, all parameters jointly, from E* [Pa] of all temperatures.
+    """Fit one law to all temperatures, all parameters jointly.
 
-    omega [rad/s], temperature [degC], modulus [Pa]: vectors (n,). prior: what the parameters usually are;
-    without it only the tests count. weights: standard deviations of ln|E*| and of the phase [rad] of each test,
-    (n,) or one for all; without them both count alike, and the scatter is that of the residuals. Residuals larger
-    than the weights allow widen the standard errors in proportion. Standard errors go by the names of
-    `spectrum.parameters`.
+    Parameters
+    ----------
+    omega : array_like (n,)
+        Angular frequencies [rad/s].
+    temperature : array_like (n,)
+        [degC].
+    modulus : array_like of complex (n,)
+        E* [Pa].
+    reference_temperature : float
+        Of the shift [degC].
+    form : Form
+        Which law and which shift.
+    prior : Prior, optional
+        What the parameters usually are; without it only the tests count.
+    weights : tuple of array_like, optional
+        Standard deviations of ln|E*| and of the phase [rad] of each test, (n,) or one for all. Without them
+        both count alike, and the scatter is that of the residuals. Residuals larger than the weights allow
+        widen the standard errors in proportion.
+
+    Returns
+    -------
+    Fit of Spectrum
+        Its standard errors go by the names of `spectrum.parameters`.
+
+    Raises
+    ------
+    InputError
+        For too few temperatures or points.
     """
     omega, modulus = require_points(omega, modulus)
     law, shift = form.law, form.shift

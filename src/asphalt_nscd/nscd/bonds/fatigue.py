@@ -23,8 +23,17 @@ ENOUGH_ITERATIONS = 15  # of a solution with factors of the bonds as they were
 
 @dataclass(frozen=True)
 class Jumps:
-    """How far a jump goes: until the fastest bond has lost `bond` of itself or, further, until the cycles have grown
-    by `growth`; at any rate no further than until the specimen has lost `stiffness` of itself.
+    """How far a jump goes: until the fastest bond or the cycles have changed so much, no further than the
+    specimen may.
+
+    Parameters
+    ----------
+    bond : float
+        What the fastest bond may lose of itself, unless `growth` allows more.
+    growth : float
+        By which the cycles may always grow, over those gone.
+    stiffness : float
+        What the specimen may lose of itself at most.
     """
 
     bond: float = 0.1
@@ -32,7 +41,18 @@ class Jumps:
     stiffness: float = 0.01
 
     def finer(self, times: float) -> Jumps:
-        """So many times shorter."""
+        """Shorter jumps.
+
+        Parameters
+        ----------
+        times : float
+            How many times shorter.
+
+        Returns
+        -------
+        Jumps
+            All three limits over `times`.
+        """
         return Jumps(self.bond / times, self.growth / times, self.stiffness / times)
 
 
@@ -74,12 +94,36 @@ class FatigueHistory:
 
 
 def remaining_stiffness(damage: np.ndarray) -> np.ndarray:
-    """Share (3 b,) of the stiffness of the components of bonds of damage (b,)."""
+    """What damage leaves of the stiffness of bonds.
+
+    Parameters
+    ----------
+    damage : ndarray (b,)
+        Of each bond.
+
+    Returns
+    -------
+    ndarray (3 b,)
+        Share for each component.
+    """
     return np.repeat(np.maximum(1.0 - damage, LEFT), 3)
 
 
 def strain(opening: np.ndarray, length: np.ndarray) -> np.ndarray:
-    """Amplitude of opening over length (b,) of bonds; opening (3 b,) [m], real or complex, length (b,) [m]."""
+    """Amplitude of opening over length.
+
+    Parameters
+    ----------
+    opening : ndarray (3 b,)
+        Of the bonds [m], real or complex.
+    length : ndarray (b,)
+        Of the bonds [m].
+
+    Returns
+    -------
+    ndarray (b,)
+        Norm of the three components over the length.
+    """
     return np.asarray(np.linalg.norm(opening.reshape(-1, 3), axis=1) / length)
 
 
@@ -91,9 +135,32 @@ def tire(
     until: float = 0.5,
     jumps: Jumps = Jumps(),
 ) -> FatigueHistory:
-    """Drive the head by amplitude [m] until this share of its stiffness is left.
+    """Drive the head until a share of its stiffness is left. Bonds of infinite strength do not tire.
 
-    length (b,) [m] of bonds; rate: damage per cycle (b,) at strain (b,). Bonds of infinite strength do not tire.
+    Parameters
+    ----------
+    system : BondedSystem
+        Bonds and masses.
+    length : ndarray (b,)
+        Of the bonds [m].
+    rate : callable
+        Damage per cycle (b,) at strains (b,).
+    amplitude : float
+        Of the head [m].
+    until : float
+        Share of its first stiffness at which the test ends.
+    jumps : Jumps
+        How many cycles one solution may stand for.
+
+    Returns
+    -------
+    FatigueHistory
+        A row for each jump.
+
+    Raises
+    ------
+    ArithmeticError
+        Where no bond tires at this amplitude.
     """
     tires = np.isfinite(system.strength)
     damage, cycles = np.zeros(length.size), 0.0

@@ -21,10 +21,16 @@ WINDOW = 256
 
 
 class PackedBonds:
-    """Bonds of an opening operator (3 b, d) in global axes; body k has degrees of freedom 6 k, ...
+    """Bonds of an opening operator in global axes; body k has degrees of freedom 6 k, ...
 
-    mobility (d,) [s/kg, s/(kg m2)]: dt / mass, zero where a velocity is prescribed; law (3 b,) [m/(N s)]:
-    diagonal D of the affine law U = b - D R. visits (b,): the bonds in the order of a sweep forth.
+    Parameters
+    ----------
+    operator : csr_matrix (3 b, d)
+        G.
+    mobility : ndarray (d,)
+        dt / mass [s/kg, s/(kg m2)], zero where a velocity is prescribed.
+    law : ndarray (3 b,)
+        Diagonal D of the affine law U = b - D R [m/(N s)].
     """
 
     def __init__(self, operator: sparse.csr_matrix, mobility: np.ndarray, law: np.ndarray) -> None:
@@ -63,9 +69,31 @@ class PackedBonds:
         tolerance: float,
         most_sweeps: int,
     ) -> tuple[np.ndarray, np.ndarray, int, float]:
-        """(reaction [N], velocity, sweeps, relative change of the last sweep) from those at the start.
+        """Gauss-Seidel sweeps, forth and back, until the reactions change little.
 
-        explicit b (3 b,) [m/s], reaction R (3 b,) [N], velocity (d,) [m/s, rad/s] before R acts.
+        Parameters
+        ----------
+        explicit : ndarray (3 b,)
+            b of the law [m/s].
+        reaction : ndarray (3 b,)
+            R to start from [N].
+        velocity : ndarray (d,)
+            Before R acts [m/s, rad/s].
+        tolerance : float
+            Relative change in a sweep that ends them.
+        most_sweeps : int
+            How many at most.
+
+        Returns
+        -------
+        ndarray (3 b,)
+            Reaction [N].
+        ndarray (d,)
+            Velocity [m/s, rad/s].
+        int
+            Sweeps.
+        float
+            Relative change of the last sweep.
         """
         motion = self._by_body(velocity, len(self._mobility) - 1)
         motion[:, 6:] = self._mobility[:, 6:]

@@ -17,7 +17,19 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class HeadDevices:
-    """clamp_compliance C [m/N], guide_stiffness k [N/m], guide_friction F_s [N], head_mass m [kg]."""
+    """Devices at the head of a specimen; all zero: the head is driven itself.
+
+    Parameters
+    ----------
+    clamp_compliance : float
+        C of the clamp between actuator and head [m/N].
+    guide_stiffness : float
+        k of a spring between head and ground [N/m].
+    guide_friction : float
+        F_s of a Coulomb slider between head and ground [N].
+    head_mass : float
+        m, moves with the head [kg].
+    """
 
     clamp_compliance: float = 0.0
     guide_stiffness: float = 0.0
@@ -26,7 +38,13 @@ class HeadDevices:
 
     @property
     def of_head(self) -> tuple[float, float, float, float]:
-        """(C, k, F_s, m), for the compiled functions."""
+        """The devices for the compiled functions.
+
+        Returns
+        -------
+        tuple of float
+            (C, k, F_s, m).
+        """
         return (
             float(self.clamp_compliance),
             float(self.guide_stiffness),

@@ -13,9 +13,19 @@ LARGEST_FACTORED = 150_000  # unknowns; factors take 2 GB for 60 000 and beyond 
 
 
 def factorise(matrix: sparse.csc_matrix, system: BondedSystem) -> SuperLU | Multigrid:
-    """What solves a positive definite matrix on the free degrees of freedom of a system, by `.solve`.
+    """What solves a positive definite matrix on the free degrees of freedom of a system.
 
-    Factors, or multigrid where they would not fit; takes one column or many.
+    Parameters
+    ----------
+    matrix : csc_matrix (f, f)
+        On the free degrees of freedom.
+    system : BondedSystem
+        Whose rigid motions multigrid needs.
+
+    Returns
+    -------
+    SuperLU or Multigrid
+        Factors, or multigrid where they would not fit into memory; `.solve` takes one column or many.
     """
     if matrix.shape[0] > LARGEST_FACTORED and system.position is not None:
         return Multigrid(matrix, system.rigid_motions()[system.free])
@@ -23,15 +33,33 @@ def factorise(matrix: sparse.csc_matrix, system: BondedSystem) -> SuperLU | Mult
 
 
 def factors(matrix: sparse.csc_matrix) -> SuperLU:
-    """Those of a symmetric matrix that needs no pivots, with little fill."""
+    """Factors of a symmetric matrix that needs no pivots, with little fill.
+
+    Parameters
+    ----------
+    matrix : csc_matrix (f, f)
+        Positive definite.
+
+    Returns
+    -------
+    SuperLU
+        With `.solve`.
+    """
     return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
 class ShiftedOperator:
     """M + G^T (scale w) G on the free degrees of freedom, solvable while bonds break.
 
-    Factorised once. Each bond that breaks takes away three rank-one terms, which the Woodbury
-    identity accounts for at the cost of three more solves; after many, it is factorised again.
+    Factorised once. Each bond that breaks takes away three rank-one terms, which the Woodbury identity
+    accounts for at the cost of three more solves; after many, it is factorised again.
+
+    Parameters
+    ----------
+    system : BondedSystem
+        M, G and w.
+    scale : float or ndarray (3 b,)
+        dt/S [s/m kg], one for all bonds or for each of their components.
     """
 
     most_updates = 60  # breakages after which a new factorisation is cheaper
@@ -46,9 +74,14 @@ class ShiftedOperator:
         self._factorise()
 
     def remove(self, broken: list[int]) -> None:
-        """Make `broken`, which may only grow, the bonds that are absent.
+        """Make these the bonds that are absent.
 
         One by one: what results depends on the list alone, to the bit, not on how it came to be.
+
+        Parameters
+        ----------
+        broken : list of int
+            Bonds; the list may only grow.
         """
         last = len(broken) // (self.most_updates + 1) * (self.most_updates + 1)
         if last > self._factored:
@@ -68,7 +101,18 @@ class ShiftedOperator:
         self._capacitance = np.linalg.inv(np.diag(1.0 / self._strength) - self._taken.T @ self._response)
 
     def solve(self, force: np.ndarray) -> np.ndarray:
-        """Solution for one force (f,) or several (f, columns)."""
+        """Solve for forces.
+
+        Parameters
+        ----------
+        force : ndarray (f,) or (f, columns)
+            On the free degrees of freedom.
+
+        Returns
+        -------
+        ndarray
+            Of the same shape.
+        """
         solution = self._solve_once(force)
         if self._strength.size:  # the update cancels digits where bodies become nearly loose
             taken = (self._taken * self._strength) @ (self._taken.T @ solution)

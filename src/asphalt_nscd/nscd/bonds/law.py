@@ -24,9 +24,20 @@ import numpy as np
 
 @dataclass(frozen=True)
 class BondLaw:
-    """Moduli [Pa] and viscosities [Pa s] of the chain; kelvin arrays have one entry per element.
+    """One law for all bonds: a chain, its geometry divided out.
 
     An infinite spring or dashpot is one that the chain does not have.
+
+    Parameters
+    ----------
+    spring : float
+        Em [Pa].
+    dashpot : float
+        eta_m [Pa s].
+    kelvin_springs : ndarray (e,)
+        Ek of each Kelvin element [Pa].
+    kelvin_dashpots : ndarray (e,)
+        eta_k of each Kelvin element [Pa s].
     """
 
     spring: float
@@ -35,7 +46,18 @@ class BondLaw:
     kelvin_dashpots: np.ndarray
 
     def step(self, dt: float) -> LawStep:
-        """Coefficients of the affine law for the step dt [s]."""
+        """Coefficients of the affine law U+ = b - S sigma+ of a step.
+
+        Parameters
+        ----------
+        dt : float
+            Length of the step [s].
+
+        Returns
+        -------
+        LawStep
+            Those of components as arrays (3 b,) where bonds differ.
+        """
         springs, dashpots = np.asarray(self.kelvin_springs, float), np.asarray(self.kelvin_dashpots, float)
         damped = dashpots + dt * springs
         return LawStep(
@@ -48,9 +70,21 @@ class BondLaw:
         )
 
     def discrete_modulus(self, omega: float, dt: float) -> complex:
-        """Complex modulus [Pa] of the implicit Euler scheme itself, for steady oscillation.
+        """Complex modulus of the implicit Euler scheme itself, for steady oscillation.
 
         The scheme replaces i omega by (1 - exp(-i omega dt))/dt; dt = 0 gives the exact law.
+
+        Parameters
+        ----------
+        omega : float
+            Angular frequency [rad/s].
+        dt : float
+            Step [s].
+
+        Returns
+        -------
+        complex
+            [Pa].
         """
         rate = (1.0 - np.exp(-1j * omega * dt)) / dt if dt > 0.0 else 1j * omega
         kelvin = (1.0 / (self.kelvin_springs + rate * self.kelvin_dashpots)).sum()
@@ -61,18 +95,40 @@ class BondLaw:
 class BondLaws:
     """A law for each component of each bond, from a table of those that differ.
 
-    A film, for example, is squeezed by another law than it is sheared by. Parameters are those of
-    `BondLaw` for each component; a law with fewer Kelvin elements than another has zeros for the rest.
+    A film, for example, is squeezed by another law than it is sheared by. Parameters are those of `BondLaw`
+    for each component; a law with fewer Kelvin elements than another has zeros for the rest.
+
+    Parameters
+    ----------
+    table : tuple of BondLaw
+        Laws that differ.
+    kind : ndarray of int (3 b,)
+        Place in the table of each component.
     """
 
     table: tuple[BondLaw, ...]
-    kind: np.ndarray  # (3 b,) places in the table
+    kind: np.ndarray
 
     @classmethod
     def of_bonds(
         cls, table: Sequence[BondLaw], normal: np.ndarray, tangential: np.ndarray | None = None
     ) -> BondLaws:
-        """Each bond (b,) with its normal and its tangential law, by place; one for all three without the latter."""
+        """Bonds with a normal and a tangential law.
+
+        Parameters
+        ----------
+        table : sequence of BondLaw
+            Laws that differ.
+        normal : ndarray of int (b,)
+            Place in the table of each bond's normal law.
+        tangential : ndarray of int (b,), optional
+            Place of its tangential law; the normal one if None.
+
+        Returns
+        -------
+        BondLaws
+            A law for each component.
+        """
         tangential = normal if tangential is None else tangential
         return cls(tuple(table), np.column_stack([normal, tangential, tangential]).ravel())
 
@@ -97,7 +153,18 @@ class BondLaws:
         return self._of_elements([law.kelvin_dashpots for law in self.table])
 
     def step(self, dt: float) -> LawStep:
-        """Coefficients of the affine law for the step dt [s], those of components as arrays."""
+        """Coefficients of the affine law U+ = b - S sigma+ of a step.
+
+        Parameters
+        ----------
+        dt : float
+            Length of the step [s].
+
+        Returns
+        -------
+        LawStep
+            Those of components as arrays (3 b,) where bonds differ.
+        """
         steps = [law.step(dt) for law in self.table]
         return LawStep(
             dt=dt,
@@ -109,7 +176,20 @@ class BondLaws:
         )
 
     def discrete_modulus(self, omega: float, dt: float) -> np.ndarray:
-        """Complex modulus (3 b,) [Pa] of each component, as of a `BondLaw`."""
+        """Complex modulus of each component, as of a `BondLaw`.
+
+        Parameters
+        ----------
+        omega : float
+            Angular frequency [rad/s].
+        dt : float
+            Step [s].
+
+        Returns
+        -------
+        ndarray
+            (3 b,) [Pa].
+        """
         return np.array([law.discrete_modulus(omega, dt) for law in self.table])[self.kind]
 
     def _of_elements(self, values: Sequence[np.ndarray]) -> np.ndarray:

@@ -20,7 +20,15 @@ SMOOTHER = ("chebyshev", {"degree": 4})
 
 
 class Multigrid:
-    """A symmetric positive definite matrix that is solved as factors are, by `.solve`."""
+    """A symmetric positive definite matrix that is solved as factors are, by `.solve`.
+
+    Parameters
+    ----------
+    matrix : csc_matrix (f, f)
+        Of bodies one after another; the last may lack some of its six degrees of freedom.
+    modes : ndarray (f, 6)
+        The rigid-body motions of its degrees of freedom.
+    """
 
     def __init__(self, matrix: sparse.csc_matrix, modes: np.ndarray) -> None:
         """matrix (f, f); modes (f, 6): the rigid-body motions of its degrees of freedom, six a body.
@@ -41,11 +49,38 @@ class Multigrid:
         self._near = self.levels.aspreconditioner()
 
     def cycle(self, force: np.ndarray) -> np.ndarray:
-        """What one cycle makes of a force (f,): near the solution, and what preconditions it."""
+        """One cycle: near the solution, and what preconditions it.
+
+        Parameters
+        ----------
+        force : ndarray (f,)
+            Right-hand side.
+
+        Returns
+        -------
+        ndarray
+            (f,) Approximate solution.
+        """
         return self._unscaled(self._near @ self._scaled(force))
 
     def solve(self, force: np.ndarray) -> np.ndarray:
-        """Solution for one force (f,) or several (f, columns); ArithmeticError where it is not reached."""
+        """Solve by conjugate gradients.
+
+        Parameters
+        ----------
+        force : ndarray (f,) or (f, columns)
+            One or several right-hand sides.
+
+        Returns
+        -------
+        ndarray
+            Solutions, of the same shape.
+
+        Raises
+        ------
+        ArithmeticError
+            Where MOST_ITERATIONS do not suffice.
+        """
         if force.ndim == 2:
             return np.column_stack([self.solve(column) for column in force.T])
         scaled = self._scaled(force)

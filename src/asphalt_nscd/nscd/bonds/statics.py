@@ -11,7 +11,20 @@ from asphalt_nscd.nscd.bonds.system import BondedSystem
 
 
 class Statics:
-    """The motion of a system whose driven degree of freedom moves by one. Each solution starts from the last one."""
+    """The motion of a system whose driven degree of freedom moves by one. Each solution starts from the last
+    one.
+
+    Parameters
+    ----------
+    system : BondedSystem
+        Bonds and masses.
+    tolerance : float
+        Of the residual, relative.
+    enough : int
+        The matrix is factorised anew after a solution that took more iterations.
+    most : int
+        And within one that took so many.
+    """
 
     def __init__(self, system: BondedSystem, tolerance: float, enough: int, most: int) -> None:
         """tolerance: of the residual, relative. The matrix is factorised anew after a solution that took more than
@@ -24,7 +37,23 @@ class Statics:
         self._factor: SuperLU | Multigrid | None = None
 
     def motion(self, weight: np.ndarray) -> np.ndarray:
-        """Displacements (d,) under bonds of this weight (3 b,) [m]."""
+        """Static displacements.
+
+        Parameters
+        ----------
+        weight : ndarray (3 b,)
+            Of the bonds [m].
+
+        Returns
+        -------
+        ndarray
+            (d,) Per unit of the driven one.
+
+        Raises
+        ------
+        ArithmeticError
+            Where no solution is found.
+        """
         system, free = self.system, self.system.free
         for last in (self._factor is None, True):
             if self._factor is None:

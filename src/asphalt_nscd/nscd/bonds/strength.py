@@ -13,7 +13,20 @@ from asphalt_nscd.nscd.compiled import compiled
 
 
 def utilisations(reaction: np.ndarray, strength: np.ndarray) -> np.ndarray:
-    """Measure (b,) of the reactions (3 b,) [N] on bonds of strength (b,) [N]; above one a bond breaks."""
+    """How far reactions use up the strength of bonds.
+
+    Parameters
+    ----------
+    reaction : ndarray (b, 3) or (3 b,)
+        [N], tension negative.
+    strength : ndarray (b,)
+        [N].
+
+    Returns
+    -------
+    ndarray
+        (b,) Above one a bond breaks.
+    """
     reaction = reaction.reshape(-1, 3)
     shear = np.hypot(reaction[:, 1], reaction[:, 2])
     return np.maximum(-reaction[:, 0], shear) / strength
@@ -21,11 +34,33 @@ def utilisations(reaction: np.ndarray, strength: np.ndarray) -> np.ndarray:
 
 @compiled
 def utilisation(normal, tangent, other):
-    """The same of one bond, from its reaction over its strength."""
+    """How far one bond is used up.
+
+    Parameters
+    ----------
+    normal, tangent, other : float
+        Its reaction over its strength, tension negative.
+
+    Returns
+    -------
+    float
+        Above one it breaks.
+    """
     return max(-normal, np.sqrt(tangent * tangent + other * other))
 
 
 @compiled
 def bound(normal, tangent, other):
-    """What `utilisation` does not exceed, whatever the signs."""
+    """What `utilisation` does not exceed, whatever the signs.
+
+    Parameters
+    ----------
+    normal, tangent, other : float
+        A reaction over its strength.
+
+    Returns
+    -------
+    float
+        Norm of the three.
+    """
     return np.sqrt(normal**2 + tangent**2 + other**2)

@@ -24,17 +24,40 @@ class BondedSystem:
     """Bonded bodies with one driven degree of freedom; only free ones and the driven one are kept.
 
     Degrees of freedom (d,): three translations [m] and three rotations [rad] of each moving body.
+
+    Parameters
+    ----------
+    operator : csr_matrix (3 b, d)
+        G.
+    weight : ndarray (3 b,)
+        w [m].
+    mass : ndarray (d,)
+        [kg] or [kg m2].
+    load : ndarray (d,)
+        Constant, [N] or [N m].
+    driven : int
+        Place of the driven degree of freedom.
+    gap : ndarray (b,)
+        [m].
+    strength : ndarray (b,)
+        Yield force in tension and in shear [N].
+    friction : float
+        Where the gap of a broken bond closes.
+    position : ndarray (n, 3), optional
+        Of the bodies [m], which systems of many need.
+    place : ndarray of int (d,), optional
+        Of each degree of freedom among the six of all bodies; None: the first.
     """
 
-    operator: sparse.csr_matrix  # G, (3 b, d)
-    weight: np.ndarray  # w, (3 b,) m
-    mass: np.ndarray  # (d,) kg or kg m2
-    load: np.ndarray  # (d,) N or N m, constant
+    operator: sparse.csr_matrix
+    weight: np.ndarray
+    mass: np.ndarray
+    load: np.ndarray
     driven: int
-    gap: np.ndarray  # (b,) m
-    strength: np.ndarray  # (b,) N, yield force in tension and in shear
+    gap: np.ndarray
+    strength: np.ndarray
     friction: float
-    position: np.ndarray | None = None  # (n, 3) m of the bodies, which systems of many need
+    position: np.ndarray | None = None
     place: np.ndarray | None = (
         None  # (d,) of each degree of freedom among the six of all bodies; None: the first
     )
@@ -58,7 +81,13 @@ class BondedSystem:
         return self.operator.power(2).T @ self.weight
 
     def rigid_motions(self) -> np.ndarray:
-        """The six motions (d, 6) of all bodies as one: three translations, three rotations."""
+        """The six motions of all bodies as one.
+
+        Returns
+        -------
+        ndarray
+            (d, 6) Three translations, three rotations.
+        """
         assert self.position is not None, "a system without places has no rotation as one"
         motion = np.zeros((len(self.position), 6, 6))
         motion[:, :3, :3] = motion[:, 3:, 3:] = np.eye(3)
@@ -66,17 +95,52 @@ class BondedSystem:
         return motion.reshape(-1, 6)[np.arange(self.mass.size) if self.place is None else self.place]
 
     def stiffness(self, weight: np.ndarray | None = None) -> sparse.csc_matrix:
-        """K = G^T w G [m]; w may be given with zeros for broken bonds."""
+        """K = G^T w G, the stiffness per unit modulus.
+
+        Parameters
+        ----------
+        weight : ndarray (3 b,), optional
+            w [m], with zeros for broken bonds; that of the system if None.
+
+        Returns
+        -------
+        csc_matrix (d, d)
+            [m].
+        """
         weight = self.weight if weight is None else weight
         return (self.operator.T @ (sparse.diags_array(weight) @ self.operator)).tocsc()
 
     def utilisation(self, reaction: np.ndarray) -> np.ndarray:
-        """Yield measure (b,): tension or tangential force over strength; above one a bond breaks."""
+        """Yield measure: tension or tangential force over strength.
+
+        Parameters
+        ----------
+        reaction : ndarray (3 b,)
+            [N].
+
+        Returns
+        -------
+        ndarray
+            (b,) Above one a bond breaks.
+        """
         return utilisations(reaction, self.strength)
 
 
 def clusters(first: np.ndarray, second: np.ndarray, n: int) -> np.ndarray:
-    """Number (n,) of the cluster that each of n bodies belongs to; bonds join bodies first (b,) and second (b,)."""
+    """Which bodies bonds hold together.
+
+    Parameters
+    ----------
+    first, second : ndarray of int (b,)
+        Bodies that each bond joins.
+    n : int
+        Number of bodies.
+
+    Returns
+    -------
+    ndarray of int (n,)
+        Number of the cluster that each body belongs to.
+    """
     graph = sparse.coo_array((np.ones(first.size), (first, second)), shape=(n, n))
     return np.asarray(connected_components(graph, directed=False)[1])
 
@@ -84,8 +148,23 @@ def clusters(first: np.ndarray, second: np.ndarray, n: int) -> np.ndarray:
 def opening_operator(
     first: np.ndarray, second: np.ndarray, frame: np.ndarray, point: np.ndarray, position: np.ndarray
 ) -> sparse.csr_matrix:
-    """G (3 b, 6 n) for bonds of frame (b, 3, 3) acting at point (b, 3) [m] between bodies first and
-    second (b,); position (n, 3) [m] of the moving bodies. Bodies numbered n or above are fixed.
+    """G, which makes opening velocities of the velocities of bodies. Bodies numbered n or above are fixed.
+
+    Parameters
+    ----------
+    first, second : ndarray of int (b,)
+        Bodies that each bond joins.
+    frame : ndarray (b, 3, 3)
+        Rows: the normal from first to second, two tangents.
+    point : ndarray (b, 3)
+        Where each bond acts [m].
+    position : ndarray (n, 3)
+        Of the moving bodies [m].
+
+    Returns
+    -------
+    csr_matrix (3 b, 6 n)
+        Three rows for each bond.
     """
     n, bonds = position.shape[0], first.size
     first, second = first.astype(np.int64), second.astype(np.int64)  # else a second kernel would be compiled

@@ -99,14 +99,36 @@ def solve_contacts(
 ) -> ContactSolution:
     """Reactions r with u = W r + q, opening u_n >= 0, r_n >= 0, complementary, and Coulomb friction.
 
-    W (3 c, 3 c) [1/kg] positive semidefinite, sparse of any storage or dense; q (3 c,) [m/s]; mu, one
-    for all contacts or (c,); normal first. most_steps: of each interior path; there may be twice as many
-    proximal points. Returns a ContactSolution whose error is that of the natural map (see `natural_map`),
-    relative to the whole of what W couples; it is for the caller to look at `converged`. Where W is
-    indefinite there may be no solution, or several. Raises ValueError for input that is no such problem.
+    The error is that of the natural map (see `natural_map`), relative to the whole of what W couples; it is
+    for the caller to look at `converged`. Where W is indefinite there may be no solution, or several.
 
-    A body of 2 kg on the ground, after 1 ms of gravity, slides at 2 mm/s:
+    Parameters
+    ----------
+    W : array or sparse matrix (3 c, 3 c)
+        Delassus operator [1/kg], positive semidefinite, of any storage.
+    q : array_like (3 c,)
+        Free velocities [m/s], normal first.
+    mu : float or array_like (c,)
+        Friction, one for all contacts or for each.
+    tolerance : float
+        Of both errors.
+    most_sweeps : int
+        Of Gauss-Seidel.
+    most_steps : int
+        Of each interior path; there may be twice as many proximal points.
 
+    Returns
+    -------
+    ContactSolution
+        Reactions, velocities and their error.
+
+    Raises
+    ------
+    ValueError
+        For input that is no such problem, or a tolerance near rounding.
+
+    Examples
+    --------
     >>> W, q = np.eye(3) / 2.0, [-9.81e-3, 2e-3, 0.0]
     >>> solve_contacts(W, q, mu=0.5).reactions.round(12).tolist()  # stops it
     [0.01962, -0.004, 0.0]

@@ -22,9 +22,25 @@ _FAINT = 1e-12  # of all that moves, in squares: a part that moves less is not j
 
 @compiled
 def accelerated_sweeps(start, other, block, q, friction, length, part, tolerance, most_sweeps, first):
-    """Sweeps from r = `first` (3 c,) until both errors are below tolerance, or progress ends.
+    """Gauss-Seidel sweeps, extrapolated, until both errors are below tolerance or progress ends.
 
-    Returns (r of the least error, sweeps).
+    Parameters
+    ----------
+    start, other, block, q, friction, length, part : ndarray
+        As of a `ContactProblem`.
+    tolerance : float
+        Of both errors.
+    most_sweeps : int
+        How many at most.
+    first : ndarray (3 c,)
+        Reactions to start from.
+
+    Returns
+    -------
+    ndarray (3 c,)
+        Reactions of the least error.
+    int
+        Sweeps.
     """
     rows = q.shape[0]
     r, swept, best = first.copy(), np.zeros(rows), first.copy()
@@ -75,10 +91,23 @@ def accelerated_sweeps(start, other, block, q, friction, length, part, tolerance
 
 @compiled
 def extrapolated(result, change, of_results, of_changes, normal, kept):
-    """The result for which the change of a sweep would be least, to first order.
+    """The result for which the change of a sweep would be least, to first order (Walker & Ni 2011).
 
-    of_results, of_changes (>= kept, rows): differences between successive sweeps; normal: the
-    products of of_changes with each other.
+    Parameters
+    ----------
+    result, change : ndarray (rows,)
+        Of the last sweep.
+    of_results, of_changes : ndarray (>= kept, rows)
+        Differences between successive sweeps.
+    normal : ndarray (>= kept, >= kept)
+        Products of of_changes with each other.
+    kept : int
+        How many differences count.
+
+    Returns
+    -------
+    ndarray (rows,)
+        Extrapolated result.
     """
     combined = result.copy()
     damping = 1e-10 * np.trace(normal[:kept, :kept])
@@ -124,13 +153,27 @@ def sweep_once(start, other, block, q, friction, r):
 
 @compiled
 def natural_map(start, other, block, q, friction, length, part, r):
-    """Two errors of reactions r (3 c,): as Siconos states it, and free of units; infinite where r is.
+    """Two errors of reactions: as Siconos states it, and free of units.
 
-    |r - P_K(r - (u + mu |u_T| n))| / max(|q|, |r|, |u|) adds impulses to velocities, so that it
-    depends on the units, and becomes small where reactions grow without end. The second takes
-    the variables r / sqrt(rho) and u sqrt(rho), both square roots of energies, with the step
-    lengths rho_a = `length` (c,), is relative to |q| alone, and at least the rounding of r. It is that of
-    the worst part: contacts that nothing couples to the others, numbered in `part` (c,), answer for themselves.
+    |r - P_K(r - (u + mu |u_T| n))| / max(|q|, |r|, |u|) adds impulses to velocities, so that it depends on
+    the units, and becomes small where reactions grow without end. The second takes the variables r /
+    sqrt(rho) and u sqrt(rho), both square roots of energies, with the step lengths rho_a = `length`, is
+    relative to |q| alone, and at least the rounding of r. It is that of the worst part: contacts that nothing
+    couples to the others answer for themselves.
+
+    Parameters
+    ----------
+    start, other, block, q, friction, length, part : ndarray
+        As of a `ContactProblem`.
+    r : ndarray (3 c,)
+        Reactions [N s].
+
+    Returns
+    -------
+    float
+        Error in the given units.
+    float
+        Error free of units. Both are infinite where r is.
     """
     plain = frees = forces = speeds = 0.0
     parts = part.max() + 1

@@ -22,10 +22,21 @@ from asphalt_nscd.nscd.contacts.problem import ContactProblem
 
 
 def interior_path(problem: ContactProblem, start: float, balance: float) -> Iterator[np.ndarray]:
-    """Reactions (3 c,) step after step; ends only where rounding leaves no direction.
+    """Reactions step after step along an interior path; it ends only where rounding leaves no direction.
 
-    start: size of the first x and y, that of q being one (large: far inside the cones);
-    balance: share of |residual| / gap below which m does not fall, for the two to vanish together.
+    Parameters
+    ----------
+    problem : ContactProblem
+        Frictional contacts.
+    start : float
+        Size of the first x and y, that of q being one (large: far inside the cones).
+    balance : float
+        Share of |residual| / gap below which m does not fall, for the two to vanish together.
+
+    Yields
+    ------
+    ndarray (3 c,)
+        Reactions [N s].
     """
     mu, contacts = problem.friction, problem.friction.size
     diagonal = problem.matrix.diagonal().reshape(-1, 3)

@@ -15,9 +15,25 @@ from asphalt_nscd.nscd.contacts.problem import ContactProblem
 def refine(
     problem: ContactProblem, r: np.ndarray, tolerance: float, most_steps: int = 12
 ) -> tuple[np.ndarray, int]:
-    """Reactions after Newton steps from r, each of which reduces |F|, and the number of steps.
+    """Newton steps, each of which reduces |F|, until both errors are below tolerance or progress is slow.
 
-    Ends once both errors are below tolerance, or progress is slow.
+    Parameters
+    ----------
+    problem : ContactProblem
+        Frictional contacts.
+    r : ndarray (3 c,)
+        Reactions to start from [N s].
+    tolerance : float
+        Of both errors.
+    most_steps : int
+        How many at most.
+
+    Returns
+    -------
+    ndarray (3 c,)
+        Reactions [N s].
+    int
+        Steps made.
     """
     weight = np.repeat(1.0 / np.sqrt(problem.length), 3)
     scale = max(
@@ -45,7 +61,24 @@ def refine(
 
 
 def linearised(problem: ContactProblem, r: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """F (3 c,) and its derivatives by r and by u, each (c, 3, 3): dF = D dr + B du, du = W dr."""
+    """F and its derivatives: dF = D dr + B du, du = W dr.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Frictional contacts.
+    r : ndarray (3 c,)
+        Reactions [N s].
+
+    Returns
+    -------
+    ndarray (3 c,)
+        F.
+    ndarray (c, 3, 3)
+        D, by r.
+    ndarray (c, 3, 3)
+        B, by u.
+    """
     mu, rho = problem.friction, problem.length
     u = problem.velocity(r).reshape(-1, 3)
     slip = np.hypot(u[:, 1], u[:, 2])

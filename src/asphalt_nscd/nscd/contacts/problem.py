@@ -25,22 +25,66 @@ LARGEST = 1e100  # of W, and its reciprocal the least: squares of more overflow
 
 @dataclass(frozen=True)
 class ContactProblem:
-    """Checked input in the forms that the methods need."""
+    """Checked input in the forms that the methods need.
 
-    matrix: sparse.csr_array  # W (3 c, 3 c) [1/kg]
-    start: np.ndarray  # (c + 1,) first block of each block row of W
-    other: np.ndarray  # (blocks,) block column
-    row: np.ndarray  # (blocks,) block row
-    own: np.ndarray  # (c,) where in these lists W_aa stands
-    block: np.ndarray  # (blocks, 3, 3)
-    free_velocity: np.ndarray  # q (3 c,) [m/s]
-    friction: np.ndarray  # mu (c,)
-    length: np.ndarray  # rho (c,) [kg]: 3 / tr W_aa, the step length that suits each contact
-    part: np.ndarray  # (c,) number of the part that a contact is in: W couples no two parts
+    Parameters
+    ----------
+    matrix : csr_array (3 c, 3 c)
+        W [1/kg].
+    start : ndarray of int (c + 1,)
+        First block of each block row of W.
+    other : ndarray of int (blocks,)
+        Block column.
+    row : ndarray of int (blocks,)
+        Block row.
+    own : ndarray of int (c,)
+        Where in these lists W_aa stands.
+    block : ndarray (blocks, 3, 3)
+        The blocks [1/kg].
+    free_velocity : ndarray (3 c,)
+        q [m/s].
+    friction : ndarray (c,)
+        mu.
+    length : ndarray (c,)
+        rho = 3 / tr W_aa [kg], the step length that suits each contact.
+    part : ndarray of int (c,)
+        Number of the part that a contact is in: W couples no two parts.
+    """
+
+    matrix: sparse.csr_array
+    start: np.ndarray
+    other: np.ndarray
+    row: np.ndarray
+    own: np.ndarray
+    block: np.ndarray
+    free_velocity: np.ndarray
+    friction: np.ndarray
+    length: np.ndarray
+    part: np.ndarray
 
     @classmethod
     def of(cls, W: AnyMatrix, q: ArrayLike, mu: ArrayLike) -> ContactProblem:
-        """From a matrix of any storage and a coefficient of friction, or one for each contact."""
+        """Check a problem and bring it into the forms that the methods need.
+
+        Parameters
+        ----------
+        W : array or sparse matrix (3 c, 3 c)
+            Delassus operator [1/kg], of any storage.
+        q : array_like (3 c,)
+            Free velocities [m/s].
+        mu : float or array_like (c,)
+            Friction, one for all contacts or for each.
+
+        Returns
+        -------
+        ContactProblem
+            Blocks, step lengths and parts.
+
+        Raises
+        ------
+        ValueError
+            For shapes that do not fit, or values that are not finite or not real.
+        """
         q = np.array(q, float).ravel()
         contacts = q.size // 3
         if np.shape(W) != (3 * contacts, 3 * contacts) or q.size % 3:
@@ -79,17 +123,56 @@ class ContactProblem:
         )
 
     def velocity(self, r: np.ndarray) -> np.ndarray:
-        """u = W r + q."""
+        """u = W r + q.
+
+        Parameters
+        ----------
+        r : ndarray (3 c,)
+            Reactions [N s].
+
+        Returns
+        -------
+        ndarray
+            (3 c,) [m/s].
+        """
         return self.matrix @ r + self.free_velocity
 
     def errors(self, r: np.ndarray) -> tuple[float, float]:
-        """Error of the natural map as Siconos states it, and free of units; see `natural_map`."""
+        """Errors of the natural map; see `natural_map`.
+
+        Parameters
+        ----------
+        r : ndarray (3 c,)
+            Reactions [N s].
+
+        Returns
+        -------
+        tuple of float
+            As Siconos states it, and free of units.
+        """
         return natural_map(
             self.start, self.other, self.block, self.free_velocity, self.friction, self.length, self.part, r
         )
 
     def sweeps(self, tolerance: float, most_sweeps: int, first: np.ndarray) -> tuple[np.ndarray, int]:
-        """Reactions by accelerated sweeps from `first` (3 c,), and how many."""
+        """Reactions by accelerated sweeps.
+
+        Parameters
+        ----------
+        tolerance : float
+            Of both errors.
+        most_sweeps : int
+            How many at most.
+        first : ndarray (3 c,)
+            Reactions to start from [N s].
+
+        Returns
+        -------
+        ndarray (3 c,)
+            Reactions [N s].
+        int
+            Sweeps.
+        """
         return accelerated_sweeps(
             self.start,
             self.other,
@@ -104,10 +187,22 @@ class ContactProblem:
         )
 
     def factor(self, block: np.ndarray, pressed: np.ndarray | None = None) -> SuperLU | None:
-        """Factors of the matrix with other blocks in the places of W; None if it is singular.
+        """Factors of the matrix with other blocks in the places of W.
 
-        pressed (c,): contacts whose rows and columns it has. `.solve(right, "T")` solves with it: what
-        are rows here are columns to SuperLU, which saves a transposition.
+        `.solve(right, "T")` solves with it: what are rows here are columns to SuperLU, which saves a
+        transposition.
+
+        Parameters
+        ----------
+        block : ndarray (blocks, 3, 3)
+            In the places of W.
+        pressed : ndarray of bool (c,), optional
+            Contacts whose rows and columns it has; all if None.
+
+        Returns
+        -------
+        SuperLU or None
+            None if it is singular.
         """
         matrix = sparse.bsr_array((block, self.other, self.start), shape=self.matrix.shape).tocsr()
         if pressed is not None:

@@ -48,7 +48,26 @@ def number_blocks(bodies, begin, count, fixed, workspace, last):
 
 @compiled_for_teams
 def deal_lively(s, begin, count, workspace, last):
-    """Deal the contacts that were noted in slab s, from `begin` on, into workspace.lively_blocks; returns how many."""
+    """Deal the contacts that were noted in a slab into `workspace.lively_blocks`.
+
+    Parameters
+    ----------
+    s : int
+        Slab.
+    begin : int
+        First of its noted contacts.
+    count : int
+        How many were noted.
+    workspace : Workspace
+        Is changed.
+    last : ndarray of int
+        For each body the last block that holds it.
+
+    Returns
+    -------
+    int
+        Blocks.
+    """
     found = number_blocks(workspace.bodies, begin, count, workspace.wall + 1, workspace, last)
     no_contact, nobody, _ = private_rows(s, workspace)
     for block in range(begin, begin + found):
@@ -68,7 +87,28 @@ def deal_lively(s, begin, count, workspace, last):
 def in_blocks(
     team: Team, begin: np.ndarray, pair: np.ndarray, bodies: np.ndarray, workspace: Workspace
 ) -> tuple[Slabs, Workspace]:
-    """Pairs in the order of slabs (slabs_of), dealt by a team; and workspace for them, if `workspace` is too small."""
+    """Pairs in the order of slabs, dealt into blocks by a team.
+
+    Parameters
+    ----------
+    team : Team
+        Threads.
+    begin : ndarray of int (slabs + 2,)
+        First pair of each slab (slabs_of).
+    pair : ndarray of int (c,)
+        Places in the list of pairs.
+    bodies : ndarray of int (c, 2)
+        Of each pair.
+    workspace : Workspace
+        To go on with, if it is large enough.
+
+    Returns
+    -------
+    Slabs
+        The pairs in slabs and blocks.
+    Workspace
+        For them.
+    """
     spheres, planes = workspace.wall + 1 - workspace.planes, workspace.planes
     if workspace.block.size < pair.size:
         workspace = workspace_for(pair.size + pair.size // 4, spheres + planes, planes)

@@ -70,7 +70,21 @@ def new_impulse(contact, i, j, friction, relaxation):
 
 @compiled_for_teams
 def push(motion, blocks, block, contact, i, j, x, y, z):
-    """Give impulses (x, y, z) [N s] at its contacts to the second bodies of a block, their opposites to the first."""
+    """Give impulses at its contacts to the second bodies of a block, their opposites to the first.
+
+    Parameters
+    ----------
+    motion : ndarray (r, 8)
+        Of the workspace; is changed.
+    blocks : ndarray of int (b, 3, 8)
+        Contacts and their bodies.
+    block : int
+        Which.
+    contact, i, j : tuple of lanes
+        Its contacts, first bodies and second bodies.
+    x, y, z : lanes
+        Impulses [N s].
+    """
     nx, ny, nz = contact[:3]
     tx, ty, tz = ny * z - nz * y, nz * x - nx * z, nx * y - ny * x
     w, u = i[3], i[7]
@@ -119,10 +133,26 @@ def sweep_blocks(blocks, begin, count, noted_from, friction, relaxation, quiet, 
 
 @compiled_for_teams
 def guide_wall(motion, wall, drive, push):
-    """Body `wall`, between rails: it moves along z, no faster down than drive[0] [m/s].
+    """Move a body between rails along z, no faster down than its drive.
 
-    Its drive pushes it down with the impulse that this takes, but at most with drive[1] [N s], and pulls
-    without limit. push [N s] is the impulse so far. Returns the new one. A wall of infinite mass needs none.
+    Its drive pushes it down with the impulse that this takes, but at most with drive[1], and pulls without
+    limit. A wall of infinite mass needs none.
+
+    Parameters
+    ----------
+    motion : ndarray (r, 8)
+        Of the workspace; is changed.
+    wall : int
+        Row of the body.
+    drive : ndarray (2,)
+        Largest speed down [m/s] and largest impulse [N s].
+    push : float
+        The impulse so far [N s].
+
+    Returns
+    -------
+    float
+        The new impulse [N s].
     """
     inverse_mass = motion[wall, 3]
     if inverse_mass == 0.0:
@@ -176,13 +206,42 @@ def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, quiet, c
 def sweep_until(
     rank, members, barrier, slabs, workspace, friction, drive, tolerance, calm, enough_sweeps, most_sweeps
 ):
-    """Gauss-Seidel from the given impulses until their relative change is below tolerance.
+    """Gauss-Seidel from the given impulses until their relative change is below tolerance; run by all members of
+    a team.
 
-    Sweeps run in rounds. The first of each visits all contacts and decides whether to end; the others visit those
-    whose impulse then changed by more than `tolerance` of the root mean square impulse, or that closed faster
-    than they may by more than `calm` [m/s]. Sweep AGAIN of a round leaves out those that no longer do.
-    After enough_sweeps the tolerance is waived, `calm` never. Run by all members of a team.
-    Returns (sweeps of either kind, relative change of the last sweep over all contacts).
+    Sweeps run in rounds. The first of each visits all contacts and decides whether to end; the others visit
+    those whose impulse then changed by more than `tolerance` of the root mean square impulse, or that closed
+    faster than they may by more than `calm`. Sweep AGAIN of a round leaves out those that no longer do.
+
+    Parameters
+    ----------
+    rank, members : int
+        Which member of how many.
+    barrier : ndarray
+        Where they meet.
+    slabs : Slabs
+        The contacts.
+    workspace : Workspace
+        Is changed.
+    friction : tuple of float
+        Between spheres, and with planes.
+    drive : ndarray (2,)
+        Of the last body (guide_wall).
+    tolerance : float
+        Relative change of the impulses.
+    calm : float
+        [m/s].
+    enough_sweeps : int
+        After which the tolerance is waived, `calm` never.
+    most_sweeps : int
+        After which it ends.
+
+    Returns
+    -------
+    int
+        Sweeps of either kind.
+    float
+        Relative change of the last sweep over all contacts.
     """
     begin, last = slabs.begin, slabs.begin.shape[0] - 2
     account, motion = workspace.account, workspace.motion

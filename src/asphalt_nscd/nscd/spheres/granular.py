@@ -55,7 +55,30 @@ def normal_and_gap(i, j, position, radius, plane_point, plane_normal):
 
 @compiled
 def near_pairs(position, radius, plane_point, plane_normal, start, other, below):
-    """Pairs of a list with a gap below `below` [m]: (first (c,), second (c,), gap (c,))."""
+    """Pairs of a list that are near.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        [m].
+    plane_point, plane_normal : ndarray (p, 3)
+        [m], and unit normals that point to the spheres.
+    start, other : ndarray of int
+        The list of pairs (neighbours.py).
+    below : float
+        Gap [m].
+
+    Returns
+    -------
+    ndarray of int (c,)
+        First body.
+    ndarray of int (c,)
+        Second body.
+    ndarray (c,)
+        Gap [m].
+    """
     total = other.shape[0]
     first = np.empty(total, np.int64)
     second = np.empty(total, np.int64)
@@ -229,17 +252,64 @@ def step(
     enough_sweeps,
     most_sweeps,
 ):
-    """Advance spheres by dt [s]; position, velocity and impulse (per pair) change in place.
+    """Advance spheres by one step; position, velocity and impulse change in place. Run by all members of a team.
 
-    Run by all members of a team (rank, members, barrier); each does its slabs and its share of the bodies.
-    position (n, 3) [m]; velocity (n + p, 6) [m/s] (linear, spin; planes last, prescribed);
-    inverse_mass (n + p,) [1/kg], zero for planes; gravity (3,) [m/s2]; impulse (pairs, 3) [N s];
-    slabs: the pairs (Slabs); workspace: for at least as many (Workspace).
-    Overlaps beyond allowed_overlap [m] are undone, no faster than by recovery_speed [m/s] (zero: never).
-    Sweeps end as in sweep_until; penetration [m] is what a step may add to an overlap.
-    friction: between spheres, with planes.
-    drive (2,): speed [m/s] and largest impulse [N s] of the last plane where its mass is finite (guide_wall).
-    Returns (sweeps, relative change of the last sweep, largest overlap at the start [m]).
+    Each member does its slabs and its share of the bodies. Overlaps beyond allowed_overlap are undone, no
+    faster than by recovery_speed.
+
+    Parameters
+    ----------
+    rank, members : int
+        Which member of how many.
+    barrier : ndarray
+        Where they meet.
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        [m].
+    velocity : ndarray (n + p, 6)
+        [m/s], linear and spin; planes last, prescribed.
+    inverse_mass : ndarray (n + p,)
+        [1/kg], zero for planes.
+    plane_point, plane_normal : ndarray (p, 3)
+        [m], and unit normals that point to the spheres.
+    gravity : ndarray (3,)
+        [m/s2].
+    impulse : ndarray (pairs, 3)
+        [N s].
+    slabs : Slabs
+        The pairs.
+    workspace : Workspace
+        For at least as many.
+    drive : ndarray (2,)
+        Speed [m/s] and largest impulse [N s] of the last plane where its mass is finite (guide_wall).
+    dt : float
+        [s].
+    friction : tuple of float
+        Between spheres, and with planes.
+    restitution : float
+        Of impacts.
+    recovery_speed : float
+        [m/s]; zero: overlaps are never undone.
+    allowed_overlap : float
+        [m].
+    margin : float
+        Gap below which a pair is a contact [m].
+    tolerance : float
+        Of sweep_until.
+    penetration : float
+        What a step may add to an overlap [m].
+    enough_sweeps, most_sweeps : int
+        Of sweep_until.
+
+    Returns
+    -------
+    int
+        Sweeps.
+    float
+        Relative change of the last sweep.
+    float
+        Largest overlap at the start [m].
     """
     mark_started(barrier)
     n, bodies, last = position.shape[0], velocity.shape[0], slabs.begin.shape[0] - 2

@@ -54,7 +54,22 @@ class Workspace(NamedTuple):
 
 
 def workspace_for(contacts: int, bodies: int, planes: int) -> Workspace:
-    """For so many contacts of so many bodies, planes among them."""
+    """Room for a step.
+
+    Parameters
+    ----------
+    contacts : int
+        How many.
+    bodies : int
+        How many, planes among them.
+    planes : int
+        How many.
+
+    Returns
+    -------
+    Workspace
+        Arrays of zeros.
+    """
     rows = bodies + (MOST_SLABS + 1) * (planes + 1)
     lively, block, lane, filled, following = np.empty((5, contacts), np.int32)
     return Workspace(
@@ -76,9 +91,20 @@ def workspace_for(contacts: int, bodies: int, planes: int) -> Workspace:
 
 @compiled_for_teams
 def private_rows(s, workspace):
-    """(contact, body, plane): rows of slab s alone, so that no two threads write to one.
+    """Rows of a slab alone, so that no two threads write to one.
 
-    A contact and a body that stay zero, for lanes left over; its copy of the first plane, then of the others.
+    Parameters
+    ----------
+    s : int
+        Slab.
+    workspace : Workspace
+        Whose rows.
+
+    Returns
+    -------
+    tuple of int
+        A contact and a body that stay zero, for lanes left over; its copy of the first plane, then of the
+        others.
     """
     body = workspace.wall + 1 + s * (workspace.planes + 1)
     return workspace.packed.shape[0] - MOST_SLABS - 1 + s, body, body + 1
@@ -87,9 +113,27 @@ def private_rows(s, workspace):
 def slabs_of(
     team: Team, position: np.ndarray, start: np.ndarray, other: np.ndarray, last_body: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The pairs of a list (start, other), see neighbours.py, in slabs along the longer horizontal axis of `position`.
+    """The pairs of a list in slabs along the longer horizontal axis, from the top down in each.
 
-    From the top down in each. Returns begin (slabs + 2,), pair (c,): place in the list, bodies (c, 2).
+    Parameters
+    ----------
+    team : Team
+        Threads.
+    position : ndarray (n, 3)
+        [m].
+    start, other : ndarray of int
+        The list of pairs (neighbours.py).
+    last_body : int
+        Number of the body that all may touch.
+
+    Returns
+    -------
+    ndarray of int (slabs + 2,)
+        begin.
+    ndarray of int (c,)
+        Place of each pair in the list.
+    ndarray of int (c, 2)
+        Bodies of each pair.
     """
     n, pairs = position.shape[0], other.shape[0]
     pair, bodies = np.empty(pairs, np.int32), np.empty((pairs, 2), np.int32)
@@ -185,9 +229,21 @@ def _deal(
 
 @compiled_for_teams
 def first_and_end(rank, members, slabs, kind):
-    """Slabs first, first + 2, ... before `end` are what a member sweeps of the even ones (kind 0) or odd ones (1).
+    """What a member sweeps: slabs first, first + 2, ... before `end`.
 
-    Kind 2 is the slab of the last body, which the first member sweeps.
+    Parameters
+    ----------
+    rank, members : int
+        Which member of how many.
+    slabs : int
+        How many.
+    kind : int
+        0 for slabs of even number, 1 for odd; 2 is the slab of the last body, which the first member sweeps.
+
+    Returns
+    -------
+    tuple of int
+        First and end.
     """
     if kind == 2:
         return slabs, slabs + (1 if rank == 0 else 0)
@@ -197,7 +253,24 @@ def first_and_end(rank, members, slabs, kind):
 
 @compiled_for_teams
 def part_of(rank, members, slabs, kind, work):
-    """The same, with parts of about equal work; work (slabs,) of each slab, not negative."""
+    """The same, with parts of about equal work.
+
+    Parameters
+    ----------
+    rank, members : int
+        Which member of how many.
+    slabs : int
+        How many.
+    kind : int
+        As of first_and_end.
+    work : ndarray (slabs,)
+        Of each slab, not negative.
+
+    Returns
+    -------
+    tuple of int
+        First and end.
+    """
     if kind == 2:
         return first_and_end(rank, members, slabs, kind)
     total = 0.0

@@ -23,30 +23,87 @@ class BeyondExcerpt(Exception):
 
 @dataclass(frozen=True)
 class Rest:
-    """Of all bonds that are not listed: the largest contribution of each coordinate, the smallest gap."""
+    """Of all bonds that are not listed: the largest contribution of each coordinate, the smallest gap.
 
-    utilised: np.ndarray  # (k,) yield measure per unit of s
-    closed: np.ndarray  # (k,) share of the gap that closes per unit of q
-    travel: np.ndarray  # (k,) m of the gap per unit of q
-    gap: float  # m
+    Parameters
+    ----------
+    utilised : ndarray (k,)
+        Yield measure per unit of s.
+    closed : ndarray (k,)
+        Share of the gap that closes per unit of q.
+    travel : ndarray (k,)
+        m of the gap per unit of q.
+    gap : float
+        [m].
+    """
+
+    utilised: np.ndarray
+    closed: np.ndarray
+    travel: np.ndarray
+    gap: float
 
 
 @dataclass(frozen=True)
 class BondBounds:
-    """Contributions of each coordinate, taken alone and positive, to the state of bonds."""
+    """Contributions of each coordinate, taken alone and positive, to the state of bonds.
 
-    number: np.ndarray  # (n,) of the bonds listed, ascending
-    utilised: np.ndarray  # (n, k) yield measure per unit of s
-    closed: np.ndarray  # (n, k) share of the gap that closes per unit of q
-    gap: np.ndarray  # (n,) m
-    rest: Rest | None = None  # None where all bonds are listed
+    Parameters
+    ----------
+    number : ndarray (n,)
+        Of the bonds listed, ascending.
+    utilised : ndarray (n, k)
+        Yield measure per unit of s.
+    closed : ndarray (n, k)
+        Share of the gap that closes per unit of q.
+    gap : ndarray (n,)
+        [m].
+    rest : Rest, optional
+        None where all bonds are listed.
+    """
+
+    number: np.ndarray
+    utilised: np.ndarray
+    closed: np.ndarray
+    gap: np.ndarray
+    rest: Rest | None = None
 
     def utilisation(self, sigma: np.ndarray) -> np.ndarray:
-        """Upper bound (n,) of the yield measure while |s| <= sigma (k,)."""
+        """Upper bound of the yield measure while |s| <= sigma.
+
+        Parameters
+        ----------
+        sigma : ndarray (k,)
+            Envelope of the stress coordinates.
+
+        Returns
+        -------
+        ndarray
+            (n,) Of the bonds listed.
+        """
         return _of_each(self.utilised, sigma)
 
     def candidates(self, sigma: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Numbers of bonds that could yield, and whose gaps could close, while |s| <= sigma and |q| <= motion."""
+        """Bonds that could yield, and whose gaps could close.
+
+        Parameters
+        ----------
+        sigma : ndarray (k,)
+            Envelope of the stress coordinates.
+        motion : ndarray (k,)
+            Envelope of the coordinates of motion.
+
+        Returns
+        -------
+        ndarray of int
+            Numbers of bonds that could yield.
+        ndarray of int
+            Numbers of bonds whose gap could close.
+
+        Raises
+        ------
+        BeyondExcerpt
+            Where a bond that is not listed could.
+        """
         rest = self.rest
         if rest is not None and not self._all_below_one(rest, sigma, motion):
             raise BeyondExcerpt
@@ -54,7 +111,25 @@ class BondBounds:
         return may_yield, self.number[_of_each(self.closed, motion) > 1.0]
 
     def any_candidate(self, sigma: np.ndarray, motion: np.ndarray) -> bool:
-        """Whether there are any."""
+        """Whether any bond could yield, or any gap close.
+
+        Parameters
+        ----------
+        sigma : ndarray (k,)
+            Envelope of the stress coordinates.
+        motion : ndarray (k,)
+            Envelope of the coordinates of motion.
+
+        Returns
+        -------
+        bool
+            True if one could.
+
+        Raises
+        ------
+        BeyondExcerpt
+            Where a bond that is not listed could.
+        """
         if (self.utilisation(sigma) > 1.0).any() or (_of_each(self.closed, motion) > 1.0).any():
             return True
         if self.rest is not None and not self._all_below_one(self.rest, sigma, motion):
@@ -64,7 +139,29 @@ class BondBounds:
     def largest_utilisation(
         self, sigma: np.ndarray, without: np.ndarray, least: float, of_all: bool = True
     ) -> float:
-        """The largest bound of all bonds, or of those listed, but for those numbered `without`; at least `least`."""
+        """The largest bound of the yield measure.
+
+        Parameters
+        ----------
+        sigma : ndarray (k,)
+            Envelope of the stress coordinates.
+        without : ndarray of int
+            Numbers of bonds that do not count.
+        least : float
+            What it is at least.
+        of_all : bool
+            Whether all bonds count, or those listed.
+
+        Returns
+        -------
+        float
+            Yield measure.
+
+        Raises
+        ------
+        BeyondExcerpt
+            Where a bond that is not listed may be it.
+        """
         others = ~np.isin(self.number, without)
         largest = max(least, float(self.utilisation(sigma)[others].max(initial=0.0)))
         if of_all and self.rest is not None and float(self.rest.utilised @ sigma) * (1.0 + MARGIN) > largest:
@@ -72,7 +169,23 @@ class BondBounds:
         return largest
 
     def smallest_gap(self, motion: np.ndarray) -> float:
-        """Lower bound [m] of all gaps while |q| <= motion (k,)."""
+        """Lower bound of all gaps while |q| <= motion.
+
+        Parameters
+        ----------
+        motion : ndarray (k,)
+            Envelope of the coordinates of motion.
+
+        Returns
+        -------
+        float
+            [m].
+
+        Raises
+        ------
+        BeyondExcerpt
+            Where a bond that is not listed may have it.
+        """
         smallest = float((self.gap * (1.0 - _of_each(self.closed, motion))).min())
         if self.rest is not None and self.rest.gap - float(self.rest.travel @ motion) < smallest + (
             MARGIN * self.rest.gap
@@ -81,16 +194,48 @@ class BondBounds:
         return smallest
 
     def beyond_head(self, bonds: np.ndarray, sigma: np.ndarray) -> np.ndarray:
-        """(m, 2) for listed bonds (m,): while |s| <= sigma, the yield measure is below [:, 0] |s_0| + [:, 1]."""
+        """While |s| <= sigma, the yield measure is below [:, 0] |s_0| + [:, 1].
+
+        Parameters
+        ----------
+        bonds : ndarray of int (m,)
+            Listed bonds.
+        sigma : ndarray (k,)
+            Envelope of the stress coordinates.
+
+        Returns
+        -------
+        ndarray
+            (m, 2)
+        """
         part = self.utilised[self.places(bonds)]
         return np.column_stack([part[:, 0], part[:, 1:] @ sigma[1:]])
 
     def places(self, bonds: np.ndarray) -> np.ndarray:
-        """Places (m,) in the list of bonds (m,) by number."""
+        """Places in the list.
+
+        Parameters
+        ----------
+        bonds : ndarray of int (m,)
+            By number.
+
+        Returns
+        -------
+        ndarray of int (m,)
+            By place.
+        """
         return np.searchsorted(self.number, bonds)
 
     def excerpt(self) -> tuple[BondBounds, np.ndarray]:
-        """The bonds that come first by each coordinate or by their gap, a bound for the others, and which they are."""
+        """The bonds that matter, and a bound for the others.
+
+        Returns
+        -------
+        BondBounds
+            Of the bonds that come first by each coordinate or by their gap.
+        ndarray of int
+            Which they are.
+        """
         chosen = np.zeros(self.number.size, bool)
         leading = [LEADING] * 2 + [OTHERS] * (self.utilised.shape[1] - 2)
         for a, count in enumerate(leading):

@@ -27,17 +27,44 @@ CLOSED = 1e-12  # m, by which a gap in contact may differ from zero
 
 @dataclass
 class CondensedState:
-    """Motion and bond history at one instant; all zero at rest."""
+    """Motion and bond history at one instant; all zero at rest.
 
-    displacement: np.ndarray  # (d,) m or rad
-    velocity: np.ndarray  # (d,)
-    sigma: np.ndarray  # (3 b,) Pa
-    kelvin: np.ndarray  # (k, 3 b) m
-    broken: list[int] = field(default_factory=list)  # bonds, in the order in which they broke
+    Parameters
+    ----------
+    displacement : ndarray (d,)
+        [m or rad].
+    velocity : ndarray (d,)
+        [m/s] or [rad/s].
+    sigma : ndarray (3 b,)
+        [Pa].
+    kelvin : ndarray (k, 3 b)
+        [m].
+    broken : list of int
+        Bonds, in the order in which they broke.
+    """
+
+    displacement: np.ndarray
+    velocity: np.ndarray
+    sigma: np.ndarray
+    kelvin: np.ndarray
+    broken: list[int] = field(default_factory=list)
 
     @classmethod
     def at_rest(cls, system: BondedSystem, law: AnyLaw) -> CondensedState:
-        """No motion, no stress."""
+        """No motion, no stress.
+
+        Parameters
+        ----------
+        system : BondedSystem
+            Bonds and masses.
+        law : AnyLaw
+            Of the bonds, whose Kelvin elements it has.
+
+        Returns
+        -------
+        CondensedState
+            Zeros.
+        """
         d, rows = system.mass.size, system.weight.size
         kelvin = np.zeros((len(law.kelvin_springs), rows))
         return cls(np.zeros(d), np.zeros(d), np.zeros(rows), kelvin)
@@ -46,10 +73,25 @@ class CondensedState:
 class CondensedStepper:
     """Steps the full system at constant dt and law; breaks bonds and meets contacts on the way.
 
-    Of the last step: `missing` (d,) [N, N m], what the equations of motion lack, which is the driving
-    force where the motion is driven and rounding elsewhere; `utilisation`, the largest of a bond;
-    `contact`, (reactions [N], openings [m/s]) (3 c,) of the gaps that closed, or None. `on_break` is called with
-    the broken bonds when one more breaks; an error that it raises ends the step.
+    Of the last step: `missing` (d,) [N, N m], what the equations of motion lack, which is the driving force
+    where the motion is driven and rounding elsewhere; `utilisation`, the largest of a bond; `contact`,
+    (reactions [N], openings [m/s]) (3 c,) of the gaps that closed, or None. `on_break` is called with the
+    broken bonds when one more breaks; an error that it raises ends the step.
+
+    Parameters
+    ----------
+    system : BondedSystem
+        Bonds and masses.
+    law : AnyLaw
+        Of the bonds.
+    dt : float
+        Step [s].
+    state : CondensedState
+        To go on from; is changed.
+    devices : HeadDevices
+        At the head.
+    actuator : float
+        Its displacement at `state` [m].
     """
 
     def __init__(
@@ -76,17 +118,43 @@ class CondensedStepper:
         return self._operator.weight
 
     def move(self, start: float, end: float) -> float:
-        """One step in which the actuator goes from start to end [m]; its force [N]."""
+        """One step, given by the places of the actuator.
+
+        Parameters
+        ----------
+        start, end : float
+            Where it stands before and after [m].
+
+        Returns
+        -------
+        float
+            Its force [N].
+        """
         self.actuator = start
         force = self.advance((end - start) / self.dt)
         self.actuator = end
         return force
 
     def advance(self, driven_velocity: float) -> float:
-        """One step with the actuator moving at driven_velocity [m/s]; the head with it if the clamp is rigid.
+        """One step, given by the velocity of the actuator; the head moves with it if the clamp is rigid.
 
-        Returns the actuator's force [N]. Bonds that yield break one after another, the most
-        overstressed first, and the step is solved again until none is left.
+        Bonds that yield break one after another, the most overstressed first, and the step is solved again
+        until none is left.
+
+        Parameters
+        ----------
+        driven_velocity : float
+            Of the actuator [m/s].
+
+        Returns
+        -------
+        float
+            Its force [N].
+
+        Raises
+        ------
+        ArithmeticError
+            Where the motion is not finite.
         """
         system, state, dt, law = self.system, self.state, self.dt, self.step_law
         explicit = law.explicit_part(state.sigma, state.kelvin)

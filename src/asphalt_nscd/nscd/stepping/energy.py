@@ -32,18 +32,42 @@ Form = Callable[[np.ndarray, np.ndarray], float]
 
 @dataclass
 class Energies:
-    """All in J. Stores at the present, the rest summed from the beginning."""
+    """All in J. Stores at the present, the rest summed from the beginning.
 
-    actuator: float = 0.0  # work of the actuator
+    Parameters
+    ----------
+    actuator : float
+        Work of the actuator.
+    kinetic : float
+        Of all bodies.
+    springs : float
+        Stored in the springs of the bonds.
+    load : float
+        Potential of the load.
+    devices : float
+        Stored in clamp, spring and mass at the head.
+    dashpots : float
+        Dissipated in the dashpots of the bonds.
+    friction : float
+        Dissipated by tangential forces of contacts and by the slider at the head.
+    impact : float
+        Dissipated by normal forces of contacts, where gaps close.
+    fracture : float
+        Stored by bonds when they broke.
+    numerical : float
+        Dissipated by the scheme.
+    """
+
+    actuator: float = 0.0
     kinetic: float = 0.0
-    springs: float = 0.0  # stored in the springs of the bonds
-    load: float = 0.0  # potential of the load
-    devices: float = 0.0  # stored in clamp, spring and mass at the head
-    dashpots: float = 0.0  # dissipated in the dashpots of the bonds
-    friction: float = 0.0  # dissipated by tangential forces of contacts and by the slider at the head
-    impact: float = 0.0  # dissipated by normal forces of contacts, where gaps close
-    fracture: float = 0.0  # stored by bonds when they broke
-    numerical: float = 0.0  # dissipated by the scheme
+    springs: float = 0.0
+    load: float = 0.0
+    devices: float = 0.0
+    dashpots: float = 0.0
+    friction: float = 0.0
+    impact: float = 0.0
+    fracture: float = 0.0
+    numerical: float = 0.0
 
     @property
     def error(self) -> float:
@@ -58,20 +82,50 @@ class Energies:
 
 
 class EnergyAccount:
-    """Keeps the account of one run; the stepper may be exchanged between steps."""
+    """Keeps the account of one run; the stepper may be exchanged between steps.
+
+    Parameters
+    ----------
+    law : AnyLaw
+        Of the bonds.
+    """
 
     def __init__(self, law: AnyLaw) -> None:
         self.law, self.sums = law, Energies()
         self._broken = 0
 
     def resume(self, sums: Energies, broken: int) -> None:
-        """Go on from these sums, so many bonds having broken."""
+        """Go on from what a checkpoint holds.
+
+        Parameters
+        ----------
+        sums : Energies
+            Of all steps before.
+        broken : int
+            How many bonds had broken.
+        """
         self.sums, self._broken = sums, broken
 
     def count(
         self, stepper: Any, dt: float, force: float, before: History, base: History, after: History
     ) -> None:
-        """Add a step of length dt [s] that `stepper` made from `base` to `after`; force [N] of the actuator."""
+        """Add one step.
+
+        Parameters
+        ----------
+        stepper : CondensedStepper or ReducedStepper
+            Which made it.
+        dt : float
+            Its length [s].
+        force : float
+            Of the actuator [N].
+        before : History
+            The state at its start.
+        base : History
+            The state y* from which the scheme steps.
+        after : History
+            The state at its end.
+        """
         of = forms(stepper)
         sums, scale = self.sums, dt / stepper.dt
         old = self._stores(stepper, of, before, before)
@@ -135,7 +189,18 @@ class Forms(NamedTuple):
 
 
 def forms(stepper: Any) -> Forms:
-    """Those of a stepper, full or reduced."""
+    """The quadratic forms of a system.
+
+    Parameters
+    ----------
+    stepper : CondensedStepper or ReducedStepper
+        Full or reduced.
+
+    Returns
+    -------
+    Forms
+        Of stiffness and mass, with load and driven degree of freedom.
+    """
     model = getattr(stepper, "model", None)
     if model is not None:
         return Forms(_matrix_form(model.stiffness), _matrix_form(model.mass), model.load, 0)

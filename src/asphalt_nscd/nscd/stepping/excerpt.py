@@ -39,11 +39,33 @@ class Excerpt:
         return self.load.size
 
     def reaction_of(self, bonds: np.ndarray) -> np.ndarray:
-        """As of a ReducedModel."""
+        """Reactions of some bonds, as of a ReducedModel.
+
+        Parameters
+        ----------
+        bonds : ndarray of int (n,)
+            Listed ones.
+
+        Returns
+        -------
+        ndarray
+            (n, 3, k) Over their strength, per unit s.
+        """
         return self.reaction[self.bounds.places(bonds)]
 
     def closing_of(self, bonds: np.ndarray) -> np.ndarray:
-        """As of a ReducedModel."""
+        """Closing of the gaps of some bonds, as of a ReducedModel.
+
+        Parameters
+        ----------
+        bonds : ndarray of int (n,)
+            Listed ones.
+
+        Returns
+        -------
+        ndarray
+            (n, k) Share of their gaps, per unit q.
+        """
         return self.closing[self.bounds.places(bonds)]
 
     def arrays(self) -> dict[str, np.ndarray]:
@@ -54,7 +76,20 @@ class Excerpt:
 
     @classmethod
     def of(cls, model: ReducedModel, whole: Callable[[], Any]) -> Excerpt:
-        """Of a model without broken bonds."""
+        """What a test needs of a model without broken bonds.
+
+        Parameters
+        ----------
+        model : ReducedModel
+            Reduced.
+        whole : callable
+            Gives the model and its directions for breaks, where they are needed.
+
+        Returns
+        -------
+        Excerpt
+            Small matrices and a few bonds.
+        """
         bounds, chosen = model.bounds.excerpt()
         return cls(
             **{name: getattr(model, name) for name in (*SMALL, *NUMBERS)},
@@ -66,7 +101,20 @@ class Excerpt:
 
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray], whole: Callable[[], Any]) -> Excerpt:
-        """Of the `arrays` of a file."""
+        """Of the `arrays` of a file.
+
+        Parameters
+        ----------
+        arrays : dict of str to ndarray
+            By name.
+        whole : callable
+            Gives the model and its directions for breaks, where they are needed.
+
+        Returns
+        -------
+        Excerpt
+            The same excerpt.
+        """
         rest = {name: arrays[f"rest/{name}"] for name in ("utilised", "closed", "travel")}
         reaction, closing = arrays["reaction"], arrays["closing"]
         utilised = np.sqrt(reaction[:, 0] ** 2 + reaction[:, 1] ** 2 + reaction[:, 2] ** 2)

@@ -17,7 +17,23 @@ from asphalt_nscd.nscd.stepping.condensed import CondensedState
 
 
 class SweepingStepper:
-    """Steps the full system by Gauss-Seidel; bonds do not break and gaps are not watched."""
+    """Steps the full system by Gauss-Seidel; bonds do not break and gaps are not watched.
+
+    Parameters
+    ----------
+    system : BondedSystem
+        Bonds and masses.
+    law : AnyLaw
+        Of the bonds.
+    dt : float
+        Step [s].
+    state : CondensedState
+        To go on from; is changed.
+    tolerance : float
+        Relative change in a sweep that ends a step.
+    most_sweeps : int
+        In a step.
+    """
 
     def __init__(
         self,
@@ -45,7 +61,18 @@ class SweepingStepper:
         return self._bonds.visits
 
     def advance(self, driven_velocity: float) -> float:
-        """One step with the driven degree of freedom at driven_velocity [m/s]; the driving force [N]."""
+        """One step.
+
+        Parameters
+        ----------
+        driven_velocity : float
+            Of the driven degree of freedom [m/s].
+
+        Returns
+        -------
+        float
+            The driving force [N].
+        """
         system, state, dt = self.system, self.state, self.dt
         explicit = self.law.explicit_part(state.sigma, state.kelvin)
         reaction = system.weight * state.sigma

@@ -16,7 +16,19 @@ Stepper = CondensedStepper | ReducedStepper
 
 
 class March:
-    """Steps of dt [s] from rest; the stepper is one of step length dt / scheme.a."""
+    """Steps from rest by any scheme, with the energy account.
+
+    Parameters
+    ----------
+    stepper : Stepper
+        Full or reduced, of step length dt / scheme.a.
+    scheme : Scheme
+        Coefficients of the rate.
+    law : AnyLaw
+        Of the bonds.
+    dt : float
+        [s].
+    """
 
     def __init__(self, stepper: Stepper, scheme: Scheme, law: AnyLaw, dt: float) -> None:
         self.stepper, self.scheme, self.dt = stepper, scheme, dt
@@ -24,9 +36,22 @@ class March:
         self.account = EnergyAccount(law)
 
     def move_to(self, actuator: float) -> float:
-        """One step at whose end the actuator stands at `actuator` [m]; its force [N].
+        """One step. Where the reduced stepper cannot make it, it is left in the state before it.
 
-        Where the reduced stepper cannot make the step, it is left in the state before it.
+        Parameters
+        ----------
+        actuator : float
+            Where it stands at the end [m].
+
+        Returns
+        -------
+        float
+            Its force [N].
+
+        Raises
+        ------
+        FullSystemNeeded
+            Where the reduced stepper cannot make it.
         """
         stepper = self.stepper
         base = self.now.beyond(self.earlier, self.scheme.b / self.scheme.a)
@@ -45,7 +70,13 @@ class March:
         return force
 
     def go_on_with(self, full: CondensedStepper) -> None:
-        """Replace the reduced stepper by one of the full system, with the same bonds broken."""
+        """Replace the reduced stepper by one of the full system.
+
+        Parameters
+        ----------
+        full : CondensedStepper
+            With the same bonds broken.
+        """
         reduced = self.stepper
         assert isinstance(reduced, ReducedStepper), "the full system has nothing beyond it"
 
@@ -66,7 +97,13 @@ class March:
         return found | {"energies": np.array([float(value) for value in astuple(self.account.sums)])}
 
     def put(self, arrays: dict[str, np.ndarray]) -> None:
-        """Go on where another one stood that gave these `arrays`; `stepper` is that of the time."""
+        """Go on where another one stood; `stepper` is that of the time.
+
+        Parameters
+        ----------
+        arrays : dict of str to ndarray
+            That it gave.
+        """
         for when in ("now", "earlier"):
             values = {name: arrays[f"{when}/{name}"] for name in VARIABLES}
             setattr(self, when, History(values, arrays[f"{when}/actuator"].item()))

@@ -19,24 +19,60 @@ from asphalt_nscd.nscd.bonds.system import BondedSystem
 class Projection:
     """Column 0 of Phi (d, k) moves the driven degree of freedom by one, the others leave it.
 
-    Some bonds can still be removed: the factor then has a column for each of their components, the
-    reaction of which the last terms of (a, s, 1, reaction) take away.
+    Some bonds can still be removed: the factor then has a column for each of their components, the reaction
+    of which the last terms of (a, s, 1, reaction) take away.
+
+    Parameters
+    ----------
+    mass : ndarray (k, k)
+        [kg].
+    stiffness : ndarray (k, k)
+        [m].
+    load : ndarray (k,)
+        [N].
+    residual_factor : ndarray (., 2 k + 1 + 3 n)
+        Upper triangular.
+    opening : ndarray (3 n, k)
+        G Phi of the removable bonds.
+    weight : ndarray (3 n,)
+        Of the removable bonds [m].
+    head_norm : float
+        Of what one unit of s_0 asks of the driven degree of freedom alone.
+    load_norm : float
+        Of f.
     """
 
-    mass: np.ndarray  # (k, k) kg
-    stiffness: np.ndarray  # (k, k) m
-    load: np.ndarray  # (k,) N
-    residual_factor: np.ndarray  # upper triangular (., 2 k + 1 + 3 n)
-    opening: np.ndarray  # G Phi of the removable bonds (3 n, k)
-    weight: np.ndarray  # (3 n,) m
-    head_norm: float  # of what one unit of s_0 asks of the driven degree of freedom alone
-    load_norm: float  # of f
+    mass: np.ndarray
+    stiffness: np.ndarray
+    load: np.ndarray
+    residual_factor: np.ndarray
+    opening: np.ndarray
+    weight: np.ndarray
+    head_norm: float
+    load_norm: float
 
     @classmethod
     def of(
         cls, system: BondedSystem, basis: np.ndarray, broken: Sequence[int], removable: Sequence[int] = ()
     ) -> Projection:
-        """basis Phi (d, k); the bonds `broken` are gone, those in `removable` (n,) there and on demand."""
+        """Project a system.
+
+        Parameters
+        ----------
+        system : BondedSystem
+            Bonds and masses.
+        basis : ndarray (d, k)
+            Phi.
+        broken : sequence of int
+            Bonds that are gone.
+        removable : sequence of int (n,)
+            Bonds that are there, and can be removed.
+
+        Returns
+        -------
+        Projection
+            Small matrices.
+        """
         free, operator = system.free, system.operator
         weight = system.weight.copy()
         weight[rows_of(broken)] = 0.0
@@ -63,7 +99,20 @@ class Projection:
         )
 
     def combined(self, mixing: np.ndarray, removed: np.ndarray) -> Projection:
-        """The projection on Phi `mixing` (k, j) without the removable bonds at the places `removed`."""
+        """The projection on Phi `mixing` without some of the removable bonds.
+
+        Parameters
+        ----------
+        mixing : ndarray (k, j)
+            Columns.
+        removed : ndarray of int
+            Places among the removable bonds.
+
+        Returns
+        -------
+        Projection
+            On j columns.
+        """
         rows = rows_of(removed)
         opening = self.opening[rows]
         reaction = self.weight[rows, None] * opening
@@ -83,5 +132,16 @@ class Projection:
 
 
 def rows_of(bonds: Sequence[int] | np.ndarray) -> np.ndarray:
-    """Rows (3 n,) of G that belong to bonds (n,)."""
+    """Rows of G that belong to bonds.
+
+    Parameters
+    ----------
+    bonds : sequence of int (n,)
+        Which.
+
+    Returns
+    -------
+    ndarray of int (3 n,)
+        Three each.
+    """
     return (3 * np.asarray(bonds, int)[:, None] + np.arange(3)).ravel()

@@ -21,9 +21,21 @@ from asphalt_nscd.nscd.stepping.reduced_run import (
 
 @compiled
 def take_steps(run):
-    """Steps of a `ReducedRun` until the end or the first violation: (steps, code, index into the watched bonds).
+    """Steps until the end or the first violation. State arrays change in place, step by step.
 
-    State arrays change in place, step by step; `trial` receives v+, s+, q+ of the refused step.
+    Parameters
+    ----------
+    run : ReducedRun
+        `trial` receives v+, s+, q+ of the refused step.
+
+    Returns
+    -------
+    int
+        Steps taken.
+    int
+        Code of their end.
+    int
+        Which of the watched bonds.
     """
     q, v, s, kelvin, dt, force, maxima = run.q, run.v, run.s, run.kelvin, run.dt, run.force, run.maxima
     k = q.shape[0]

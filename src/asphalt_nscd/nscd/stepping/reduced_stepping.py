@@ -74,8 +74,17 @@ class Certificate:
 
 
 class FullSystemNeeded(Exception):
-    """The step after those returned is one for the full system: a gap closes, or the model has outgrown
-    its use after many bonds have broken.
+    """The step after those returned is one for the full system: a gap closes, or the model has outgrown its use
+    after many bonds have broken.
+
+    Parameters
+    ----------
+    reason : str
+        What the message says.
+    force : ndarray (n,)
+        Of the actuator in the steps accepted [N].
+    velocity : ndarray (n, k)
+        Coordinates in the steps accepted.
     """
 
     def __init__(self, reason: str, force: np.ndarray, velocity: np.ndarray) -> None:
@@ -84,7 +93,30 @@ class FullSystemNeeded(Exception):
 
 
 class ReducedStepper:
-    """Steps a reduced model at constant dt and law; `state` starts at rest."""
+    """Steps a reduced model at constant dt and law; `state` starts at rest.
+
+    Parameters
+    ----------
+    model : ReducedModel or Excerpt
+        Reduced, or an excerpt of it.
+    law : BondLaw
+        Of the bonds.
+    dt : float
+        Step [s].
+    tolerance : float
+        Of the residual of the full equations, relative.
+    most_enrichments : int
+        Of the basis, in a run.
+    devices : HeadDevices
+        At the head.
+    stand_by : StandBy or None
+        Directions for breaks, on the basis of `model`; an excerpt brings its own.
+
+    Raises
+    ------
+    TypeError
+        For bonds of several laws.
+    """
 
     def __init__(
         self,
@@ -134,10 +166,24 @@ class ReducedStepper:
             return question(self.model)
 
     def run(self, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Follow the displacements (n,) [m] of the actuator, one per step.
+        """Follow the actuator, one displacement per step.
 
-        Returns its force (n,) [N] and the velocity coordinates (n, k) of the basis as it
-        was at the call. Raises FullSystemNeeded, with what was accepted, where it cannot go on.
+        Parameters
+        ----------
+        driven : ndarray (n,)
+            Its displacements [m].
+
+        Returns
+        -------
+        ndarray (n,)
+            Its force [N].
+        ndarray (n, k)
+            Velocity coordinates of the basis as it was at the call.
+
+        Raises
+        ------
+        FullSystemNeeded
+            With what was accepted, where it cannot go on.
         """
         force, velocity = np.empty(driven.size), np.zeros((driven.size, self._part.size))
         done = 0
@@ -158,7 +204,18 @@ class ReducedStepper:
             self._enrich(code)
 
     def move(self, start: float, end: float) -> float:
-        """One step in which the actuator goes from start to end [m]; its force [N]."""
+        """One step, given by the places of the actuator.
+
+        Parameters
+        ----------
+        start, end : float
+            Where it stands before and after [m].
+
+        Returns
+        -------
+        float
+            Its force [N].
+        """
         return float(self.run(np.array([end]))[0][0])
 
     def full_state(self) -> CondensedState:
@@ -185,7 +242,13 @@ class ReducedStepper:
         return {name: np.asarray(value) for name, value in found.items()}
 
     def put(self, arrays: dict[str, np.ndarray]) -> None:
-        """Make a new stepper what another one was that gave these `arrays`."""
+        """Make a new stepper what another one was.
+
+        Parameters
+        ----------
+        arrays : dict of str to ndarray
+            That the other one gave.
+        """
         from asphalt_nscd.nscd.stepping.projection import Projection
         from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
 
@@ -207,7 +270,18 @@ class ReducedStepper:
         self._look_at()
 
     def certify(self, full: CondensedStepper) -> None:
-        """Count the last step of the full system, which went on from `full_state`, in the certificate."""
+        """Count the last step of the full system in the certificate.
+
+        Parameters
+        ----------
+        full : CondensedStepper
+            Which went on from `full_state`.
+
+        Raises
+        ------
+        ArithmeticError
+            Where that step misses its equations.
+        """
         from asphalt_nscd.nscd.stepping.condensed import CLOSED
 
         model, system = self.model, self.model.system

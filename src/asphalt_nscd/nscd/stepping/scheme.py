@@ -28,44 +28,112 @@ VARIABLES = ("displacement", "velocity", "sigma", "kelvin")
 
 @dataclass(frozen=True)
 class Scheme:
-    """Coefficients a and b of the rate; dimensionless."""
+    """Coefficients of the rate, y' = [a (y+ - y) - b (y - y-)] / dt.
+
+    Parameters
+    ----------
+    a, b : float
+        Dimensionless.
+    """
 
     a: float = 1.0
     b: float = 0.0
 
     @classmethod
     def named(cls, name: str, angle: float) -> Scheme:
-        """One of SCHEMES; angle = omega dt [rad], below pi/2, to which "fitted" is fitted (0: BDF2)."""
+        """A scheme by its name.
+
+        Parameters
+        ----------
+        name : str
+            One of SCHEMES.
+        angle : float
+            omega dt [rad], below pi/2, to which "fitted" is fitted; 0 gives BDF2.
+
+        Returns
+        -------
+        Scheme
+            Its coefficients.
+        """
         if name == "euler":
             return cls()
         b = 0.5 / float(np.sinc(angle / np.pi))
         return cls(b * (1.0 + 2.0 * float(np.cos(angle))), b)
 
     def rate(self, angle: float) -> complex:
-        """i omega dt as the scheme sees it, for an oscillation of angle = omega dt [rad]."""
+        """i omega dt as the scheme sees it, for an oscillation.
+
+        Parameters
+        ----------
+        angle : float
+            omega dt [rad].
+
+        Returns
+        -------
+        complex
+            Dimensionless.
+        """
         back = np.exp(-1j * angle)
         return complex((1.0 - back) * (self.a - self.b * back))
 
 
 @dataclass
 class History:
-    """The variables of a state and the actuator's place [m] at one instant."""
+    """The variables of a state and the actuator's place at one instant.
+
+    Parameters
+    ----------
+    values : dict of str to ndarray
+        By the names in VARIABLES.
+    actuator : float
+        [m].
+    """
 
     values: dict[str, np.ndarray]
     actuator: float
 
     @classmethod
     def of(cls, state: Any, actuator: float) -> History:
-        """A copy of the present."""
+        """A copy of the present.
+
+        Parameters
+        ----------
+        state : CondensedState or reduced state
+            Whose variables.
+        actuator : float
+            Its place [m].
+
+        Returns
+        -------
+        History
+            The copy.
+        """
         return cls({name: getattr(state, name).copy() for name in VARIABLES}, actuator)
 
     def put(self, state: Any) -> None:
-        """Make it the present of `state`."""
+        """Make it the present of a state.
+
+        Parameters
+        ----------
+        state : CondensedState or reduced state
+            Is changed.
+        """
         for name, value in self.values.items():
             setattr(state, name, value.copy())
 
     def widened(self, state: Any) -> History:
-        """With zeros for the coordinates that `state` has got since."""
+        """With zeros for the coordinates that a state has got since.
+
+        Parameters
+        ----------
+        state : CondensedState or reduced state
+            Of as many coordinates or more.
+
+        Returns
+        -------
+        History
+            Itself, or wider.
+        """
         if self.values["sigma"].size == state.sigma.size:
             return self
         more = state.sigma.size - self.values["sigma"].size
@@ -73,6 +141,19 @@ class History:
         return History(padded, self.actuator)
 
     def beyond(self, earlier: History, share: float) -> History:
-        """This plus `share` times the change since `earlier`."""
+        """Extrapolated.
+
+        Parameters
+        ----------
+        earlier : History
+            The variables before.
+        share : float
+            Of the change since then.
+
+        Returns
+        -------
+        History
+            This plus `share` times the change.
+        """
         values = {n: v + share * (v - earlier.values[n]) for n, v in self.values.items()}
         return History(values, self.actuator + share * (self.actuator - earlier.actuator))
