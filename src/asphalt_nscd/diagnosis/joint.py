@@ -45,6 +45,11 @@ class Candidate:
         return np.array([parameter.typical for parameter in self.cause.parameters])
 
     @property
+    def shaped(self) -> bool:
+        """Whether it has shapes of its own: its size then is above zero, and uncertain by a factor."""
+        return len(self.values) > 1
+
+    @property
     def at_bounds(self) -> list[tuple[Parameter, float]]:
         """Parameters that stand at a bound of their range, with their values; an absent cause has none."""
         return [

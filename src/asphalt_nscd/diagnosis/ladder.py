@@ -89,11 +89,15 @@ class Ladder:
 
     @property
     def unsure(self) -> Candidate | None:
-        """The named cause whose 95 % interval, as it is told, holds zero by most; None where none does."""
+        """The named cause whose 95 % interval, as it is told, holds zero by most; None where none does.
+
+        That of a cause with shapes of its own holds no zero: whether there is one is judged by what it gains.
+        """
         wide = widening(self.estimates_spread) * CONFIDENCE
         reach = [
             (abs(one.values[0]) / max(wide * float(self.std_errors(one)[0]), 1e-300), one)
             for one in self.fitted.active
+            if not one.shaped
         ]
         least, one = min(reach, key=lambda pair: pair[0], default=(np.inf, None))
         return one if least <= 1.0 else None

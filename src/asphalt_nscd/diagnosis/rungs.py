@@ -69,7 +69,9 @@ def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[st
     errors = diagnosis.ladder.std_errors(candidate)
     factor = widening(diagnosis.ladder.estimates_spread)
     return {
-        parameter.name: _value(value, parameter.unit, float(errors[k]), factor)
+        parameter.name: _value(
+            value, parameter.unit, float(errors[k]), factor, candidate.shaped and k == 0 and value > 0.0
+        )
         for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True))
     }
 
@@ -136,9 +138,11 @@ def _shift_constants(spectrum: FlexibleSpectrum, fitted: Fitted, factor: float) 
     }
 
 
-def _value(value: float, unit: str, error: float | None = None, factor: float = 1.0) -> dict[str, Any]:
-    """factor: on the interval."""
+def _value(
+    value: float, unit: str, error: float | None = None, factor: float = 1.0, of_logarithm: bool = False
+) -> dict[str, Any]:
+    """factor, of_logarithm: of the interval."""
     if error is None:
         return {"value": float(value), "std_error": None, "unit": unit}
-    interval = interval_95(float(value), float(error), factor)
+    interval = interval_95(float(value), float(error), factor, of_logarithm)
     return {"value": float(value), "std_error": float(error), "unit": unit, "interval_95": interval}

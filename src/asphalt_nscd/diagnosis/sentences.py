@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
@@ -302,6 +304,10 @@ def estimate(one: Content, factor: float = 1.0) -> str:
     if one["std_error"] is None:
         return f"{three_digits(value)} {typed(unit)}".rstrip()
     low, high = interval_95(one["value"], one["std_error"], factor)
+    told = one.get("interval_95") or (low, high)
+    if not np.isclose(sum(told), low + high, rtol=1e-6, atol=0.0):  # of the logarithm
+        ends = " to ".join(three_digits(shown(end, one["unit"])[0]) for end in told)
+        return f"{three_digits(value)} ({ends}) {typed(unit)}"
     half = shown(0.5 * (high - low), one["unit"])[0]
     return f"{with_interval(value, half)} {typed(unit)}".rstrip()
 

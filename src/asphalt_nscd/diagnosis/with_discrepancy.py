@@ -213,12 +213,12 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         values = np.array([np.clip(amplitude, first.low, first.high), *candidates[k].values[1:]])
         active = (*state.fitted.active, candidates[k].with_values(values))
         after = _settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
-        gain = state.misfit - after.misfit - 2.0 * (len(candidates[k].values) - 1)
+        taken = after.fitted.active[-1]
+        gain = state.misfit - after.misfit - of_shapes(after.fitted, taken, state.plain.observed)
         if gain > TWENTY_TIMES:
-            taken = after.fitted.active[-1]
             own = of_taken(after, taken)
             z[k] = max(z[k], abs(own.z))
-            if not _stands(after, taken, own):
+            if not _stands(state, after, taken, own):
                 continue
             odds[k] = log_odds(taken, state.plain.observed, gain, own.std_error * float(taken.typical[0]))
             if z[k] > least:
@@ -237,15 +237,15 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k], shared)
 
 
-def _stands(state: State, taken: Candidate, own: Estimate) -> bool:
+def _stands(before: State, state: State, taken: Candidate, own: Estimate) -> bool:
     """Whether a cause competes for the place of the next name: what does not takes no probability from one that does.
 
     Its size is not zero. One with shapes of its own follows almost any structure: it must be carried by the whole
     table, and its shapes must not be at the edge of what they may be.
     """
-    if abs(own.z) < CONFIDENCE:
-        return False
-    return len(taken.values) == 1 or not (taken.at_bounds or hangs_on(state, taken))
+    if not taken.shaped:
+        return bool(abs(own.z) >= CONFIDENCE)
+    return not (taken.at_bounds or hangs_on(state, taken, before))
 
 
 def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate], Direction]:
@@ -320,19 +320,64 @@ def _of_rows(found: Processes, plain: Joint, rows: NDArray, variances: Vector) -
     )
 
 
-def hangs_on(state: State, candidate: Candidate) -> list[str]:
-    """What must not be left out for the cause to be seen: isotherms, frequencies, specimens; best none."""
+def of_shapes(fitted: Fitted, candidate: Candidate, observed: Observations) -> float:
+    """What the freedom of a cause's shapes costs: -2 ln of the share of their prior that tests leave them (Laplace).
+
+    The prior is about as wide as the fit's about each start. The share is that given the amplitude, whose own error is
+    counted with its own prior.
+    """
+    if not candidate.shaped:
+        return 0.0
+    first = fitted.law.size + fitted.scales.size
+    for active in fitted.active:
+        if active.key == candidate.key:
+            break
+        first += len(active.values)
+    at = slice(first, first + len(candidate.values))
+    own = fitted.covariance[at, at]
+    left = float(np.linalg.slogdet(own)[1] - np.log(own[0, 0]))
+    starts = np.ptp(np.array(candidate.cause.shapes(observed)), axis=0) / candidate.typical[1:]
+    return float((2.0 * np.log1p(starts / np.sqrt(2.0 * np.pi))).sum()) - left
+
+
+def hangs_on(state: State, candidate: Candidate, before: State | None = None) -> list[str]:
+    """What must not be left out for the cause to be seen: isotherms, frequencies, specimens; best none.
+
+    A cause with shapes of its own is judged by what it gains over a fit without it: its shapes make its size uncertain
+    long before they make it doubtful that there is one. before: that fit, made here if not given.
+    """
     observed = state.plain.observed
     sign, carried = np.sign(candidate.values[0]), []
+    if candidate.shaped and before is None:
+        before = with_causes(state, tuple(one for one in state.fitted.active if one.key != candidate.key))
+    freedom = 2.0 * (len(candidate.values) - 1)
     for name, label, words in _parts(observed):
         for value in np.unique(label):
             rows = np.flatnonzero(label != value)
             rest = observed.subset(rows)
             if not candidate.cause.rows(rest, candidate.place).any() or not _enough(rest, name):
                 continue
-            if sign * of_taken(state, candidate, rows).z < SURVIVES:
+            if before is not None and candidate.shaped:
+                lost = _misfit_of(before, rows) - _misfit_of(state, rows) - freedom < SURVIVES**2
+            else:
+                lost = sign * of_taken(state, candidate, rows).z < SURVIVES
+            if lost:
                 carried.append(words(value))
     return carried
+
+
+def _misfit_of(state: State, rows: NDArray) -> float:
+    """-2 ln of the likelihood of some rows, as `State.misfit`: one step of law and causes, the sizes estimated anew."""
+    plain = Joint(state.plain.observed.subset(rows), state.plain.base, state.plain.noise.subset(rows))
+    linear = plain.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
+    found, start = _of_rows(state.model.processes, plain, rows, state.variances)
+    law = linear.law.size + linear.scales.size
+    return (
+        linear.objective
+        - float(linear.gradient @ np.linalg.solve(linear.precision, linear.gradient))
+        + float(np.linalg.slogdet(linear.precision[:law, :law])[1])
+        + discrepancy.estimate(discrepancy.reduce(found, linear), start=start).misfit
+    )
 
 
 def _parts(observed: Observations) -> Iterator[tuple[str, NDArray, Callable[[Any], str]]]:
@@ -375,6 +420,7 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
 
     The effect is put into this table, less its own value of it: the discrepancy may take up what it can.
     """
+    candidate = surveyed.candidates[k]
     one, direction = surveyed.estimates[k], surveyed.pointing.column(k)
     amplitude = (threshold + Z_95) * one.std_error
     for _ in range(LARGER):
@@ -383,10 +429,22 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
         without = min(
             discrepancy.estimate(model, start=start).misfit for start in (one.variances, state.variances)
         )
-        if without - discrepancy.estimate(model, pointing, one.variances).misfit > TWENTY_TIMES:
+        gain = without - discrepancy.estimate(model, pointing, one.variances).misfit
+        if gain - _shapes_at(state, candidate, amplitude) > TWENTY_TIMES:
             break
         amplitude *= 1.25
     return amplitude
+
+
+def _shapes_at(state: State, candidate: Candidate, amplitude: float) -> float:
+    """`of_shapes` of a cause of this amplitude [typical units], were it in the fit."""
+    if not candidate.shaped:
+        return 0.0
+    most = min(amplitude * candidate.typical[0], candidate.cause.parameters[0].high)
+    present = candidate.with_values(np.array([most, *candidate.values[1:]]))
+    active = (*state.fitted.active, present)
+    fitted = state.wide.linearise(state.fitted.law, state.fitted.scales, active)
+    return of_shapes(fitted, present, state.plain.observed)
 
 
 def detection_limits(
@@ -403,9 +461,15 @@ def detection_limits(
         # A cause with shapes of its own must be carried by the whole table: no size says that beside a discrepancy.
         alone = bool((state.variances < HIDES**2).all())
         simple = np.array([alone or len(candidate.values) == 1 for candidate in surveyed.candidates])
-        for k in np.flatnonzero([len(candidate.values) == 1 for candidate in surveyed.candidates]):
-            needed = _named_from(state, surveyed, int(k), threshold) / (threshold + Z_95)
-            errors[k] = max(surveyed.estimates[k].std_error, needed)
+        shapes: dict[tuple, list[int]] = {}
+        for k, candidate in enumerate(surveyed.candidates):
+            shapes.setdefault(candidate.key, []).append(k)
+        for group in shapes.values():
+            # Of several shapes the one that most of them exceed stands for all.
+            k = sorted(group, key=lambda j: errors[j])[int(limits.MOST * (len(group) - 1))]
+            needed = _named_from(state, surveyed, k, threshold) / (threshold + Z_95)
+            at_least = errors[k] if len(group) > 1 else surveyed.estimates[k].std_error
+            errors[group] *= max(at_least, needed) / errors[k]
         found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)
         sizes, unseen = limits.detection_limits(
             state.wide, state.fitted, surveyed.candidates, found, threshold + Z_95

@@ -150,12 +150,19 @@ def widening(spread: float) -> float:
     return spread if spread >= WIDE_SPREAD else 1.0
 
 
-def interval_95(value: float, error: float, factor: float = 1.0) -> list[float]:
+def interval_95(value: float, error: float, factor: float = 1.0, of_logarithm: bool = False) -> list[float]:
     """Ends of the 95 % interval of an estimate with this standard error; factor: see `widening`.
+
+    of_logarithm: whether it is the logarithm that is so uncertain.
 
     >>> interval_95(1.0, 0.5)
     [0.020000000000000018, 1.98]
+    >>> [round(end, 3) for end in interval_95(2.0, 1.0, of_logarithm=True)]
+    [0.751, 5.329]
     """
+    if of_logarithm:
+        ratio = float(np.exp(factor * CONFIDENCE * error / value))
+        return [value / ratio, value * ratio]
     return [value - factor * CONFIDENCE * error, value + factor * CONFIDENCE * error]
 
 
