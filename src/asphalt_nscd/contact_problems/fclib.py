@@ -33,14 +33,32 @@ class LocalProblem:
 
 @dataclass(frozen=True)
 class Outcome:
-    """One line of the table: what became of one file."""
+    """One line of the table: what became of one file.
+
+    Parameters
+    ----------
+    file : str
+        Its name.
+    contacts : int
+        Their number.
+    iterations : int
+        Sweeps and steps.
+    error : float
+        Natural map as Siconos states it.
+    scaled_error : float
+        Natural map in units of energy.
+    seconds : float
+        CPU; reading, compilation and first use of memory aside.
+    converged : bool
+        Whether both errors are within the tolerance.
+    """
 
     file: str
     contacts: int
     iterations: int
-    error: float  # natural map as Siconos states it
-    scaled_error: float  # and in units of energy
-    seconds: float  # CPU; reading, compilation and first use of memory aside
+    error: float
+    scaled_error: float
+    seconds: float
     converged: bool
 
     def __str__(self) -> str:
@@ -52,7 +70,25 @@ class Outcome:
 
 
 def solve_files(files: Sequence[str | Path], tolerance: float) -> list[Outcome]:
-    """Solve the problem of each file; all are read before the first is solved."""
+    """Solve the problem of each file; all are read before the first is solved.
+
+    Parameters
+    ----------
+    files : sequence of path
+        HDF5 files of FCLIB.
+    tolerance : float
+        Of both errors.
+
+    Returns
+    -------
+    list of Outcome
+        One for each file.
+
+    Raises
+    ------
+    InputError
+        For a file that holds no such problem.
+    """
     problems = [read_problem(file) for file in files]
     outcomes = []
     for file, problem in zip(files, problems, strict=True):
@@ -78,12 +114,39 @@ def solve_files(files: Sequence[str | Path], tolerance: float) -> list[Outcome]:
 
 
 def table(outcomes: Sequence[Outcome]) -> pd.DataFrame:
-    """The outcomes, one row for each file."""
+    """The outcomes as a table.
+
+    Parameters
+    ----------
+    outcomes : sequence of Outcome
+        Of `solve_files`.
+
+    Returns
+    -------
+    DataFrame
+        One row for each file.
+    """
     return pd.DataFrame([asdict(outcome) for outcome in outcomes])
 
 
 def read_problem(path: str | Path) -> LocalProblem:
-    """Read and check one file; InputError in one sentence for any other or damaged one."""
+    """Read and check one file.
+
+    Parameters
+    ----------
+    path : path
+        HDF5 file of FCLIB.
+
+    Returns
+    -------
+    LocalProblem
+        W, q and mu.
+
+    Raises
+    ------
+    InputError
+        In one sentence, for any other or damaged one.
+    """
     import h5py
 
     if not Path(path).is_file():

@@ -16,7 +16,23 @@ LONGEST_NAME = 80
 
 
 def text(card: Card) -> str:
-    """The card as lines of an input file."""
+    """The card as lines of an input file.
+
+    Parameters
+    ----------
+    card : Card
+        Law as a Prony series.
+
+    Returns
+    -------
+    str
+        With comments.
+
+    Raises
+    ------
+    InputError
+        For a name that Abaqus does not take.
+    """
     name, series = card.settings.name, card.series
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name) or len(name) > LONGEST_NAME:
         raise InputError(

@@ -27,14 +27,35 @@ WIDTH = 100  # characters of a line of comment
 
 @dataclass(frozen=True)
 class Units:
-    """A consistent system of units. stress: its unit; pascals: how many Pa that is."""
+    """A consistent system of units.
+
+    Parameters
+    ----------
+    name : str
+        Of the system.
+    stress : str
+        Its unit of stress.
+    pascals : float
+        How many Pa that is.
+    """
 
     name: str
     stress: str
     pascals: float
 
     def of(self, modulus: float) -> float:
-        """A modulus [Pa] in these units."""
+        """A modulus in these units.
+
+        Parameters
+        ----------
+        modulus : float
+            [Pa].
+
+        Returns
+        -------
+        float
+            In `stress`.
+        """
         return modulus / self.pascals
 
 
@@ -43,7 +64,19 @@ UNITS = {"SI": Units("m, N, s, Pa", "Pa", 1.0), "mm-N-MPa": Units("mm, N, s, MPa
 
 @dataclass(frozen=True)
 class Settings:
-    """What the user chooses. poisson None: assumed; name: of the material."""
+    """What the user chooses.
+
+    Parameters
+    ----------
+    allowed : Miss
+        Largest errors of the series.
+    poisson : float, optional
+        None: assumed.
+    units : Units
+        Of the file.
+    name : str
+        Of the material.
+    """
 
     allowed: Miss = Miss(1.0, 0.5)
     poisson: float | None = None
@@ -60,7 +93,21 @@ class Settings:
 
 @dataclass(frozen=True)
 class Card:
-    """A law as a Prony series at `law.temperature`, with its largest errors over the band."""
+    """A law as a Prony series at `law.temperature`.
+
+    Parameters
+    ----------
+    law : ExportedLaw
+        Of a file.
+    settings : Settings
+        What the user chose.
+    series : MaxwellSeries
+        That stands for the law.
+    error : Miss
+        Its largest errors over the band.
+    exact : bool
+        Whether it is the law itself.
+    """
 
     law: ExportedLaw
     settings: Settings
@@ -84,10 +131,15 @@ class Card:
 
     @property
     def half_widths(self) -> NDArray[np.float64] | None:
-        """Half of the 95 % intervals of the long-term modulus and of each branch's [Pa], at their relaxation times.
+        """Half of the 95 % intervals of the moduli of the series, to first order.
 
-        First order: of the moduli that follow the law over the band when its parameters move by their covariance.
-        None where the law's file has no covariance.
+        Of the moduli that follow the law over the band when its parameters move by their covariance.
+
+        Returns
+        -------
+        ndarray (1 + m,), or None
+            Of the long-term modulus and of each branch [Pa], at their relaxation times; None where the law's
+            file has no covariance.
         """
         known, low_high = self.law.uncertainty, self.law.reduced_band()
         if known is None or self.exact:
@@ -140,7 +192,18 @@ class Card:
         return said
 
     def comment(self, sign: str) -> list[str]:
-        """The statements as lines of comment."""
+        """The statements as lines of comment.
+
+        Parameters
+        ----------
+        sign : str
+            With which a line of comment begins.
+
+        Returns
+        -------
+        list of str
+            In ASCII.
+        """
         return [
             f"{sign} {line}".encode("ascii", "replace").decode()
             for statement in self.statements()
@@ -209,7 +272,25 @@ class Card:
 
 
 def make_card(law: ExportedLaw, settings: Settings) -> Card:
-    """The card of a law: exact where its series is finite, else fitted within the allowed error."""
+    """The card of a law: exact where its series is finite, else fitted within the allowed error.
+
+    Parameters
+    ----------
+    law : ExportedLaw
+        Of a file.
+    settings : Settings
+        What the user chose.
+
+    Returns
+    -------
+    Card
+        With the series and its errors.
+
+    Raises
+    ------
+    InputError
+        For a law that does not relax over its band, or an error that cannot be met.
+    """
     low, high = law.reduced_band()
     chain = law.law.as_chain() if isinstance(law.law, Burgers) else law.law
     if isinstance(chain, KelvinChain) and chain.spring < float("inf"):
@@ -232,7 +313,18 @@ def make_card(law: ExportedLaw, settings: Settings) -> Card:
 
 
 def number(value: float) -> str:
-    """A number as all programs read it, ten digits."""
+    """A number as all programs read it.
+
+    Parameters
+    ----------
+    value : float
+        Any.
+
+    Returns
+    -------
+    str
+        Ten digits.
+    """
     return f"{value:.9E}"
 
 

@@ -17,9 +17,22 @@ COLOURS = ("1F4E79", "C0504D", "9BBB59", "8064A2", "F79646", "4BACC6", "7F7F7F",
 
 @dataclass(frozen=True)
 class Line:
-    """A column of a sheet over another. rows: first and last, from 1; None for all below the heading.
+    """A column of a sheet over another.
 
-    points: marks alone; dashed: the end of an interval.
+    Parameters
+    ----------
+    name : str
+        In the legend.
+    sheet : str
+        Of the workbook.
+    x, y : str
+        Headings of the columns.
+    rows : tuple of int, optional
+        First and last, from 1; None for all below the heading.
+    points : bool
+        Marks alone.
+    dashed : bool
+        The end of an interval.
     """
 
     name: str
@@ -33,7 +46,19 @@ class Line:
 
 @dataclass(frozen=True)
 class Plot:
-    """Lines over common axes; log_x, log_y: whether an axis is logarithmic."""
+    """Lines over common axes.
+
+    Parameters
+    ----------
+    title : str
+        Of the chart.
+    x, y : str
+        Titles of the axes.
+    lines : sequence of Line
+        What it shows.
+    log_x, log_y : bool
+        Whether an axis is logarithmic.
+    """
 
     title: str
     x: str
@@ -44,7 +69,15 @@ class Plot:
 
 
 def draw(book: Workbook, plots: Sequence[Plot]) -> None:
-    """A sheet with these charts, below each other; a line whose sheet or column is absent is left out."""
+    """Add a sheet with charts, below each other; a line whose sheet or column is absent is left out.
+
+    Parameters
+    ----------
+    book : Workbook
+        Is changed.
+    plots : sequence of Plot
+        The charts.
+    """
     sheet = book.create_sheet("Charts")
     for number, plot in enumerate(plots):
         chart = ScatterChart()
@@ -67,7 +100,15 @@ def draw(book: Workbook, plots: Sequence[Plot]) -> None:
 
 
 def fit_to_page(sheet: Worksheet, landscape: bool = False) -> None:
-    """Print all columns within the width of an A4 page."""
+    """Print all columns within the width of an A4 page.
+
+    Parameters
+    ----------
+    sheet : Worksheet
+        Is changed.
+    landscape : bool
+        Whether the page lies.
+    """
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     sheet.page_setup.paperSize = sheet.PAPERSIZE_A4
     sheet.page_setup.orientation = "landscape" if landscape else "portrait"
@@ -106,7 +147,24 @@ def _series(book: Workbook, line: Line, drawn: dict[str, str]) -> Series | None:
 
 
 def bands(name: str, sheet: str, x: str, columns: tuple[str, str, str]) -> list[Line]:
-    """An estimate and the ends of its 95 % interval, of three columns."""
+    """An estimate and the ends of its 95 % interval.
+
+    Parameters
+    ----------
+    name : str
+        Of the estimate.
+    sheet : str
+        Of the workbook.
+    x : str
+        Heading of the abscissa.
+    columns : tuple of str
+        Headings of value, lower and upper end.
+
+    Returns
+    -------
+    list of Line
+        Three lines.
+    """
     value, low, high = columns
     return [
         Line(name, sheet, x, value),

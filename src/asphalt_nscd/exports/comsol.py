@@ -11,7 +11,18 @@ from asphalt_nscd.rheology.shift import ZERO_CELSIUS
 
 
 def text(card: Card) -> str:
-    """The card as a table with a readme."""
+    """The card as a table with a readme.
+
+    Parameters
+    ----------
+    card : Card
+        Law as a Prony series.
+
+    Returns
+    -------
+    str
+        Lines that begin with % are the readme.
+    """
     series, nu, units = card.series, card.poisson, card.settings.units
     shear, bulk = 0.5 / (1.0 + nu), 1.0 / (3.0 * (1.0 - 2.0 * nu))
     stress = f"[{units.stress}]"

@@ -24,7 +24,29 @@ FORMATS = {
 
 
 def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Path) -> str:
-    """Write a law in one of FORMATS; a line that says what and how well."""
+    """Write a law for another program.
+
+    Parameters
+    ----------
+    law : ExportedLaw
+        Of a file.
+    settings : Settings
+        What the user chose.
+    form : str
+        One of FORMATS.
+    output : path
+        File to write.
+
+    Returns
+    -------
+    str
+        A line that says what was written, and how well it follows the law.
+
+    Raises
+    ------
+    InputError
+        For a law that the format cannot hold.
+    """
     output = Path(output)
     require_form(form, output)
     module = import_module(f"asphalt_nscd.exports.{FORMATS[form][0]}")
@@ -45,7 +67,20 @@ def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Pa
 
 
 def require_form(form: str, output: Path) -> None:
-    """Refuse an unknown format, and an output whose ending is not of the format."""
+    """Refuse an unknown format, and an output whose ending is not of the format.
+
+    Parameters
+    ----------
+    form : str
+        Asked for.
+    output : path
+        Asked for.
+
+    Raises
+    ------
+    InputError
+        Which names those that exist.
+    """
     if form == "vtk":
         raise InputError(
             f"format 'vtk' is for spheres and tests (HDF5); give a law one of {', '.join(FORMATS)}."

@@ -36,7 +36,17 @@ _SAID = ("temperature_C", "rms_log_residual")
 
 @dataclass(frozen=True)
 class Band:
-    """Tested temperatures [degC] and frequencies [Hz], one of each for every test; origin: who says so."""
+    """Tested temperatures and frequencies, one of each for every test.
+
+    Parameters
+    ----------
+    temperature : ndarray (n,)
+        [degC].
+    frequency : ndarray (n,)
+        [Hz].
+    origin : str
+        Who says so.
+    """
 
     temperature: Vector
     frequency: Vector
@@ -50,9 +60,36 @@ class Band:
 
 @dataclass(frozen=True)
 class ExportedLaw:
-    """A law and what its file says. shift is None for a law of one temperature.
+    """A law and what its file says.
 
-    temperature [degC]: the only one, or the reference temperature of the shift.
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    kind : str
+        "burgers", "kelvin_chain" or one of LAWS.
+    source : str
+        As the file has it.
+    law : Spectrum or Burgers or KelvinChain
+        In SI units.
+    temperature : float
+        The only one, or the reference temperature of the shift [degC].
+    shift : WLF or Arrhenius or None
+        None for a law of one temperature.
+    band : Band
+        In which it was tested.
+    parameters : dict of str to float
+        Under the keys of the file, which carry the units.
+    std_error : dict of str to float
+        Of some of them.
+    rms_log_residual : float or None
+        Of the fit to tests.
+    unseen : tuple of str
+        Parameters that the tests do not determine at all.
+    uncertainty : Uncertainty, optional
+        Where the file says it.
+    intervals : mapping
+        95 %, of parameters.
     """
 
     path: Path
@@ -62,12 +99,12 @@ class ExportedLaw:
     temperature: float
     shift: WLF | Arrhenius | None
     band: Band
-    parameters: dict[str, float]  # under the keys of the file, which carry the units
-    std_error: dict[str, float]  # of some of them
-    rms_log_residual: float | None  # of the fit to tests
-    unseen: tuple[str, ...] = ()  # parameters that the tests do not determine at all
-    uncertainty: Uncertainty | None = None  # where the file says it
-    intervals: Mapping[str, Sequence[float]] = field(default_factory=dict)  # 95 %, of parameters
+    parameters: dict[str, float]
+    std_error: dict[str, float]
+    rms_log_residual: float | None
+    unseen: tuple[str, ...] = ()
+    uncertainty: Uncertainty | None = None
+    intervals: Mapping[str, Sequence[float]] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -88,29 +125,79 @@ class ExportedLaw:
         return f"The tests hardly determine {', '.join(found)}: do not trust the law beyond them."
 
     def at_reference(self, omega: Vector) -> Complex:
-        """E* [Pa] at angular frequencies omega [rad/s] and `temperature`."""
+        """E* at `temperature`.
+
+        Parameters
+        ----------
+        omega : ndarray (n,)
+            Angular frequencies [rad/s].
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            [Pa].
+        """
         if self.shift is None:
             return self.law.complex_modulus(omega)  # type: ignore[call-arg]
         return self.law.complex_modulus(omega, self.temperature)  # type: ignore[call-arg]
 
     def factor(self, temperature: Vector) -> Vector:
-        """a_T at temperatures [degC]; 1 for a law of one temperature."""
+        """The shift factor.
+
+        Parameters
+        ----------
+        temperature : ndarray (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray (n,)
+            a_T; 1 for a law of one temperature.
+        """
         return np.ones_like(temperature) if self.shift is None else self.shift.factor(temperature)
 
     def defined(self, temperature: Vector) -> NDArray[np.bool_]:
-        """Whether the shift is defined at temperatures [degC]; a WLF shift ends C2 below its reference."""
+        """Whether the shift is defined; a WLF shift ends C2 below its reference.
+
+        Parameters
+        ----------
+        temperature : ndarray (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray of bool (n,)
+            True where it is.
+        """
         if not isinstance(self.shift, WLF):
             return np.full(temperature.shape, True)
         return temperature - self.shift.reference_temperature + self.shift.c2 > 0.0
 
     def half_widths(self, omega: Vector) -> Complex | None:
-        """Half of the 95 % intervals of ln|E*| and (imaginary) the phase [rad] at `temperature`, if the file tells."""
+        """Half of the 95 % intervals at `temperature`.
+
+        Parameters
+        ----------
+        omega : ndarray (n,)
+            Angular frequencies [rad/s].
+
+        Returns
+        -------
+        ndarray of complex (n,), or None
+            Of ln|E*| and, imaginary, of the phase [rad]; None where the file does not tell.
+        """
         if self.uncertainty is None or isinstance(self.law, Burgers | KelvinChain):
             return None
         return self.uncertainty.half(self.law, omega, np.full(omega.shape, self.temperature))
 
     def reduced_band(self) -> tuple[float, float]:
-        """Lowest and highest angular frequency [rad/s] of the tests, shifted to `temperature`."""
+        """The tested band, shifted to `temperature`.
+
+        Returns
+        -------
+        tuple of float
+            Lowest and highest angular frequency [rad/s].
+        """
         reduced = 2.0 * np.pi * self.band.frequency * self.factor(self.band.temperature)
         return float(reduced.min()), float(reduced.max())
 
@@ -144,8 +231,25 @@ def read_law_file(
 ) -> ExportedLaw:
     """Read a law of a study, of a diagnosis (or the folder of one), or of the extended simulation.
 
-    temperatures [degC], frequencies [Hz]: the tested ones, every pair. Where they are absent, those of
-    residuals.csv beside the law of a diagnosis, or the band of a Kelvin chain, or usual ones.
+    Parameters
+    ----------
+    path : path
+        JSON file, or folder of a diagnosis.
+    temperatures : tuple of float, optional
+        The tested ones [degC].
+    frequencies : tuple of float, optional
+        The tested ones [Hz]; every pair. Where they are absent, those of residuals.csv beside the law of a
+        diagnosis, or the band of a Kelvin chain, or usual ones.
+
+    Returns
+    -------
+    ExportedLaw
+        With the band.
+
+    Raises
+    ------
+    InputError
+        For what holds no law.
     """
     path = Path(path)
     if path.is_dir():
@@ -163,7 +267,29 @@ def law_of(
     temperatures: tuple[float, ...] | None = None,
     frequencies: tuple[float, ...] | None = None,
 ) -> ExportedLaw:
-    """The law in the content of a file, with the band as `read_law_file` takes it."""
+    """The law in the content of a file, with the band as `read_law_file` takes it.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    content : object
+        Of the file.
+    temperatures : tuple of float, optional
+        The tested ones [degC].
+    frequencies : tuple of float, optional
+        The tested ones [Hz].
+
+    Returns
+    -------
+    ExportedLaw
+        With the band.
+
+    Raises
+    ------
+    InputError
+        For what holds no law, or temperatures of a law of one.
+    """
     kind = content.get("law") if isinstance(content, dict) else None
     known = [*ONE_TEMPERATURE, *LAWS]
     if kind not in known:

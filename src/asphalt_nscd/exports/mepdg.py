@@ -30,10 +30,24 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Table:
-    """|E*| [psi] by temperature (rows) and frequency; outside: words on values beyond the tests.
+    """|E*| by temperature (rows) and frequency (columns).
 
-    sigmoid: delta, alpha, beta, gamma; error_percent: its largest error in |E*|; log_shift: log10 a_T
-    of the temperatures, from 70 degF.
+    Parameters
+    ----------
+    law : ExportedLaw
+        Which it is of.
+    modulus : ndarray (t, f)
+        [psi].
+    outside : list of list of str
+        Words on values beyond the tests.
+    sigmoid : tuple of float
+        delta, alpha, beta, gamma.
+    error_percent : float
+        Largest error of the sigmoid in |E*| [%].
+    log_shift : ndarray (t,)
+        log10 a_T of the temperatures, from 70 degF.
+    spread : ndarray (t, f), or None
+        Factor of the 95 % interval of each modulus, to either side; None where none is known.
     """
 
     law: ExportedLaw
@@ -42,19 +56,46 @@ class Table:
     sigmoid: tuple[float, float, float, float]
     error_percent: float
     log_shift: Vector
-    spread: (
-        Vector | None
-    )  # factor of the 95 % interval of each modulus, to either side; None where none is known
+    spread: Vector | None
 
 
 def sigmoid(parameters: Vector, log_time: Vector) -> Vector:
-    """log10 |E*| at log10 of reduced time [s]."""
+    """log10 |E*| of the sigmoid.
+
+    Parameters
+    ----------
+    parameters : ndarray (4,)
+        delta, alpha, beta, gamma.
+    log_time : ndarray
+        log10 of reduced time [s].
+
+    Returns
+    -------
+    ndarray
+        Of the shape of log_time.
+    """
     delta, alpha, beta, gamma = parameters
     return delta + alpha / (1.0 + np.exp(beta + gamma * log_time))
 
 
 def make_table(law: ExportedLaw) -> Table:
-    """The table of a law of all temperatures."""
+    """The table of a law of all temperatures.
+
+    Parameters
+    ----------
+    law : ExportedLaw
+        Of a file.
+
+    Returns
+    -------
+    Table
+        Values of the law, and the sigmoid nearest to them.
+
+    Raises
+    ------
+    InputError
+        For a law of one temperature, or one whose shift is not defined at 70 degF.
+    """
     if law.shift is None:
         raise InputError(
             f"{law.path}: a law of one temperature, {law.temperature:g} degC, but this table has five; "
@@ -111,7 +152,18 @@ def _outside_temperature(celsius: float, coldest: float, warmest: float) -> str:
 
 
 def said(table: Table) -> str:
-    """One line on the table."""
+    """One line on the table.
+
+    Parameters
+    ----------
+    table : Table
+        Of `make_table`.
+
+    Returns
+    -------
+    str
+        How many values are extrapolated, and how well the sigmoid follows.
+    """
     beyond = sum(bool(cell) for row in table.outside for cell in row)
     return (
         f"30 values of |E*| in psi, {beyond} of them extrapolated beyond {table.law.band}; "
@@ -120,7 +172,18 @@ def said(table: Table) -> str:
 
 
 def text(table: Table) -> str:
-    """The table as CSV; lines that begin with # are comment."""
+    """The table as CSV.
+
+    Parameters
+    ----------
+    table : Table
+        Of `make_table`.
+
+    Returns
+    -------
+    str
+        Lines that begin with # are comment.
+    """
     law = table.law
     delta, alpha, beta, gamma = table.sigmoid
     statements = [

@@ -8,7 +8,19 @@ from asphalt_nscd.exports.card import Card
 
 
 def frame(card: Card) -> pd.DataFrame:
-    """One row a branch; row 0 is the long-term modulus, whose relaxation time is infinite. half_95: of the interval."""
+    """The series as a table.
+
+    Parameters
+    ----------
+    card : Card
+        Law as a Prony series.
+
+    Returns
+    -------
+    DataFrame
+        One row a branch; row 0 is the long-term modulus, whose relaxation time is infinite. half_95: of the
+        interval.
+    """
     series, units = card.series, card.settings.units
     moduli, half = [series.long_term, *series.moduli], card.half_widths
     known = {} if half is None else {f"half_95_{units.stress}": [units.of(one) for one in half]}
@@ -24,6 +36,17 @@ def frame(card: Card) -> pd.DataFrame:
 
 
 def text(card: Card) -> str:
-    """The table as CSV; lines that begin with # are comment."""
+    """The table as CSV.
+
+    Parameters
+    ----------
+    card : Card
+        Law as a Prony series.
+
+    Returns
+    -------
+    str
+        Lines that begin with # are comment.
+    """
     table = frame(card).to_csv(index=False, float_format="%.10g", lineterminator="\n")
     return "\n".join(card.comment("#")) + "\n" + table

@@ -51,7 +51,15 @@ HEADINGS = {
 
 
 def write(card: Card, path: Path) -> None:
-    """Write the workbook of a card, with what stands beside its law in the folder of a diagnosis."""
+    """Write the workbook of a card, with what stands beside its law in the folder of a diagnosis.
+
+    Parameters
+    ----------
+    card : Card
+        Law as a Prony series.
+    path : path
+        File to write.
+    """
     book = Workbook()
     book.remove(book.worksheets[0])
     _fill(book, "Read me", pd.DataFrame({"what this is": card.statements()}))
@@ -90,7 +98,17 @@ def _plots_of(card: Card) -> list[charts.Plot]:
 
 
 def write_sheets(path: Path, sheets: Mapping[str, pd.DataFrame], plots: Sequence[charts.Plot] = ()) -> None:
-    """Write tables into the sheets of one workbook, equal whenever it is written, with charts of them."""
+    """Write tables into the sheets of one workbook, equal whenever it is written.
+
+    Parameters
+    ----------
+    path : path
+        File to write.
+    sheets : mapping of str to DataFrame
+        By the name of the sheet.
+    plots : sequence of charts.Plot
+        Charts of them.
+    """
     book = Workbook()
     book.remove(book.worksheets[0])
     for title, frame in sheets.items():
@@ -102,7 +120,18 @@ def write_sheets(path: Path, sheets: Mapping[str, pd.DataFrame], plots: Sequence
 
 
 def corrected_workbook(folder: Path) -> Path:
-    """Write corrected.xlsx from what a diagnosis left in a folder: tests, what was left out, the mix, its law."""
+    """Write corrected.xlsx from what a diagnosis left in a folder: tests, what was left out, the mix, its law.
+
+    Parameters
+    ----------
+    folder : path
+        Of the diagnosis.
+
+    Returns
+    -------
+    path
+        The file.
+    """
     tests = pd.read_csv(folder / "corrected.csv", dtype={"specimen": str})
     used = tests["status"] == "used"
     sheets = {
@@ -159,7 +188,20 @@ def _plots_of_mix(tests: pd.DataFrame) -> list[charts.Plot]:
 
 
 def plots_of_mixes(curves: pd.DataFrame, sheet: str) -> list[charts.Plot]:
-    """|E*| and phase of each mix over frequency, of a sheet in which the rows of a mix stand together."""
+    """|E*| and phase of each mix over frequency.
+
+    Parameters
+    ----------
+    curves : DataFrame
+        Rows of a mix stand together.
+    sheet : str
+        In which they stand.
+
+    Returns
+    -------
+    list of charts.Plot
+        Two charts.
+    """
     rows = (
         pd.Series(range(2, len(curves) + 2)).groupby(curves["mix"].to_numpy(), sort=False).agg(["min", "max"])
     )

@@ -13,13 +13,28 @@ KEYS = ["temperature_C", "frequency_Hz"]
 def mean_relative_error(
     measured: pd.DataFrame, simulated: pd.DataFrame, least_phase_deg: float = 0.0
 ) -> pd.DataFrame:
-    """Mean relative error of |E*| and phase for each temperature, in percent (Table 4).
+    """Mean relative error of |E*| and phase for each temperature (Table 4).
 
-    Both tables have the columns temperature_C, frequency_Hz, E_MPa, phase_deg. As in the paper, the
-    average over specimens is compared with the average over samples, point by point, relative to
-    the measurement; the mean is over the frequencies that were simulated. A measured phase below least_phase_deg,
-    of an elastic reference beam say, is nothing to divide by: the error is relative to least_phase_deg there.
-    Returns temperature_C, mre_E_percent, mre_phase_percent.
+    As in the paper, the average over specimens is compared with the average over samples, point by point,
+    relative to the measurement; the mean is over the frequencies that were simulated.
+
+    Parameters
+    ----------
+    measured, simulated : DataFrame
+        Columns temperature_C, frequency_Hz, E_MPa, phase_deg.
+    least_phase_deg : float
+        A measured phase below it, of an elastic reference beam say, is nothing to divide by: the error is
+        relative to least_phase_deg there.
+
+    Returns
+    -------
+    DataFrame
+        temperature_C, mre_E_percent, mre_phase_percent.
+
+    Raises
+    ------
+    InputError
+        For no simulation, or none measured at its point.
     """
     columns = ["E_MPa", "phase_deg"]
     experiment = measured.groupby(KEYS)[columns].mean()

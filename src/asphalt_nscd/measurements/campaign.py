@@ -22,8 +22,18 @@ OFF_TARGET = 0.5  # K that T 378 lets the mean temperature of a test stray from 
 class Campaign:
     """Tests of a campaign in our columns, the files they came from, and sentences on how they were read.
 
-    test_type: one of TEST_TYPES, or UNKNOWN. without_tests: a sentence for each folder some of whose files hold no
-    test.
+    Parameters
+    ----------
+    table : Table
+        Tests.
+    files : tuple of path
+        Where they came from.
+    test_type : str
+        One of TEST_TYPES, or UNKNOWN.
+    notes : tuple of str
+        How they were read.
+    without_tests : tuple of str
+        A sentence for each folder some of whose files hold no test.
     """
 
     table: Table
@@ -34,13 +44,23 @@ class Campaign:
 
 
 def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> NDArray[np.float64]:
-    """Nominal temperature (n,) [degC] of the isotherm that each measured temperature (n,) [degC] belongs to.
+    """Isotherm that each measured temperature belongs to.
 
     Neighbouring temperatures at most READINGS_APART apart belong together, unless the isotherm then grew
-    wider than WIDEST_ISOTHERM or held one test twice: whoever tested a specimen at 20 and at 20.5 degC at
-    the same frequency meant two isotherms. Such temperatures stay as they are. tests (n): what is the same
-    in two rows that repeat each other, specimen and frequency. The nominal temperature is the mean of
-    the isotherm's readings to 0.1 K.
+    wider than WIDEST_ISOTHERM or held one test twice: whoever tested a specimen at 20 and at 20.5 degC at the
+    same frequency meant two isotherms. Such temperatures stay as they are.
+
+    Parameters
+    ----------
+    temperature : ndarray (n,)
+        As measured [degC].
+    tests : sequence (n,)
+        What is the same in two rows that repeat each other, specimen and frequency.
+
+    Returns
+    -------
+    ndarray
+        (n,) Nominal temperature [degC]: the mean of the isotherm's readings to 0.1 K.
     """
     values = np.unique(temperature)
     # Readings have a tenth of a degree: 20.0 and 20.5 are 0.5 apart whatever the last bit says.
@@ -55,10 +75,22 @@ def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> ND
 
 
 def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Isotherm (n,) [degC] of each row of a table: its target where the table gives one, else by `isotherms`.
+    """Isotherm of each row of a table: its target where the table gives one, else by `isotherms`.
 
-    A row without a target belongs to that within READINGS_APART of it. Targets of two operators that were held at
-    one temperature are one (`_one_target`). temperature (n,): as measured [degC].
+    A row without a target belongs to that within READINGS_APART of it. Targets of two operators that were
+    held at one temperature are one (`_one_target`).
+
+    Parameters
+    ----------
+    table : Table
+        Tests.
+    temperature : ndarray (n,)
+        As measured [degC].
+
+    Returns
+    -------
+    ndarray
+        (n,) Nominal temperature [degC].
     """
     names = ("specimen", "replicate", "frequency_Hz", "amplitude_m", "order", "cycles")
     tests = list(zip(*(table.columns[name] for name in names if name in table.columns), strict=True))
@@ -98,7 +130,20 @@ def _one_target(
 
 
 def isotherm_notes(temperature: NDArray[np.float64], nominal: NDArray[np.float64]) -> list[str]:
-    """Sentences on the isotherms that hold more than one temperature, and on tests off their target."""
+    """What a reader must know of the isotherms.
+
+    Parameters
+    ----------
+    temperature : ndarray (n,)
+        As measured [degC].
+    nominal : ndarray (n,)
+        Of the isotherms [degC].
+
+    Returns
+    -------
+    list of str
+        Sentences on those that hold more than one temperature, and on tests off their target.
+    """
     notes = []
     changed = np.unique(nominal[np.abs(temperature - nominal) > 1e-9])
     if changed.size:

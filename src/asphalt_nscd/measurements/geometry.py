@@ -24,23 +24,59 @@ LIMITS = Geometry.limits  # of those measured in bending, which alone are reduce
 
 
 def shape_of(attributes: Mapping[str, Any]) -> Shape:
-    """What `Shape.attributes` said of it; in older files a trapezoid."""
+    """What `Shape.attributes` said of a geometry; in older files a trapezoid.
+
+    Parameters
+    ----------
+    attributes : mapping
+        Of a file.
+
+    Returns
+    -------
+    Shape
+        The geometry.
+    """
     shape = SHAPES[attributes.get("geometry", Geometry.test)]
     return shape(**{field.name: attributes[field.name] for field in fields(shape)})  # type: ignore[arg-type]
 
 
 def test_of(mapping: Mapping[str, Any]) -> str:
-    """The test whose specimen has the keys of a mapping: that whose first key it has, else two-point bending."""
+    """The test whose specimen has the keys of a mapping.
+
+    Parameters
+    ----------
+    mapping : mapping
+        Of mm and kg.
+
+    Returns
+    -------
+    str
+        That whose first key it has, else two-point bending.
+    """
     return next(
         (test for test, shape in SHAPES.items() if next(iter(shape.limits)) in mapping), Geometry.test
     )
 
 
 def read_shape(source: str | Path | Mapping[str, Any]) -> Shape:
-    """The specimen to simulate: a mapping of the keys of one of SHAPES, or the path of a JSON file with it.
+    """The specimen to simulate.
 
-    The keys say which: d_mm is of a cylinder in tension-compression, L_mm of a prism in four-point bending, b_mm of a
-    trapezoid in two-point bending.
+    Parameters
+    ----------
+    source : path or mapping
+        Mapping of the keys of one of SHAPES, or a JSON file with it. The keys say which: d_mm is of a
+        cylinder in tension-compression, L_mm of a prism in four-point bending, b_mm of a trapezoid in
+        two-point bending.
+
+    Returns
+    -------
+    Shape
+        The geometry.
+
+    Raises
+    ------
+    InputError
+        For keys that are missing, or values out of their limits.
     """
     if isinstance(source, Mapping):
         return _from_mapping(source, "geometry")
@@ -52,8 +88,23 @@ def read_shape(source: str | Path | Mapping[str, Any]) -> Shape:
 def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[str]) -> dict[str, Geometry]:
     """Geometry of each named specimen.
 
-    source: path of a CSV table (`specimen` and the keys of LIMITS), or a mapping of these keys that
-    holds for all specimens, or the path of a JSON file with such a mapping.
+    Parameters
+    ----------
+    source : path or mapping
+        CSV table (`specimen` and the keys of LIMITS), or a mapping of these keys that holds for all
+        specimens, or a JSON file with such a mapping.
+    specimens : iterable of str
+        Their names.
+
+    Returns
+    -------
+    dict of str to Geometry
+        By name.
+
+    Raises
+    ------
+    InputError
+        For a specimen that the table lacks, or values out of their limits.
     """
     specimens = list(dict.fromkeys(specimens))
     if isinstance(source, Mapping):
@@ -71,7 +122,20 @@ def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[st
 
 
 def require_within(shape: Shape, box: Sequence[float]) -> None:
-    """Refuse a specimen that a layer in the box (length, width, height) [m] cannot hold in full."""
+    """Refuse a specimen that a layer in the box cannot hold in full.
+
+    Parameters
+    ----------
+    shape : Shape
+        Geometry of the specimen.
+    box : sequence of float
+        Length, width and height [m].
+
+    Raises
+    ------
+    InputError
+        Which says in which direction.
+    """
     for wanted, extent, direction, size in (
         (shape.h, "high", "long", box[0]),
         (shape.thickness, "thick", "wide", box[1]),
@@ -85,7 +149,20 @@ def require_within(shape: Shape, box: Sequence[float]) -> None:
 
 
 def require_joined(shape: Shape, area: str) -> None:
-    """Refuse bonds by an area, other than facets, that do not join a specimen to all of its plates."""
+    """Refuse bonds by an area, other than facets, that do not join a specimen to all of its plates.
+
+    Parameters
+    ----------
+    shape : Shape
+        Geometry of the specimen.
+    area : str
+        One of `specimen.network.AREAS`.
+
+    Raises
+    ------
+    InputError
+        For clamps between the ends.
+    """
     if area != "facets" and len(shape.plates) > 2:
         raise InputError(
             f"{shape.test} clamps the specimen between its ends, where bonds by area {area!r} do not join it; give "

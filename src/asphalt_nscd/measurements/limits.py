@@ -30,6 +30,19 @@ _KELVIN_PER_DECADE = 9.0  # of frequency, a usual shift about room temperature
 
 
 def least_modulus(temperature: ArrayLike, frequency: ArrayLike) -> NDArray[np.float64]:
-    """Norm of E* [MPa] below which no asphalt falls at temperature [degC] and frequency [Hz]."""
+    """Norm of E* below which no asphalt falls.
+
+    Parameters
+    ----------
+    temperature : array_like
+        [degC].
+    frequency : array_like
+        [Hz], broadcast with temperature.
+
+    Returns
+    -------
+    ndarray
+        [MPa].
+    """
     at_one_hertz = np.asarray(temperature) - _KELVIN_PER_DECADE * np.log10(frequency)
     return np.exp(np.interp(at_one_hertz, list(_SOFTEST), np.log(list(_SOFTEST.values()))))

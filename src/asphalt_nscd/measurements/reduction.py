@@ -54,9 +54,27 @@ def reduce_table(
 ) -> pd.DataFrame:
     """Read a measurement table of any form, reduce it by Eqs. (1)-(5), write the reduced table.
 
-    measurements: CSV with `specimen, temperature_C, frequency_Hz`, optionally `origin`, and one of
-    FORMS; paths of records are relative to the table. geometry: see `read_geometry`; not looked at
-    for ready moduli. cycles: window for records, None for the last ten seconds.
+    Parameters
+    ----------
+    measurements : path
+        CSV with `specimen, temperature_C, frequency_Hz`, optionally `origin`, and one of FORMS; paths of
+        records are relative to the table.
+    geometry : path or mapping
+        See `read_geometry`; not looked at for ready moduli.
+    output : path
+        CSV file to write.
+    cycles : int, optional
+        Window for records, None for the last ten seconds.
+
+    Returns
+    -------
+    DataFrame
+        The reduced table.
+
+    Raises
+    ------
+    InputError
+        Which names file, row and mend.
     """
     frame = reduced_frame(read_csv(measurements), geometry, cycles=cycles)
     frame = frame.reindex(columns=REDUCED_COLUMNS)
@@ -73,7 +91,26 @@ def reduced_frame(
 ) -> pd.DataFrame:
     """The rows of a measurement table with E_MPa and phase_deg, as `reduce_table` describes them.
 
-    tests: columns which, with the specimen, tell one test from another.
+    Parameters
+    ----------
+    table : Table
+        Of any form.
+    geometry : path or mapping
+        See `read_geometry`; not looked at for ready moduli.
+    cycles : int, optional
+        Window for records, None for the last ten seconds.
+    tests : sequence of str
+        Columns which, with the specimen, tell one test from another.
+
+    Returns
+    -------
+    DataFrame
+        The reduced table.
+
+    Raises
+    ------
+    InputError
+        Which names file, row and mend.
     """
     frame, form = _tests(table, tests)
     if form == "moduli":
@@ -97,7 +134,20 @@ def reduced_frame(
 
 
 def require_enough(tests: int, frequencies: int) -> None:
-    """Refuse what is too little for a diagnosis; frequencies: how many different ones."""
+    """Refuse what is too little for a diagnosis.
+
+    Parameters
+    ----------
+    tests : int
+        How many.
+    frequencies : int
+        How many different ones.
+
+    Raises
+    ------
+    InputError
+        Which says how many are needed.
+    """
     if tests < LEAST_TESTS or frequencies < LEAST_FREQUENCIES:
         raise InputError(
             f"{counted(tests, 'test')} at {frequencies} {'frequency' if frequencies == 1 else 'frequencies'} are too "
@@ -106,7 +156,20 @@ def require_enough(tests: int, frequencies: int) -> None:
 
 
 def tests_measured(measurements: str | Path) -> tuple[pd.DataFrame, str]:
-    """Specimen, temperature, frequency and origin of each row of a table of any form, and which form."""
+    """Which tests a table of any form holds.
+
+    Parameters
+    ----------
+    measurements : path
+        CSV file.
+
+    Returns
+    -------
+    DataFrame
+        Specimen, temperature, frequency and origin of each row.
+    str
+        Which form.
+    """
     return _tests(read_csv(measurements), KEYS)
 
 
@@ -117,7 +180,23 @@ def _tests(table: Table, tests: Sequence[str]) -> tuple[pd.DataFrame, str]:
 
 
 def read_reduced(path: str | Path) -> pd.DataFrame:
-    """Read a reduced table; specimen ids are strings, absent values NaN."""
+    """Read a reduced table.
+
+    Parameters
+    ----------
+    path : path
+        CSV file.
+
+    Returns
+    -------
+    DataFrame
+        Specimen ids are strings, absent values NaN.
+
+    Raises
+    ------
+    InputError
+        Which names row and mend.
+    """
     table = read_csv(path)
     frame = _read_keys(table)
     table.require(FORMS["moduli"])

@@ -20,7 +20,18 @@ Vector = NDArray[np.float64]
 
 
 def wrong_sign(table: pd.DataFrame) -> tuple[int, str] | None:
-    """Row (from 0) of the first phase whose sign is wrong, and a sentence with the mend."""
+    """The first phase whose sign is wrong.
+
+    Parameters
+    ----------
+    table : DataFrame
+        specimen, temperature_C (of the isotherm), frequency_Hz, E_MPa, phase_deg.
+
+    Returns
+    -------
+    tuple or None (int, str) or None
+        Its row, from 0, and a sentence with the mend.
+    """
     rows = table.assign(row=np.arange(len(table))).sort_values("frequency_Hz")
     for (specimen, temperature), tests in rows.groupby(["specimen", "temperature_C"]):
         frequency, phase = tests["frequency_Hz"].to_numpy(float), tests["phase_deg"].to_numpy(float)

@@ -26,8 +26,20 @@ HEAD_SHARE_OF_MASS = 0.135  # part of the specimen's mass that moves with the he
 class Geometry(Shape):
     """Trapezoidal specimen, Fig. 1a.
 
-    b: width of the head [m]; B: width of the foot [m]; e: thickness [m]; h: height [m];
-    mass: specimen [kg]; mobile_mass: equipment that moves with the head [kg].
+    Parameters
+    ----------
+    b : float
+        Width of the head [m].
+    B : float
+        Width of the foot [m].
+    e : float
+        Thickness [m].
+    h : float
+        Height [m].
+    mass : float
+        Of the specimen [kg].
+    mobile_mass : float
+        Of the equipment that moves with the head [kg].
     """
 
     b: float
@@ -89,13 +101,34 @@ class Geometry(Shape):
         return mass_factor(self)
 
     def counted_share(self, poisson: float) -> float:
-        """Bending, without shear."""
+        """Bending, without shear.
+
+        Parameters
+        ----------
+        poisson : float
+            Of the specimen.
+
+        Returns
+        -------
+        float
+            Share of the static displacement.
+        """
         return bending_share(self, poisson)
 
     def line(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Elastic line of the cantilever under a force at its free head; x [m] rises from 0 to h.
+        """Elastic line of the cantilever under a force at its free head.
 
         w'' ~ (h - x) / width(x)^3, the bending theory behind Eq. (3), integrated by the trapezoidal rule.
+
+        Parameters
+        ----------
+        x : ndarray (n,)
+            Heights [m], which rise from 0 to h.
+
+        Returns
+        -------
+        ndarray
+            (n,) 1 at the head.
         """
         curvature = (self.h - x) / (self.B - (self.B - self.b) * x / self.h) ** 3
         step = np.diff(x)
@@ -113,12 +146,24 @@ PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
 
 
 def form_factor(geometry: Geometry) -> float:
-    """Form factor gamma [1/m], Eq. (3).
+    """Form factor gamma, Eq. (3).
 
-    With x = 1 - b/B, Eq. (3) reads gamma = 12 h^3 / (e B^3) (-ln(1-x) - x - x^2/2) / x^3. The
-    quotient tends to 1/3 as b -> B (a prismatic cantilever: 4 h^3 / (e B^3)); near that limit it
-    is summed as the series 1/3 + x/4 + x^2/5 + ..., because the closed form cancels.
+    With x = 1 - b/B, Eq. (3) reads gamma = 12 h^3 / (e B^3) (-ln(1-x) - x - x^2/2) / x^3. The quotient tends
+    to 1/3 as b -> B (a prismatic cantilever: 4 h^3 / (e B^3)); near that limit it is summed as the series 1/3
+    + x/4 + x^2/5 + ..., because the closed form cancels.
 
+    Parameters
+    ----------
+    geometry : Geometry
+        Trapezoid.
+
+    Returns
+    -------
+    float
+        [1/m].
+
+    Examples
+    --------
     >>> round(form_factor(PAPER), 1)  # the paper prints 25.1 1/mm
     25095.8
     """
@@ -133,9 +178,23 @@ def form_factor(geometry: Geometry) -> float:
 def bending_share(geometry: Geometry, poisson: float) -> float:
     """Part of the static deflection of a Timoshenko beam that is bending, the only part that Eq. (3) counts.
 
-    A beam of modulus E and Poisson's ratio `poisson` has E times this by Eqs. (1)-(3). Shear: integral of F / (k G A)
-    over the height, G = E / (2 (1 + nu)), k = 10 (1 + nu) / (12 + 11 nu) of a rectangle (Cowper 1966).
+    A beam has its modulus E times this by Eqs. (1)-(3). Shear: integral of F / (k G A) over the height, G = E
+    / (2 (1 + nu)), k = 10 (1 + nu) / (12 + 11 nu) of a rectangle (Cowper 1966).
 
+    Parameters
+    ----------
+    geometry : Geometry
+        Trapezoid.
+    poisson : float
+        nu.
+
+    Returns
+    -------
+    float
+        0 to 1.
+
+    Examples
+    --------
     >>> round(bending_share(PAPER, 0.35), 3)
     0.968
     """
@@ -147,8 +206,20 @@ def bending_share(geometry: Geometry, poisson: float) -> float:
 
 
 def mass_factor(geometry: Geometry) -> float:
-    """Mass factor mu = 0.135 M + m [kg].
+    """Mass factor mu = 0.135 M + m.
 
+    Parameters
+    ----------
+    geometry : Geometry
+        Trapezoid.
+
+    Returns
+    -------
+    float
+        [kg].
+
+    Examples
+    --------
     >>> round(mass_factor(PAPER), 3)
     0.316
     """
@@ -162,11 +233,28 @@ def complex_modulus(
     displacement_amplitude: ArrayLike,
     phase: ArrayLike,
 ) -> NDArray[np.complex128]:
-    """Complex modulus E* = E1 + i E2 [Pa] from peak values, Eqs. (1)-(2).
+    """Complex modulus E* = E1 + i E2 from peak values, Eqs. (1)-(2).
 
-    frequency [Hz], force_amplitude F0 [N], displacement_amplitude z0 [m], phase Psi [rad];
-    scalars or arrays of one shape.
+    Parameters
+    ----------
+    geometry : Geometry
+        Trapezoid.
+    frequency : array_like
+        [Hz].
+    force_amplitude : array_like
+        F0 [N].
+    displacement_amplitude : array_like
+        z0 [m].
+    phase : array_like
+        Psi [rad]. All are scalars or arrays of one shape.
 
+    Returns
+    -------
+    ndarray of complex
+        [Pa], of that shape.
+
+    Examples
+    --------
     >>> modulus = complex_modulus(PAPER, 10.0, force_amplitude=24.0, displacement_amplitude=63e-6, phase=0.3)
     >>> print(f"{modulus / 1e9:.3f} GPa")
     9.165+2.825j GPa
@@ -177,10 +265,28 @@ def complex_modulus(
 def head_response(
     geometry: Geometry, frequency: ArrayLike, modulus: ArrayLike, displacement_amplitude: ArrayLike
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Force amplitude F0 [N] and phase Psi [rad] at the head: the exact inverse of Eqs. (1)-(2).
+    """Force and phase at the head: the exact inverse of Eqs. (1)-(2).
 
-    frequency [Hz], modulus E* [Pa], displacement_amplitude z0 [m]; scalars or arrays of one shape.
+    Parameters
+    ----------
+    geometry : Geometry
+        Trapezoid.
+    frequency : array_like
+        [Hz].
+    modulus : array_like
+        E* [Pa].
+    displacement_amplitude : array_like
+        z0 [m]. All are scalars or arrays of one shape.
 
+    Returns
+    -------
+    ndarray
+        Force amplitude F0 [N].
+    ndarray
+        Phase Psi [rad].
+
+    Examples
+    --------
     >>> force, phase = head_response(PAPER, frequency=10.0, modulus=10e9, displacement_amplitude=63e-6)
     >>> print(f"{force:.2f} N, {phase:.1f} rad")
     25.03 N, 0.0 rad
@@ -191,11 +297,25 @@ def head_response(
 
 
 def norm_and_phase(modulus: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Norm [Pa] and phase [rad] of E*, Eqs. (4)-(5).
+    """Norm and phase of E*, Eqs. (4)-(5).
 
-    Eq. (5) prints arctan(E2/E1); the angle in (-pi, pi] agrees with it where E1 > 0 and does not
-    hide a negative E1.
+    Eq. (5) prints arctan(E2/E1); the angle in (-pi, pi] agrees with it where E1 > 0 and does not hide a
+    negative E1.
 
+    Parameters
+    ----------
+    modulus : array_like
+        E* [Pa].
+
+    Returns
+    -------
+    ndarray
+        Norm [Pa].
+    ndarray
+        Phase [rad].
+
+    Examples
+    --------
     >>> norm, phase = norm_and_phase(3e9 + 4e9j)
     >>> print(f"{norm / 1e9:.0f} GPa, {phase:.4f} rad")
     5 GPa, 0.9273 rad

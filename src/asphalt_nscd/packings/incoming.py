@@ -24,17 +24,47 @@ UP = ("x", "y", "z")
 
 @dataclass(frozen=True)
 class Overlaps:
-    """Pairs that touch (p, 2), and the largest overlap [m], between which spheres, over the smaller radius."""
+    """What touches and overlaps among spheres.
+
+    Parameters
+    ----------
+    touching : ndarray of int (p, 2)
+        Pairs that touch.
+    largest : float
+        Overlap [m].
+    pair : tuple of int
+        Spheres of the largest overlap, from 1.
+    share : float
+        The largest overlap over the smaller radius.
+    count : int
+        Of pairs that overlap by more than NOTABLE.
+    """
 
     touching: NDArray[np.int64]
     largest: float
     pair: tuple[int, int]
     share: float
-    count: int  # of pairs that overlap by more than NOTABLE
+    count: int
 
 
 def read_packing(path: str | Path) -> Spheres:
-    """Spheres of a file: CSV, text of YADE, dump of LIGGGHTS or LAMMPS, VTK."""
+    """Spheres of a file: CSV, text of YADE, dump of LIGGGHTS or LAMMPS, VTK.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+
+    Returns
+    -------
+    Spheres
+        In the unit of the file.
+
+    Raises
+    ------
+    InputError
+        For what is no packing.
+    """
     path = Path(path)
     if path.is_dir():
         raise InputError(f"{path}: a folder; give the file that holds the spheres.")
@@ -46,10 +76,29 @@ def read_packing(path: str | Path) -> Spheres:
 
 
 def as_deposit(spheres: Spheres, unit: str | None = None, up: str = "z") -> tuple[Content, list[str]]:
-    """Arrays and attributes of a deposit file, and sentences on what was read.
+    """A packing as a deposit. The longer horizontal side becomes x, the length of the box; the box is as large
+    as the spheres are.
 
-    unit: of lengths, where the file does not say it. up: the axis against gravity. The longer horizontal side becomes
-    x, the length of the box; the box is as large as the spheres are.
+    Parameters
+    ----------
+    spheres : Spheres
+        Of a file.
+    unit : str, optional
+        Of lengths, where the file does not say it.
+    up : str
+        The axis against gravity.
+
+    Returns
+    -------
+    tuple of dict
+        Arrays and attributes of a deposit file.
+    list of str
+        Sentences on what was read.
+
+    Raises
+    ------
+    InputError
+        For an axis that is none, one sphere alone, or radii that are not those of aggregate.
     """
     if up not in UP:
         raise InputError(f"up {up!r} is no axis; give one of {', '.join(UP)}.")
@@ -94,7 +143,20 @@ def as_deposit(spheres: Spheres, unit: str | None = None, up: str = "z") -> tupl
 
 
 def overlaps(position: NDArray[np.float64], radius: NDArray[np.float64]) -> Overlaps:
-    """What touches and overlaps among spheres, position (n, 3) and radius (n,) [m]."""
+    """What touches and overlaps among spheres.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        [m].
+
+    Returns
+    -------
+    Overlaps
+        Pairs, and the largest overlap.
+    """
     none = np.empty((0, 3))
     start, other = find_pairs(position, radius, none, none, TOUCHING)
     first = np.repeat(np.arange(radius.size), np.diff(start))

@@ -19,7 +19,21 @@ MOST = 10_000_000
 
 @dataclass(frozen=True)
 class Spheres:
-    """position (n, 3), radius (n,) in `unit`; None where the file does not say it. notes: how it was read."""
+    """Spheres as a file gives them.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    position : ndarray (n, 3)
+        In `unit`.
+    radius : ndarray (n,)
+        In `unit`.
+    unit : str, optional
+        None where the file does not say it.
+    notes : list of str
+        How it was read.
+    """
 
     path: Path
     position: NDArray[np.float64]
@@ -43,7 +57,25 @@ class Spheres:
                 )
 
     def in_metres(self, stated: str | None) -> tuple[Spheres, str]:
-        """The same in m, and a sentence on the unit: the stated one, that of the file, or the one that fits."""
+        """The same in m.
+
+        Parameters
+        ----------
+        stated : str or None
+            The unit, if the user says it; else that of the file, or the one that fits.
+
+        Returns
+        -------
+        Spheres
+            In m.
+        str
+            A sentence on the unit.
+
+        Raises
+        ------
+        InputError
+            For a unit against that of the file, or radii that are not those of aggregate.
+        """
         if stated is not None and self.unit is not None and stated != self.unit:
             raise InputError(f"{self.path}: its columns are in {self.unit}; leave out --unit {stated}.")
         unit = stated or self.unit

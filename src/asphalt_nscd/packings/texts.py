@@ -19,7 +19,23 @@ _UNITS = "|".join(UNITS)
 
 
 def read_text(path: Path) -> Spheres:
-    """Spheres of a text file, whichever of the forms it has."""
+    """Spheres of a text file, whichever of the forms it has.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+
+    Returns
+    -------
+    Spheres
+        In the unit of the file.
+
+    Raises
+    ------
+    InputError
+        For what is empty or no text of spheres.
+    """
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:

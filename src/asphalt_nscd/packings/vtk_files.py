@@ -19,7 +19,23 @@ RADII = {"radius": 1.0, "radii": 1.0, "r": 1.0, "radius_m": 1.0, "diameter": 0.5
 
 
 def read_points(path: Path) -> Spheres:
-    """Points with an array of radii or diameters."""
+    """Points of VTK with an array of radii or diameters.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+
+    Returns
+    -------
+    Spheres
+        In the unit of the file.
+
+    Raises
+    ------
+    InputError
+        For no points, no such array, or where VTK is not installed.
+    """
     vtk = require_vtk()
     kinds = {
         ".vtp": vtk.vtkXMLPolyDataReader,
@@ -62,7 +78,26 @@ def write_poly_data(
     lines: NDArray[np.int64] | None = None,
     of_lines: Mapping[str, NDArray[Any]] | None = None,
 ) -> None:
-    """Points (n, 3) with arrays (n,), or lines between them (l, 2) with arrays (l,), as .vtp."""
+    """Write points, or lines between them, as .vtp.
+
+    Parameters
+    ----------
+    path : path
+        File to write.
+    position : ndarray (n, 3)
+        [m].
+    of_points : mapping of str to ndarray (n,)
+        Arrays of the points, by name.
+    lines : ndarray of int (l, 2), optional
+        Points that each line joins.
+    of_lines : mapping of str to ndarray (l,), optional
+        Arrays of the lines, by name.
+
+    Raises
+    ------
+    OSError
+        Where VTK could not write the file.
+    """
     vtk = require_vtk()
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
@@ -97,7 +132,15 @@ def write_poly_data(
 
 
 def write_series(path: Path, steps: Sequence[tuple[float, Sequence[Path]]]) -> None:
-    """The parts of each time [s] as one series, .pvd of ParaView; parts are named from the folder of the file."""
+    """Write files of several times as one series, .pvd of ParaView.
+
+    Parameters
+    ----------
+    path : path
+        File to write.
+    steps : sequence of tuple
+        Each time [s] and its parts, which are named from the folder of the file.
+    """
     rows = "".join(
         f'<DataSet timestep="{time:.9g}" part="{part}" file="{escape(file.relative_to(path.parent).as_posix())}"/>\n'
         for time, files in steps
@@ -112,7 +155,18 @@ def write_series(path: Path, steps: Sequence[tuple[float, Sequence[Path]]]) -> N
 
 
 def require_vtk() -> Any:
-    """The library, or InputError."""
+    """The library.
+
+    Returns
+    -------
+    module
+        vtk.
+
+    Raises
+    ------
+    InputError
+        Where it is not installed.
+    """
     try:
         import vtk
     except ImportError:

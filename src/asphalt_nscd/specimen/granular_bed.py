@@ -28,31 +28,72 @@ LARGEST_RATIO = 10.0  # of diameters: a heavier sphere sinks into light ones, wh
 
 @dataclass(frozen=True)
 class PouringNumerics:
-    """Numerical choices of the preparation; each is written into the deposit file."""
+    """Numerical choices of the preparation; each is written into the deposit file.
 
-    time_step: float = 4e-4  # s
-    tolerance: float = 1e-3  # relative change of the impulses in the last sweep
+    Parameters
+    ----------
+    time_step : float
+        [s].
+    tolerance : float
+        Relative change of the impulses in the last sweep.
+    most_sweeps : int
+        In a step.
+    falling_sweeps : int
+        After so many the tolerance is waived while the mean speed is above FALLING.
+    penetration : float
+        Sweeps go on while the step would deepen an overlap by more [m].
+    falling_penetration : float
+        The same while the mean speed is above FALLING [m].
+    skin : float
+        Pairs are searched again when a sphere has moved half of it [m].
+    margin : float
+        Gap below which a resting pair takes part in a step [m]; of moving pairs see _search.
+    recovery_speed : float
+        At most, by which overlaps are undone [m/s].
+    allowed_overlap : float
+        Left as it is [m].
+    """
+
+    time_step: float = 4e-4
+    tolerance: float = 1e-3
     most_sweeps: int = 60
     falling_sweeps: int = (
         1_000_000  # after so many the tolerance is waived while the mean speed is above FALLING
     )
-    penetration: float = np.inf  # m, sweeps go on while the step would deepen an overlap by more
-    falling_penetration: float = np.inf  # m, the same while the mean speed is above FALLING
-    skin: float = 4e-4  # m, pairs are searched again when a sphere has moved half of it
+    penetration: float = np.inf
+    falling_penetration: float = np.inf
+    skin: float = 4e-4
     margin: float = (
         2e-5  # m, gap below which a resting pair takes part in a step; of moving pairs see _search
     )
-    recovery_speed: float = 0.02  # m/s, at most, by which overlaps are undone
-    allowed_overlap: float = 0.0  # m, left as it is
+    recovery_speed: float = 0.02
+    allowed_overlap: float = 0.0
 
     @classmethod
     def of(cls, radius: np.ndarray, time_step: float) -> PouringNumerics:
-        """Those for spheres of radius (n,) [m], with steps of time_step [s].
+        """Those for some spheres.
 
-        The sweeps of a step leave small overlaps everywhere in a layer. Undone at once, they would keep it
-        in motion for ever; so those below ALLOWED_OVERLAP stay. An impact may need many sweeps, most steps
-        need few: they end when the impulses hardly change and no step deepens an overlap by PENETRATION. A
-        falling grain may enter another for a moment, which changes nothing of the layer.
+        The sweeps of a step leave small overlaps everywhere in a layer. Undone at once, they would keep it in
+        motion for ever; so those below ALLOWED_OVERLAP stay. An impact may need many sweeps, most steps need
+        few: they end when the impulses hardly change and no step deepens an overlap by PENETRATION. A falling
+        grain may enter another for a moment, which changes nothing of the layer.
+
+        Parameters
+        ----------
+        radius : ndarray (n,)
+            Of the spheres [m].
+        time_step : float
+            [s].
+
+        Returns
+        -------
+        PouringNumerics
+            In proportion to the smallest sphere.
+
+        Raises
+        ------
+        InputError
+            For diameters that differ by more than LARGEST_RATIO.
         """
         smallest, largest = float(radius.min()), float(radius.max())
         if largest > LARGEST_RATIO * smallest * (1.0 + 1e-9):
@@ -74,22 +115,52 @@ class PouringNumerics:
 
 @dataclass
 class GranularBed:
-    """Spheres in a box, in motion. Bodies n, n + 1, ... of `velocity` are the planes."""
+    """Spheres in a box, in motion. Bodies n, n + 1, ... of `velocity` are the planes.
 
-    position: np.ndarray  # (n, 3) m
-    radius: np.ndarray  # (n,) m
-    velocity: np.ndarray  # (n + p, 6) m/s, linear and spin (surface velocity)
-    inverse_mass: np.ndarray  # (n + p,) 1/kg
-    plane_point: np.ndarray  # (p, 3) m
-    plane_normal: np.ndarray  # (p, 3), pointing to the spheres
-    friction: float  # of spheres
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        [m].
+    velocity : ndarray (n + p, 6)
+        [m/s], linear and spin (surface velocity).
+    inverse_mass : ndarray (n + p,)
+        [1/kg].
+    plane_point : ndarray (p, 3)
+        [m].
+    plane_normal : ndarray (p, 3)
+        Unit vectors that point to the spheres.
+    friction : float
+        Of spheres.
+    restitution : float
+        Of impacts.
+    wall_friction : float, optional
+        None: that of spheres.
+    gravity : ndarray (3,)
+        [m/s2].
+    time : float
+        Gone [s].
+    steps, sweeps : int
+        Made.
+    team : Team
+        Threads; any number of them gives the same numbers.
+    """
+
+    position: np.ndarray
+    radius: np.ndarray
+    velocity: np.ndarray
+    inverse_mass: np.ndarray
+    plane_point: np.ndarray
+    plane_normal: np.ndarray
+    friction: float
     restitution: float = 0.0
-    wall_friction: float | None = None  # None: that of spheres
+    wall_friction: float | None = None
     gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
     time: float = 0.0
     steps: int = 0
     sweeps: int = 0
-    team: Team = field(default_factory=Team)  # any number of threads gives the same numbers
+    team: Team = field(default_factory=Team)
 
     def __post_init__(self) -> None:
         self._start: np.ndarray | None = None
@@ -118,7 +189,30 @@ class GranularBed:
         restitution: float = 0.0,
         wall_friction: float | None = None,
     ) -> GranularBed:
-        """Spheres at rest in a box [0, length] x [0, width] x [0, height]; plane 5 is its top."""
+        """Spheres at rest in a box [0, length] x [0, width] x [0, height]; plane 5 is its top.
+
+        Parameters
+        ----------
+        position : ndarray (n, 3)
+            [m].
+        radius : ndarray (n,)
+            [m].
+        box : tuple of float
+            Length, width and height [m].
+        density : float
+            Of the spheres [kg/m3].
+        friction : float
+            Between spheres.
+        restitution : float
+            Of impacts.
+        wall_friction : float, optional
+            With the box; None for that between spheres.
+
+        Returns
+        -------
+        GranularBed
+            The bed.
+        """
         size = np.asarray(box, float)
         normal = np.concatenate([np.eye(3), -np.eye(3)])
         point = np.concatenate([np.zeros((3, 3)), np.diag(size)])
@@ -148,7 +242,22 @@ class GranularBed:
     def advance(
         self, numerics: PouringNumerics, plane_velocity: np.ndarray | None = None
     ) -> tuple[int, float]:
-        """One step; planes move with plane_velocity (p, 3) [m/s]. Returns (sweeps, relative change)."""
+        """One step.
+
+        Parameters
+        ----------
+        numerics : PouringNumerics
+            Step and tolerances.
+        plane_velocity : ndarray (p, 3), optional
+            Of the planes [m/s]; None: at rest.
+
+        Returns
+        -------
+        int
+            Sweeps.
+        float
+            Relative change of the last sweep.
+        """
         n, dt = self.radius.size, numerics.time_step
         if plane_velocity is not None:
             self.velocity[n:, :3] = plane_velocity
@@ -266,7 +375,20 @@ class GranularBed:
         return float(0.5 * (square / self.inverse_mass[:n]).sum())
 
     def contacts(self, below: float) -> tuple[np.ndarray, np.ndarray]:
-        """Index pairs (c, 2) and gaps (c,) [m] of all contacts with a gap under `below` [m]."""
+        """Contacts with a small gap.
+
+        Parameters
+        ----------
+        below : float
+            The gap [m].
+
+        Returns
+        -------
+        ndarray of int (c, 2)
+            Bodies.
+        ndarray (c,)
+            Gaps [m].
+        """
         start, other = neighbours.find_pairs(
             self.position, self.radius, self.plane_point, self.plane_normal, below
         )
@@ -288,12 +410,26 @@ class GranularBed:
         return layer_height(self.position, self.radius)
 
     def hang_wall(self, height: float, mass: float) -> None:
-        """Put the top wall at `height` [m], of `mass` [kg], between rails; `drive` then moves it."""
+        """Put the top wall between rails; `drive` then moves it.
+
+        Parameters
+        ----------
+        height : float
+            [m].
+        mass : float
+            [kg].
+        """
         self.inverse_mass[-1] = 1.0 / mass
         self._put_wall(height)
 
     def fix_wall(self, height: float) -> None:
-        """Put the top wall at `height` [m], where it stays."""
+        """Put the top wall where it stays.
+
+        Parameters
+        ----------
+        height : float
+            [m].
+        """
         self.inverse_mass[-1] = 0.0
         self._put_wall(height)
 
@@ -310,10 +446,19 @@ class GranularBed:
         return np.searchsorted(self._start, pushed, side="right") - 1
 
     def out_of_balance(self, time_step: float) -> tuple[float, float]:
-        """How far the forces of the last step, of time_step [s], are from equilibrium; both near zero at rest.
+        """How far the forces of the last step are from equilibrium; both near zero at rest.
 
-        The force on all planes against the weight, less one; the mean resultant on a sphere, its weight
-        included, over the mean contact force.
+        Parameters
+        ----------
+        time_step : float
+            Its length [s].
+
+        Returns
+        -------
+        float
+            The force on all planes against the weight, less one.
+        float
+            The mean resultant on a sphere, its weight included, over the mean contact force.
         """
         n = self.radius.size
         weight = self.gravity / self.inverse_mass[:n, None] * time_step  # as impulses
@@ -327,9 +472,19 @@ class GranularBed:
         return abs(float(carried) - 1.0), float(resultant / np.linalg.norm(impulse, axis=1).mean())
 
     def contact_forces(self, time_step: float) -> tuple[np.ndarray, np.ndarray]:
-        """Bodies (c, 2) of the contacts that bore something in the last step, of time_step [s], and forces (c, 3) [N].
+        """Contacts that bore something in the last step. Bodies n and above are planes.
 
-        Bodies n and above are planes. A force acts on the second body, its opposite on the first.
+        Parameters
+        ----------
+        time_step : float
+            Its length [s].
+
+        Returns
+        -------
+        ndarray of int (c, 2)
+            Bodies.
+        ndarray (c, 3)
+            Forces on the second body [N]; their opposites act on the first.
         """
         first, second, impulse = self._pushed()
         return np.stack([first, second], axis=1), impulse / time_step

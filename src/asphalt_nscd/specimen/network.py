@@ -21,20 +21,44 @@ AREAS = ("paper", "facets")
 
 @dataclass(frozen=True)
 class Network:
-    """Bonds between bodies, one row each, and the volumes that they leave to the spheres."""
+    """Bonds between bodies, one row each, and the volumes that they leave to the spheres.
 
-    first: np.ndarray  # (b,) body
-    second: np.ndarray  # (b,) body
-    frame: np.ndarray  # (b, 3, 3) rows: normal from first to second, two tangents
-    point: np.ndarray  # (b, 3) m, where the bond acts: middle of the gap, or centroid of the facet
-    gap: np.ndarray  # (b,) m
-    length: np.ndarray  # (b,) m, l0 between the barycentres
-    area: np.ndarray  # (b,) m2, pi rmin^2, or the facet
-    cell: np.ndarray  # (n,) m3, the cells of the spheres; (0,) of bonds without
+    Parameters
+    ----------
+    first, second : ndarray of int (b,)
+        Bodies.
+    frame : ndarray (b, 3, 3)
+        Rows: normal from first to second, two tangents.
+    point : ndarray (b, 3)
+        Where the bond acts [m]: middle of the gap, or centroid of the facet.
+    gap : ndarray (b,)
+        [m].
+    length : ndarray (b,)
+        l0 between the barycentres [m].
+    area : ndarray (b,)
+        pi rmin^2, or the facet [m2].
+    cell : ndarray (n,)
+        Cells of the spheres [m3]; (0,) of bonds without.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    frame: np.ndarray
+    point: np.ndarray
+    gap: np.ndarray
+    length: np.ndarray
+    area: np.ndarray
+    cell: np.ndarray
 
     @property
     def form(self) -> np.ndarray:
-        """g = A / l0 [m], as in Eqs. (30)-(33): stiffness per modulus, (b,)."""
+        """Stiffness per modulus, as in Eqs. (30)-(33).
+
+        Returns
+        -------
+        ndarray (b,)
+            g = A / l0 [m].
+        """
         return self.area / self.length
 
     def arrays(self) -> dict[str, np.ndarray]:
@@ -43,11 +67,26 @@ class Network:
 
 
 def bond_network(position: np.ndarray, radius: np.ndarray, height: float, reach: float) -> Network:
-    """Bond every pair of spheres, and every sphere and end plate, whose gap is below `reach` [m].
+    """Bond every pair of spheres, and every sphere and end plate, that are near.
 
-    position (n, 3) [m] with z = 0 at the foot and z = height [m] at the head; radius (n,) [m].
-    The lever arm ends in the middle of the gap; for a plate, l0 is the distance from the barycentre
-    to its surface.
+    The lever arm ends in the middle of the gap; for a plate, l0 is the distance from the barycentre to its
+    surface.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        [m], z = 0 at the foot.
+    radius : ndarray (n,)
+        [m].
+    height : float
+        z of the head [m].
+    reach : float
+        Gap below which bodies are bonded [m].
+
+    Returns
+    -------
+    Network
+        Bonds by area "paper".
     """
     n = radius.size
     no_plane = np.empty((0, 3))
@@ -79,9 +118,22 @@ def bond_network(position: np.ndarray, radius: np.ndarray, height: float, reach:
 def facet_network(position: np.ndarray, radius: np.ndarray, shape: Shape) -> Network:
     """Bond every pair of spheres whose cells share a facet, and every sphere whose cell reaches a plate.
 
-    position (n, 3) [m] inside the specimen, z = 0 at the foot; radius (n,) [m]. A bond acts at the centroid of its
-    facet: then spheres displaced by any uniform strain without turning are in equilibrium where the
-    tangential stiffness is the normal one (docs/mapping.md).
+    A bond acts at the centroid of its facet: then spheres displaced by any uniform strain without turning are
+    in equilibrium where the tangential stiffness is the normal one (docs/mapping.md).
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        Inside the specimen [m], z = 0 at the foot.
+    radius : ndarray (n,)
+        [m].
+    shape : Shape
+        Geometry of the specimen.
+
+    Returns
+    -------
+    Network
+        Bonds by area "facets".
     """
     n, plates = radius.size, shape.plates
     order = sorted(range(len(plates)), key=lambda k: plates[k].height)
@@ -109,7 +161,18 @@ def facet_network(position: np.ndarray, radius: np.ndarray, shape: Shape) -> Net
 
 
 def region_of(shape: Shape) -> Region:
-    """The specimen between the planes of head, foot and its free faces, in this order."""
+    """The specimen between the planes of head, foot and its free faces, in this order.
+
+    Parameters
+    ----------
+    shape : Shape
+        Geometry of the specimen.
+
+    Returns
+    -------
+    Region
+        Convex polyhedron.
+    """
     return Region(*shape.faces(), np.array([0.0, 0.0, shape.h / 2.0]))
 
 

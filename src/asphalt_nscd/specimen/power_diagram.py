@@ -25,11 +25,21 @@ _EDGES = np.array([(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)])
 
 @dataclass(frozen=True)
 class Region:
-    """A convex polyhedron, normal . x <= offset for each face."""
+    """A convex polyhedron, normal . x <= offset for each face.
 
-    normal: np.ndarray  # (p, 3) outward, of unit length
-    offset: np.ndarray  # (p,) m
-    inside: np.ndarray  # (3,) m, a point of it
+    Parameters
+    ----------
+    normal : ndarray (p, 3)
+        Outward, of unit length.
+    offset : ndarray (p,)
+        [m].
+    inside : ndarray (3,)
+        A point of it [m].
+    """
+
+    normal: np.ndarray
+    offset: np.ndarray
+    inside: np.ndarray
 
     @property
     def volume(self) -> float:
@@ -66,10 +76,29 @@ class Facets:
 
 
 def power_diagram(position: np.ndarray, radius: np.ndarray, region: Region) -> Facets:
-    """Facets of spheres with centres position (n, 3) [m] in the region and radius (n,) [m].
+    """Facets of the power diagram of spheres in a region.
 
-    Facets smaller than NEGLIGIBLE of the section of the smaller sphere are left out. Spheres near a face are mirrored,
-    then those farther away, until the cells fill the region; ArithmeticError where they never do.
+    Facets smaller than NEGLIGIBLE of the section of the smaller sphere are left out. Spheres near a face are
+    mirrored, then those farther away, until the cells fill the region.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        Centres in the region [m].
+    radius : ndarray (n,)
+        [m].
+    region : Region
+        Which the cells fill.
+
+    Returns
+    -------
+    Facets
+        One row for each facet.
+
+    Raises
+    ------
+    ArithmeticError
+        Where the cells never fill the region.
     """
     distance = region.offset - position @ region.normal.T
     volume, within = region.volume, max(2.0 * radius.max(), 1.01 * distance.min(axis=0).max())
@@ -175,7 +204,18 @@ def _polygons(start: np.ndarray, point: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 
 def frames(normal: np.ndarray) -> np.ndarray:
-    """Orthonormal frames (b, 3, 3) whose first rows are the normals (b, 3)."""
+    """Orthonormal frames.
+
+    Parameters
+    ----------
+    normal : ndarray (b, 3)
+        Unit vectors.
+
+    Returns
+    -------
+    ndarray
+        (b, 3, 3) Whose first rows are the normals.
+    """
     axis = np.eye(3)[np.argmin(np.abs(normal), axis=1)]
     tangent = np.cross(normal, axis)
     tangent /= np.linalg.norm(tangent, axis=1)[:, None]

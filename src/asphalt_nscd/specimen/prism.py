@@ -25,8 +25,25 @@ def cut_prism(
 ) -> Specimen:
     """Spheres of a layer whose centres lie in a prism b x e x h; its length h along x of the layer, b along z.
 
-    corner (3,) [m]: least x, y, z of the prism in the layer. Spheres that hang on no chain of bonds
-    between the ends are left out. Density 1 kg/m3: for statics.
+    Spheres that hang on no chain of bonds between the ends are left out. Density 1 kg/m3: for statics.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        Of the layer [m].
+    radius : ndarray (n,)
+        Of the layer [m].
+    corner : ndarray (3,)
+        Least x, y, z of the prism in the layer [m].
+    geometry : Geometry
+        b, e and h.
+    bond : callable
+        Network of positions and radii.
+
+    Returns
+    -------
+    Specimen
+        Bonded spheres.
     """
     size = np.array([geometry.h, geometry.e, geometry.b])
     local = position - corner
@@ -44,16 +61,41 @@ def cut_prism(
 
 
 def pull(prism: Specimen, share: np.ndarray) -> tuple[float, float]:
-    """(E over the modulus of the bonds, Poisson's ratio) of a prism whose ends are pulled apart.
+    """Pull the ends of a prism apart. See `stretched`.
 
-    share (3,): normal and two tangential stiffnesses of a bond over A / l. See `stretched`.
+    Parameters
+    ----------
+    prism : Specimen
+        Bonded spheres.
+    share : ndarray (3,)
+        Normal and two tangential stiffnesses of a bond over A / l.
+
+    Returns
+    -------
+    float
+        E over the modulus of the bonds.
+    float
+        Poisson's ratio.
     """
     system = pulled_system(prism, (prism.network.form[:, None] * share).ravel())
     return stretched(prism, system, static_motion(system))
 
 
 def pulled_system(prism: Specimen, weight: np.ndarray) -> BondedSystem:
-    """A prism between a fixed plate and one that moves along z; weight (3 b,) [m] of its bonds. For statics."""
+    """A prism between a fixed plate and one that moves along z. For statics.
+
+    Parameters
+    ----------
+    prism : Specimen
+        Bonded spheres.
+    weight : ndarray (3 b,)
+        Of its bonds [m].
+
+    Returns
+    -------
+    BondedSystem
+        Without load.
+    """
     n, network = prism.radius.size, prism.network
     position = np.concatenate([prism.position, [[0.0, 0.0, prism.geometry.h]]])
     operator = opening_operator(network.first, network.second, network.frame, network.point, position)
@@ -73,13 +115,27 @@ def pulled_system(prism: Specimen, weight: np.ndarray) -> BondedSystem:
 
 
 def stretched(prism: Specimen, system: BondedSystem, motion: np.ndarray) -> tuple[float, float]:
-    """(E over the modulus to which the weights refer, Poisson's ratio) of a prism pulled; its `pulled_system`.
+    """Modulus and Poisson's ratio of a prism pulled.
 
-    motion (d,): its displacements where the plates part by one.
+    The plates neither turn nor contract. Strains are slopes of a line through the displacements of the
+    spheres in the middle third of the length; Poisson's ratio is the mean of both lateral ones. Force over
+    the nominal section b e.
 
-    The plates neither turn nor contract. Strains are slopes of a line through the displacements of the spheres in
-    the middle third of the length; Poisson's ratio is the mean of both lateral ones. Force over the nominal section
-    b e.
+    Parameters
+    ----------
+    prism : Specimen
+        Bonded spheres.
+    system : BondedSystem
+        Its `pulled_system`.
+    motion : ndarray (d,)
+        Its displacements where the plates part by one.
+
+    Returns
+    -------
+    float
+        E over the modulus to which the weights refer.
+    float
+        Poisson's ratio.
     """
     n, geometry = prism.radius.size, prism.geometry
     middle = np.abs(prism.position[:, 2] - geometry.h / 2) < MEASURED * geometry.h / 2
@@ -100,11 +156,37 @@ def static_motion(system: BondedSystem) -> np.ndarray:
 
 
 def static_ratio(system: BondedSystem, shape: Shape) -> float:
-    """c: static |E*| of a test by its form factor, over the modulus of the bonds."""
+    """c: static |E*| of a test by its form factor, over the modulus of the bonds.
+
+    Parameters
+    ----------
+    system : BondedSystem
+        Bonds of the specimen.
+    shape : Shape
+        Its geometry.
+
+    Returns
+    -------
+    float
+        Dimensionless.
+    """
     return shape.form_factor() * stiffness(system, static_motion(system))
 
 
 def stiffness(system: BondedSystem, motion: np.ndarray) -> float:
-    """Twice the energy of a motion (d,) of unit head per unit modulus [m]: its static stiffness."""
+    """Static stiffness per unit modulus: twice the energy of a motion of unit head.
+
+    Parameters
+    ----------
+    system : BondedSystem
+        Bonds of the specimen.
+    motion : ndarray (d,)
+        Displacements.
+
+    Returns
+    -------
+    float
+        [m].
+    """
     opening = system.operator @ motion
     return float(system.weight @ opening**2)

@@ -21,7 +21,19 @@ def affine_modulus(kt_over_kn: float) -> float:
 
 
 def affine_poisson(kt_over_kn: float) -> float:
-    """Poisson's ratio of that network: from 1/4 without tangential stiffness to -1 with no other."""
+    """Poisson's ratio of a network whose spheres follow the mean strain: from 1/4 without tangential stiffness
+    to -1 with no other.
+
+    Parameters
+    ----------
+    kt_over_kn : float
+        Tangential over normal stiffness.
+
+    Returns
+    -------
+    float
+        Dimensionless.
+    """
     return (1.0 - kt_over_kn) / (4.0 + kt_over_kn)
 
 
@@ -37,9 +49,19 @@ def facet_share(shape: Shape, kt_over_kn: float) -> np.ndarray:
 
 
 def inertia(specimen: Specimen) -> np.ndarray:
-    """Masses (n, 3) [kg] and moments of inertia (n, 3) [kg m2] that move with each sphere, side by side.
+    """Masses and moments of inertia that move with each sphere, side by side.
 
     Cells that fill the specimen bear its mass as evenly as its stiffness; spheres of one density do not.
+
+    Parameters
+    ----------
+    specimen : Specimen
+        Bonded spheres.
+
+    Returns
+    -------
+    ndarray
+        (n, 6) Three times the mass [kg], three times the moment of inertia [kg m2].
     """
     cell = specimen.network.cell
     if cell.size:
@@ -51,7 +73,22 @@ def inertia(specimen: Specimen) -> np.ndarray:
 
 
 def bond_weight(specimen: Specimen, poisson: float, kt_over_kn: float) -> np.ndarray:
-    """Stiffness per modulus w (b, 3) [m] of the bonds, normal and tangential; see `bending_system`."""
+    """Stiffness per modulus of the bonds; see `bending_system`.
+
+    Parameters
+    ----------
+    specimen : Specimen
+        Bonded spheres.
+    poisson : float
+        Of Eqs. (8)-(11), for bonds of area "paper".
+    kt_over_kn : float
+        Tangential over normal stiffness, for "facets".
+
+    Returns
+    -------
+    ndarray
+        (b, 3) w [m], normal and tangential.
+    """
     if specimen.area == "facets":
         stiffness = facet_share(specimen.geometry, kt_over_kn)
     else:
@@ -68,11 +105,37 @@ def bending_system(
     gravity: float = 9.81,
     kt_over_kn: float = 1.0,
 ) -> BondedSystem:
-    """Plates held, free and driven as its shape says; the head's rotation is "free" or "blocked".
+    """Plates held, free and driven as the shape of a specimen says.
 
-    The head is a thin plate of the mobile mass; its other two translations are free. Plate bonds do not yield.
-    yield_stress [Pa] acts on the area of a bond. poisson is that of Eqs. (8)-(11) for bonds of area "paper", kt_over_kn
-    that of "facets".
+    The head is a thin plate of the mobile mass; its other two translations are free. Plate bonds do not
+    yield.
+
+    Parameters
+    ----------
+    specimen : Specimen
+        Bonded spheres.
+    poisson : float
+        Of Eqs. (8)-(11), for bonds of area "paper".
+    yield_stress : float
+        On the area of a bond [Pa].
+    friction : float
+        Where the gap of a broken bond closes.
+    head : str
+        Its rotation is "free" or "blocked".
+    gravity : float
+        [m/s2].
+    kt_over_kn : float
+        Tangential over normal stiffness, for "facets".
+
+    Returns
+    -------
+    BondedSystem
+        Bonds and masses.
+
+    Raises
+    ------
+    InputError
+        For a blocked head of a test that turns the specimen at its clamps.
     """
     n, geometry, network = specimen.radius.size, specimen.geometry, specimen.network
     plates = [plate for plate in geometry.plates if plate.moves]

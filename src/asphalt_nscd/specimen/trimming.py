@@ -18,19 +18,50 @@ FEWEST_BONDS = 3
 
 @dataclass(frozen=True)
 class Specimen:
-    """Bonded spheres between the foot (z = 0) and the head (z = h); the origin is the middle of the foot."""
+    """Bonded spheres between the foot (z = 0) and the head (z = h); the origin is the middle of the foot.
+
+    Parameters
+    ----------
+    geometry : Shape
+        Of the test.
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        After the reduction of volume [m].
+    density : float
+        Matched to the mass of the geometry [kg/m3].
+    network : Network
+        Bonds.
+    loose_grains : int
+        Removed because they had fewer than three bonds or hung on no chain to the foot.
+    area : str
+        Of the bonds, one of `network.AREAS`.
+    """
 
     geometry: Shape
-    position: np.ndarray  # (n, 3) m
-    radius: np.ndarray  # (n,) m, after the reduction of volume
-    density: float  # kg/m3, matched to the mass of the geometry
+    position: np.ndarray
+    radius: np.ndarray
+    density: float
     network: Network
-    loose_grains: int  # removed because they had fewer than three bonds or hung on no chain to the foot
-    area: str = "paper"  # of the bonds, one of `network.AREAS`
+    loose_grains: int
+    area: str = "paper"
 
 
 def layer_height(position: np.ndarray, radius: np.ndarray) -> float:
-    """Height [m] of a layer on z = 0: twice the height of its centre of mass."""
+    """Height of a layer on z = 0: twice the height of its centre of mass.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        [m].
+
+    Returns
+    -------
+    float
+        [m].
+    """
     return float(2.0 * np.average(position[:, 2], weights=radius**3))
 
 
@@ -44,9 +75,32 @@ def trim(
 ) -> Specimen:
     """Cut the specimen from the middle of a layer (length along x, width along y, height along z).
 
-    Grains whose barycentre lies outside the shape are removed. The volume of each sphere is
-    reduced by the fraction volume_reduction, and the density raised until the mass is right.
-    Pairs with a gap below reach [m] are bonded (area "paper"), or those that share a facet ("facets").
+    Grains whose barycentre lies outside the shape are removed. The density is raised until the mass is right.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        Of the layer [m].
+    radius : ndarray (n,)
+        Of the layer [m].
+    geometry : Shape
+        Of the specimen.
+    volume_reduction : float
+        Fraction by which the volume of each sphere is reduced.
+    reach : float
+        Gap below which pairs are bonded [m], by area "paper".
+    area : str
+        "paper", or "facets": pairs that share a facet are bonded.
+
+    Returns
+    -------
+    Specimen
+        Bonded spheres.
+
+    Raises
+    ------
+    InputError
+        Where the layer is too low, no sphere is left, bodies overlap, or no chain of bonds joins the plates.
     """
     require_joined(geometry, area)
     height = layer_height(position, radius)
@@ -90,7 +144,24 @@ def trim(
 
 
 def held(network: Network, n: int, plates: int = 2) -> tuple[np.ndarray, bool]:
-    """(n,) which of n spheres are held fast by bonds, and whether all plates hang together."""
+    """Which spheres are held fast by bonds.
+
+    Parameters
+    ----------
+    network : Network
+        Bonds.
+    n : int
+        Number of spheres.
+    plates : int
+        Number of plates.
+
+    Returns
+    -------
+    ndarray of bool (n,)
+        Held fast.
+    bool
+        Whether all plates hang together.
+    """
     ends = network.first, network.second
     count = np.bincount(np.concatenate(ends), minlength=n + plates)[:n]
     cluster = clusters(*ends, n + plates)
