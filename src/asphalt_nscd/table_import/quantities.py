@@ -286,13 +286,11 @@ def _named(stem: str, known: dict, qualified: bool) -> str | None:
         stem = stem.rstrip(" °º") or stem  # `T° (°C)`
     plain = re.sub(r"[|*.\s_()\[\]-]", "", stem)
     words = [_folded(word) if len(word) > 1 else word for word in re.split(r"[\s_.-]+", stem)]
-    for quantity, (names, _) in known.items():
-        for name in names.split():
-            alike = name if len(name) == 1 else _folded(name)
-            same = plain == name if len(name) == 1 else _folded(plain) == alike
-            if same or (qualified and quantity == "temperature_C" and alike in words):
-                return quantity
-    return None
+    by_name = _BY_NAME[id(known)]
+    quantity = by_name.get(plain if len(plain) == 1 else _folded(plain))
+    if quantity is None and qualified and any(by_name.get(word) == "temperature_C" for word in words):
+        return "temperature_C"
+    return quantity
 
 
 @lru_cache(maxsize=4096)
@@ -300,3 +298,16 @@ def _folded(text: str) -> str:
     """Small letters without accents; an umlaut may be written with an e."""
     plain = "".join(c for c in unicodedata.normalize("NFKD", text.casefold()) if not unicodedata.combining(c))
     return re.sub("(?<=[aou])e", "", plain)
+
+
+def _names(known: dict) -> dict[str, str]:
+    """Quantity of each name, the first of two; names of more than one letter folded."""
+    found: dict[str, str] = {}
+    for quantity, (names, _) in known.items():
+        for name in names.split():
+            found.setdefault(name if len(name) == 1 else _folded(name), quantity)
+    return found
+
+
+# Every cell of a file is asked whether it is a name. A dict has no hash, so that they stand by the table's identity.
+_BY_NAME = {id(known): _names(known) for known in (MEASURED, SIEVES)}
