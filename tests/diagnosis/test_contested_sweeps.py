@@ -40,11 +40,12 @@ def mask(observed, rows):
 
 @pytest.mark.parametrize("specimens", [2, 3, 4])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_of_two_halves_the_one_off_the_level_of_its_specimen_is_left_out(specimens, sign):
+@pytest.mark.parametrize("sizes", [(0.26, 4.0), (0.26, 0.0), (0.0, 15.0)], ids=["both", "modulus", "phase"])
+def test_of_two_halves_the_one_off_the_level_of_its_specimen_is_left_out(specimens, sign, sizes):
     observed = campaign(specimens)
     wrong, right = rows_of(observed, 10.0, 25.0), rows_of(observed, 3.0, 40.0)
-    observed = altered(observed, wrong, sign * 0.26, sign * 4.0)
-    for accused in (right, right[:1], [*right, wrong[0]], wrong):
+    observed = altered(observed, wrong, *(sign * size for size in sizes))
+    for accused in (right, right[:1], [*right, wrong[0]], [right[0], wrong[0]], wrong):
         now, turned = contested.put_right(observed, mask(observed, accused))
         assert np.flatnonzero(now).tolist() == wrong
         assert np.flatnonzero(turned).tolist() == ([] if accused is wrong else sorted(wrong + right))

@@ -10,6 +10,7 @@ from test_diagnose import LAW, table
 
 from asphalt_nscd.diagnosis import laboratory, scatter, start
 from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.joint import Joint
 
 NOISE = 0.01, np.radians(0.3), 0.03
 
@@ -60,8 +61,31 @@ def test_sizes_follow_the_table(kind):
         else replace(still, modulus=still.modulus * np.exp(0.04 * drawn[block]))
     )
     small, large = (laboratory.estimate(*fitted(observed)).sizes[kind] for observed in (still, moved))
-    usual = laboratory.LABORATORY[kind].size
-    assert small < usual and large > 1.8 * usual
+    usual, drawn_size = (
+        laboratory.LABORATORY[kind].size,
+        {"specimen temperature": 1.0}.get(kind, 0.04) * drawn.std(),
+    )
+    assert (
+        small < usual and 0.7 * drawn_size < large < 1.1 * drawn_size
+    )  # drawn to the usual size by its prior
+
+
+def test_the_scatter_holds_every_effect_once():
+    """Two tests of one mounting share its level, its phase and its temperature; of one isotherm, the temperature."""
+    joint, fit = fitted(table(3))
+    joint = Joint(joint.observed, joint.base, replace(joint.noise, shared=0.5 * joint.noise.within))
+    with_it, found = laboratory.with_laboratory(joint, fit)
+    assert not with_it.noise.shared.any()
+    n, observed = joint.observed.size, joint.observed
+    per_kelvin = laboratory._per_kelvin(joint, fit.law)
+    same = observed.isotherm[:, None] == observed.isotherm
+    mounted = same & (observed.specimen[:, None] == observed.specimen)
+    kelvin = laboratory.OF_ISOTHERM**2 * same + found.sizes["specimen temperature"] ** 2 * mounted
+    covariance = with_it.noise.discrepancy @ with_it.noise.discrepancy.T
+    for part, name in enumerate(("modulus", "phase")):
+        rows, along = slice(part * n, (part + 1) * n), (per_kelvin.real, per_kelvin.imag)[part]
+        expected = np.outer(along, along) * kelvin + found.sizes[f"mounting, {name}"] ** 2 * mounted
+        assert np.allclose(covariance[rows, rows], expected, rtol=1e-9, atol=1e-15)
 
 
 def test_isotherms_within_the_tolerance_of_the_standard_are_no_fault():
