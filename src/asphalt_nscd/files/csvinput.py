@@ -41,7 +41,15 @@ _AS_CSV = (
 
 @dataclass(frozen=True)
 class Limits:
-    """Closed range in which a value is plausible, and what to do about one that is not."""
+    """Closed range in which a value is plausible.
+
+    Parameters
+    ----------
+    low, high : float
+        Its ends.
+    mend : str
+        What to do about a value that is not.
+    """
 
     low: float
     high: float
@@ -50,9 +58,18 @@ class Limits:
 
 @dataclass(frozen=True)
 class Table:
-    """A CSV file as text: columns by name, and for each row its line number in the file (from 1).
+    """A CSV file as text.
 
-    files: the file of each row, where the table was put together from several.
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    columns : dict of str to list of str
+        By name.
+    lines : list of int
+        For each row its line number in the file, from 1.
+    files : list of path, optional
+        The file of each row, where the table was put together from several.
     """
 
     path: Path
@@ -61,15 +78,50 @@ class Table:
     files: list[Path] | None = None
 
     def error(self, row: int, problem: str) -> InputError:
-        """InputError that names the file and the line of a row (from 0)."""
+        """What to raise for a row.
+
+        Parameters
+        ----------
+        row : int
+            From 0.
+        problem : str
+            With its mend.
+
+        Returns
+        -------
+        InputError
+            Names the file and the line.
+        """
         return InputError(f"{self.place(row)}: {problem}")
 
     def place(self, row: int) -> str:
-        """File and line of a row (from 0)."""
+        """Where a row stands.
+
+        Parameters
+        ----------
+        row : int
+            From 0.
+
+        Returns
+        -------
+        str
+            File and line.
+        """
         return f"{self.path if self.files is None else self.files[row]}, line {self.lines[row]}"
 
     def require(self, names: Iterable[str]) -> None:
-        """Refuse the table unless it has all the columns."""
+        """Refuse the table unless it has all the columns.
+
+        Parameters
+        ----------
+        names : iterable of str
+            Of the columns.
+
+        Raises
+        ------
+        InputError
+            Which says what to rename or add.
+        """
         names = list(names)
         for name in names:
             if name in self.columns:
@@ -83,7 +135,20 @@ class Table:
             raise InputError(f"{self.path}: column {lookalike!r} must be {name!r}; {advice} and rename it.")
 
     def lookalike(self, name: str, wanted: Iterable[str] = ()) -> str | None:
-        """Column that holds the quantity of `name` under another unit or spelling."""
+        """Column that holds a quantity under another unit or spelling.
+
+        Parameters
+        ----------
+        name : str
+            Of the quantity.
+        wanted : iterable of str
+            Columns that are not asked about.
+
+        Returns
+        -------
+        str or None
+            Its name, if there is one.
+        """
         stem = name.rpartition("_")[0] or name
         for column in self.columns:
             found = _stem_and_unit(column)[0]
@@ -94,7 +159,23 @@ class Table:
         return None
 
     def text(self, name: str) -> list[str]:
-        """A column of non-empty text. It goes into tables that are opened again in spreadsheets."""
+        """A column of non-empty text. It goes into tables that are opened again in spreadsheets.
+
+        Parameters
+        ----------
+        name : str
+            Of the column.
+
+        Returns
+        -------
+        list of str
+            One for each row.
+
+        Raises
+        ------
+        InputError
+            For an empty field, or one that a spreadsheet takes for a formula.
+        """
         for row, value in enumerate(self.columns[name]):
             if not value:
                 raise self.error(row, f"{name} is empty; fill it in or remove the line.")
@@ -103,7 +184,25 @@ class Table:
         return self.columns[name]
 
     def numbers(self, name: str, limits: Limits | None = None) -> NDArray[np.float64]:
-        """A column of finite numbers, within limits where these are given."""
+        """A column of finite numbers.
+
+        Parameters
+        ----------
+        name : str
+            Of the column.
+        limits : Limits, optional
+            In which they must be.
+
+        Returns
+        -------
+        ndarray
+            (n,) One for each row.
+
+        Raises
+        ------
+        InputError
+            For what is no number, or out of limits.
+        """
         values = np.array([self._number(name, row) for row in range(len(self.lines))])
         if limits is not None:
             outside = np.flatnonzero((values < limits.low) | (values > limits.high))
@@ -116,7 +215,23 @@ class Table:
         return values
 
     def numbers_or_nan(self, name: str) -> NDArray[np.float64]:
-        """A column that may be absent or have empty fields, which become NaN."""
+        """A column that may be absent or have empty fields, which become NaN.
+
+        Parameters
+        ----------
+        name : str
+            Of the column.
+
+        Returns
+        -------
+        ndarray
+            (n,) One for each row.
+
+        Raises
+        ------
+        InputError
+            For what is no number.
+        """
         if name not in self.columns:
             return np.full(len(self.lines), np.nan)
         return np.array(
@@ -138,7 +253,23 @@ class Table:
 
 
 def read_csv(path: str | Path) -> Table:
-    """Read a CSV file with one header line; blank lines and lines that begin with # are passed over."""
+    """Read a CSV file with one header line; blank lines and lines that begin with # are passed over.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+
+    Returns
+    -------
+    Table
+        Its text.
+
+    Raises
+    ------
+    InputError
+        For what is no such table; it names the line and the mend.
+    """
     path = Path(path)
     require_readable(path, "check the path")
     try:
@@ -172,7 +303,23 @@ def read_csv(path: str | Path) -> Table:
 
 
 def plain_number(text: str) -> float:
-    """The number a cell holds; ValueError for none, and for what only Python takes for one, such as `17_715`."""
+    """The number a cell holds.
+
+    Parameters
+    ----------
+    text : str
+        Of the cell.
+
+    Returns
+    -------
+    float
+        Finite or not.
+
+    Raises
+    ------
+    ValueError
+        For none, and for what only Python takes for one, such as `17_715`.
+    """
     if "_" in text or not text.isascii():
         raise ValueError(f"{text!r} is not a number")
     return float(text)

@@ -11,7 +11,18 @@ MOST_BYTES = 100_000_000  # of a text file that is read whole
 
 
 def is_file(path: str | Path) -> bool:
-    """Whether there is such a file; False too for what cannot be the name of one."""
+    """Whether there is such a file.
+
+    Parameters
+    ----------
+    path : path
+        Any text.
+
+    Returns
+    -------
+    bool
+        False too for what cannot be the name of one.
+    """
     try:
         return Path(path).is_file()
     except (OSError, ValueError):  # too long, or with a null character
@@ -19,7 +30,20 @@ def is_file(path: str | Path) -> bool:
 
 
 def require_readable(path: str | Path, mend: str) -> None:
-    """Refuse what is no file, or too large to be read whole."""
+    """Refuse what is no file, or too large to be read whole.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    mend : str
+        For the message.
+
+    Raises
+    ------
+    InputError
+        Then.
+    """
     if not is_file(path):
         raise InputError(f"{path}: no such file; {mend}.")
     if Path(path).stat().st_size > MOST_BYTES:
@@ -38,7 +62,25 @@ def require_writable(folder: str | Path) -> None:
 
 
 def inside(folder: Path, name: str) -> Path:
-    """The file `name` in a folder, refused where it leads out of it."""
+    """A file in a folder.
+
+    Parameters
+    ----------
+    folder : path
+        Which must hold it.
+    name : str
+        Of the file, any text.
+
+    Returns
+    -------
+    path
+        Its path.
+
+    Raises
+    ------
+    InputError
+        Where the name leads out of the folder.
+    """
     path = folder / name
     try:
         if path.resolve().is_relative_to(folder.resolve()):

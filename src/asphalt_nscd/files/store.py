@@ -31,7 +31,23 @@ _PACKAGES = ("asphalt-nscd", "numpy", "scipy", "numba", "pandas", "h5py", "matpl
 
 @contextmanager
 def atomic_path(path: str | Path) -> Iterator[Path]:
-    """Yield a temporary path beside `path`; move it into place only when the block succeeds."""
+    """A temporary path, moved into place only when the block succeeds.
+
+    Parameters
+    ----------
+    path : path
+        Of the file to write.
+
+    Yields
+    ------
+    Path
+        Beside `path`.
+
+    Raises
+    ------
+    InputError
+        For what is no regular file.
+    """
     path = Path(path)
     if path.exists() and not path.is_file():
         raise InputError(f"{path}: not a regular file, so it is not replaced; choose another path.")
@@ -58,19 +74,51 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
 
 
 def write_table(path: str | Path, frame: pd.DataFrame) -> None:
-    """Write a CSV table; column names carry the units."""
+    """Write a CSV table; column names carry the units.
+
+    Parameters
+    ----------
+    path : path
+        File to write.
+    frame : DataFrame
+        The table.
+    """
     with atomic_path(path) as temporary:
         frame.to_csv(temporary, index=False, float_format="%.10g", lineterminator="\n")
 
 
 def write_json(path: str | Path, content: Any) -> None:
-    """Write indented JSON."""
+    """Write indented JSON.
+
+    Parameters
+    ----------
+    path : path
+        File to write.
+    content : object
+        What JSON can hold.
+    """
     with atomic_path(path) as temporary:
         temporary.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
 
 
 def read_json(path: str | Path) -> Any:
-    """Read JSON, naming the file when it cannot be parsed."""
+    """Read JSON.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+
+    Returns
+    -------
+    object
+        Its content.
+
+    Raises
+    ------
+    InputError
+        Which names the file, when it cannot be parsed.
+    """
     require_readable(path, "run the rule that makes it, or check the path")
     try:
         return json.loads(Path(path).read_text(encoding="utf-8"))
@@ -80,11 +128,21 @@ def read_json(path: str | Path) -> Any:
 
 @dataclass(frozen=True)
 class Record:
-    """Content of one result file: arrays by name, attributes by name."""
+    """Content of one result file.
+
+    Parameters
+    ----------
+    arrays : dict of str to ndarray
+        By name.
+    attributes : dict
+        By name.
+    digest : str
+        Of kind, arrays and attributes.
+    """
 
     arrays: dict[str, np.ndarray]
     attributes: dict[str, Any]
-    digest: str  # of kind, arrays and attributes
+    digest: str
 
 
 def save(
@@ -93,11 +151,27 @@ def save(
     arrays: Mapping[str, np.ndarray],
     attributes: Mapping[str, float | int | str],
 ) -> str:
-    """Write one HDF5 result file of the given kind; returns the digest of its content.
+    """Write one HDF5 result file.
 
-    Names may contain slashes (groups). The digest of all arrays and attributes is kept in the
-    file, so that a truncated or altered one is refused by `load`. Provenance (versions, commit)
-    stays outside the digest: it may differ between two machines with equal results.
+    The digest of all arrays and attributes is kept in the file, so that a truncated or altered one is refused
+    by `load`. Provenance (versions, commit) stays outside the digest: it may differ between two machines with
+    equal results.
+
+    Parameters
+    ----------
+    path : path
+        File to write.
+    kind : str
+        Of the file.
+    arrays : mapping of str to ndarray
+        By name, which may contain slashes (groups).
+    attributes : mapping
+        By name.
+
+    Returns
+    -------
+    str
+        The digest of its content.
     """
     import h5py
     import numpy as np
@@ -119,7 +193,27 @@ def save(
 
 
 def load(path: str | Path, kind: str) -> Record:
-    """Read one HDF5 result file, refusing another kind, another format or damaged content."""
+    """Read one HDF5 result file.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    kind : str
+        That it must be of.
+
+    Returns
+    -------
+    Record
+        Its content.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing, or of another kind.
+    DamagedFile
+        For another format or damaged content.
+    """
     import h5py
 
     if not Path(path).is_file():
@@ -156,7 +250,23 @@ def load(path: str | Path, kind: str) -> Record:
 
 
 def kind_of(path: str | Path) -> str:
-    """Kind of a result file, without reading its arrays."""
+    """Kind of a result file, without reading its arrays.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+
+    Returns
+    -------
+    str
+        As `save` took it.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing or damaged.
+    """
     import h5py
 
     if not Path(path).is_file():

@@ -48,9 +48,17 @@ SPOT = 3.3  # depth of grain under a spot over sqrt(r^2 + 3/4 a h) and 1 - nu^2,
 
 @dataclass(frozen=True)
 class Solid:
-    """An isotropic elastic solid."""
+    """An isotropic elastic solid.
 
-    modulus: float  # E, Pa
+    Parameters
+    ----------
+    modulus : float
+        E [Pa].
+    poisson : float
+        Poisson's ratio.
+    """
+
+    modulus: float
     poisson: float
 
     @property
@@ -66,12 +74,24 @@ class Solid:
 
 @dataclass(frozen=True)
 class Films:
-    """Two spheres, the gap between them and the facet between their cells; one row each."""
+    """Two spheres, the gap between them and the facet between their cells; one row each.
 
-    first_radius: np.ndarray  # (b,) m
-    second_radius: np.ndarray  # (b,) m; 0 for a rigid plane
-    gap: np.ndarray  # (b,) m, positive
-    area: np.ndarray  # (b,) m2
+    Parameters
+    ----------
+    first_radius : ndarray (b,)
+        [m].
+    second_radius : ndarray (b,)
+        [m]; 0 for a rigid plane.
+    gap : ndarray (b,)
+        [m], positive.
+    area : ndarray (b,)
+        Of the facet [m2].
+    """
+
+    first_radius: np.ndarray
+    second_radius: np.ndarray
+    gap: np.ndarray
+    area: np.ndarray
 
     def __post_init__(self) -> None:
         if not (np.asarray(self.gap) > 0.0).all():
@@ -85,10 +105,18 @@ class Films:
 
 @dataclass(frozen=True)
 class Matrix:
-    """Moduli (...) [Pa] between the grains, real or complex: as many as are asked for."""
+    """What is between the grains.
 
-    modulus: np.ndarray  # E
-    bulk: np.ndarray | float  # K
+    Parameters
+    ----------
+    modulus : ndarray (...)
+        E [Pa], real or complex: as many as are asked for.
+    bulk : ndarray (...) or float
+        K [Pa].
+    """
+
+    modulus: np.ndarray
+    bulk: np.ndarray | float
 
     @property
     def shear(self) -> np.ndarray:
@@ -100,10 +128,27 @@ class Matrix:
 def film_stiffness(
     films: Films, grain: Solid, matrix: Matrix, solid_fraction: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Normal and tangential stiffness (..., b) [N/m] of the bonds of a network that has the mix's Young's modulus.
+    """Stiffness of the bonds of a network that has the mix's Young's modulus.
 
-    solid_fraction: volume of grains in a volume of grains and matrix. The tangential opening is that of the surfaces,
-    rotations of the spheres included.
+    The tangential opening is that of the surfaces, rotations of the spheres included.
+
+    Parameters
+    ----------
+    films : Films
+        Pairs of spheres.
+    grain : Solid
+        The solid of the grains.
+    matrix : ndarray
+        Between the grains.
+    solid_fraction : float
+        Volume of grains in a volume of grains and matrix.
+
+    Returns
+    -------
+    ndarray (..., b)
+        Normal stiffness [N/m].
+    ndarray (..., b)
+        Tangential stiffness [N/m].
     """
     normal, tangential = deviatoric_stiffness(films, grain, matrix)
     scale = _young(films, bulk_modulus(grain, matrix, solid_fraction), normal, tangential)[..., None]
@@ -111,7 +156,22 @@ def film_stiffness(
 
 
 def bulk_modulus(grain: Solid, matrix: Matrix, solid_fraction: float) -> np.ndarray:
-    """K (...) [Pa] of the mix: the lower bound of Hashin & Shtrikman (1963), where bitumen flows the value itself."""
+    """K of the mix: the lower bound of Hashin & Shtrikman (1963), where bitumen flows the value itself.
+
+    Parameters
+    ----------
+    grain : Solid
+        The solid of the grains.
+    matrix : ndarray
+        Between the grains.
+    solid_fraction : float
+        Volume of grains in a volume of grains and matrix.
+
+    Returns
+    -------
+    ndarray (...)
+        [Pa].
+    """
     bulk, stiffer = np.asarray(matrix.bulk), grain.bulk - np.asarray(matrix.bulk)
     share = 3.0 * (1.0 - solid_fraction) / (3.0 * bulk + 4.0 * matrix.shear)
     return bulk + solid_fraction * stiffer / (1.0 + stiffer * share)
@@ -120,16 +180,53 @@ def bulk_modulus(grain: Solid, matrix: Matrix, solid_fraction: float) -> np.ndar
 def deviatoric_stiffness(
     films: Films, grain: Solid, matrix: Matrix, rings: int = RINGS
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The same of a network that has the mix's shear modulus; one material: k = 2 G A / l."""
+    """The same of a network that has the mix's shear modulus; one material: k = 2 G A / l.
+
+    Parameters
+    ----------
+    films : Films
+        Pairs of spheres.
+    grain : Solid
+        The solid of the grains.
+    matrix : ndarray
+        Between the grains.
+    rings : int
+        Into which a facet is divided.
+
+    Returns
+    -------
+    ndarray (..., b)
+        Normal stiffness [N/m].
+    ndarray (..., b)
+        Tangential stiffness [N/m].
+    """
     return pair_stiffness(films, grain, matrix, (2.0 * matrix.shear, 2.0 * grain.shear), rings)
 
 
 def pair_stiffness(
     films: Films, grain: Solid, matrix: Matrix, along: tuple[np.ndarray, float], rings: int = RINGS
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Normal and tangential stiffness (..., b) [N/m].
+    """Stiffness of pairs by lines, pressure, yielding grains and shear, as the head of this module says.
 
-    along: moduli D [Pa] of film (...) and grain along a line, 2 G where the volume is kept.
+    Parameters
+    ----------
+    films : Films
+        Pairs of spheres.
+    grain : Solid
+        The solid of the grains.
+    matrix : ndarray
+        Between the grains.
+    along : tuple of ndarray (...) and float
+        Moduli D of film and grain along a line [Pa], 2 G where the volume is kept.
+    rings : int
+        Into which a facet is divided.
+
+    Returns
+    -------
+    ndarray (..., b)
+        Normal stiffness [N/m].
+    ndarray (..., b)
+        Tangential stiffness [N/m].
     """
     shear, bulk, stretch = np.broadcast_arrays(matrix.shear, matrix.bulk, along[0])
     kind = np.result_type(shear, bulk, stretch, np.float64)

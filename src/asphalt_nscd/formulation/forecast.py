@@ -22,17 +22,33 @@ Packings = Callable[[Level, int], LevelPacking]
 
 @dataclass(frozen=True)
 class Settings:
-    """What the forecast takes for granted: stated, not fitted (docs/forecast.md says why, and from where).
+    """What the forecast takes for granted: stated, not fitted (docs/forecast.md says why, and from where). The
+    switches take a part of the physics away.
 
-    film_factor: film between touching grains over the mean binder film. touching_voids: air voids at which the
-    stones touch, of the volume; each percent more sets them apart. skeleton_pressure [Pa]: holds dry contacts
-    together when the binder has relaxed. The switches take a part of the physics away.
+    Parameters
+    ----------
+    film_factor : float
+        Film between touching grains over the mean binder film.
+    touching_voids : float
+        Air voids at which the stones touch, of the volume; each percent more sets them apart.
+    skeleton_pressure : float
+        Holds dry contacts together when the binder has relaxed [Pa].
+    binder_bulk : float
+        K of the binder [Pa].
+    cuts : tuple of float
+        Sizes between the levels [m].
+    squeezed : bool
+        Whether the matrix is nearly incompressible.
+    touching : bool
+        Whether the grains of coarse levels touch.
+    voids : bool
+        Whether air takes films away.
     """
 
     film_factor: float = 1.0
     touching_voids: float = 0.04
     skeleton_pressure: float = 10e3
-    binder_bulk: float = 2.5e9  # Pa
+    binder_bulk: float = 2.5e9
     cuts: tuple[float, ...] = CUTS
     squeezed: bool = True
     touching: bool = True
@@ -48,26 +64,51 @@ MODEL = complex(np.log(1.42), np.radians(7.1))
 
 @dataclass(frozen=True)
 class LevelResult:
-    """A level of a forecast, its packing, and its map."""
+    """A level of a forecast, its packing, and its map.
+
+    Parameters
+    ----------
+    level : Level
+        Sizes and fraction of its grains.
+    packing : LevelPacking
+        Spheres at rest.
+    grains : int
+        In the prism that is pulled.
+    map : StaticMap
+        From the modulus of its matrix to its own.
+    matrix_bulk : float
+        K of its matrix [Pa].
+    """
 
     level: Level
     packing: LevelPacking
-    grains: int  # in the prism that is pulled
+    grains: int
     map: StaticMap
-    matrix_bulk: float  # Pa
+    matrix_bulk: float
 
 
 @dataclass(frozen=True)
 class Forecast:
-    """E* [Pa] of the mix at the points of its recipe, (n,), and how it came about.
+    """E* of the mix at the points of its recipe, and how it came about.
 
-    deviation: change of ln E* (n,) by each doubt, its real part of |E*| and its imaginary part of the phase;
-    `packing` is half the range over the seeds.
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+    settings : Settings
+        What is taken for granted.
+    packed : tuple of tuple of LevelResult
+        The levels, for each seed.
+    modulus : ndarray of complex (n,)
+        E* [Pa].
+    deviation : dict of str to ndarray of complex (n,)
+        Change of ln E* by each doubt, its real part of |E*| and its imaginary part of the phase; `packing` is
+        half the range over the seeds.
     """
 
     recipe: Recipe
     settings: Settings
-    packed: tuple[tuple[LevelResult, ...], ...]  # the levels, for each seed
+    packed: tuple[tuple[LevelResult, ...], ...]
     modulus: np.ndarray
     deviation: dict[str, np.ndarray]
 
@@ -77,15 +118,38 @@ class Forecast:
         return self.packed[0]
 
     def modulus_at(self, omega: np.ndarray, temperature: float) -> np.ndarray:
-        """E* [Pa] of the mix at angular frequencies (n,) [rad/s] and a temperature [degC]."""
+        """E* of the mix at one temperature.
+
+        Parameters
+        ----------
+        omega : ndarray (n,)
+            Angular frequencies [rad/s].
+        temperature : float
+            [degC].
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            [Pa].
+        """
         binder = self.recipe.binder.complex_modulus(omega, temperature)
         logs = [np.log(modulus_of(levels, self.recipe.aggregate, binder)) for levels in self.packed]
         return np.exp(np.mean(logs, axis=0))
 
     def band(self, model: complex) -> np.ndarray:
-        """Half width (n,) of the band: of ln|E*|, and of the phase [rad].
+        """Half width of the band.
 
-        Root of the sum of squares of all deviations and of twice the model's own: root mean square of both.
+        Root of the sum of squares of all deviations and of twice the model's own.
+
+        Parameters
+        ----------
+        model : complex
+            Root mean square of the model's own error of ln|E*| and, imaginary, of the phase [rad].
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            Of ln|E*| and, imaginary, of the phase [rad].
         """
         parts = np.array([*self.deviation.values()]).reshape(-1, self.modulus.size)
         return np.sqrt((parts.real**2).sum(axis=0) + 4.0 * model.real**2) + 1j * np.sqrt(
@@ -94,7 +158,13 @@ class Forecast:
 
 
 class Networks:
-    """The packing of each level and seed, and the maps that were solved with them, each once."""
+    """The packing of each level and seed, and the maps that were solved with them, each once.
+
+    Parameters
+    ----------
+    packings : callable
+        Gives the packing of a level and a seed.
+    """
 
     def __init__(self, packings: Packings) -> None:
         self._packings = packings
@@ -102,7 +172,22 @@ class Networks:
         self._maps: dict[tuple, StaticMap] = {}
 
     def chain(self, recipe: Recipe, settings: Settings, seed: int) -> tuple[LevelResult, ...]:
-        """All levels, the finest first; what leaves one is the matrix of the next."""
+        """All levels, the finest first; what leaves one is the matrix of the next.
+
+        Parameters
+        ----------
+        recipe : Recipe
+            What the mix is made of.
+        settings : Settings
+            What is taken for granted.
+        seed : int
+            Of the packings.
+
+        Returns
+        -------
+        tuple of LevelResult
+            One result for each level.
+        """
         bulk, results = settings.binder_bulk, []
         found = levels_of(recipe, settings.cuts)
         for level in found:
@@ -139,7 +224,26 @@ def forecast(
     seeds: tuple[int, ...] = (1, 2),
     progress: Callable[[str, float, float], None] = lambda stage, done, total: None,
 ) -> Forecast:
-    """E* of the mix of a recipe: the geometric mean over packings of these seeds, with the doubts of the first."""
+    """E* of the mix of a recipe: the geometric mean over packings of some seeds, with the doubts of the first.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+    networks : Networks
+        Packings and maps.
+    settings : Settings
+        What is taken for granted.
+    seeds : tuple of int
+        Of the packings.
+    progress : callable
+        progress(stage, done, total).
+
+    Returns
+    -------
+    Forecast
+        At the points of the recipe.
+    """
     doubts = _doubted(recipe, settings)
     stages, runs, made = len(seeds) + len(doubts), [], []
     for k, seed in enumerate(seeds):
@@ -171,7 +275,22 @@ def physics_of(recipe: Recipe, settings: Settings, level: Level, last: bool) -> 
 
 
 def modulus_of(levels: tuple[LevelResult, ...], aggregate: Solid, binder: np.ndarray) -> np.ndarray:
-    """E* [Pa] of the mix for E* [Pa] of the binder (n,)."""
+    """E* of the mix for E* of the binder.
+
+    Parameters
+    ----------
+    levels : tuple of LevelResult
+        From the finest up.
+    aggregate : Solid
+        The solid of the grains.
+    binder : ndarray of complex (n,)
+        E* [Pa].
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        [Pa].
+    """
     ratio = binder / aggregate.modulus
     for result in levels:
         ratio = result.map(ratio)
@@ -200,7 +319,20 @@ def _half_range(logs: np.ndarray) -> np.ndarray:
 
 
 def kept_in(folder: str | Path, progress: Callable[[str, float, float], None] | None = None) -> Packings:
-    """Packings in a folder, poured where they are missing."""
+    """Packings in a folder, poured where they are missing.
+
+    Parameters
+    ----------
+    folder : path
+        Of the packings; made where it does not exist.
+    progress : callable, optional
+        progress(stage, done, total).
+
+    Returns
+    -------
+    callable
+        Gives the packing of a level and a seed.
+    """
     Path(folder).mkdir(parents=True, exist_ok=True)
 
     def packing(level: Level, seed: int) -> LevelPacking:

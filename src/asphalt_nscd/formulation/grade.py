@@ -31,7 +31,22 @@ def softening_point(penetration: float) -> float:
 
 
 def stiffness(penetration: float, temperature: np.ndarray, omega: np.ndarray) -> np.ndarray:
-    """E* [Pa] of the binder in the mix at temperatures [degC] and omega [rad/s]; nan where none is known."""
+    """E* of the binder in the mix (Ullidtz & Larsen 1983).
+
+    Parameters
+    ----------
+    penetration : float
+        Before mixing [0.1 mm].
+    temperature : ndarray (n,)
+        [degC].
+    omega : ndarray (n,)
+        Angular frequencies [rad/s].
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        [Pa]; NaN where none is known.
+    """
     log = np.log10(penetration)
     index = (27.0 * log - 21.65) / (76.35 * log - 232.82)
     below = softening_point(penetration) - np.asarray(temperature, float)
@@ -47,10 +62,26 @@ def compare_paper(
     networks: Networks,
     progress: Callable[[str, float, float], None],
 ) -> pd.DataFrame:
-    """A row for each temperature and frequency: |E*| [MPa] and phase of Table 3, and forecast from the grade.
+    """The paper's mix forecast from the grade of its binder. All else is that of the recipe: the paper gives
+    neither binder content nor air voids nor densities.
 
-    grading: diameter_mm, passing_percent; laws: as Table 3. All else is that of the recipe: the paper gives neither
-    binder content nor air voids nor densities.
+    Parameters
+    ----------
+    grading : path
+        CSV of diameter_mm, passing_percent.
+    laws : path
+        CSV as Table 3.
+    recipe : Recipe
+        What the mix is made of otherwise.
+    networks : Networks
+        Packings and maps.
+    progress : callable
+        progress(stage, done, total).
+
+    Returns
+    -------
+    DataFrame
+        A row for each temperature and frequency: |E*| [MPa] and phase of Table 3, and forecast.
     """
     table = read_csv(grading)
     table.require(["diameter_mm", "passing_percent"])

@@ -30,14 +30,28 @@ SURFACE_OF_ALL = 0.41
 
 @dataclass(frozen=True, eq=False)
 class Level:
-    """Grains between two sizes in a matrix of everything finer."""
+    """Grains between two sizes in a matrix of everything finer.
+
+    Parameters
+    ----------
+    name : str
+        Of the level.
+    smallest, largest : float
+        Size of its grains [m].
+    fraction : float
+        Volume of its grains over that of grains and matrix, without air.
+    diameter : ndarray (c,)
+        Classes of the packing [m].
+    share : ndarray (c,)
+        Of the volume of the packing.
+    """
 
     name: str
-    smallest: float  # m
-    largest: float  # m
-    fraction: float  # volume of its grains over that of grains and matrix, without air
-    diameter: np.ndarray  # (c,) m, classes of the packing
-    share: np.ndarray  # (c,) of the volume of the packing
+    smallest: float
+    largest: float
+    fraction: float
+    diameter: np.ndarray
+    share: np.ndarray
 
     @property
     def touching(self) -> bool:
@@ -46,7 +60,25 @@ class Level:
 
 
 def levels_of(recipe: Recipe, cuts: tuple[float, ...] = CUTS) -> list[Level]:
-    """Levels of a recipe from the finest up; cuts [m] between them, those without grains left out."""
+    """Levels of a recipe from the finest up.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+    cuts : tuple of float
+        Between the levels [m]; levels without grains are left out.
+
+    Returns
+    -------
+    list of Level
+        At least one.
+
+    Raises
+    ------
+    InputError
+        For a level with more grains than a packing can hold.
+    """
     grading = recipe.grading
     edges = np.array([0.0, *cuts, np.inf])
     passing = np.array([0.0, *grading.passing_at(np.asarray(cuts)), 1.0])
@@ -85,7 +117,18 @@ def _level(name: str, low: float, high: float, fraction: float, recipe: Recipe) 
 
 
 def film_thickness(recipe: Recipe) -> float:
-    """Mean thickness [m] of the binder on the grains: its volume over the surface of the aggregate (Hveem)."""
+    """Mean thickness of the binder on the grains: its volume over the surface of the aggregate (Hveem).
+
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+
+    Returns
+    -------
+    float
+        [m].
+    """
     surface = SURFACE_OF_ALL + sum(
         factor * float(recipe.grading.passing_at(sieve * 1e-3)) for sieve, factor in SURFACE.items()
     )

@@ -64,7 +64,25 @@ class Pair:
 
 
 def read_pairs(table: str | Path, recipe: Recipe) -> list[Pair]:
-    """Mixes of a table with a row for binder and mix of each state; the recipe gives all else."""
+    """Mixes whose binder was measured too; the recipe gives all else.
+
+    Parameters
+    ----------
+    table : path
+        CSV with a row for binder and mix of each state.
+    recipe : Recipe
+        What they share.
+
+    Returns
+    -------
+    list of Pair
+        One for each state.
+
+    Raises
+    ------
+    InputError
+        For a row that is no law.
+    """
     rows = read_csv(table)
     rows.require(["ageing_state", "level", *(column for column, _ in COLUMNS.values())])
     laws: dict[tuple[str, str], TwoS2P1D] = {}
@@ -83,7 +101,18 @@ def read_pairs(table: str | Path, recipe: Recipe) -> list[Pair]:
 
 
 def rungs(settings: Settings) -> Iterator[tuple[str, Settings]]:
-    """What the forecast gains with each part of its physics, and loses without it."""
+    """What the forecast gains with each part of its physics, and loses without it.
+
+    Parameters
+    ----------
+    settings : Settings
+        With all parts.
+
+    Yields
+    ------
+    tuple of str and Settings
+        Name and settings of each.
+    """
     bare = replace(settings, squeezed=False, touching=False, voids=False, skeleton_pressure=0.0)
     yield "levels", bare
     yield "+ squeezed films", replace(bare, squeezed=True)
@@ -100,9 +129,24 @@ def rungs(settings: Settings) -> Iterator[tuple[str, Settings]]:
 def compare(
     pairs: list[Pair], networks: Networks, progress: Callable[[str, float, float], None]
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """(errors of each rung and rival for each mix, points of the last rungs).
+    """Each rung and rival against the measured mixes.
 
-    errors: factor_rms is exp of the root mean square of ln(|E*| / measured), phase_rms_deg that of the phase.
+    Parameters
+    ----------
+    pairs : list of Pair
+        Of `read_pairs`.
+    networks : Networks
+        Packings and maps.
+    progress : callable
+        progress(stage, done, total).
+
+    Returns
+    -------
+    DataFrame
+        Errors for each mix: factor_rms is exp of the root mean square of ln(|E*| / measured), phase_rms_deg
+        that of the phase.
+    DataFrame
+        Points of the last rungs.
     """
     recipe, settings = pairs[0].recipe, Settings()
     made: dict[str, tuple[str, int, Callable[[Pair], np.ndarray]]] = {}
@@ -267,10 +311,22 @@ def _any_map(binder: np.ndarray) -> np.ndarray:
 
 
 def bands(pairs: list[Pair], networks: Networks) -> pd.DataFrame:
-    """What the band of a forecast holds of each mix, its share for the model's own error taken from the others alone.
+    """What the band of a forecast holds of each mix, its share for the model's own error taken from the others
+    alone.
 
-    A row for each mix: deviation_E of ln|E*| and deviation_phase_deg, root mean squares of the others; shares of its
-    points that lie in the band of stated doubts, and in that with these deviations (`Forecast.band`).
+    Parameters
+    ----------
+    pairs : list of Pair
+        Of `read_pairs`.
+    networks : Networks
+        Packings and maps.
+
+    Returns
+    -------
+    DataFrame
+        A row for each mix: deviation_E of ln|E*| and deviation_phase_deg, root mean squares of the others;
+        shares of its points that lie in the band of stated doubts, and in that with these deviations
+        (`Forecast.band`).
     """
     made = {pair.name: forecast(pair.recipe, networks, seeds=(1,)) for pair in pairs}
     off = {pair.name: np.log(made[pair.name].modulus / pair.measured) for pair in pairs}
@@ -288,7 +344,18 @@ def bands(pairs: list[Pair], networks: Networks) -> pd.DataFrame:
 
 
 def overall(errors: pd.DataFrame) -> pd.DataFrame:
-    """One row for each forecast: errors of each mix and of all together."""
+    """One row for each forecast.
+
+    Parameters
+    ----------
+    errors : DataFrame
+        Of `compare`.
+
+    Returns
+    -------
+    DataFrame
+        Errors of each mix and of all together.
+    """
     rows = []
     for name, group in errors.groupby("forecast", sort=False):
         rows.append(

@@ -32,10 +32,19 @@ MOST_ITERATIONS = 25  # of one with the factors of a neighbour, or of another ma
 class Physics:
     """What films and contacts do; each can be taken away (docs/forecast.md).
 
-    film: thickness [m] of the matrix between grains that touch; None keeps grains apart as the fraction says.
-    loosening: widening of these films, linear strain. void_share: of the facets, without film. skeleton_pressure [Pa]:
-    presses dry contacts together, zero for none. squeezed: the matrix is nearly incompressible; else Poisson's
-    ratio of a film is zero, and lines through grain and film do not know of each other.
+    Parameters
+    ----------
+    film : float, optional
+        Thickness of the matrix between grains that touch [m]; None keeps grains apart as the fraction says.
+    loosening : float
+        Widening of these films, linear strain.
+    void_share : float
+        Of the facets, without film.
+    skeleton_pressure : float
+        Presses dry contacts together [Pa], zero for none.
+    squeezed : bool
+        The matrix is nearly incompressible; else Poisson's ratio of a film is zero, and lines through grain
+        and film do not know of each other.
     """
 
     film: float | None = None
@@ -47,14 +56,33 @@ class Physics:
 
 @dataclass(frozen=True, eq=False)
 class Contents:
-    """A prism of a level's packing: spheres at their own size, and what its volume holds."""
+    """A prism of a level's packing.
+
+    Parameters
+    ----------
+    prism : Specimen
+        Spheres at their own size.
+    solid_fraction : float
+        What they fill of its volume.
+    """
 
     prism: Specimen
     solid_fraction: float
 
 
 def contents_of(packing: LevelPacking) -> Contents:
-    """The prism cut from the middle of a layer."""
+    """The prism cut from the middle of a layer.
+
+    Parameters
+    ----------
+    packing : LevelPacking
+        Spheres at rest.
+
+    Returns
+    -------
+    Contents
+        With its solid fraction.
+    """
     position, radius, margin = packing.position, packing.radius, SKIN * LARGEST
     top = layer_height(position, radius)
     length, width = packing.box[:2] - 2.0 * margin
@@ -98,7 +126,26 @@ def films_of(contents: Contents, level: Level, physics: Physics) -> tuple[Films,
 def level_map(
     contents: Contents, level: Level, grain: Solid, matrix_bulk: float, physics: Physics
 ) -> StaticMap:
-    """Young's modulus of a level over that of its grains as a function of that of its matrix, likewise."""
+    """Young's modulus of a level over that of its grains as a function of that of its matrix, likewise.
+
+    Parameters
+    ----------
+    contents : Contents
+        Prism of the level.
+    level : Level
+        Sizes and fraction.
+    grain : Solid
+        The solid of the grains.
+    matrix_bulk : float
+        K of the matrix [Pa].
+    physics : Physics
+        What films and contacts do.
+
+    Returns
+    -------
+    StaticMap
+        The function.
+    """
     stiffness = bond_stiffness(contents, level, grain, matrix_bulk, physics, RATIOS) / grain.modulus
     found = np.empty(RATIOS.size)
     for statics, group in zip(

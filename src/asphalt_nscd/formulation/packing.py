@@ -24,11 +24,27 @@ MOST_SPHERES = 6000
 
 @dataclass(frozen=True)
 class LevelPacking:
-    """Spheres at rest in a box [0, length] x [0, width]: position (n, 3) and radius (n,) [m], in packing units."""
+    """Spheres at rest in a box [0, length] x [0, width], in packing units.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        [m].
+    box : ndarray (3,)
+        Length, width and height [m].
+    seed : int
+        Of the lattice.
+    solid_fraction : float
+        Of the layer.
+    coordination : float
+        Contacts of a sphere in the mean.
+    """
 
     position: np.ndarray
     radius: np.ndarray
-    box: np.ndarray  # (3,) m
+    box: np.ndarray
     seed: int
     solid_fraction: float
     coordination: float
@@ -40,7 +56,24 @@ def packing_of(
     folder: Path,
     progress: Progress = lambda stage, done, total: None,
 ) -> LevelPacking:
-    """The packing of a level in `folder`, poured if it is not there."""
+    """The packing of a level, poured if it is not there.
+
+    Parameters
+    ----------
+    level : Level
+        Sizes and shares of its grains.
+    seed : int
+        Of the lattice.
+    folder : path
+        Where packings are kept.
+    progress : callable
+        progress(stage, done, total).
+
+    Returns
+    -------
+    LevelPacking
+        Spheres at rest.
+    """
     diameter, count, width = ordered(level)
     path = folder / f"{level.name.replace(' ', '_')}_{_key(diameter, count)}_{seed}.h5"
     if not path.is_file():
@@ -61,7 +94,22 @@ def packing_of(
 
 
 def ordered(level: Level) -> tuple[np.ndarray, np.ndarray, float]:
-    """Diameters [m], counts of spheres and width of the box [m] in packing units."""
+    """What to pour for a level, in packing units.
+
+    Parameters
+    ----------
+    level : Level
+        Sizes and shares of its grains.
+
+    Returns
+    -------
+    ndarray (c,)
+        Diameters [m].
+    ndarray of int (c,)
+        Counts.
+    float
+        Width of the box [m].
+    """
     diameter = level.diameter * LARGEST / level.diameter.max()
     width = WIDTH * LARGEST
     count = level.share * LOOSE * width**3 / (np.pi / 6.0 * diameter**3)

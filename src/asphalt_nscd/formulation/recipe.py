@@ -33,37 +33,85 @@ DENSEST = 0.92  # of the volume: more solids than any grading packs
 
 @dataclass(frozen=True)
 class Grading:
-    """Share of the mass (and volume) of the aggregate that passes each sieve, rising with it."""
+    """Share of the mass (and volume) of the aggregate that passes each sieve, rising with it.
 
-    sieve: np.ndarray  # (s,) m
-    passing: np.ndarray  # (s,) 0 to 1; the last is 1
+    Parameters
+    ----------
+    sieve : ndarray (s,)
+        [m].
+    passing : ndarray (s,)
+        0 to 1; the last is 1.
+    """
+
+    sieve: np.ndarray
+    passing: np.ndarray
 
     def passing_at(self, diameter: np.ndarray | float) -> np.ndarray:
-        """Share finer than diameters [m], straight between sieves over the logarithm of size; all below pass."""
+        """Share finer, straight between sieves over the logarithm of size; all below pass.
+
+        Parameters
+        ----------
+        diameter : ndarray or float
+            [m].
+
+        Returns
+        -------
+        ndarray
+            0 to 1, of the same shape.
+        """
         return np.interp(np.log(diameter), np.log(self.sieve), self.passing)
 
 
 @dataclass(frozen=True)
 class Recipe:
-    """What a mix is made of. Moduli [Pa], sizes [m], densities [kg/m3], shares 0 to 1.
+    """What a mix is made of.
 
-    binder: law of Young's modulus. shifted: whether the law holds at other temperatures than its reference.
+    Parameters
+    ----------
+    name : str
+        Of the mix.
+    source : str
+        Where the recipe comes from.
+    file : str
+        For messages.
+    binder : Spectrum
+        Law of Young's modulus.
+    shifted : bool
+        Whether the law holds at other temperatures than its reference.
+    temperature_stated : bool
+        Else UNSTATED stands for it.
+    binder_share : float
+        Of the mass of the mix.
+    voids : float
+        Of the volume of the mix.
+    aggregate_density : float
+        [kg/m3].
+    binder_density : float
+        [kg/m3].
+    aggregate : Solid
+        The solid of the grains.
+    grading : Grading
+        Of the aggregate.
+    temperature : ndarray (n,)
+        Of each point of the forecast [degC].
+    frequency : ndarray (n,)
+        Of each point of the forecast [Hz].
     """
 
     name: str
     source: str
-    file: str  # for messages
+    file: str
     binder: Spectrum
     shifted: bool
-    temperature_stated: bool  # else UNSTATED stands for it
-    binder_share: float  # of the mass of the mix
-    voids: float  # of the volume of the mix
+    temperature_stated: bool
+    binder_share: float
+    voids: float
     aggregate_density: float
     binder_density: float
     aggregate: Solid
     grading: Grading
-    temperature: np.ndarray  # (n,) degC, of each point of the forecast
-    frequency: np.ndarray  # (n,) Hz
+    temperature: np.ndarray
+    frequency: np.ndarray
 
     @property
     def aggregate_fraction(self) -> float:
@@ -84,7 +132,23 @@ class Recipe:
 
 
 def read_recipe(path: str | Path) -> Recipe:
-    """The recipe in a YAML file; InputError names the key and the mend."""
+    """Read a recipe.
+
+    Parameters
+    ----------
+    path : path
+        YAML file as data/forecast/recipe.yaml.
+
+    Returns
+    -------
+    Recipe
+        Checked.
+
+    Raises
+    ------
+    InputError
+        Which names the key and the mend.
+    """
     require_readable(path, "check the path of the recipe")
     try:
         content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
@@ -94,7 +158,25 @@ def read_recipe(path: str | Path) -> Recipe:
 
 
 def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
-    """The recipe in a mapping as its file has it; path: its name in messages."""
+    """The recipe in a mapping as its file has it.
+
+    Parameters
+    ----------
+    content : mapping
+        Of a YAML file.
+    path : path
+        Its name in messages.
+
+    Returns
+    -------
+    Recipe
+        Checked.
+
+    Raises
+    ------
+    InputError
+        Which names the key and the mend.
+    """
     schema = yaml.safe_load((files(__package__) / "recipe.schema.yaml").read_text(encoding="utf-8"))
     if not isinstance(content, Mapping):
         raise InputError(f"{path}: holds no mapping; see data/forecast/recipe.yaml.")

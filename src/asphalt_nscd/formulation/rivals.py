@@ -15,17 +15,50 @@ ROUNDS = 2000  # of the self-consistent iteration
 
 
 def mori_tanaka(recipe: Recipe) -> np.ndarray:
-    """E* [Pa]: stiff spheres in each level's matrix, then air voids in the mix (Mori & Tanaka 1973)."""
+    """Stiff spheres in each level's matrix, then air voids in the mix (Mori & Tanaka 1973).
+
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        E* [Pa].
+    """
     return _levels(recipe, _dilute_in_matrix)
 
 
 def self_consistent(recipe: Recipe) -> np.ndarray:
-    """E* [Pa]: grains of each level and its matrix as spheres in the level itself (Hill 1965)."""
+    """Grains of each level and its matrix as spheres in the level itself (Hill 1965).
+
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        E* [Pa].
+    """
     return _levels(recipe, _in_itself)
 
 
 def hirsch(recipe: Recipe) -> np.ndarray:
-    """E* [Pa] by Christensen, Pellinen & Bonaquist (2003), with their equation of the phase."""
+    """The regression of Christensen, Pellinen & Bonaquist (2003), with their equation of the phase.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        E* [Pa].
+    """
     shear = np.abs(recipe.binder_modulus()) / 3.0 / PSI
     vma, vfa = _volumetrics(recipe)
     filled = vfa * 3.0 * shear / vma
@@ -38,7 +71,18 @@ def hirsch(recipe: Recipe) -> np.ndarray:
 
 
 def witczak(recipe: Recipe) -> np.ndarray:
-    """|E*| [Pa] by Bari & Witczak (2006); it gives no phase, so the result has none."""
+    """The regression of Bari & Witczak (2006).
+
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        |E*| [Pa]; it gives no phase, so the result has none.
+    """
     binder = recipe.binder_modulus()
     shear, phase = np.abs(binder) / 3.0 / PSI, np.degrees(np.angle(binder))
     passing = recipe.grading.passing_at

@@ -18,13 +18,27 @@ POLES = np.geomspace(1e-8, 10.0, 73)
 
 @dataclass(frozen=True)
 class StaticMap:
-    """F of a level, moduli over that of its grains."""
+    """F(x) = a + b x + sum of w x / (1 + x / s) of a level, moduli over that of its grains.
+
+    Parameters
+    ----------
+    constant : float
+        a.
+    slope : float
+        b.
+    weight : ndarray (p,)
+        w.
+    pole : ndarray (p,)
+        s.
+    error : float
+        Largest relative deviation from the solutions it was made of.
+    """
 
     constant: float
     slope: float
-    weight: np.ndarray  # (p,)
-    pole: np.ndarray  # (p,)
-    error: float  # largest relative deviation from the solutions it was made of
+    weight: np.ndarray
+    pole: np.ndarray
+    error: float
 
     def __call__(self, ratio: np.ndarray) -> np.ndarray:
         """F at real or complex ratios (...)."""
@@ -33,7 +47,20 @@ class StaticMap:
 
 
 def fit_map(values: np.ndarray, ratios: np.ndarray = RATIOS) -> StaticMap:
-    """The map through values (n,) at ratios (n,). Twice as many leave a tenth of its error, or less."""
+    """The map through static solutions. Twice as many leave a tenth of its error, or less.
+
+    Parameters
+    ----------
+    values : ndarray (n,)
+        F at the ratios.
+    ratios : ndarray (n,)
+        x.
+
+    Returns
+    -------
+    StaticMap
+        With its error.
+    """
     x = ratios[:, None]
     basis = np.hstack([np.ones_like(x), x, x / (1.0 + x / POLES)]) / values[:, None]
     size = np.linalg.norm(basis, axis=0)

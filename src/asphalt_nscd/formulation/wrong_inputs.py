@@ -49,15 +49,27 @@ NAMED_SHARE = 0.001  # of the gain over no error, if that is more: where gains a
 
 @dataclass(frozen=True)
 class Changes:
-    """What each input changes in ln E* (sizes, n) and in ln of bulk and maximum density (sizes, 2)."""
+    """What each input changes.
 
-    omega: np.ndarray  # (n,) rad/s, reduced to one temperature where there are several
+    Parameters
+    ----------
+    omega : ndarray (n,)
+        [rad/s], reduced to one temperature where there are several.
+    size : dict of str to ndarray (sizes,)
+        By the input, how far it is off.
+    log : dict of str to ndarray (sizes, n)
+        Change of ln E*.
+    density : dict of str to ndarray (sizes, 2)
+        Change of ln of bulk and maximum density.
+    shape : dict of str to float or ndarray (sizes, n)
+        How far each may be off, at all sizes and points or at each.
+    """
+
+    omega: np.ndarray
     size: dict[str, np.ndarray]
     log: dict[str, np.ndarray]
     density: dict[str, np.ndarray]
-    shape: dict[
-        str, float | np.ndarray
-    ]  # how far each may be off, at all sizes and points or at each (sizes, n)
+    shape: dict[str, float | np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -72,9 +84,28 @@ class Finding:
 def read_ratio(
     measured: str | Path, reference: str | Path, recipe: Recipe
 ) -> tuple[Recipe, np.ndarray, np.ndarray]:
-    """The recipe at the points that two tables share, ln(E* of the first / of the second) and ln E* of the second (n,).
+    """A mix beside its reference, at the points that both tables share; rows of one point are averaged.
 
-    Both have temperature_C, frequency_Hz, E_MPa, phase_deg; rows of one point are averaged.
+    Parameters
+    ----------
+    measured, reference : path
+        CSV with temperature_C, frequency_Hz, E_MPa, phase_deg.
+    recipe : Recipe
+        Of both.
+
+    Returns
+    -------
+    Recipe
+        With these points.
+    ndarray of complex (n,)
+        ln(E* of the first / of the second).
+    ndarray of complex (n,)
+        ln E* of the second.
+
+    Raises
+    ------
+    InputError
+        For fewer than three shared points, or temperatures that the binder's law lacks.
     """
     mix, known = (_by_point(path) for path in (measured, reference))
     shared = mix.index.intersection(known.index)
@@ -105,21 +136,60 @@ def _by_point(path: str | Path) -> pd.Series:
 
 
 def densities(recipe: Recipe) -> np.ndarray:
-    """Bulk and maximum density (2,) [kg/m3] of the mix of a recipe."""
+    """Densities of the mix of a recipe.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+
+    Returns
+    -------
+    ndarray (2,)
+        Bulk and maximum density [kg/m3].
+    """
     share = recipe.binder_share
     maximum = 1.0 / (share / recipe.binder_density + (1.0 - share) / recipe.aggregate_density)
     return np.array([maximum * (1.0 - recipe.voids), maximum])
 
 
 def changed(recipe: Recipe, name: str, size: float) -> Recipe:
-    """The recipe with one input off; stiffness and contacts do not stand in it."""
+    """The recipe with one input off; stiffness and contacts do not stand in it.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+    name : str
+        Of the input.
+    size : float
+        How far it is off, in its unit.
+
+    Returns
+    -------
+    Recipe
+        Another one.
+    """
     if name == "air voids":
         return replace(recipe, voids=max(recipe.voids + size, 0.0))
     return replace(recipe, binder_share=recipe.binder_share + size) if name == "binder content" else recipe
 
 
 def changes_of(recipe: Recipe, networks: Networks) -> Changes:
-    """By the forecast at the points of the recipe, straight between SIZES."""
+    """What each input changes by the forecast at the points of the recipe, straight between SIZES.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        What the mix is made of.
+    networks : Networks
+        Packings and maps.
+
+    Returns
+    -------
+    Changes
+        By input and size.
+    """
 
     def forecast(name: str, size: float) -> tuple[np.ndarray, np.ndarray]:
         other, chosen, faster = changed(recipe, name, size), Settings(), 1.0
@@ -147,7 +217,20 @@ def changes_of(recipe: Recipe, networks: Networks) -> Changes:
 
 
 def along_reference(changes: Changes, reference: np.ndarray) -> Changes:
-    """The same, the change by a stiffer binder taken from ln E* (n,) of the reference as far as it was measured."""
+    """The same, the change by a stiffer binder taken from the reference as far as it was measured.
+
+    Parameters
+    ----------
+    changes : Changes
+        By the forecast.
+    reference : ndarray of complex (n,)
+        ln E*.
+
+    Returns
+    -------
+    Changes
+        By input and size.
+    """
     decades, name = np.log10(changes.omega), "binder stiffness"
     degree = min(DEGREE, decades.size // 3)
     middle, span = 0.5 * (decades.min() + decades.max()), max(float(np.ptp(decades)), 1e-9)
@@ -166,7 +249,22 @@ def along_reference(changes: Changes, reference: np.ndarray) -> Changes:
 
 
 def find(changes: Changes, ratio: np.ndarray, density: np.ndarray | None = None) -> Finding:
-    """What explains ln(E* of mix / reference) (n,), and ln of bulk and maximum density over the recipe's (2,)."""
+    """Which input explains a mix beside its reference.
+
+    Parameters
+    ----------
+    changes : Changes
+        By input and size.
+    ratio : ndarray of complex (n,)
+        ln(E* of mix / reference).
+    density : ndarray (2,), optional
+        ln of bulk and maximum density over the recipe's.
+
+    Returns
+    -------
+    Finding
+        Inputs that are likely, and the gain of likelihood of all.
+    """
     gain, best = {}, {}
     for name, sizes in changes.size.items():
         tried = _log_likelihood(changes, ratio, density, name)
@@ -186,7 +284,20 @@ def find(changes: Changes, ratio: np.ndarray, density: np.ndarray | None = None)
 
 
 def limits(changes: Changes, weighed: bool) -> dict[str, float]:
-    """Smallest error above zero of each input that would be noticed without scatter; nan where none in its range is."""
+    """Smallest error of each input that would be noticed without scatter.
+
+    Parameters
+    ----------
+    changes : Changes
+        By input and size.
+    weighed : bool
+        Whether the densities are known too.
+
+    Returns
+    -------
+    dict of str to float
+        Above zero; NaN where none in its range is noticed.
+    """
     found = {}
     for name, sizes in changes.size.items():
         found[name] = np.nan
@@ -199,7 +310,20 @@ def limits(changes: Changes, weighed: bool) -> dict[str, float]:
 
 
 def table(finding: Finding, limit: dict[str, float]) -> pd.DataFrame:
-    """A row for each input: the size that fits best, its gain of likelihood, whether it is named."""
+    """A finding as a table.
+
+    Parameters
+    ----------
+    finding : Finding
+        Of `find`.
+    limit : dict of str to float
+        Of `limits`.
+
+    Returns
+    -------
+    DataFrame
+        A row for each input: the size that fits best, its gain of likelihood, whether it is named.
+    """
     rows = []
     for name, gain in finding.gain.items():
         scale, unit = UNITS.get(name, (1.0, "decades of pressure"))

@@ -78,14 +78,35 @@ class Surfaces(Ranged):
 
 @dataclass(frozen=True)
 class Pouring(Ranged):
-    """Where spheres fall, and how."""
+    """Where spheres fall, and how.
 
-    box: tuple[float, float, float]  # length, width, height, m
-    seed: int = within(0, low=0)  # of the random lattice
+    Parameters
+    ----------
+    box : tuple of float
+        Length, width and height [m].
+    seed : int
+        Of the random lattice.
+    surfaces : Surfaces
+        Friction and restitution.
+    vibration : Vibration
+        Of the top wall.
+    time_step : float
+        [s].
+    threads : int
+        They change no number.
+
+    Raises
+    ------
+    InputError
+        For a box, a step or threads out of range, or too many steps.
+    """
+
+    box: tuple[float, float, float]
+    seed: int = within(0, low=0)
     surfaces: Surfaces = Surfaces()
     vibration: Vibration = Vibration()
-    time_step: float = within(4e-4, "time_step_s", low=1e-6, high=1e-3)  # s
-    threads: int = 1  # changes no number
+    time_step: float = within(4e-4, "time_step_s", low=1e-6, high=1e-3)
+    threads: int = 1
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -112,11 +133,21 @@ class Pouring(Ranged):
 
 @dataclass(frozen=True)
 class Cutting(Ranged):
-    """What becomes of the spheres that are cut out: shrunk, and bonded."""
+    """What becomes of the spheres that are cut out: shrunk, and bonded.
 
-    volume_reduction: float = within(0.1, low=0.0, below=1.0)  # part of each volume, where mastic goes
-    gap_max_mm: float = within(2.0, above=0.0)  # pairs with a smaller gap are bonded, by area "paper"
-    area: str = one_of("paper", AREAS)  # of a bond
+    Parameters
+    ----------
+    volume_reduction : float
+        Part of each volume, where mastic goes.
+    gap_max_mm : float
+        Pairs with a smaller gap are bonded [mm], by area "paper".
+    area : str
+        Of a bond, one of `network.AREAS`.
+    """
+
+    volume_reduction: float = within(0.1, low=0.0, below=1.0)
+    gap_max_mm: float = within(2.0, above=0.0)
+    area: str = one_of("paper", AREAS)
 
 
 def deposit(
@@ -125,7 +156,29 @@ def deposit(
     output: str | Path,
     progress: Progress = lambda stage, done, total: None,
 ) -> Mapping[str, Any]:
-    """Pour the spheres of a table of counts, or go on with those of a deposit file, and save; the file's attributes."""
+    """Pour spheres, or go on with those of a deposit file, and save.
+
+    Parameters
+    ----------
+    spheres : path
+        Table of counts, or a deposit file (.h5).
+    pouring : Pouring
+        Box, seed, surfaces, vibration.
+    output : path
+        HDF5 file to write.
+    progress : callable
+        progress(stage, done, total).
+
+    Returns
+    -------
+    mapping
+        The file's attributes.
+
+    Raises
+    ------
+    InputError
+        Where the box cannot hold the spheres.
+    """
     path = Path(spheres)
     if path.suffix == ".h5":
         kept = load(path, DEPOSIT).arrays
@@ -141,9 +194,26 @@ def pour(
     pouring: Pouring,
     progress: Progress = lambda stage, done, total: None,
 ) -> Content:
-    """Pour spheres, diameters [m] and their counts, and vibrate them.
+    """Pour spheres and vibrate them.
 
-    Arrays and attributes of a deposit file.
+    Parameters
+    ----------
+    spheres : tuple of ndarray
+        Diameters [m] and their counts.
+    pouring : Pouring
+        Box, seed, surfaces, vibration.
+    progress : callable
+        progress(stage, done, total).
+
+    Returns
+    -------
+    tuple of dict
+        Arrays and attributes of a deposit file.
+
+    Raises
+    ------
+    InputError
+        Where the box cannot hold the spheres.
     """
     rng = np.random.default_rng(pouring.seed)
     bed = _bed(*random_lattice(*spheres, pouring.box, rng), pouring)
@@ -157,7 +227,29 @@ def pour_on(
     pouring: Pouring,
     progress: Progress = lambda stage, done, total: None,
 ) -> Content:
-    """The same from where spheres stand: position (n, 3) [m], radius (n,) [m]."""
+    """The same from where spheres stand.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        [m].
+    pouring : Pouring
+        Box, surfaces, vibration.
+    progress : callable
+        progress(stage, done, total).
+
+    Returns
+    -------
+    tuple of dict
+        Arrays and attributes of a deposit file.
+
+    Raises
+    ------
+    InputError
+        Where spheres lie outside the box.
+    """
     if (position < 0.0).any() or (position > pouring.box).any():
         raise InputError(
             f"box_m = {pouring.box}: spheres of the packing lie outside; give a box that holds them."
@@ -237,7 +329,18 @@ def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
 
 
 def unrest(attributes: Mapping[str, Any]) -> str:
-    """What to make of a layer whose forces are not in equilibrium; nothing of one at rest."""
+    """What to make of a layer whose forces are not in equilibrium.
+
+    Parameters
+    ----------
+    attributes : mapping
+        Of a deposit file.
+
+    Returns
+    -------
+    str
+        One sentence; nothing of a layer at rest.
+    """
     carried, unbalanced = attributes["weight_balance"], attributes["unbalanced_force"]
     if max(carried, unbalanced) <= OUT_OF_BALANCE:
         return ""
@@ -273,8 +376,24 @@ def layer_statistics(
 ) -> dict[str, float]:
     """Height, solid fraction, coordination and segregation of a layer on the floor of the box.
 
-    Segregation is the difference between the mean heights of the largest and of the smallest
-    spheres over the height of the layer: zero when mixed, positive when large spheres are on top.
+    Segregation is the difference between the mean heights of the largest and of the smallest spheres over the
+    height of the layer: zero when mixed, positive when large spheres are on top.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        [m].
+    box : tuple of float
+        Length, width and height [m].
+    contacts : ndarray of int (c, 2)
+        Bodies of each contact.
+
+    Returns
+    -------
+    dict of str to float
+        By the names of the file's attributes.
     """
     n, height = radius.size, layer_height(position, radius)
     between = contacts[(contacts < n).all(axis=1)]
@@ -293,7 +412,29 @@ def trim_deposit(
     cutting: Cutting,
     output: str | Path,
 ) -> Mapping[str, float | int | str]:
-    """Cut a specimen from a deposit, bond its spheres (`trim`), and save; what it holds."""
+    """Cut a specimen from a deposit, bond its spheres (`trim`), and save.
+
+    Parameters
+    ----------
+    deposit_file : path
+        HDF5 file of a deposit.
+    geometry : mapping or path
+        Mapping of mm and kg, or a JSON file with it.
+    cutting : Cutting
+        Reduction of volume, and bonds.
+    output : path
+        HDF5 file to write.
+
+    Returns
+    -------
+    mapping
+        What it holds.
+
+    Raises
+    ------
+    InputError
+        Where the deposit cannot hold the specimen.
+    """
     record = load(deposit_file, DEPOSIT)
     shape = read_shape(geometry)
     arrays, said = bonded((record.arrays, record.attributes), shape, cutting)
@@ -302,7 +443,27 @@ def trim_deposit(
 
 
 def bonded(deposited: Content, shape: Shape, cutting: Cutting) -> Content:
-    """Arrays and attributes of a specimen file, cut from the content of a deposit file. See `trim_deposit`."""
+    """A specimen file's content, cut from that of a deposit file. See `trim_deposit`.
+
+    Parameters
+    ----------
+    deposited : Content
+        Arrays and attributes of a deposit file.
+    shape : Shape
+        Geometry of the specimen.
+    cutting : Cutting
+        Reduction of volume, and bonds.
+
+    Returns
+    -------
+    tuple of dict
+        Arrays and attributes of a specimen file.
+
+    Raises
+    ------
+    InputError
+        Where the deposit cannot hold the specimen.
+    """
     arrays, attributes = deposited
     require_within(shape, arrays["box"].tolist())
     volume_reduction, gap_max, area = cutting.volume_reduction, 1e-3 * cutting.gap_max_mm, cutting.area
@@ -325,13 +486,40 @@ def bonded(deposited: Content, shape: Shape, cutting: Cutting) -> Content:
 
 
 def read_specimen(path: str | Path) -> Specimen:
-    """The specimen in a file made by `trim_deposit`."""
+    """The specimen in a file made by `trim_deposit`.
+
+    Parameters
+    ----------
+    path : path
+        HDF5 file.
+
+    Returns
+    -------
+    Specimen
+        Bonded spheres.
+
+    Raises
+    ------
+    InputError
+        Where the file is missing, damaged or of another kind.
+    """
     record = load(path, SPECIMEN)
     return specimen_of((record.arrays, record.attributes))
 
 
 def specimen_of(content: Content) -> Specimen:
-    """The specimen in the content of its file."""
+    """The specimen in the content of its file.
+
+    Parameters
+    ----------
+    content : Content
+        Arrays and attributes.
+
+    Returns
+    -------
+    Specimen
+        Bonded spheres.
+    """
     arrays, attributes = content
     return Specimen(
         geometry=shape_of(attributes),
