@@ -145,6 +145,8 @@ def run_test(
 def _by_force(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions) -> Record:
     """The actuator moves a clamp so soft that it commands the force; what the clamp takes of its motion is left out."""
     clamp = soft_clamp(model, abs(law.discrete_modulus(case.omega, 0.0)))
+    # a clamp far softer than the specimen turns its displacement into a force, so that one balance of the
+    # head serves both controls
     pulled = replace(case, amplitude=clamp * case.amplitude, rig=Rig(clamp_compliance=clamp), by_force=False)
     record = run_test(tared(model), law, pulled, numerics, options)
     # energies are those of the soft clamp
@@ -396,8 +398,10 @@ def outcome(
         raise InputError(
             f"{model.name} at {frequency:g} Hz: {error}; lower the amplitude or choose another method."
         ) from None
+    # CPU and not wall time, which depends on what runs beside the test
     cpu = time.process_time() - began
     history = record.time, record.force, record.displacement, frequency
+    # the first cycles hold the transient of the Maxwell dashpot and of the start from rest
     steady = harmonic_response(*history, cycles=min(REDUCED_CYCLES, int(cycles)))
     peak = peak_response(*history, cycles=1)
     columns: dict[str, Any] = {
@@ -479,6 +483,7 @@ def _velocity_profile(layers: LayerHeights, record: Record, frequency: float) ->
     """Mean velocity of the spheres along the drive in layers of equal height, over the last cycle."""
     if record.velocity is None:
         return {}
+    # one whole cycle: Fig. 8 compares the means of layers at equal phases
     last = np.flatnonzero(record.time > record.time[-1] - 1.0 / frequency)
     taken = last[np.linspace(0, last.size - 1, min(PROFILE_SAMPLES, last.size)).astype(int)]
     return {

@@ -112,9 +112,12 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     times = dt * np.arange(1.0, held.steps + 1.0)
     clamp = 0.0
     if held.force_N is not None:
+        # soft against the stiffest the specimen ever is, its modulus after the first step; later it only
+        # creeps
         clamp = soft_clamp(model, 1.0 / float(chain.creep_compliance(dt)))
         path = np.full(held.steps, clamp * held.force_N)
     else:
+        # held from the first step on, as in the closed forms: no ramp
         path = np.full(held.steps, held.displacement_m or geometry.usual_amplitude())
     try:
         run = runs.by_path(tared(model), bond_law(chain), HeadDevices(clamp), dt, path, RunOptions())

@@ -58,6 +58,7 @@ class Layers(LayerHeights):
         from scipy import sparse
 
         edges = np.linspace(0.0, shape.h, LAYERS + 1)
+        # centres at the very head or foot belong to the layer there
         layer = np.clip(np.digitize(sphere_height, edges) - 1, 0, LAYERS - 1)
         spheres = np.bincount(layer, minlength=LAYERS)
         entries = (1.0 / spheres[layer], (layer, 6 * np.arange(layer.size) + shape.axis))

@@ -27,6 +27,7 @@ def tared(model: Model) -> Model:
     Model
         Without load, and without directions for breaks.
     """
+    # directions kept ready hold the projection of a system with weight
     system = replace(model.system, load=np.zeros_like(model.system.load))
     return replace(model, system=system, stand_by=None)
 

@@ -55,7 +55,9 @@ def kelvin_chain(
         )
     best = np.inf
     for elements in range(1, MOST_ELEMENTS + 1):
+        # times beyond the band shape the law within it; how far beyond is best differs from law to law
         tries = [_fit(modulus, lowest_omega, highest_omega, elements, reach) for reach in REACH]
+        # of equal errors the chain with fewer elements: each costs a variable of every bond in every step
         error, _, chain = min(tries, key=lambda found: found[:2])
         if chain is not None and error <= tolerance:
             return chain, error
@@ -80,6 +82,7 @@ def _fit(
     relative = parts * modulus(omega)[:, None]
     size = np.linalg.norm(relative, axis=0)
     system = np.vstack([relative.real, relative.imag]) / size
+    # columns of equal length: NNLS holds the gradients of all against one tolerance
     share = nnls(system, np.concatenate([np.ones(omega.size), np.zeros(omega.size)]))[0] / size
     if not share.any():
         return np.inf, 0, None
@@ -90,6 +93,7 @@ def _fit(
     chain = KelvinChain(
         float(spring), float(dashpot), tuple(springs.tolist()), tuple((springs * time[kept]).tolist())
     )
+    # the error is measured between the frequencies of the fit, where it is largest
     dense = _grid(low, high, TESTED)
     error = float(np.abs(np.log(chain.complex_modulus(dense) / modulus(dense))).max())
     return error, int(kept.sum()), chain

@@ -162,7 +162,9 @@ def of_chain(chain: KelvinChain) -> MaxwellSeries:
     moduli = []
     for rate in rates:
         slope = fluidity / rate**2 + (dashpots / (springs - rate * dashpots) ** 2).sum()
+        # the residue of 1/D at its pole; the slope is a sum of positive terms, without cancellation
         moduli.append(float(1.0 / (rate * slope)))
+    # a dashpot in series relaxes all stress; else what is left at t = infinity is the static modulus
     long_term = 0.0 if flows else 1.0 / compliance(0.0)
     order = np.argsort(1.0 / np.array(rates))
     return MaxwellSeries(
@@ -175,6 +177,7 @@ def _merged(chain: KelvinChain) -> tuple[NDArray[np.float64], NDArray[np.float64
     springs, dashpots = np.array(chain.kelvin_springs), np.array(chain.kelvin_dashpots)
     order = np.argsort(springs / dashpots)
     springs, rates = springs[order], (springs / dashpots)[order]
+    # elements of one rate are one element: D would have a double pole, and no zero between them
     first = np.concatenate([[True], np.diff(rates) > SAME_RATE * rates[1:]])[: rates.size]
     together = 1.0 / np.bincount(np.cumsum(first) - 1, weights=1.0 / springs, minlength=first.sum())
     return together, together / rates[first]
@@ -183,6 +186,7 @@ def _merged(chain: KelvinChain) -> tuple[NDArray[np.float64], NDArray[np.float64
 def _zero_after(function: Callable[[float], float], start: float, end: float) -> float:
     """The zero of a function that rises from minus infinity at start to plus infinity or a limit at end."""
     if start == 0.0:
+        # D falls to minus infinity towards the pole, so that some step towards it finds the sign
         low = 1e-3 * (end if np.isfinite(end) else 1.0)
         while function(low) > 0.0:
             low *= 1e-3

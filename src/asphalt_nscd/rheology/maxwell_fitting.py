@@ -152,6 +152,8 @@ def _merged(series: MaxwellSeries, terms: int) -> MaxwellSeries:
     while len(moduli) > terms:
         first = int(np.argmin(np.diff(np.log(times))))
         share = moduli[first] / (moduli[first] + moduli[first + 1])
+        # the weighted mean of ln times leaves the relaxed modulus and, to first order, the spectrum as they
+        # are
         times[first : first + 2] = [times[first] ** share * times[first + 1] ** (1.0 - share)]
         moduli[first : first + 2] = [moduli[first] + moduli[first + 1]]
     return MaxwellSeries(series.long_term, tuple(moduli), tuple(times))
@@ -184,6 +186,7 @@ def _refined(
     large (Lawson 1961).
     """
     terms = len(start.moduli)
+    # logarithms keep moduli and times positive without bounds
     first = np.log([max(start.long_term, SMALLEST * sum(start.moduli)), *start.moduli, *start.times])
     scales = _scales(allowed)
     weight = np.ones(2 * omega.size)
@@ -214,7 +217,10 @@ def _refined(
         ).x
         left = np.abs(residual(x))
         best = min(best, (float(left.max()), x), key=lambda pair: pair[0])
+        # Lawson's method: where the error is large the weight grows, until the largest error is as small as
+        # it gets
         weight *= left / left.max()
+        # a weight of zero never comes back, though the error there may
         weight = np.maximum(weight / weight.mean(), 1e-4)
     values = np.exp(best[1])
     order = np.argsort(values[terms + 1 :])

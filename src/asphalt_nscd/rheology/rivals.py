@@ -70,6 +70,8 @@ class Rival:
 
         def fitted(one: Vector, most: int) -> OptimizeResult:
             return least_squares(
+                # the pull settles what the tests leave open, so that a law left without an isotherm is not
+                # fitted at random
                 lambda x: np.append(
                     log_residual(modulus, self.modulus(x, omega, temperature)), PULL * (x - middle)
                 ),
@@ -79,6 +81,8 @@ class Rival:
             )
 
         if start is None:
+            # twenty steps tell a good start from a bad one; to the end from each would take as many times as
+            # long as there are starts
             start = min((fitted(one, FIRST_STEPS) for one in self.starts), key=lambda fit: fit.cost).x
         return fitted(start, 200).x
 

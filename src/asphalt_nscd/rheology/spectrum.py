@@ -26,6 +26,7 @@ def _bode(points: int = 32, reach: float = 30.0) -> tuple[NDArray[np.float64], N
 
     u = reach t^4 takes the logarithm at 0 out of reach of Gauss and Legendre; beyond `reach` the weight is e^-30.
     """
+    # u = reach t^4 crowds points about u = 0, where ln coth(|u|/2) is singular but integrable
     t, w = np.polynomial.legendre.leggauss(points)
     t, w = 0.5 * (t + 1.0), 0.5 * w
     u = reach * t**4
@@ -361,6 +362,7 @@ class OfModulus(ABC):
         ndarray of complex (n, p)
             In the order of `parameters`.
         """
+        # differences, since the phase is an integral; the central ones err by STEP^2
         own = parameter_names(type(self))
         columns = []
         for name in own:
@@ -491,6 +493,7 @@ class CAM(OfModulus):
 
     def _parts(self, log_reduced: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """|E*| [Pa] and its derivative."""
+        # ln(1 + x^-v) by logaddexp: x^-v overflows at the lowest reduced frequencies
         above = np.exp(-self.w / self.v * np.logaddexp(0.0, -self.v * log_reduced))
         above *= self.glassy_modulus - self.static_modulus
         return self.static_modulus + above, above * self.w * expit(-self.v * log_reduced)

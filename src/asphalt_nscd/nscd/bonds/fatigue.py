@@ -170,6 +170,8 @@ def tire(
         opening = system.operator @ statics.motion(weight)
         stiffness = float(weight @ opening**2)
         rows.append((cycles, stiffness, np.count_nonzero(damage >= 1.0)))
+        # looked at before the jump, so that the last row is the first one below the limit, and `life` can
+        # interpolate
         if stiffness <= until * rows[0][1]:
             break
         speed = np.where(tires & (damage < 1.0), rate(strain(amplitude * opening, length)), 0.0)

@@ -67,6 +67,8 @@ def one_contact(w, q0, q1, q2, mu):
         return stopping, 0.0, 0.0
     trace = a11 + a22
     low, high = 0.0, np.inf
+    # a block that the other contacts leave singular sticks in one direction only: a trace of s makes it
+    # solvable
     s = 0.0 if a11 * a22 - a12 * a21 > 1e-14 * trace * trace else 1e-12 * (trace + w[0, 0])
     n = x = y = 0.0
     for step in range(100):
@@ -76,6 +78,7 @@ def one_contact(w, q0, q1, q2, mu):
         n = stopping - b1 * x - b2 * y
         tangential = np.sqrt(x * x + y * y)
         excess = tangential - mu * n
+        # s = 0 within the cone is sticking; later steps end at rounding
         if (step == 0 and excess <= 0.0) or abs(excess) <= 1e-15 * tangential:
             break
         if excess > 0.0:
@@ -90,6 +93,7 @@ def one_contact(w, q0, q1, q2, mu):
             dy = (a21 * x - (a11 + s) * y) / determinant
             slope = (b1 * dx + b2 * dy) / (mu * n * n) + (x * dx + y * dy) / tangential**3
             new = s + (1.0 / tangential - 1.0 / (mu * n)) / slope if slope != 0.0 else -1.0
+        # Newton's step left the bracket: bisect, or go outwards by eight while there is no upper end
         if not low < new < high:
             new = 0.5 * (low + high) if high < np.inf else 8.0 * max(s, 0.05 * (trace + w[0, 0]))
         s = new

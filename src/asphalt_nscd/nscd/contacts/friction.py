@@ -175,6 +175,8 @@ def _follow(
     for step, r in zip(range(most_steps), path, strict=False):
         error, steps = max(problem.errors(r)), steps + 1
         candidates = [(error, r)]
+        # Newton's method costs some steps of the path. It is tried when the error fell to a tenth since the
+        # last trial, or after AGAIN steps if it fell at all
         if tolerance < error < 0.1 * refined or (error < refined and step - refined_step >= AGAIN):
             refined, refined_step = error, step
             sharper, r, taken = _sharpened(problem, r, error, tolerance)

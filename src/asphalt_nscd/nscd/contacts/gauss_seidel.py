@@ -47,6 +47,8 @@ def accelerated_sweeps(start, other, block, q, friction, length, part, tolerance
     last, change, last_change = np.zeros(rows), np.zeros(rows), np.zeros(rows)
     of_results, of_changes = np.zeros((_DEPTH, rows)), np.zeros((_DEPTH, rows))
     normal = np.zeros((_DEPTH, _DEPTH))
+    # impulses over the root of the step length are roots of energies: light and heavy contacts then count
+    # alike
     weight = np.repeat(1.0 / np.sqrt(length), 3)
     kept, last_size = 0, np.inf
     least = mark = np.inf
@@ -59,8 +61,11 @@ def accelerated_sweeps(start, other, block, q, friction, length, part, tolerance
             change[i] = weight[i] * (swept[i] - r[i])
             size += change[i] ** 2
             whole += (weight[i] * swept[i]) ** 2
+        # written so that NaN ends here too
         if not size + whole < _LARGEST:
             return best, sweep
+        # the natural map costs as much as a sweep, so it is looked at in every tenth, and where the change
+        # says that the end is near
         if sweep % _CHECK == 0 or sweep == most_sweeps or size <= tolerance**2 * whole:
             error = max(natural_map(start, other, block, q, friction, length, part, swept))
             if error < least:
@@ -70,6 +75,7 @@ def accelerated_sweeps(start, other, block, q, friction, length, part, tolerance
                 return best, sweep
             if error <= 0.1 * mark:
                 mark, mark_sweep = error, sweep
+            # stalled: more sweeps would not help, what comes next may
             elif sweep - mark_sweep > _PATIENCE:
                 return best, sweep
         if size > _ASTRAY * last_size:  # the extrapolation led astray: back to the last result, anew
@@ -110,6 +116,8 @@ def extrapolated(result, change, of_results, of_changes, normal, kept):
         Extrapolated result.
     """
     combined = result.copy()
+    # changes of successive sweeps become parallel as the method stalls; without damping the shares grow
+    # without bound
     damping = 1e-10 * np.trace(normal[:kept, :kept])
     if damping <= 0.0:
         return combined
@@ -204,6 +212,8 @@ def natural_map(start, other, block, q, friction, length, part, r):
     faint = max(_FAINT * available.sum(), tiny)
     worst = 0.0
     for k in range(parts):
+        # no error is smaller than the rounding of its reactions, which may be large where a part is tightly
+        # held
         missed = max(distance[k], _ROUNDING**2 * pressing[k])
         worst = max(worst, missed / max(available[k], faint))
     return np.sqrt(plain / max(frees, forces, speeds, tiny)), np.sqrt(worst)

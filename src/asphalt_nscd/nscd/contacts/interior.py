@@ -41,15 +41,20 @@ def interior_path(problem: ContactProblem, start: float, balance: float) -> Iter
     mu, contacts = problem.friction, problem.friction.size
     diagonal = problem.matrix.diagonal().reshape(-1, 3)
     own = diagonal[:, 0] + mu**2 * (diagonal[:, 1] + diagonal[:, 2])
+    # each contact has the scale of its own diagonal, so that bodies whose masses differ by orders do not
+    # spoil the condition
     k = np.sqrt(3.0 / np.where(own > 0.0, own, 3.0 / problem.length))
     transform = (k[:, None] * np.column_stack([np.ones(contacts), mu, mu])).ravel()
     each = transform.reshape(-1, 3)
     w = each[problem.row][:, :, None] * problem.block * each[problem.other][:, None, :]
     q = transform * problem.free_velocity
+    # the path is that of q of norm one: `start` then means the same for every problem
     unit = np.linalg.norm(q)
     q = q / unit
     e = np.zeros((contacts, 3))
     e[:, 0] = 1.0
+    # x and y start on the axes of their cones, as far inside as they can be, and equal: their scaling is then
+    # one
     x = start / np.sqrt(contacts) * e
     y = x.copy()
     share = 1.0
@@ -61,6 +66,8 @@ def interior_path(problem: ContactProblem, start: float, balance: float) -> Iter
         scaling = _scaling(y, x)
         centre = _times(scaling, x)
         squared = scaling @ scaling
+        # |y_T| is what makes the problem nonconvex: of its derivative only this share enters the linear
+        # system
         keep = np.tile(np.eye(3), (contacts, 1, 1))
         keep[:, 0, 1:] -= share * y[:, 1:] / np.where(slip > 0.0, slip, 1.0)[:, None]
         jacobian = w.copy()
@@ -72,15 +79,21 @@ def interior_path(problem: ContactProblem, start: float, balance: float) -> Iter
         direction = partial(_direction, factor, scaling, squared, keep, centre, residual)
         dx, dy = direction(-_product(centre, centre))
         reach = min(1.0, _reach(x, dx), _reach(y, dy))
+        # Mehrotra's heuristic: the more of the gap the predictor would close, the less centring is needed.
+        # His power is three; two centres more
         left = ((x + reach * dx) * (y + reach * dy)).sum() / gap
         sigma = min(1.0, max(left, 0.0)) ** 2
+        # a gap that vanished before the residual would leave the iterate at the border of the cones, where
+        # steps are short
         sigma = max(sigma, min(1.0, balance * np.linalg.norm(residual) / gap))
         second_order = _product(np.linalg.solve(scaling, dy[:, :, None])[:, :, 0], _times(scaling, dx))
         dx, dy = direction(sigma * gap / contacts * e - _product(centre, centre) - second_order)
+        # not quite to the border, where the scaling would be singular
         reach = min(1.0, 0.99 * min(_reach(x, dx), _reach(y, dy)))
         x, y = x + reach * dx, y + reach * dy
         if not (np.isfinite(x).all() and np.isfinite(y).all()):
             return
+        # short steps say that the linearised |y_T| misleads; long ones that it may count in full again
         share = max(0.6 * share, 0.1) if reach < 0.3 else 1.0 - 0.6 * (1.0 - share)
         yield unit * transform * x.ravel()
 
@@ -135,6 +148,8 @@ def _scaling(y: np.ndarray, x: np.ndarray) -> np.ndarray:
 
 def _reach(x: np.ndarray, dx: np.ndarray) -> float:
     """Largest t for which all x + t dx are in the cone."""
+    # the determinant along the step is the quadratic a t^2 + 2 b t + c; its roots by the stable form, without
+    # cancellation
     a = _determinant_difference(dx, dx)
     b = _determinant_difference(x, dx)
     c = _determinant(x)

@@ -42,12 +42,17 @@ def refine(
     residual, by_reaction, by_velocity = linearised(problem, r)
     norm = first_norm = np.linalg.norm(weight * residual)
     for step in range(most_steps):
+        # Newton's method is quadratic or of no use: less than 0.7 a step in the mean says that statuses are
+        # wrong
         if max(problem.errors(r)) <= tolerance or (step > 2 and norm > first_norm * 0.7**step):
             return r, step
+        # the damping shrinks with the residual, so that the last steps are those of Newton; a hundredfold is
+        # tried where W leaves the Jacobian near singular
         for proximal in min(1e-2, norm / scale) * np.array([1.0, 100.0]):
             direction = _newton_direction(problem, residual, by_reaction, by_velocity, proximal)
             if direction is None:
                 continue
+            # the map has kinks where statuses change: a full step may cross one and a third of it not.
             shorter = [r + t * direction for t in (1.0, 1 / 3, 1 / 9)]
             trial = next((x for x in shorter if _norm(problem, weight, x) < 0.99 * norm), None)
             if trial is not None:
@@ -104,6 +109,8 @@ def _newton_direction(
     proximal: float,
 ) -> np.ndarray | None:
     """-(D + B (W + proximal / rho))^-1 F, with the open contacts taken out; None if singular."""
+    # an open contact has the derivative I by r and none by u: its direction is known, and its rows leave the
+    # system
     pressed = np.abs(by_velocity).sum(axis=(1, 2)) > 0.0
     direction = -residual
     if not pressed.any():

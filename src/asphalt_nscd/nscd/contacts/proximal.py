@@ -57,6 +57,7 @@ def proximal_points(
         if least <= tolerance or point - mark_point > PATIENCE:
             break
         soft = softened(problem, damping, r)
+        # a point far from the solution need not be exact: it only says where the next one is
         aim = max(0.1 * tolerance, NEAR * error)
         r, swept = soft.sweeps(aim, MOST_SWEEPS, r)
         left = max(soft.errors(r))
@@ -74,6 +75,7 @@ def proximal_points(
         for candidate in candidates:
             if max(problem.errors(candidate)) < least:
                 best, least = candidate, max(problem.errors(candidate))
+        # as a trust region: less damping goes farther at once, more makes each point easier
         damping = max(EASED * damping, LEAST) if left <= aim else min(STIFFENED * damping, LARGEST)
     return best, sweeps, steps
 

@@ -259,6 +259,8 @@ class CondensedStepper:
         motion, contact_force = move(velocity)
         resisted, slider = follow(contact_force)
         excess = resisted - velocity
+        # the head velocity is found where contacts and clamp agree; `yields` is monotone, so that a bracket
+        # always holds it
         if excess:  # contacts resist motion, so the answer lies between
             from scipy.optimize import brentq  # takes as long to import as a test to run
 
@@ -278,6 +280,7 @@ class CondensedStepper:
         touching: list[int] = []
         force = np.zeros_like(velocity)
         corrected, self.contact = velocity, None
+        # reactions move bodies, so that other gaps may close: the set only grows, so that this ends
         while not np.isin(closing, touching).all():
             touching = sorted({*touching, *closing.tolist()})
             rows = (3 * np.asarray(touching)[:, None] + np.arange(3)).ravel()
@@ -285,6 +288,8 @@ class CondensedStepper:
             response = self._response(touching)
             delassus = normal[:, system.free] @ response
             free_velocity = normal @ velocity
+            # an open gap may close within the step by so much; one that is closed already may not be pushed
+            # open, which would add energy
             free_velocity[::3] += np.maximum(gap[touching], 0.0) / dt
             solution = solve_contacts(delassus, free_velocity, system.friction, tolerance=1e-12)
             impulse = solution.require_converged().reactions

@@ -68,6 +68,8 @@ def driving_force(
     factor = -(omega**2) if acceleration_factor is None else acceleration_factor
     static = static_factor(system, modulus) if static is None else static
     mean = complex(np.mean(modulus))
+    # divided by the mean modulus, the system is real but for inertia and scatter of moduli, and static
+    # factors serve all frequencies
     inertia = factor / mean * system.mass
     beyond = sparse.diags_array(inertia)
     if np.ndim(modulus):
@@ -101,6 +103,7 @@ def _follow(
     near = LinearOperator(beyond.shape, matvec=lambda motion: motion + solve(beyond @ motion), dtype=complex)
     at_rest = solve(-coupling)
     motion, failed = gmres(near, at_rest, rtol=TOLERANCE, restart=MOST_ITERATIONS, maxiter=MOST_STARTS)
+    # should the iteration not end, complex factors, which cost more, always serve
     if failed:
         motion = factors(whole[free][:, free]).solve(-coupling)
     return np.asarray(motion)

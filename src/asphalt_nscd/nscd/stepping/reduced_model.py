@@ -77,11 +77,14 @@ def ritz_basis(
     stiffness = k[free][:, free]
     coupling = k[free][:, [system.driven]].toarray()[:, 0]
     shifted = shifted_factor(system) if shifted is None else shifted
+    # K alone is not factorised: K + SHIFT M differs from it so little that a few iterations make up for it,
+    # and is needed anyway
     close = shifted.cycle if isinstance(shifted, Multigrid) else shifted.solve
     near = LinearOperator(stiffness.shape, matvec=close)
 
     def static(force: np.ndarray) -> np.ndarray:
         motion = cg(stiffness, force, rtol=1e-13, atol=0.0, M=near, maxiter=500)[0]
+        # a body that no bond holds makes K singular; conjugate gradients then end anywhere
         if np.linalg.norm(stiffness @ motion - force) > 1e-8 * np.linalg.norm(force):
             raise ArithmeticError("static equations not solved: some body is not held by its bonds")
         return motion
@@ -176,6 +179,7 @@ class Columns:
             stretched /= length
             extra = extra / length
             _, size, directions = np.linalg.svd(np.linalg.qr(stretched, mode="r"), full_matrices=False)
+            # singular values, not columns, say what is new: two columns may each be new and yet the same
             kept = size > DEPENDENT
             extra = extra @ (directions[kept].T / size[kept])
         return extra

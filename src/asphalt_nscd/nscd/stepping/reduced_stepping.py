@@ -195,6 +195,7 @@ class ReducedStepper:
             if code == OUTSIDE_ENVELOPE:
                 self._widen_envelope(np.abs(self._trial[1]), np.abs(self._trial[2]))
                 continue
+            # contacts between bodies are solved by the full system alone
             if code == CLOSED_GAP:
                 raise FullSystemNeeded("a gap closes", force[:done], velocity[:done])
             if self.enrichments >= self.most_enrichments:
@@ -287,11 +288,14 @@ class ReducedStepper:
         model, system = self.model, self.model.system
         stress = abs(full.missing[system.driven]) / model.stiffness[0, 0]
         self._maxima[0] = max(self._maxima[0], stress)
+        # relative to the largest load so far: at zero crossings of the head the instant's own is nothing to
+        # divide by
         size = model.head_norm * self._maxima[0] + model.load_norm
         residual = model.residual_norm(full.missing) / size if size > 0.0 else 0.0
         if not residual <= self.tolerance:
             raise ArithmeticError(f"a step of the full system misses its equations by {residual:.1e}")
         self._maxima[1:] = np.maximum(self._maxima[1:], [residual, full.utilisation])
+        # the full system counts a gap as touching within CLOSED, so the bound gives that much away
         gap = system.gap + system.operator[::3] @ full.state.displacement
         self._smallest_gap = min(self._smallest_gap, float(gap.min()) - CLOSED)
 
@@ -355,6 +359,7 @@ class ReducedStepper:
         """(Z, a, b, c) of the coming step: the head takes the force Z v+ - a v - b explicit - c."""
         model, dt, compliance = self._part, self.dt, self.law.compliance
         step = model.mass / dt + model.stiffness / compliance
+        # by the Schur complement of the head, a step costs one product with `inverse` and a scalar equation
         following = np.concatenate([[1.0], -dt * (inverse @ step[1:, 0])])  # motion for v+ = 1
         return (
             float(following @ step[:, 0]),
@@ -366,6 +371,8 @@ class ReducedStepper:
     def _widen_envelope(self, sigma: np.ndarray, motion: np.ndarray) -> None:
         """Far beyond |s| and |q| (k,) if no bond could yield or close there, else to their double."""
         s, q = self._beyond(FAR * sigma, FAR * motion)
+        # a wide envelope is rarely left, but where bonds come near yield within it they would all be watched
+        # in each step
         growth = 2.0 if self._of_bonds(lambda part: part.bounds.any_candidate(s, q)) else FAR
         self._watch(growth * sigma, growth * motion)
 
@@ -407,6 +414,7 @@ class ReducedStepper:
                 self._stand_by_for(self.state.broken, AHEAD)
             model = self._stand_by.model(whole.system, self._ritz, self.state.broken)
         if model is None:
+            # the exact correction of the refused step, where none was kept ready: it costs a factorisation
             self._stand_by = None  # its projection knows nothing of the directions now found
             basis = append_columns(whole.system, whole.basis, self._corrections())
             model = whole.with_basis(basis, self.state.broken)
