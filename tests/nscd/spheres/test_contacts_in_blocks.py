@@ -7,7 +7,7 @@ import pytest
 from naive.granular import blocks_in_order, sweep_one_by_one
 
 from asphalt_nscd.nscd.lanes import WIDTH
-from asphalt_nscd.nscd.spheres.blocks import deal_lively, in_blocks, number_blocks
+from asphalt_nscd.nscd.spheres.blocks import deal_lively, first_lively, give_back, in_blocks, number_blocks
 from asphalt_nscd.nscd.spheres.gauss_seidel import sweep_blocks
 from asphalt_nscd.nscd.spheres.slabs import private_rows, workspace_for
 from asphalt_nscd.nscd.team import Team
@@ -52,7 +52,7 @@ def test_each_slab_is_dealt_by_itself(members):
     assert workspace.block.size >= slabs.pair.size == WIDTH * slabs.begin[-1]
     rows = []
     for s in range(4):
-        _, nobody, plane = private_rows(s, workspace)
+        nobody, plane = private_rows(s, workspace)
         rows += [nobody, *range(plane, plane + PLANES)]
         mine = bodies[begin[s] : begin[s + 1]].copy()
         fixed = (mine[:, 1] >= SPHERES) & (mine[:, 1] < BODIES - 1)
@@ -82,15 +82,22 @@ def some_room(bodies, seed):
     workspace.motion[:BODIES, 3] = rng.uniform(0.1, 3.0, BODIES)
     workspace.motion[SPHERES : BODIES - 1] = 0.0
     workspace.motion[:BODIES, 7] = 2.5 * workspace.motion[:BODIES, 3]
-    plane = private_rows(0, workspace)[2]
+    plane = private_rows(0, workspace)[1]
     workspace.motion[plane : plane + PLANES] = workspace.motion[SPHERES:BODIES]
     used = np.flatnonzero(slabs.pair >= 0)
     normal = rng.normal(size=(count, 3))
-    workspace.packed[used, :3] = normal / np.linalg.norm(normal, axis=1)[:, None]
-    workspace.packed[used, 3:6] = workspace.packed[used, :3] * rng.choice([0.0, 1.0, 3.0], count)[:, None]
-    workspace.packed[used, 6] = rng.normal(-0.3, 1.0, count)
-    workspace.packed[used, 7] = 1.0 / workspace.motion[bodies[slabs.pair[used]], 3].sum(axis=1)
+    rows = np.zeros((len(slabs.pair), 8))
+    rows[used, :3] = normal / np.linalg.norm(normal, axis=1)[:, None]
+    rows[used, 3:6] = rows[used, :3] * rng.choice([0.0, 1.0, 3.0], count)[:, None]
+    rows[used, 6] = rng.normal(-0.3, 1.0, count)
+    rows[used, 7] = 1.0 / workspace.motion[bodies[slabs.pair[used]], 3].sum(axis=1)
+    workspace.contacts[: slabs.begin[-1]] = rows.reshape(-1, WIDTH, 8).transpose(0, 2, 1)
     return slabs, workspace
+
+
+def rows_of(workspace):
+    """(c, 8) of each contact."""
+    return workspace.contacts.transpose(0, 2, 1).reshape(-1, 8)
 
 
 @pytest.mark.parametrize("relaxation", [1.0, 1.5])
@@ -99,26 +106,41 @@ def test_sweeps_block_by_block_are_those_one_by_one(relaxation):
     bodies = some_contacts(300)
     slabs, workspace = some_room(bodies, 3)
     contact = np.argsort(slabs.pair)[-300:]  # of each pair
-    packed, motion = workspace.packed[contact], workspace.motion[:BODIES].copy()
-    rest = np.delete(workspace.packed, contact, axis=0)
-    last = np.empty(len(workspace.motion), np.int32)
-    blocks, begin, count, visits = slabs.blocks, 0, slabs.begin[1], range(300)
+    packed, motion = rows_of(workspace)[contact], workspace.motion[:BODIES].copy()
+    last, room = np.empty(len(workspace.motion), np.int32), np.empty((1, 1, WIDTH), np.int32)
+    blocks, contacts, begin, count, visits = slabs.blocks, workspace.contacts, 0, slabs.begin[1], range(300)
     for quiet, calm in ((0.3, np.inf), (np.inf, 0.5)):
-        *sums, noted = sweep_blocks(blocks, begin, count, 8, (0.3, 0.3), relaxation, quiet, calm, workspace)
+        *sums, noted = sweep_blocks(
+            blocks, contacts, begin, count, 8, (0.3, 0.3), relaxation, quiet, calm, workspace, room
+        )
+        if contacts is workspace.lively_contacts:
+            give_back(begin, count, workspace)
         *expected, lively, kinds = sweep_one_by_one(
             bodies, packed, motion, 0.3, visits, relaxation, quiet, calm
         )
-        np.testing.assert_array_equal(workspace.packed[contact], packed)
+        np.testing.assert_array_equal(rows_of(workspace)[contact], packed)
         np.testing.assert_array_equal(workspace.motion[:BODIES], motion)
-        np.testing.assert_array_equal(np.delete(workspace.packed, contact, axis=0), rest)
+        assert not np.delete(rows_of(workspace), contact, axis=0).any()
         np.testing.assert_allclose(sums, expected, rtol=1e-13)
         found = slabs.pair[workspace.lively[8 : 8 + noted]]
         assert sorted(found) == sorted(lively)
         np.testing.assert_array_equal(bodies[found, 0], workspace.bodies[8 : 8 + noted, 0])
         assert 20 < noted < len(visits) - 20
         assert min(kinds.values()) > 10
-        blocks, begin, count = workspace.lively_blocks, 8, deal_lively(0, 8, noted, workspace, last)
+        blocks, contacts, begin = workspace.lively_blocks, workspace.lively_contacts, first_lively(8)
+        count = deal_lively(0, 8, noted, workspace, last)
         visits = found.tolist()
-    own = private_rows(0, workspace)[1]
+    own = private_rows(0, workspace)[0]
     assert not workspace.motion[own].any()
     np.testing.assert_array_equal(workspace.motion[own + 1 : own + 3], motion[SPHERES : SPHERES + 2])
+
+
+@pytest.mark.parametrize("spheres", [4, 60])
+def test_some_contacts_need_at_most_twice_the_blocks_of_all(spheres):
+    """The room that copies have (first_lively): few bodies make long chains, many fill the blocks."""
+    rng, workspace = np.random.default_rng(7), workspace_for(400, BODIES, PLANES)
+    bodies, last = some_contacts(320, spheres), np.empty(len(workspace.motion), np.int32)
+    of_all = number_blocks(bodies, 0, 320, BODIES, workspace, last)
+    for share in rng.uniform(0.05, 1.0, 200):
+        some = bodies[rng.random(320) < share]
+        assert number_blocks(some, 0, len(some), BODIES, workspace, last) <= 2 * of_all

@@ -24,6 +24,8 @@ from asphalt_nscd.nscd.spheres.slabs import workspace_for
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.deposit import settle
 
+ROOM = np.empty((1, 1, WIDTH), np.int32)
+
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
 def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
@@ -37,11 +39,11 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
     for most_sweeps in (2 * ROUND - 1, 100 * ROUND):
         pack_motion(pile.velocity, pile.inverse_mass, 0, len(pile.velocity), workspace.motion)
         pack_place(pile.position, pile.radius, 0, len(pile.position), workspace.place)
-        workspace.packed[:, 3:6] = 0.0  # impulses
+        workspace.contacts[:, 3:6] = 0.0  # impulses
         for slab in numbers:
             pack_planes(slab, pile.plane_point, pile.plane_normal, workspace)
             pack_slab(slab, slabs, workspace, 1e-4, 0.0, np.inf, 3e-4)
-        workspace.packed[:, 6] = 0.0  # targets
+        workspace.contacts[:, 6] = 0.0  # targets
         sweeps, change = sweep_until(
             0,
             1,
@@ -62,8 +64,8 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
     assert change < tolerance
     once_more = [
         sweep_blocks(
-            slabs.blocks, slabs.begin[slab], slabs.begin[slab + 1] - slabs.begin[slab], WIDTH * slabs.begin[slab],
-            (0.5, 0.5), 1.0, 0.0, np.inf, workspace,
+            slabs.blocks, workspace.contacts, slabs.begin[slab], slabs.begin[slab + 1] - slabs.begin[slab],
+            WIDTH * slabs.begin[slab], (0.5, 0.5), 1.0, 0.0, np.inf, workspace, ROOM,
         )
         for slab in sorted(numbers, key=lambda slab: slab % 2)
     ]  # fmt: skip
@@ -76,17 +78,30 @@ def sweeps_of_a_squeezed_grain(relaxation):
     bodies = np.array([[1, 0], [0, 2]], np.int32)  # heavy and light, light and floor
     begin, pairs = np.array([0, 2, 2]), np.arange(2, dtype=np.int32)
     slabs, workspace = in_blocks(Team(), begin, pairs, bodies, workspace_for(0, 3, 1))
-    contacts, motion = np.argsort(slabs.pair)[-2:], workspace.motion
-    workspace.packed[contacts, 2] = -1.0  # both normals point down
-    workspace.packed[contacts, 7] = 1.0 / (1.0 + 1.0 / 125.0), 1.0
+    block, lane = np.divmod(np.argsort(slabs.pair)[-2:], WIDTH)
+    contacts, motion = workspace.contacts, workspace.motion
+    contacts[block, 2, lane] = -1.0  # both normals point down
+    contacts[block, 7, lane] = 1.0 / (1.0 + 1.0 / 125.0), 1.0
     motion[:2, 3] = 1.0, 1.0 / 125.0
     motion[:, 7] = 2.5 * motion[:, 3]
     motion[1, 2] = -1.0
     for sweep in range(5000):
         if abs(motion[1, 2]) < 1e-6:
-            np.testing.assert_allclose(workspace.packed[contacts, 5], -125.0, rtol=1e-5)  # both stop it
+            np.testing.assert_allclose(contacts[block, 5, lane], -125.0, rtol=1e-5)  # both stop it
             return sweep
-        sweep_blocks(slabs.blocks, 0, slabs.begin[1], 0, (0.0, 0.0), relaxation, np.inf, np.inf, workspace)
+        sweep_blocks(
+            slabs.blocks,
+            contacts,
+            0,
+            slabs.begin[1],
+            0,
+            (0.0, 0.0),
+            relaxation,
+            np.inf,
+            np.inf,
+            workspace,
+            ROOM,
+        )
     raise AssertionError("not at rest")
 
 

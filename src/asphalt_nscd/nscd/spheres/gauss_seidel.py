@@ -1,7 +1,7 @@
 """Gauss-Seidel sweeps over the contacts of rigid spheres, laid out for the speed of the processor.
 
-What a contact needs fills one cache line, and so does what a body needs. Contacts stand slab by slab (slabs.py), in
-blocks of eight that share no body (blocks.py), which are computed at once.
+What a body needs fills one cache line. Contacts stand slab by slab (slabs.py), in blocks of eight that share no body
+(blocks.py), which are computed at once; each quantity of a block fills one line.
 A sweep visits the last body, which all may touch, then the slabs of even number, then those of odd number. Slabs of
 one kind share no body, so that members of a team can sweep them side by side: numbers are the same for any number
 of threads.
@@ -24,12 +24,14 @@ from asphalt_nscd.nscd.lanes import (
     broadcast,
     gather,
     largest,
+    load,
     scatter,
     select_greater,
+    store,
     total,
     zeros,
 )
-from asphalt_nscd.nscd.spheres.blocks import deal_lively
+from asphalt_nscd.nscd.spheres.blocks import deal_lively, first_lively, give_back
 from asphalt_nscd.nscd.spheres.slabs import part_of
 from asphalt_nscd.nscd.team import barrier_wait
 
@@ -40,6 +42,16 @@ ORDER = (2, 0, 1)  # in which the kinds of slabs are swept, see sweep_slabs
 
 # columns of the account of a slab
 CHANGED, SIZE, FASTEST, NOTED, COUNT, DEEPEST, PUSHED, LIVELY_BLOCKS = range(8)
+
+
+@compiled_for_teams
+def contacts_of(contacts, block):
+    """Normal, impulse, target and mass (Workspace) of the contacts of a block."""
+    return (
+        load(contacts, block, 0), load(contacts, block, 1), load(contacts, block, 2),
+        load(contacts, block, 3), load(contacts, block, 4), load(contacts, block, 5),
+        load(contacts, block, 6), load(contacts, block, 7),
+    )  # fmt: skip
 
 
 @compiled_for_teams
@@ -96,35 +108,41 @@ def push(motion, blocks, block, contact, i, j, x, y, z):
 
 
 @compiled_for_teams
-def sweep_blocks(blocks, begin, count, noted_from, friction, relaxation, quiet, calm, workspace):
-    """One Gauss-Seidel sweep over so many `blocks` from `begin` on; updates impulses and motion.
+def sweep_blocks(
+    blocks, contacts, begin, count, noted_from, friction, relaxation, quiet, calm, workspace, rows
+):
+    """One Gauss-Seidel sweep over so many `blocks` of `contacts` from `begin` on; updates impulses and motion.
 
     Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than
     they may by more than `calm` [m/s], are noted in workspace.lively from `noted_from` on. Returns the sums of
     squares of the change of impulse and of the impulse, the largest excess of speed [m/s], how many were noted.
-    friction: between bodies that yield, with those that do not.
+    friction: between bodies that yield, with those that do not. rows (1, 1, 8): room.
     """
-    packed, motion = workspace.packed, workspace.motion
+    motion = workspace.motion
     changed, size, fastest = zeros(), zeros(), zeros()
     noted = noted_from
     for block in range(begin, begin + count):
-        contact = gather(packed, blocks, block, 0)
+        contact = contacts_of(contacts, block)
         i, j = gather(motion, blocks, block, 1), gather(motion, blocks, block, 2)
         rough = select_greater(j[3], zeros(), broadcast(friction[0]), broadcast(friction[1]))
         x, y, z, excess = new_impulse(contact, i, j, rough, broadcast(relaxation))
         dx, dy, dz = x - contact[3], y - contact[4], z - contact[5]
         push(motion, blocks, block, contact, i, j, dx, dy, dz)
-        nx, ny, nz = contact[:3]
-        scatter(packed, blocks, block, 0, (nx, ny, nz, x, y, z, contact[6], contact[7]))
+        store(contacts, block, 3, x)
+        store(contacts, block, 4, y)
+        store(contacts, block, 5, z)
         moved = dx * dx + dy * dy + dz * dz
         lively = above(moved, broadcast(quiet)) | above(excess, broadcast(calm))
         if lively:
             for lane in range(WIDTH):
+                rows[0, 0, lane] = noted  # one that is not noted gives its row to the next
                 if lively >> lane & 1:
                     workspace.lively[noted] = blocks[block, 0, lane]
                     for side in range(2):
                         workspace.bodies[noted, side] = blocks[block, 1 + side, lane]
                     noted += 1
+            nx, ny, nz = contact[:3]
+            scatter(workspace.noted, rows, 0, 0, (nx, ny, nz, x, y, z, contact[6], contact[7]))
         fastest = select_greater(excess, fastest, excess, fastest)
         changed = changed + moved
         size = size + (x * x + y * y + z * z)
@@ -165,11 +183,11 @@ def guide_wall(motion, wall, drive, push):
 
 
 @compiled_for_teams
-def push_blocks(packed, motion, blocks, begin, count):
+def push_blocks(contacts, motion, blocks, begin, count):
     """Give the impulses that contacts start with to their bodies. Returns the sum of their squares."""
     size = zeros()
     for block in range(begin, begin + count):
-        contact = gather(packed, blocks, block, 0)
+        contact = contacts_of(contacts, block)
         i, j = gather(motion, blocks, block, 1), gather(motion, blocks, block, 2)
         x, y, z = contact[3:6]
         push(motion, blocks, block, contact, i, j, x, y, z)
@@ -178,22 +196,26 @@ def push_blocks(packed, motion, blocks, begin, count):
 
 
 @compiled_for_teams
-def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, quiet, calm, last_block):
+def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, ends, quiet, calm, last_block, rows):
     """A sweep over every other slab from part[0] on, below part[1].
 
-    Over all contacts, or over those that were noted. Notes contacts anew if `quiet` or `calm` is finite (sweep_blocks).
+    Over all contacts, or over the copies of those that were noted, which it gives back if it `ends` their sweeps.
+    Notes contacts anew if `quiet` or `calm` is finite (sweep_blocks).
     friction: between spheres, with walls; all contacts of the last slab are with the last wall, which may yield.
     """
     account = workspace.account
     for s in range(part[0], part[1], 2):
         start, count, of_lively = slabs.begin[s], slabs.begin[s + 1] - slabs.begin[s], WIDTH * slabs.begin[s]
-        blocks = slabs.blocks
+        blocks, contacts = slabs.blocks, workspace.contacts
         rough = friction if s < slabs.begin.shape[0] - 2 else (friction[1], friction[1])
         if not everyone:
-            blocks, start, count = workspace.lively_blocks, of_lively, int(account[s, LIVELY_BLOCKS])
+            blocks, contacts = workspace.lively_blocks, workspace.lively_contacts
+            start, count = first_lively(of_lively), int(account[s, LIVELY_BLOCKS])
         changed, size, fastest, noted = sweep_blocks(
-            blocks, start, count, of_lively, rough, relaxation, quiet, calm, workspace
+            blocks, contacts, start, count, of_lively, rough, relaxation, quiet, calm, workspace, rows
         )
+        if ends and not everyone:
+            give_back(start, count, workspace)
         if everyone:
             account[s, CHANGED], account[s, SIZE] = changed, size
             account[s, FASTEST] = fastest
@@ -245,7 +267,7 @@ def sweep_until(
     """
     begin, last = slabs.begin, slabs.begin.shape[0] - 2
     account, motion = workspace.account, workspace.motion
-    last_block = np.empty(motion.shape[0], np.int32)
+    last_block, rows = np.empty(motion.shape[0], np.int32), np.empty((1, 1, WIDTH), np.int32)
     parts, lively_parts = np.empty((3, 2), np.int64), np.empty((3, 2), np.int64)
     for kind in range(3):
         parts[kind] = part_of(rank, members, last, kind, np.diff(begin))
@@ -256,7 +278,7 @@ def sweep_until(
     for k in range(idle, 3):
         for s in range(parts[ORDER[k], 0], parts[ORDER[k], 1], 2):
             count = begin[s + 1] - begin[s]
-            account[s, PUSHED] = push_blocks(workspace.packed, motion, slabs.blocks, begin[s], count)
+            account[s, PUSHED] = push_blocks(workspace.contacts, motion, slabs.blocks, begin[s], count)
         barrier_wait(barrier, members)
     size = 0.0
     for s in range(last + 1 - idle):  # in one order, whoever pushed or swept them
@@ -267,6 +289,7 @@ def sweep_until(
         turn = sweep % ROUND
         everyone = turn == 0
         relaxation = 1.0 if everyone or turn == ROUND - 1 else RELAXATION
+        ends = turn in (AGAIN, ROUND - 1) or sweep == most_sweeps - 1
         quiet, limit = np.inf, np.inf
         if turn in (0, AGAIN):
             quiet, limit = tolerance * tolerance * size / max(contacts, 1), calm
@@ -275,7 +298,9 @@ def sweep_until(
                 lively_parts[kind] = part_of(rank, members, last, kind, account[:, LIVELY_BLOCKS])
         for k in range(idle, 3):
             part = parts[ORDER[k]] if everyone else lively_parts[ORDER[k]]
-            sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, quiet, limit, last_block)
+            sweep_slabs(
+                part, slabs, workspace, friction, relaxation, everyone, ends, quiet, limit, last_block, rows
+            )
             barrier_wait(barrier, members)
         if rank == 0:
             push = guide_wall(motion, workspace.wall, drive, push)

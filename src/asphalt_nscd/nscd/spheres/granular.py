@@ -18,9 +18,10 @@ from asphalt_nscd.nscd.lanes import (
     broadcast,
     gather,
     largest,
-    scatter,
+    load,
     select_greater,
     sqrt,
+    store,
     total,
     zeros,
 )
@@ -118,8 +119,8 @@ def pack_place(position, radius, begin, end, place):
 def pack_planes(s, plane_point, plane_normal, workspace):
     """The rows of slab s alone (private_rows), and the place of the wall."""
     spheres = workspace.wall + 1 - workspace.planes
-    no_contact, nobody, row = private_rows(s, workspace)
-    workspace.packed[no_contact] = workspace.motion[nobody] = workspace.place[nobody] = 0.0
+    nobody, row = private_rows(s, workspace)
+    workspace.motion[nobody] = workspace.place[nobody] = 0.0
     for p in range(workspace.planes):
         workspace.motion[row + p] = workspace.motion[spheres + p]
         for at in (row + p, spheres + p):
@@ -138,22 +139,24 @@ def unpack_motion(motion, begin, end, velocity):
 
 
 @compiled_for_teams
-def lay_in(impulse, slabs, workspace, begin, end):
-    """The impulses of the list of pairs (pairs, 3) into contacts begin:end."""
-    for c in range(begin, end):
-        pair = slabs.pair[c]
-        for k in range(3):
-            workspace.packed[c, 3 + k] = impulse[pair, k] if pair >= 0 else 0.0
+def lay_in(impulse, slabs, contacts, begin, end):
+    """The impulses of the list of pairs (pairs, 3) into blocks begin:end of `contacts`."""
+    for block in range(begin, end):
+        for lane in range(WIDTH):
+            pair = slabs.pair[WIDTH * block + lane]
+            for k in range(3):
+                contacts[block, 3 + k, lane] = impulse[pair, k] if pair >= 0 else 0.0
 
 
 @compiled_for_teams
-def take_out(impulse, slabs, workspace, begin, end):
+def take_out(impulse, slabs, contacts, begin, end):
     """The other way round."""
-    for c in range(begin, end):
-        pair = slabs.pair[c]
-        if pair >= 0:
-            for k in range(3):
-                impulse[pair, k] = workspace.packed[c, 3 + k]
+    for block in range(begin, end):
+        for lane in range(WIDTH):
+            pair = slabs.pair[WIDTH * block + lane]
+            if pair >= 0:
+                for k in range(3):
+                    impulse[pair, k] = contacts[block, 3 + k, lane]
 
 
 @compiled_for_teams
@@ -164,9 +167,9 @@ def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
     given no impulse, no mass, and a target that it cannot miss.
     """
     zero, one, half = zeros(), broadcast(1.0), broadcast(0.5)
+    contacts = workspace.contacts
     count, deepest = zero, zero
     for block in range(slabs.begin[s], slabs.begin[s + 1]):
-        contact = gather(workspace.packed, slabs.blocks, block, 0)
         i, j = (
             gather(workspace.place, slabs.blocks, block, 1),
             gather(workspace.place, slabs.blocks, block, 2),
@@ -193,15 +196,13 @@ def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
         recovery = select_greater(recovery, broadcast(recovery_speed), broadcast(recovery_speed), recovery)
         target = select_greater(gap, zero, (zero - gap) / broadcast(dt), recovery)
         near, mass = broadcast(margin), one / (i[3] + j[3])
-        packed = (
-            x, y, z,
-            select_greater(near, least, contact[3], zero),
-            select_greater(near, least, contact[4], zero),
-            select_greater(near, least, contact[5], zero),
-            select_greater(near, least, target, broadcast(-OUT_OF_REACH)),
-            select_greater(near, least, mass, zero),
-        )  # fmt: skip
-        scatter(workspace.packed, slabs.blocks, block, 0, packed)
+        store(contacts, block, 0, x)
+        store(contacts, block, 1, y)
+        store(contacts, block, 2, z)
+        for k in range(3, 6):
+            store(contacts, block, k, select_greater(near, least, load(contacts, block, k), zero))
+        store(contacts, block, 6, select_greater(near, least, target, broadcast(-OUT_OF_REACH)))
+        store(contacts, block, 7, select_greater(near, least, mass, zero))
         count = count + select_greater(near, least, one, zero)
         deepest = select_greater(zero - gap, deepest, zero - gap, deepest)
     workspace.account[s, COUNT] = total(count)
@@ -211,18 +212,19 @@ def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
 @compiled_for_teams
 def rebound(s, slabs, workspace, velocity, restitution):
     """Targets of those contacts of slab s that would close within the step at the velocities of its start."""
-    spheres, row = workspace.wall + 1 - workspace.planes, private_rows(s, workspace)[2]
+    spheres, row = workspace.wall + 1 - workspace.planes, private_rows(s, workspace)[1]
+    contacts = workspace.contacts
     for block in range(slabs.begin[s], slabs.begin[s + 1]):
         for lane in range(WIDTH):
-            c, i, j = slabs.blocks[block, 0, lane], slabs.blocks[block, 1, lane], slabs.blocks[block, 2, lane]
-            if workspace.packed[c, 7] == 0.0:
+            i, j = slabs.blocks[block, 1, lane], slabs.blocks[block, 2, lane]
+            if contacts[block, 7, lane] == 0.0:
                 continue
             j = j if j <= workspace.wall else j - row + spheres
             opening = 0.0
             for k in range(3):
-                opening += (velocity[j, k] - velocity[i, k]) * workspace.packed[c, k]
-            if opening < 0.0 and opening <= workspace.packed[c, 6]:
-                workspace.packed[c, 6] = -restitution * opening
+                opening += (velocity[j, k] - velocity[i, k]) * contacts[block, k, lane]
+            if opening < 0.0 and opening <= contacts[block, 6, lane]:
+                contacts[block, 6, lane] = -restitution * opening
 
 
 @compiled_for_teams
@@ -326,7 +328,7 @@ def step(
         mine, others = first_and_end(rank, members, last, kind)
         for s in range(mine, others, 2):
             pack_planes(s, plane_point, plane_normal, workspace)
-            lay_in(impulse, slabs, workspace, WIDTH * slabs.begin[s], WIDTH * slabs.begin[s + 1])
+            lay_in(impulse, slabs, workspace.contacts, slabs.begin[s], slabs.begin[s + 1])
             pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin)
             if restitution > 0.0:
                 rebound(s, slabs, workspace, velocity, restitution)
@@ -347,7 +349,7 @@ def step(
     for kind in range(3):
         mine, others = first_and_end(rank, members, last, kind)
         for s in range(mine, others, 2):
-            take_out(impulse, slabs, workspace, WIDTH * slabs.begin[s], WIDTH * slabs.begin[s + 1])
+            take_out(impulse, slabs, workspace.contacts, slabs.begin[s], slabs.begin[s + 1])
     unpack_motion(workspace.motion, begin, end, velocity)
     if rank == 0:  # who guides the wall
         unpack_motion(workspace.motion, n, bodies, velocity)

@@ -1,7 +1,7 @@
 """Candidate pairs of spheres from one cell list.
 
-Each sphere looks for spheres not larger than itself, so that the cells can be as small as the
-smallest sphere although diameters spread over a factor of five. Planes are appended to the list
+Each sphere looks for spheres not larger than itself, so that the cells can be as small as a few of the
+smallest spheres although diameters spread over a factor of five. Planes are appended to the list
 of each sphere as bodies N, N+1, ...
 """
 
@@ -12,8 +12,11 @@ from typing import NamedTuple
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
+from asphalt_nscd.nscd.lanes import WIDTH, above, broadcast, load
 from asphalt_nscd.nscd.team import Team, mark_started, partition
 
+CELL = 2.0  # width of cells, in smallest diameters and reaches: eight spheres are looked at together
+FAR = 1e100  # m
 PARTS = 8  # of the spheres for each member of a team, dealt in turns
 
 
@@ -119,7 +122,7 @@ def _partners(
     shape,
     first,
     inside,
-    sphere,
+    spheres,
 ):
     """Count the bodies that each sphere is paired with; returns which, for the parts of a member one after another.
 
@@ -144,7 +147,7 @@ def _partners(
                     shape,
                     first,
                     inside,
-                    sphere,
+                    spheres,
                     other,
                     end,
                 )
@@ -332,37 +335,47 @@ def _carry(rank, members, barrier, old_start, old_other, old_reaction, start, ot
 
 @compiled_for_teams
 def _fill_cells(position, radius, reach, extra):
-    """(cell, low, shape, first, members, sphere): width [m], origin and number of the cells.
+    """(cell, low, shape, first, members, spheres): width [m], origin and number of the cells.
 
-    Cell k holds members[first[k]:first[k + 1]], spheres x, y, z, radius, extra.
+    Cell k holds members[first[k]:first[k + 1]], in blocks of eight: spheres (b, 6, 8) x, y, z, radius, extra, index.
+    A row of cells along x begins with a block; -1 and infinitely far where lanes are left over.
     """
-    cell = 2.0 * radius.min() + reach.min()
+    cell = CELL * (2.0 * radius.min() + reach.min())
     low = np.empty(3)
     shape = np.empty(3, np.int64)
     for k in range(3):
         low[k] = position[:, k].min()
         shape[k] = int((position[:, k].max() - low[k]) / cell) + 1
-    n = position.shape[0]
+    n, rows = position.shape[0], shape[1] * shape[2]
     index = np.empty(n, np.int32)
-    first = np.zeros(shape[0] * shape[1] * shape[2] + 1, np.int32)
+    first = np.zeros(shape[0] * rows + 1, np.int32)
     for i in range(n):
         cx = int((position[i, 0] - low[0]) / cell)
         cy = int((position[i, 1] - low[1]) / cell)
         cz = int((position[i, 2] - low[2]) / cell)
         index[i] = (cz * shape[1] + cy) * shape[0] + cx
         first[index[i]] += 1
-    for k in range(1, first.shape[0]):
-        first[k] += first[k - 1]
-    members = np.empty(n, np.int64)
-    sphere = np.empty((n, 5))  # in the order of the cells: read in one stream
+    filled = 0
+    for row in range(rows):
+        filled = -(-filled // WIDTH) * WIDTH
+        for k in range(row * shape[0], (row + 1) * shape[0]):
+            filled += first[k]
+            first[k] = filled
+    blocks = -(-filled // WIDTH)
+    first[rows * shape[0]] = WIDTH * blocks
+    members = np.full(WIDTH * blocks, -1, np.int64)
+    spheres = np.empty((blocks, 6, WIDTH))  # in the order of the cells: read in one stream
+    spheres[:, :3] = FAR
+    spheres[:, 3:] = 0.0
     for i in range(n - 1, -1, -1):
         first[index[i]] -= 1
         at = first[index[i]]
         members[at] = i
-        sphere[at, :3] = position[i]
-        sphere[at, 3] = radius[i]
-        sphere[at, 4] = extra[i]
-    return cell, low, shape, first, members, sphere
+        block, lane = at // WIDTH, at % WIDTH
+        for k in range(3):
+            spheres[block, k, lane] = position[i, k]
+        spheres[block, 3, lane], spheres[block, 4, lane], spheres[block, 5, lane] = radius[i], extra[i], i
+    return cell, low, shape, first, members, spheres
 
 
 @compiled_for_teams
@@ -371,25 +384,36 @@ def _cells_between(start, end, cell, cells):
 
 
 @compiled_for_teams
-def _candidates(i, position, radius, reach, furthest, cell, low, shape, first, members, sphere, out, offset):
+def _candidates(i, position, radius, reach, furthest, cell, low, shape, first, members, spheres, out, offset):
     """Count the partners of sphere i; write them from `offset` on as far as `out` has room."""
     x, y, z, size = position[i, 0], position[i, 1], position[i, 2], radius[i]
     spread = 2.0 * size + reach + furthest
     x_first, x_last = _cells_between(x - spread - low[0], x + spread - low[0], cell, shape[0])
     y_first, y_last = _cells_between(y - spread - low[1], y + spread - low[1], cell, shape[1])
     z_first, z_last = _cells_between(z - spread - low[2], z + spread - low[2], cell, shape[2])
+    own, number, near = broadcast(size), broadcast(float(i)), broadcast(reach)
+    at_x, at_y, at_z = broadcast(x), broadcast(y), broadcast(z)
     found = 0
     for cz in range(z_first, z_last + 1):
         for cy in range(y_first, y_last + 1):
             row = (cz * shape[1] + cy) * shape[0]
-            for m in range(first[row + x_first], first[row + x_last + 1]):
-                dx, dy, dz = sphere[m, 0] - x, sphere[m, 1] - y, sphere[m, 2] - z
-                limit = size + sphere[m, 3] + reach + sphere[m, 4]
-                near = dx * dx + dy * dy + dz * dz < limit * limit
-                smaller = (sphere[m, 3] < size) | ((sphere[m, 3] == size) & (members[m] > i))
-                if offset + found < out.shape[0]:
-                    out[offset + found] = members[m]  # stays if it counts: no branch that is hard to foresee
-                found += near & smaller
+            begin, end = first[row + x_first], first[row + x_last + 1]
+            for block in range(begin // WIDTH, -(-end // WIDTH)):
+                dx, dy, dz = (
+                    load(spheres, block, 0) - at_x,
+                    load(spheres, block, 1) - at_y,
+                    load(spheres, block, 2) - at_z,
+                )
+                other = load(spheres, block, 3)
+                limit = own + other + near + load(spheres, block, 4)
+                inside = above(limit * limit, dx * dx + dy * dy + dz * dz)
+                later = above(load(spheres, block, 5), number) & ~above(other, own)
+                partners = inside & (above(own, other) | later)
+                if partners:
+                    for lane in range(WIDTH):  # what is written stays if it counts: no branch hard to foresee
+                        if offset + found < out.shape[0]:
+                            out[offset + found] = members[WIDTH * block + lane]
+                        found += partners >> lane & 1
     return found
 
 

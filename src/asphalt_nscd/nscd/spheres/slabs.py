@@ -40,10 +40,14 @@ class Workspace(NamedTuple):
 
     motion: np.ndarray  # (r, 8) velocity [m/s], 1/mass [1/kg], spin as surface velocity [m/s], 5/2 of 1/mass
     place: np.ndarray  # (r, 8) [m] of a sphere: position, radius, zeros; of a plane: a point, 0, normal, 1
-    packed: np.ndarray  # (c, 8) normal, impulse [N s], target [m/s], mass that an impulse along it moves [kg]
+    contacts: (
+        np.ndarray
+    )  # (b, 8, 8) normal, impulse [N s], target [m/s], mass that an impulse along it moves [kg]
     lively: np.ndarray  # (c,) contacts that were noted
+    noted: np.ndarray  # (c + 2, 8) their rows of `contacts`; the last row is zero
     bodies: np.ndarray  # (c, 2) theirs
-    lively_blocks: np.ndarray  # (c, 3, 8) in which they stand, those of a slab from its first contact on
+    lively_blocks: np.ndarray  # (2 b, 3, 8) in which they stand; see `first_lively`
+    lively_contacts: np.ndarray  # (2 b, 8, 8) copies of them
     block: np.ndarray  # (c,) while contacts are dealt: where each stands,
     lane: np.ndarray  # (c,)
     filled: np.ndarray  # (c,) lanes of each block that are taken,
@@ -70,15 +74,17 @@ def workspace_for(contacts: int, bodies: int, planes: int) -> Workspace:
     Workspace
         Arrays of zeros.
     """
-    rows = bodies + (MOST_SLABS + 1) * (planes + 1)
+    rows, blocks = bodies + (MOST_SLABS + 1) * (planes + 1), -(-contacts // WIDTH)
     lively, block, lane, filled, following = np.empty((5, contacts), np.int32)
     return Workspace(
         motion=aligned((rows, WIDTH)),
         place=aligned((rows, WIDTH)),
-        packed=aligned((contacts + MOST_SLABS + 1, WIDTH)),
+        contacts=aligned((blocks, 8, WIDTH)),
         lively=lively,
+        noted=aligned((contacts + 2, 8)),
         bodies=np.empty((contacts, 2), np.int32),
-        lively_blocks=np.empty((contacts, 3, WIDTH), np.int32),
+        lively_blocks=np.empty((2 * blocks, 3, WIDTH), np.int32),
+        lively_contacts=aligned((2 * blocks, 8, WIDTH)),
         block=block,
         lane=lane,
         filled=filled,
@@ -103,11 +109,10 @@ def private_rows(s, workspace):
     Returns
     -------
     tuple of int
-        A contact and a body that stay zero, for lanes left over; its copy of the first plane, then of the
-        others.
+        A body that stays zero, for lanes left over; its copy of the first plane, then of the others.
     """
     body = workspace.wall + 1 + s * (workspace.planes + 1)
-    return workspace.packed.shape[0] - MOST_SLABS - 1 + s, body, body + 1
+    return body, body + 1
 
 
 def slabs_of(
