@@ -5,7 +5,8 @@ import pytest
 
 from asphalt_nscd.formulation.forecast import Networks, Settings, forecast, modulus_of
 from asphalt_nscd.formulation.levels import levels_of
-from asphalt_nscd.formulation.network import Physics, bond_stiffness, contents_of, films_of, level_map
+from asphalt_nscd.formulation.network import SKIN, Physics, bond_stiffness, contents_of, films_of, level_map
+from asphalt_nscd.formulation.packing import LARGEST
 from asphalt_nscd.formulation.recipe import recipe_of
 from asphalt_nscd.formulation.rivals import mori_tanaka
 from asphalt_nscd.formulation.static_map import RATIOS, fit_map
@@ -41,6 +42,17 @@ def hashin_shtrikman(recipe, level, modulus):
         g = g1 + c2 / (1 / (g2 - g1) + 6 * c1 * (k1 + 2 * g1) / (5 * g1 * (3 * k1 + 4 * g1)))
         bounds.append(9 * k * g / (3 * k + g))
     return bounds
+
+
+def test_grains_of_two_sizes_fill_what_a_count_of_points_says(packing):
+    small = np.arange(packing.radius.size) % 2 == 0
+    radius = np.where(small, 0.6, 1.0) * packing.radius
+    found = contents_of(replace(packing, radius=radius))
+    shape = found.prism.geometry
+    point = SKIN * LARGEST + np.random.default_rng(5).random((10000, 3)) * [shape.h, shape.e, shape.b]
+    inside = (np.linalg.norm(point[:, None] - packing.position, axis=2) < radius).any(axis=1)
+    assert found.solid_fraction == pytest.approx(inside.mean(), abs=0.01)
+    assert 0.25 < found.solid_fraction < 0.35
 
 
 @pytest.mark.parametrize("physics", [Physics(), Physics(film=6e-6), Physics(squeezed=False)])

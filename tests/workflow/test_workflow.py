@@ -149,6 +149,9 @@ def test_bonds_are_made_ready_to_break_only_where_the_campaign_tests(workspace):
     other = {"models/blocked/s1", "time_step/models/free/s1"}
     assert without == {*other, *loose, *(f"facets/{model}" for model in loose)}
     assert len(lines) == 15
+    (line,) = (line for line in said.splitlines() if "asphalt-nscd timings" in line)
+    forecast = ("packings", "recipe", "mixes", "voids")
+    assert all(f" results/paper/benchmarks/forecast_{part}.tsv" in line for part in forecast)
 
 
 def test_rungs_above_the_paper_s_are_simulated_with_facets_and_nothing_is_divided_out(workspace):

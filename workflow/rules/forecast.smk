@@ -17,6 +17,8 @@ rule forecast_packings:
         ENVIRONMENT
     log:
         "results/forecast/logs/packings.log",
+    benchmark:
+        "<results>/benchmarks/forecast_packings.tsv"
     message:
         "Pour the levels of the recipe"
     shell:
@@ -37,6 +39,8 @@ rule forecast_recipe:
         ENVIRONMENT
     log:
         "results/forecast/logs/recipe.log",
+    benchmark:
+        "<results>/benchmarks/forecast_recipe.tsv"
     message:
         "Forecast the mix of the recipe"
     shell:
@@ -58,6 +62,8 @@ rule forecast_mixes:
         ENVIRONMENT
     log:
         "results/forecast/logs/mixes.log",
+    benchmark:
+        "<results>/benchmarks/forecast_mixes.tsv"
     message:
         "Hold the forecast against six measured mixes"
     shell:
@@ -77,6 +83,8 @@ rule forecast_voids:
         ENVIRONMENT
     log:
         "results/forecast/logs/voids.log",
+    benchmark:
+        "<results>/benchmarks/forecast_voids.tsv"
     message:
         "Hold the cost of air voids against the NCAT specimens"
     shell:
@@ -97,6 +105,8 @@ rule forecast_paper:
         ENVIRONMENT
     log:
         "results/forecast/logs/paper.log",
+    benchmark:
+        "<results>/benchmarks/forecast_paper.tsv"
     message:
         "Forecast the paper's mix from the grade of its binder"
     shell:
@@ -118,6 +128,8 @@ rule forecast_wrong_recipes:
         ENVIRONMENT
     log:
         "results/forecast/logs/wrong_recipes.log",
+    benchmark:
+        "<results>/benchmarks/forecast_wrong_recipes.tsv"
     message:
         "Name the wrong inputs of drawn recipes"
     shell:
@@ -134,6 +146,8 @@ rule forecast_figure:
         ENVIRONMENT
     log:
         "results/forecast/logs/figure.log",
+    benchmark:
+        "<results>/benchmarks/forecast_figure.tsv"
     message:
         "Draw the forecasts beside the measurements"
     shell:

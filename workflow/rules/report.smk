@@ -133,6 +133,7 @@ rule timings:
     localrule: True  # a job on a cluster knows its own part of the plan alone
     input:
         COMPUTED,
+        ["results/forecast/recipe/forecast.csv", "results/forecast/voids.csv"] if FORECAST else [],
         code=code("timings"),
     output:
         table="<results>/timings.csv",

@@ -94,8 +94,8 @@ def contents_of(packing: LevelPacking) -> Contents:
     size = np.array([geometry.h, geometry.e, geometry.b])
     point = corner + np.random.default_rng(0).random((POINTS, 3)) * size
     inside = np.zeros(POINTS, bool)
-    for r in np.unique(radius):
-        inside |= np.isfinite(cKDTree(position[radius == r]).query(point, distance_upper_bound=r)[0])
+    for held in cKDTree(point).query_ball_point(position, radius):
+        inside[held] = True
     return Contents(prism, float(inside.mean()))
 
 
