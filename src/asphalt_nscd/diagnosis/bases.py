@@ -24,23 +24,64 @@ class Base(Protocol):
     """A law of the mix with p parameters (all real, of order one)."""
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
-        """E* (n,) [Pa] and its derivative (n, p) with respect to the parameters."""
+        """E* of the law and its derivatives.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Parameters.
+        omega : ndarray (n,)
+            Angular frequencies [rad/s].
+        temperature : ndarray (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            E* [Pa].
+        ndarray of complex (n, p)
+            Its derivative with respect to the parameters.
+        """
 
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
-        """Residuals (k,) of the prior in standard deviations, and their derivative (k, p)."""
+        """How far the law is from what mixes are.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Parameters.
+
+        Returns
+        -------
+        ndarray (k,)
+            Residuals of the prior in standard deviations.
+        ndarray (k, p)
+            Their derivative.
+        """
 
 
 @dataclass(frozen=True)
 class FlexibleSpectrum:
     """Maxwell elements on WLF-reduced time.
 
-    times (m,): relaxation times [s] at the reference temperature [degC], ascending; below, above [K]: how far
-    the tests reach from it; roughness: standard deviation of the second differences of ln(strength);
-    static_modulus [Pa]: known from elsewhere, or None; ends_straight: the tests come near it. Parameters:
-    ln strength (m), ln static modulus, ln slope, log-odds of the curvature, departure.
-
+    Parameters x of a law: ln strength (m), ln static modulus, ln slope, log-odds of the curvature, departure.
     WLF by its slope C1/C2 and curvature 1/C2, of which a shift straight in T is nothing special; in C1 and C2
     it lies at infinity, and an isotherm was said to be off instead.
+
+    Parameters
+    ----------
+    times : ndarray (m,)
+        Relaxation times at the reference temperature [s], ascending.
+    reference_temperature : float
+        [degC].
+    below, above : float
+        How far the tests reach from it [K].
+    roughness : float
+        Standard deviation of the second differences of ln(strength).
+    static_modulus : float, optional
+        Known from elsewhere [Pa], or None.
+    ends_straight : bool
+        Whether the tests come near it.
     """
 
     times: Vector
@@ -72,17 +113,56 @@ class FlexibleSpectrum:
         return least, 1.0 / (self.below + CLEAR) - least
 
     def log_odds(self, curvature: float) -> float:
-        """The parameter for a curvature [1/K], or the nearest that is well within the bounds."""
+        """The parameter for a curvature, or the nearest that is well within the bounds.
+
+        Parameters
+        ----------
+        curvature : float
+            1/C2 [1/K].
+
+        Returns
+        -------
+        float
+            Log-odds.
+        """
         least, width = self._curvatures
         return float(logit(np.clip((curvature - least) / width, 0.1, 0.9)))
 
     def curvature(self, log_odds: float) -> tuple[float, float]:
-        """1/C2 [1/K] and its derivative with respect to the parameter."""
+        """The curvature of a parameter.
+
+        Parameters
+        ----------
+        log_odds : float
+            The parameter.
+
+        Returns
+        -------
+        float
+            1/C2 [1/K].
+        float
+            Its derivative.
+        """
         (least, width), share = self._curvatures, float(expit(log_odds))
         return least + width * share, width * share * (1.0 - share)
 
     def log_shift(self, x: Vector, temperature: Vector) -> tuple[Vector, NDArray]:
-        """ln a_T (n,) and its derivative (n, 3) with respect to the last three parameters."""
+        """The shift.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Parameters.
+        temperature : ndarray (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray (n,)
+            ln a_T.
+        ndarray (n, 3)
+            Its derivative with respect to the last three parameters.
+        """
         curvature, change = self.curvature(x[-2])
         away = temperature - self.reference_temperature
         bent = away / (1.0 + curvature * away)
@@ -91,7 +171,24 @@ class FlexibleSpectrum:
         return wlf + x[-1] * cubic, np.column_stack([wlf, -wlf * bent * change, cubic])
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
-        """E* (n,) [Pa] and its derivative (n, p) with respect to the parameters."""
+        """E* of the law and its derivatives.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Parameters.
+        omega : ndarray (n,)
+            Angular frequencies [rad/s].
+        temperature : ndarray (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            E* [Pa].
+        ndarray of complex (n, p)
+            Its derivative with respect to the parameters.
+        """
         m = self.times.size
         shift, shift_slopes = self.log_shift(x, temperature)
         z = 1j * (omega * np.exp(shift))[:, None] * self.times
@@ -107,12 +204,36 @@ class FlexibleSpectrum:
         return static + terms.sum(axis=1), slope
 
     def shift_strain(self, x: Vector) -> float:
-        """Squares of the prior of the shift: how far it is from the shifts that mixes have."""
+        """How far the shift is from the shifts that mixes have.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Parameters.
+
+        Returns
+        -------
+        float
+            Squares of its prior.
+        """
         away = self.prior(x)[0][-3:]
         return float(away @ away)
 
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
-        """Residuals (k,) of the prior in standard deviations, and their derivative (k, p)."""
+        """How far the law is from what mixes are.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Parameters.
+
+        Returns
+        -------
+        ndarray (k,)
+            Residuals of the prior in standard deviations.
+        ndarray (k, p)
+            Their derivative.
+        """
         m = self.times.size
         rows = np.zeros((m + 2, self.parameters))
         rows[: m - 2, :m] = np.diff(np.eye(m), 2, axis=0) / self.roughness
@@ -132,9 +253,15 @@ class FlexibleSpectrum:
 
 @dataclass(frozen=True)
 class BurgersAtEach:
-    """A Burgers law for each temperature, the paper's base. Parameters: ln(Em, eta_m, Ek, eta_k) of each."""
+    """A Burgers law for each temperature, the paper's base. Parameters: ln(Em, eta_m, Ek, eta_k) of each.
 
-    isotherms: Vector  # degC
+    Parameters
+    ----------
+    isotherms : ndarray (t,)
+        [degC].
+    """
+
+    isotherms: Vector
 
     @property
     def parameters(self) -> int:
@@ -142,7 +269,24 @@ class BurgersAtEach:
         return 4 * self.isotherms.size
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
-        """E* (n,) [Pa] and its derivative (n, p) with respect to the parameters."""
+        """E* of the law and its derivatives.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Parameters.
+        omega : ndarray (n,)
+            Angular frequencies [rad/s].
+        temperature : ndarray (n,)
+            [degC].
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            E* [Pa].
+        ndarray of complex (n, p)
+            Its derivative with respect to the parameters.
+        """
         at = np.abs(temperature[:, None] - self.isotherms).argmin(axis=1)
         em, eta_m, ek, eta_k = np.exp(x.reshape(-1, 4))[at].T
         i_omega = 1j * omega
@@ -156,6 +300,19 @@ class BurgersAtEach:
         return modulus, slope
 
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
-        """Residuals (k,) of the prior in standard deviations, and their derivative (k, p)."""
+        """How far the law is from what mixes are.
+
+        Parameters
+        ----------
+        x : ndarray (p,)
+            Parameters.
+
+        Returns
+        -------
+        ndarray (k,)
+            Residuals of the prior in standard deviations.
+        ndarray (k, p)
+            Their derivative.
+        """
         # Keeps a parameter that the data do not see where it is.
         return np.zeros(x.size), 1e-3 * np.eye(x.size)

@@ -30,9 +30,19 @@ Logarithm = NDArray[np.complex128]
 
 
 def simulated(campaign: str | Path, observed: Observations) -> Logarithm:
-    """ln E* (n,) of the mean over samples in a campaign at the condition of each measured test.
+    """ln E* of a campaign of simulated tests at the condition of each measured test, mean over samples.
 
-    campaign: table of simulated tests. NaN where no condition of it is near.
+    Parameters
+    ----------
+    campaign : path
+        Table of simulated tests.
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        NaN where no condition of the campaign is near.
     """
     tests = read_tests([campaign]).groupby(KEYS)[MODULUS].mean().reset_index()
     temperature, frequency = (tests[name].to_numpy(float) for name in KEYS)
@@ -55,9 +65,21 @@ def over_law(campaign: str | Path) -> pd.Series:
 def bond_mapping(
     paper: str | Path, facets: str | Path, averages: dict[str, dict[str, dict[str, float]]]
 ) -> tuple[dict[str, Any] | None, str]:
-    """The rung, or none where the paper's bonds return the law; and a sentence that says which.
+    """The rung of the mapping of the law to the bonds.
 
-    paper, facets: tables of simulated tests by either mapping; averages: their errors by temperature.
+    Parameters
+    ----------
+    paper, facets : path
+        Tables of simulated tests by either mapping.
+    averages : dict
+        Their errors by temperature.
+
+    Returns
+    -------
+    dict or None
+        None where the paper's bonds return the law.
+    str
+        A sentence that says which.
     """
     ratio, by_facets = over_law(paper), over_law(facets)
     if ratio.empty or by_facets.empty:
@@ -88,7 +110,18 @@ def bond_mapping(
 
 
 def void(campaign: str | Path) -> str:
-    """What to say of a campaign that stands alone, without another mapping beside it."""
+    """What to say of a campaign that stands alone, without another mapping beside it.
+
+    Parameters
+    ----------
+    campaign : path
+        Table of simulated tests.
+
+    Returns
+    -------
+    str
+        A sentence.
+    """
     ratio = over_law(campaign)
     of_law = f"; |E*| of its samples is {_range(ratio)} of the law" if len(ratio) else ""
     return f"No rung bond_mapping: the campaign has one mapping of the law to the bonds{of_law}."

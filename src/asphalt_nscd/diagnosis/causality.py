@@ -33,7 +33,22 @@ class Contradiction:
 
 
 def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list[Contradiction]:
-    """Pairs of neighbouring frequencies where modulus and phase contradict each other, the worst first."""
+    """Pairs of neighbouring frequencies where modulus and phase contradict each other.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    fitted : Fitted
+        Law, scales and causes.
+    noise : Noise
+        Scatter of the tests.
+
+    Returns
+    -------
+    list of Contradiction
+        The worst first.
+    """
     left = observed.logarithm - fitted.modelled
     found, tried = [], 0
     for temperature in observed.isotherms:
@@ -71,7 +86,20 @@ def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list
 
 
 def told(found: list[Contradiction], causes: bool) -> list[str]:
-    """One sentence of all contradictions, none without any; causes: whether named ones are in the fit."""
+    """All contradictions in a sentence.
+
+    Parameters
+    ----------
+    found : list of Contradiction
+        Of `contradictions`.
+    causes : bool
+        Whether named ones are in the fit.
+
+    Returns
+    -------
+    list of str
+        None without any.
+    """
     if not found:
         return []
     worst, others = found[0], found[1:]

@@ -18,10 +18,24 @@ NEAR = 0.5  # share of the largest departure of a sweep, below which a test is h
 
 
 def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Tests (n,) to leave out, and tests of sweeps where the others are left out than causality said.
+    """Which half of a sweep is wrong, by the level that the specimen has on its other isotherms.
 
-    out (n,): those that causality takes out. A sweep is turned where they are half of it, or all on the level of their
+    A sweep is turned where the tests that causality takes out are half of it, or all on the level of their
     specimen, while some others are far off it, and these are no more than half.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    out : ndarray of bool (n,)
+        Those that causality takes out.
+
+    Returns
+    -------
+    ndarray of bool (n,)
+        Tests to leave out.
+    ndarray of bool (n,)
+        Tests of sweeps where the others are left out than causality said.
     """
     now, turned = out.copy(), np.zeros(observed.size, bool)
     block, apart = blocks(observed), _from_level(observed)

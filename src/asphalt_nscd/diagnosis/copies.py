@@ -18,16 +18,34 @@ SAME = 1e-9  # relative difference
 
 @dataclass(frozen=True)
 class Copy:
-    """Two blocks, each (specimen, isotherm [degC]), whose tests at the same frequencies agree in every digit.
+    """Two blocks of tests that agree in every digit at the same frequencies.
 
-    rows: of both in the table.
+    Parameters
+    ----------
+    blocks : tuple
+        Specimen and isotherm [degC] of each.
+    rows : tuple of int
+        Of both in the table.
     """
 
     blocks: tuple[tuple[str, float], tuple[str, float]]
     rows: tuple[int, ...]
 
     def reason(self, specimen: str, isotherm: float) -> str:
-        """What is wrong with the block of a test, in words."""
+        """What is wrong with one of the two blocks.
+
+        Parameters
+        ----------
+        specimen : str
+            Of the block.
+        isotherm : float
+            Of the block [degC].
+
+        Returns
+        -------
+        str
+            In words, with the mend.
+        """
         other = self.blocks[self.blocks[0] == (specimen, isotherm)]
         return (
             f"equal in every digit to {specimen_named(other[0])} at {other[1]:g} degC: one was copied; look in the "
@@ -36,7 +54,18 @@ class Copy:
 
 
 def copied(observed: Observations) -> Iterator[Copy]:
-    """Pairs of sweeps that are copies of each other: of one specimen, or of two at one temperature."""
+    """Sweeps that are copies of each other: of one specimen, or of two at one temperature.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Yields
+    ------
+    Copy
+        A pair.
+    """
     blocks: dict[tuple[str, float], dict[tuple[float, float], int]] = {}
     strain = np.zeros(observed.size) if observed.amplitude is None else observed.amplitude
     for row in range(observed.size):
@@ -56,7 +85,18 @@ def copied(observed: Observations) -> Iterator[Copy]:
 
 
 def refuse_copies(observed: Observations) -> None:
-    """Refuse two specimens that agree in every digit wherever both were tested: copies have no scatter."""
+    """Refuse two specimens that agree in every digit wherever both were tested: copies have no scatter.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Raises
+    ------
+    InputError
+        Which names both.
+    """
     tests = {
         name: {
             int(observed.cell[row]): observed.modulus[row] for row in np.flatnonzero(observed.specimen == k)

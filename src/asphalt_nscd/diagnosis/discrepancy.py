@@ -48,8 +48,16 @@ LEAST, MOST = 1e-4, 1e7  # variance that is as good as none, and that no table h
 class Process:
     """What a process of the discrepancy describes.
 
-    kind: of DISCREPANCY; part: "modulus", "phase", or "both" where causality ties them; isotherm [degC], specimen: what
-    alone it reaches, None where it reaches all.
+    Parameters
+    ----------
+    kind : str
+        Of DISCREPANCY.
+    part : str
+        "modulus", "phase", or "both" where causality ties them.
+    isotherm : float, optional
+        What alone it reaches [degC]; None where it reaches all.
+    specimen : str, optional
+        What alone it reaches; None where it reaches all.
     """
 
     kind: str
@@ -62,10 +70,21 @@ class Process:
 class Processes:
     """The m processes of a table, of unit variance in units of the scatter of one test.
 
-    roots: factors (n, rank) of ln E* of each process, real for the modulus and imaginary for the phase;
-    factor (2n, q): all of them whitened; block (q,): process of each column; usual (m,): usual sizes; spread (m,):
-    standard deviation of the logarithm of a size that is about the usual one, infinite of one that is mostly zero
-    (half-Cauchy).
+    Parameters
+    ----------
+    described : tuple of Process (m,)
+        What each is about.
+    roots : tuple of ndarray of complex (n, rank)
+        Factors of ln E* of each process, real for the modulus and imaginary for the phase.
+    factor : ndarray (2n, q)
+        All of them whitened.
+    block : ndarray of int (q,)
+        Process of each column.
+    usual : ndarray (m,)
+        Usual sizes.
+    spread : ndarray (m,)
+        Standard deviation of the logarithm of a size that is about the usual one, infinite of one that is
+        mostly zero (half-Cauchy).
     """
 
     described: tuple[Process, ...]
@@ -76,7 +95,22 @@ class Processes:
     spread: Vector
 
     def prior(self, variances: Vector) -> tuple[float, Vector, Vector]:
-        """-2 ln of the prior of the sizes; its first and second derivatives (m,) along the variances."""
+        """-2 ln of the prior of the sizes.
+
+        Parameters
+        ----------
+        variances : ndarray (m,)
+            Of the processes.
+
+        Returns
+        -------
+        float
+            Its value.
+        ndarray (m,)
+            First derivatives along the variances.
+        ndarray (m,)
+            Second derivatives.
+        """
         away = np.log(variances / self.usual**2)
         about = np.isfinite(self.spread)
         s = np.where(about, 2.0 * self.spread, 1.0) ** 2
@@ -87,7 +121,18 @@ class Processes:
         return float(value.sum()), slope, bend
 
     def beside(self, variances: Vector) -> NDArray:
-        """Factor (2n, r) of the covariance of ln|E*| and of the phase."""
+        """What the processes add to the scatter.
+
+        Parameters
+        ----------
+        variances : ndarray (m,)
+            Of the processes.
+
+        Returns
+        -------
+        ndarray (2n, r)
+            Factor of the covariance of ln|E*| and of the phase.
+        """
         kept = [
             np.sqrt(variance) * root
             for root, variance in zip(self.roots, variances, strict=True)
@@ -98,7 +143,20 @@ class Processes:
 
 
 def processes(joint: Joint, fitted: Fitted) -> Processes:
-    """The processes that a table may hold; what a specimen's own spectrum does is linearised at the fit."""
+    """The processes that a table may hold; what a specimen's own spectrum does is linearised at the fit.
+
+    Parameters
+    ----------
+    joint : Joint
+        Model of the table.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    Processes
+        Of unit variance.
+    """
     observed, noise = joint.observed, joint.noise
     described, roots = list[Process](), []
     if len(observed.names) > 1:
@@ -154,9 +212,23 @@ def _of_specimen(apart: NDArray) -> NDArray:
 
 
 def factor_of(points: NDArray, kernel: Kernel, left_out: float) -> NDArray:
-    """Factor (n, rank) of the correlation between points (n, d), zero where a point is NaN.
+    """Factor of the correlation between points.
 
-    kernel: of the differences (d, m, m). Tests at one point share a row, so that only distinct points are solved for.
+    Tests at one point share a row, so that only distinct points are solved for.
+
+    Parameters
+    ----------
+    points : ndarray (n, d)
+        NaN where a process does not reach.
+    kernel : callable
+        Of the differences (d, m, m).
+    left_out : float
+        Share of the variance of dropped eigenvectors.
+
+    Returns
+    -------
+    ndarray (n, rank)
+        Zero where a point is NaN.
     """
     rows = np.flatnonzero(np.isfinite(points).all(axis=1))
     distinct, place, count = np.unique(points[rows], axis=0, return_inverse=True, return_counts=True)
@@ -172,7 +244,17 @@ def factor_of(points: NDArray, kernel: Kernel, left_out: float) -> NDArray:
 
 @dataclass(frozen=True)
 class Reduced:
-    """Scatter and law taken out: gram (q, q) U^T A U, along (q,) U^T A y, with A = V0^-1."""
+    """Scatter and law taken out, with A = V0^-1 and data y.
+
+    Parameters
+    ----------
+    processes : Processes
+        Of the table.
+    gram : ndarray (q, q)
+        U^T A U.
+    along : ndarray (q,)
+        U^T A y.
+    """
 
     processes: Processes
     gram: NDArray
@@ -181,23 +263,52 @@ class Reduced:
 
 @dataclass(frozen=True)
 class Direction:
-    """Directions d (2n, k) in the same form: cross (q, k) U^T A d, own (k, k) d^T A d, along (k,) d^T A y."""
+    """Directions d (2n, k) in the same form.
+
+    Parameters
+    ----------
+    cross : ndarray (q, k)
+        U^T A d.
+    own : ndarray (k, k)
+        d^T A d.
+    along : ndarray (k,)
+        d^T A y.
+    """
 
     cross: NDArray
     own: NDArray
     along: Vector
 
     def column(self, k: int) -> Direction:
-        """One of them alone."""
+        """One of them alone.
+
+        Parameters
+        ----------
+        k : int
+            Which.
+
+        Returns
+        -------
+        Direction
+            Of one column.
+        """
         return Direction(self.cross[:, [k]], self.own[[k]][:, [k]], self.along[[k]])
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """Variances v (m,) of the processes, and the amplitude of the cause that was in the model.
+    """Variances of the processes, and the amplitude of the cause that was in the model.
 
-    misfit: -2 ln of the penalised likelihood, the cause at its best; amplitude, std_error: of the cause, in
-    units of its direction, zero and infinite without one.
+    Parameters
+    ----------
+    variances : ndarray (m,)
+        v.
+    misfit : float
+        -2 ln of the penalised likelihood, the cause at its best.
+    amplitude : float
+        Of the cause, in units of its direction; zero without one.
+    std_error : float
+        Of the amplitude; infinite without a cause.
     """
 
     variances: Vector
@@ -212,20 +323,65 @@ class Estimate:
 
 
 def reduce(found: Processes, fitted: Fitted) -> Reduced:
-    """The model linearised at a fit, whitened by the scatter alone."""
+    """The model linearised at a fit, whitened by the scatter alone.
+
+    Parameters
+    ----------
+    found : Processes
+        Processes of the table.
+    fitted : Fitted
+        Where the model stands.
+
+    Returns
+    -------
+    Reduced
+        All that an estimate needs of the table.
+    """
     gram = _projected(fitted, found.factor, found.factor)
     return Reduced(found, 0.5 * (gram + gram.T), _data(fitted, found.factor))
 
 
 def directions(model: Reduced, fitted: Fitted, d: NDArray) -> Direction:
-    """Whitened directions d (2n, k) of causes."""
+    """Whitened directions of causes.
+
+    Parameters
+    ----------
+    model : Reduced
+        Of `reduce`.
+    fitted : Fitted
+        Where the model stands.
+    d : ndarray (2n, k)
+        Directions.
+
+    Returns
+    -------
+    Direction
+        In the same form.
+    """
     return Direction(
         _projected(fitted, model.processes.factor, d), _projected(fitted, d, d), _data(fitted, d)
     )
 
 
 def moved(model: Reduced, cause: Direction, amount: float) -> tuple[Reduced, Direction]:
-    """The same with so much of an effect added to the data."""
+    """The same with so much of an effect added to the data.
+
+    Parameters
+    ----------
+    model : Reduced
+        Of `reduce`.
+    cause : Direction
+        One direction.
+    amount : float
+        Of it.
+
+    Returns
+    -------
+    Reduced
+        Moved.
+    Direction
+        Moved.
+    """
     return (
         replace(model, along=model.along + amount * cause.cross[:, 0]),
         replace(cause, along=cause.along + amount * cause.own[:, 0]),
@@ -245,7 +401,22 @@ def _data(fitted: Fitted, left: NDArray) -> Vector:
 
 
 def estimate(model: Reduced, cause: Direction | None = None, start: Vector | None = None) -> Estimate:
-    """Penalised restricted likelihood: multiplicative steps (Zhou et al. 2019), extrapolated (SQUAREM)."""
+    """Penalised restricted likelihood: multiplicative steps (Zhou et al. 2019), extrapolated (SQUAREM).
+
+    Parameters
+    ----------
+    model : Reduced
+        Of `reduce`.
+    cause : Direction, optional
+        One direction that is in the model, or none.
+    start : ndarray (m,), optional
+        Variances to start from; the usual ones if None.
+
+    Returns
+    -------
+    Estimate
+        Variances, and the amplitude of the cause.
+    """
     lowest, highest = np.log(LEAST), np.log(MOST)
     usual = model.processes.usual
     log_v = np.log(usual**2 if start is None else np.maximum(start, LEAST))
@@ -271,7 +442,22 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
 def with_uncertain_sizes(model: Reduced, cause: Direction, found: Estimate) -> Estimate:
     """The same with a standard error that holds what is not known of the variances (Kackar and Harville 1984).
 
-    Their covariance is that of the curvature of the objective; what the table does not tell is held to a factor.
+    Their covariance is that of the curvature of the objective; what the table does not tell is held to a
+    factor.
+
+    Parameters
+    ----------
+    model : Reduced
+        Of `reduce`.
+    cause : Direction
+        One direction.
+    found : Estimate
+        Of `estimate`.
+
+    Returns
+    -------
+    Estimate
+        With a larger standard error.
     """
     curvature, along = _curvature(model, cause, found.variances)
     value, vector = np.linalg.eigh(0.5 * curvature)  # half of it, for -2 ln likelihood
@@ -357,14 +543,48 @@ def _factor(model: Reduced, s: Vector) -> tuple[NDArray, bool]:
 
 
 def correlation(model: Reduced, all_directions: Direction, variances: Vector) -> tuple[NDArray, Vector]:
-    """Correlation (k, k) of the z of directions where nothing is hidden, and their standard errors (k,)."""
+    """How directions hang together where nothing is hidden.
+
+    Parameters
+    ----------
+    model : Reduced
+        Of `reduce`.
+    all_directions : Direction
+        k of them.
+    variances : ndarray (m,)
+        Of the processes.
+
+    Returns
+    -------
+    ndarray (k, k)
+        Correlation of their z.
+    ndarray (k,)
+        Their standard errors.
+    """
     information, _ = weighed(model, all_directions, variances)
     size = np.sqrt(np.maximum(np.diag(information), 1e-300))
     return information / size[:, None] / size, 1.0 / size
 
 
 def weighed(model: Reduced, all_directions: Direction, variances: Vector) -> tuple[NDArray, Vector]:
-    """Information (k, k) of the amplitudes of directions, law and discrepancy integrated out, and their score (k,)."""
+    """What a table says of the amplitudes of directions, law and discrepancy integrated out.
+
+    Parameters
+    ----------
+    model : Reduced
+        Of `reduce`.
+    all_directions : Direction
+        k of them.
+    variances : ndarray (m,)
+        Of the processes.
+
+    Returns
+    -------
+    ndarray (k, k)
+        Information.
+    ndarray (k,)
+        Score.
+    """
     s = np.sqrt(variances)[model.processes.block]
     lower, _ = _factor(model, s)
     half = solve_triangular(lower, s[:, None] * all_directions.cross, lower=True, check_finite=False)

@@ -29,9 +29,16 @@ GOOD = 0.03  # chance of values put right; where it is less, RIVAL is more by tw
 
 @dataclass(frozen=True)
 class Exchange:
-    """Two tests (rows of the table) and the columns of theirs, 0 ln|E*| and 1 phase, that seem exchanged.
+    """Two tests whose readings seem exchanged.
 
-    beyond: ln evidence for that, beyond the best with one wrong value.
+    Parameters
+    ----------
+    rows : tuple of int
+        Of the table.
+    columns : tuple of int
+        0 ln|E*| and 1 phase.
+    beyond : float
+        ln evidence for that, beyond the best with one wrong value.
     """
 
     rows: tuple[int, int]
@@ -40,16 +47,42 @@ class Exchange:
 
 
 def pairs(tests: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Places (p,) of the first and of the second of each pair of an isotherm's tests."""
+    """All pairs of an isotherm's tests.
+
+    Parameters
+    ----------
+    tests : int
+        How many.
+
+    Returns
+    -------
+    ndarray of int (p,)
+        Places of the first.
+    ndarray of int (p,)
+        Places of the second.
+    """
     first, second = np.triu_indices(tests, 1)
     return first, second
 
 
 def gains(precision: NDArray, pull: NDArray, weighed: NDArray, readings: NDArray) -> NDArray:
-    """Gain (b, 3, p) of ln evidence by each of COLUMNS exchanged in each of `pairs`, for b isotherms of k tests.
+    """Gain of ln evidence by each of COLUMNS exchanged in each of `pairs`, for b isotherms of k tests.
 
-    precision (b, m, 2k, 2k) of each ripple and bend; pull (b, m, 2k): precision times values; weighed (b, m): ln
-    evidence as given; readings (b, k, 2): ln|E*| and phase as read, before a common delay is taken off.
+    Parameters
+    ----------
+    precision : ndarray (b, m, 2k, 2k)
+        Of each ripple and bend.
+    pull : ndarray (b, m, 2k)
+        Precision times values.
+    weighed : ndarray (b, m)
+        ln evidence as given.
+    readings : ndarray (b, k, 2)
+        ln|E*| and phase as read, before a common delay is taken off.
+
+    Returns
+    -------
+    ndarray (b, 3, p)
+        Above zero where an exchange is likelier.
     """
     k = readings.shape[1]
     first, second = pairs(k)
@@ -72,7 +105,18 @@ def gains(precision: NDArray, pull: NDArray, weighed: NDArray, readings: NDArray
 
 
 def one_wrong(precision: NDArray, pull: NDArray, weighed: NDArray) -> NDArray:
-    """Gain (b,) of ln evidence where the best value to take so is merely wrong, by WIDE; arrays as in `gains`."""
+    """Gain of ln evidence where the best value to take so is merely wrong, by WIDE.
+
+    Parameters
+    ----------
+    precision, pull, weighed : ndarray
+        As in `gains`.
+
+    Returns
+    -------
+    ndarray (b,)
+        Of each isotherm.
+    """
     own = np.einsum("bmii->bmi", precision)
     others = weighed[:, :, None] + 0.5 * pull**2 / own - 0.5 * np.log(own)
     without = logsumexp(others, axis=1) - np.repeat(np.log(WIDE), own.shape[2] // 2)
@@ -80,10 +124,32 @@ def one_wrong(precision: NDArray, pull: NDArray, weighed: NDArray) -> NDArray:
 
 
 def least_gain(tests: NDArray[np.int64]) -> float:
-    """Gain that is no chance, where isotherms of so many tests (b,) are searched."""
+    """Gain that is no chance.
+
+    Parameters
+    ----------
+    tests : ndarray of int (b,)
+        Of each isotherm that is searched.
+
+    Returns
+    -------
+    float
+        Of ln evidence.
+    """
     return MARGIN + float(np.log(len(COLUMNS) * (tests * (tests - 1) // 2).sum()))
 
 
 def least_beyond(chance: float) -> float:
-    """Gain beyond one wrong value that is enough, where values put right have this least chance."""
+    """Gain beyond one wrong value that is enough.
+
+    Parameters
+    ----------
+    chance : float
+        The least of values put right.
+
+    Returns
+    -------
+    float
+        Of ln evidence.
+    """
     return RIVAL + 2.0 * max(float(np.log(GOOD / max(chance, 1e-300))), 0.0)

@@ -38,11 +38,23 @@ METAL_LEVEL = 0.03  # how well the modulus of a metal specimen and its form fact
 
 @dataclass(frozen=True)
 class Departure:
-    """By how much tests depart from the model, ln E* (N,), and what that is about.
+    """By how much tests depart from the model, and what that is about.
 
-    kind: "linear", what changes at half the strain at an isotherm if the departure is proportional to the strain;
-    "repeat", a test that cannot be used; "level", an isotherm or specimen that is odd. specimen, isotherm [degC],
-    frequency [Hz]: where; None where it is everywhere. odd: of a level, the entry of `levels.odd` or `odd_phases`.
+    Parameters
+    ----------
+    kind : str
+        "linear", what changes at half the strain at an isotherm if the departure is proportional to the
+        strain; "repeat", a test that cannot be used; "level", an isotherm or specimen that is odd.
+    effect : ndarray of complex (N,)
+        ln E*.
+    specimen : str, optional
+        Where; None where it is everywhere.
+    isotherm : float, optional
+        Where [degC]; None where it is everywhere.
+    frequency : float, optional
+        Where [Hz]; None where it is everywhere.
+    odd : mapping, optional
+        Of a level, the entry of `levels.odd` or `odd_phases`.
     """
 
     kind: str
@@ -57,8 +69,22 @@ class Departure:
 class Possible:
     """The model at the tests done and at all that could follow.
 
-    candidates: causes, in the order of the effects. departures: what effects come next. metal_frequencies: of the rows
-    that follow those of the table [Hz].
+    Parameters
+    ----------
+    table : Observations
+        Tests done, then those that could follow.
+    linear : Linear
+        The model, linearised.
+    old : Tested
+        Tests done.
+    sweeps : tuple of Sweep
+        That could follow.
+    candidates : tuple of Candidate
+        Causes, in the order of the effects.
+    departures : tuple of Departure
+        What effects come next.
+    metal_frequencies : ndarray
+        Of the rows that follow those of the table [Hz].
     """
 
     table: Observations
@@ -71,7 +97,20 @@ class Possible:
 
 
 def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
-    """All sweeps, with the model linearised at the last fit."""
+    """All sweeps, with the model linearised at the last fit.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests done.
+    costs : Costs
+        Machine hours.
+
+    Returns
+    -------
+    Possible
+        The model at all tests.
+    """
     observed = with_strain(diagnosis.observed)
     fitted, base = diagnosis.ladder.fitted, diagnosis.ladder.joint.base
     laws_between = isinstance(base, FlexibleSpectrum)  # a Burgers law says nothing of another temperature

@@ -19,7 +19,22 @@ Logarithm = NDArray[np.complex128]  # ln E* (n,)
 
 
 def simulated_by(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> NDArray[np.complex128]:
-    """ln E* (n,) as the numerical specimen shows the law."""
+    """How the numerical specimen shows a law.
+
+    Parameters
+    ----------
+    joint : Joint
+        Model of the table.
+    fitted : Fitted
+        Law, scales and causes.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        ln E*.
+    """
     observed = joint.observed
     law = joint.apparent(fitted.law, ())[0]
     effect = np.log(specimen.apparent_modulus(observed.omega, law) / law)
@@ -27,26 +42,77 @@ def simulated_by(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> N
 
 
 def with_burgers_laws(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logarithm:
-    """ln E* (n,) as the numerical specimen shows a Burgers law fitted at each temperature."""
+    """How the numerical specimen shows a Burgers law fitted at each temperature.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        ln E*.
+    """
     return simulated_by(diagnosis.baseline_joint, diagnosis.baseline, specimen)
 
 
 def by_tests_alone(diagnosis: Diagnosis) -> Joint:
-    """The joint model whose noise is the scatter of single tests."""
+    """The joint model whose noise is the scatter of single tests.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+
+    Returns
+    -------
+    Joint
+        Without what a laboratory adds.
+    """
     return Joint(diagnosis.observed, diagnosis.ladder.joint.base, diagnosis.alone)
 
 
 def nearest(diagnosis: Diagnosis, fitted: Fitted, specimen: NumericalSpecimen) -> Logarithm:
-    """ln E* (n,) as the numerical specimen shows the law and the causes of a fit, as near to the tests as they come.
+    """How the numerical specimen shows the law and the causes of a fit, as near to the tests as they come.
 
     Beside what the laboratory adds and a discrepancy, a law that lacks a cause is far from the tests.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    fitted : Fitted
+        Law, scales and causes to start from.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        ln E*.
     """
     joint = by_tests_alone(diagnosis)
     return simulated_by(joint, joint.fit(fitted.law, fitted.scales, fitted.active, CLOSE), specimen)
 
 
 def with_common_law(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logarithm:
-    """ln E* (n,) as the numerical specimen shows one law for all temperatures, without causes."""
+    """How the numerical specimen shows one law for all temperatures, without causes.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        ln E*.
+    """
     return nearest(diagnosis, diagnosis.ladder.start, specimen)
 
 
@@ -64,7 +130,20 @@ def _frame(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> pd.DataFr
 
 
 def errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, dict[str, float]]:
-    """Mean relative errors by isotherm, as in Table 4, of the tests that were simulated (NaN: not)."""
+    """Mean relative errors by isotherm, as in Table 4, of the tests that were simulated.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    logarithm : ndarray of complex (n,)
+        ln E*; NaN where not simulated.
+
+    Returns
+    -------
+    dict of dict of float
+        In percent, by quantity and isotherm.
+    """
     isotherm, there = diagnosis.observed.isotherm, ~np.isnan(logarithm)
     simulated = _frame(diagnosis, logarithm).assign(temperature_C=isotherm)[there]
     if simulated.empty:
@@ -99,8 +178,20 @@ def before_and_after(
 ) -> dict[str, Any]:
     """Errors before and after: of single tests, and of averages over specimens at each temperature.
 
-    inner: single tests at the temperatures between others only; an isotherm at an end, left out, is
-    extrapolated, which tells of the law's end and of no cause.
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    before, after : ndarray of complex (n,)
+        ln E*.
+    inner : bool
+        Single tests at the temperatures between others only; an isotherm at an end, left out, is
+        extrapolated, which tells of the law's end and of no cause.
+
+    Returns
+    -------
+    dict
+        As diagnosis.json has it.
     """
     temperature = diagnosis.observed.isotherm
     rows = np.full(temperature.size, True)
@@ -115,7 +206,20 @@ def before_and_after(
 def averages(
     diagnosis: Diagnosis, before: Logarithm, after: Logarithm
 ) -> dict[str, dict[str, dict[str, float]]]:
-    """Errors before and after by temperature, as in Table 4, of the conditions that hold both (NaN: one does not)."""
+    """Errors before and after by temperature, as in Table 4, of the conditions that hold both.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    before, after : ndarray of complex (n,)
+        ln E*; NaN where not simulated.
+
+    Returns
+    -------
+    dict
+        By temperature, quantity, before and after [%].
+    """
     before, after = np.where(np.isnan(after), after, before), np.where(np.isnan(before), before, after)
     first, second = (errors(diagnosis, logarithm) for logarithm in (before, after))
     return {
@@ -129,8 +233,20 @@ def residual_table(
 ) -> pd.DataFrame:
     """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated).
 
-    before: ln E* (n,) of a simulation as it was (NaN: not simulated); else with a Burgers law fitted at each
-    temperature.
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+    before : ndarray of complex (n,), optional
+        ln E* of a simulation as it was (NaN: not simulated); else with a Burgers law fitted at each
+        temperature.
+
+    Returns
+    -------
+    DataFrame
+        Content of residuals.csv.
     """
     observed, ladder = diagnosis.observed, diagnosis.ladder
     frame = _frame(diagnosis, observed.logarithm)

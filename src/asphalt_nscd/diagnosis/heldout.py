@@ -19,7 +19,20 @@ class HeldOut:
     _made: dict[tuple[int, str], Complex] = field(default_factory=dict)
 
     def predictions(self, fitted: Fitted, part: str) -> Complex:
-        """ln E* (n,) of each row from a fit without the rows that share its part, `isotherm` or `frequency`."""
+        """Each row from a fit without the rows that share its part.
+
+        Parameters
+        ----------
+        fitted : Fitted
+            To start from.
+        part : str
+            "isotherm" or "frequency".
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            ln E*.
+        """
         key = id(fitted), part
         if key not in self._made:
             values, label = np.unique(getattr(self.joint.observed, part), return_inverse=True)

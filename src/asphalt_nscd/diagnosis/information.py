@@ -26,8 +26,14 @@ TOGETHER = 128  # sets of tests that are weighed at once, so that memory stays s
 class Linear:
     """The model of N possible tests, linearised.
 
-    nuisance (N, q): d ln E*/dx; precision (q, q): of x before any test; effects (N, K): d ln E*/da, of one typical
-    amplitude of each cause.
+    Parameters
+    ----------
+    nuisance : ndarray of complex (N, q)
+        d ln E*/dx.
+    precision : ndarray (q, q)
+        Of x before any test.
+    effects : ndarray of complex (N, K)
+        d ln E*/da, of one typical amplitude of each cause.
     """
 
     nuisance: Complex
@@ -37,19 +43,46 @@ class Linear:
 
 @dataclass(frozen=True)
 class Tested:
-    """n tests done together: their rows in the model, and the covariance (2n, 2n) of ln|E*| and phase by scatter."""
+    """n tests done together.
+
+    Parameters
+    ----------
+    rows : ndarray of int (n,)
+        In the model.
+    scatter : ndarray (2n, 2n)
+        Covariance of ln|E*| and phase.
+    """
 
     rows: NDArray[np.int64]
     scatter: Matrix
 
 
 def parts(values: Complex) -> Matrix:
-    """(n, ...) complex as (2n, ...) real: ln|E*| first, then phase."""
+    """ln|E*| first, then phase.
+
+    Parameters
+    ----------
+    values : ndarray of complex (n, ...)
+        ln E*.
+
+    Returns
+    -------
+    ndarray (2n, ...)
+        Real.
+    """
     return np.concatenate([values.real, values.imag])
 
 
 class Knowledge:
-    """What some tests say. information (K, K): of the amplitudes, with everything else integrated out."""
+    """What some tests say. information (K, K): of the amplitudes, with everything else integrated out.
+
+    Parameters
+    ----------
+    linear : Linear
+        The model.
+    tested : sequence of Tested
+        Tests done.
+    """
 
     def __init__(self, linear: Linear, tested: Sequence[Tested]) -> None:
         q, k = linear.nuisance.shape[1], linear.effects.shape[1]
@@ -69,11 +102,33 @@ class Knowledge:
         self._spread = solve_triangular(self._lower, h.T, lower=True, check_finite=False).T
 
     def expected(self, weighed: Matrix) -> Matrix:
-        """x from the tests that Knowledge began with, given H^T of the inverse scatter times what was measured."""
+        """x from the tests that Knowledge began with.
+
+        Parameters
+        ----------
+        weighed : ndarray (q, ...)
+            H^T of the inverse scatter times what was measured.
+
+        Returns
+        -------
+        ndarray (q, ...)
+            Mean of x.
+        """
         return cho_solve((self._lower, True), weighed, check_finite=False)
 
     def gained(self, tests: Sequence[Tested]) -> Matrix:
-        """Information (M, K, K) that each of M sets of further tests would add."""
+        """Information that each of M sets of further tests would add.
+
+        Parameters
+        ----------
+        tests : sequence of Tested (M,)
+            The sets.
+
+        Returns
+        -------
+        ndarray (M, K, K)
+            Of the amplitudes.
+        """
         more = np.zeros((len(tests), *self.information.shape))
         sizes = np.array([one.rows.size for one in tests])
         for size in np.unique(sizes[sizes > 0]):
@@ -91,7 +146,18 @@ class Knowledge:
         return np.linalg.solve(lower, self._left[at]), np.linalg.solve(lower, spread)
 
     def after(self, tests: Tested) -> Knowledge:
-        """With further tests done."""
+        """With further tests done.
+
+        Parameters
+        ----------
+        tests : Tested
+            Which.
+
+        Returns
+        -------
+        Knowledge
+            Another one.
+        """
         effects, spread = (value[0] for value in self._new(tests.rows[None], [tests.scatter]))
         new = copy(self)
         new.information = self.information + effects.T @ effects
@@ -105,10 +171,20 @@ class Knowledge:
 
 @dataclass(frozen=True)
 class Question:
-    """Is the effect of one cause there, of an amplitude [typical units], where other causes are free?
+    """Is the effect of one cause there, where other causes are free?
 
-    need: square of the amplitude over its standard error at which the answer is sure enough; weight: chance that the
-    question matters.
+    Parameters
+    ----------
+    cause : int
+        Place of its effect in the model.
+    amplitude : float
+        [typical units].
+    free : tuple of int
+        Other causes.
+    need : float
+        Square of the amplitude over its standard error at which the answer is sure enough.
+    weight : float
+        Chance that the question matters.
     """
 
     cause: int
@@ -120,7 +196,15 @@ class Question:
     def strength(self, information: Matrix) -> Matrix:
         """Square of the amplitude over its standard error: expected 2 ln of the Bayes factor (Laplace).
 
-        information (..., K, K): of one set of tests or of many.
+        Parameters
+        ----------
+        information : ndarray (..., K, K)
+            Of one set of tests or of many.
+
+        Returns
+        -------
+        ndarray (...)
+            Of each set.
         """
         free = [k for k in self.free if k != self.cause]
         own = information[..., self.cause, self.cause]
@@ -133,7 +217,18 @@ class Question:
         return self.amplitude**2 * np.maximum(own, 0.0)
 
     def nats(self, information: Matrix) -> Matrix:
-        """Expected evidence for the right answer, no more than is needed."""
+        """Expected evidence for the right answer, no more than is needed.
+
+        Parameters
+        ----------
+        information : ndarray (..., K, K)
+            Of one set of tests or of many.
+
+        Returns
+        -------
+        ndarray (...)
+            Of each set.
+        """
         return self.weight * 0.5 * np.minimum(self.strength(information), self.need)
 
 
@@ -141,7 +236,12 @@ class Question:
 class Asked:
     """A question and what is known to it: all tests, or those without the one that the cause hangs on.
 
-    kept (N,): rows of the model that count for it, old and new.
+    Parameters
+    ----------
+    question : Question
+        Asked.
+    kept : ndarray of bool (N,)
+        Rows of the model that count for it, old and new.
     """
 
     question: Question
@@ -149,7 +249,17 @@ class Asked:
 
 
 class Inquiry:
-    """Open questions, each with the tests that count for it; the state of knowledge as tests are chosen."""
+    """Open questions, each with the tests that count for it; the state of knowledge as tests are chosen.
+
+    Parameters
+    ----------
+    linear : Linear
+        The model.
+    old : Tested
+        Tests done.
+    asked : sequence of Asked
+        Questions.
+    """
 
     def __init__(self, linear: Linear, old: Tested, asked: Sequence[Asked]) -> None:
         self.asked = list(asked)
@@ -160,11 +270,33 @@ class Inquiry:
                 self._known[one.kept.tobytes()] = Knowledge(linear, [_some(old, one.kept)])
 
     def known(self, one: Asked) -> Knowledge:
-        """What is known under one answer's set of causes."""
+        """What is known under one answer's set of causes.
+
+        Parameters
+        ----------
+        one : Asked
+            A question.
+
+        Returns
+        -------
+        Knowledge
+            By the tests that count for it.
+        """
         return self._known[one.kept.tobytes()]
 
     def gains(self, tests: Sequence[Tested]) -> Matrix:
-        """Nats (M, Q) that each of M sets of tests would add to each question."""
+        """What sets of tests would add to each question.
+
+        Parameters
+        ----------
+        tests : sequence of Tested (M,)
+            The sets.
+
+        Returns
+        -------
+        ndarray (M, Q)
+            Nats.
+        """
         after = {}
         for key, known in self._known.items():
             after[key] = known.information + known.gained(
@@ -182,7 +314,13 @@ class Inquiry:
         return [float(one.question.strength(self.known(one).information)) for one in self.asked]
 
     def take(self, tests: Tested) -> None:
-        """Do the tests."""
+        """Do the tests.
+
+        Parameters
+        ----------
+        tests : Tested
+            Which.
+        """
         for key, known in self._known.items():
             kept = _some(tests, np.frombuffer(key, bool))
             if kept.rows.size:

@@ -28,11 +28,21 @@ NEAR = 0.01  # the same where a fit is only to predict what was left out of it
 
 @dataclass(frozen=True)
 class Candidate:
-    """A cause at a place, with values of its parameters in units of their typical size."""
+    """A cause at a place.
+
+    Parameters
+    ----------
+    cause : Cause
+        Which.
+    place : Place
+        A specimen, an isotherm [degC], or None: all tests.
+    values : tuple of float
+        Of its parameters, in their units.
+    """
 
     cause: Cause
     place: Place
-    values: tuple[float, ...]  # physical units
+    values: tuple[float, ...]
 
     @property
     def key(self) -> tuple[str, Place]:
@@ -59,7 +69,18 @@ class Candidate:
         ]
 
     def with_values(self, values: Vector) -> Candidate:
-        """The same candidate with these parameters (p,)."""
+        """The same candidate with other parameters.
+
+        Parameters
+        ----------
+        values : ndarray (p,)
+            In their units.
+
+        Returns
+        -------
+        Candidate
+            Another one.
+        """
         return replace(self, values=tuple(float(v) for v in values))
 
 
@@ -67,11 +88,22 @@ class Candidate:
 class Noise:
     """Replicate scatter of ln|E*| and of the phase, the specimens' scale, and any discrepancy beside them.
 
-    within, shared (2, n): standard deviations of ln|E*| and of the phase [rad], of single tests and of what
-    the tests of one block share; block (n,): number of the specimen's isotherm a test belongs to. sigma:
-    scatter of one test, mean over the table; scale: standard deviation of ln|E*| between specimens; freedom:
-    degrees of freedom of the estimate. discrepancy: factor R (2n, q) of the covariance R R^T of both, added where a
-    table holds more than scatter.
+    Parameters
+    ----------
+    within : ndarray (2, n)
+        Standard deviations of ln|E*| and of the phase [rad], of single tests.
+    shared : ndarray (2, n)
+        The same of what the tests of one block share.
+    block : ndarray of int (n,)
+        Number of the specimen's isotherm a test belongs to.
+    sigma : tuple of float
+        Scatter of one test, mean over the table.
+    scale : float
+        Standard deviation of ln|E*| between specimens.
+    freedom : int
+        Degrees of freedom of the estimate.
+    discrepancy : ndarray (2n, q), optional
+        Factor R of the covariance R R^T of both, added where a table holds more than scatter.
     """
 
     within: NDArray
@@ -83,12 +115,34 @@ class Noise:
     discrepancy: NDArray | None = None
 
     def beside(self, factor: NDArray) -> Noise:
-        """With another discrepancy beside this one; factor (2n, q)."""
+        """With another discrepancy beside this one.
+
+        Parameters
+        ----------
+        factor : ndarray (2n, q)
+            Of its covariance.
+
+        Returns
+        -------
+        Noise
+            Of both.
+        """
         both = factor if self.discrepancy is None else np.hstack([self.discrepancy, factor])
         return replace(self, discrepancy=both)
 
     def subset(self, rows: NDArray) -> Noise:
-        """The noise of some of the rows."""
+        """The noise of some of the rows.
+
+        Parameters
+        ----------
+        rows : ndarray
+            Mask or index.
+
+        Returns
+        -------
+        Noise
+            Of these.
+        """
         both = np.concatenate([np.arange(self.block.size)[rows] + k * self.block.size for k in (0, 1)])
         beside = None if self.discrepancy is None else self.discrepancy[both]
         block = np.unique(self.block[rows], return_inverse=True)[1]
@@ -97,7 +151,18 @@ class Noise:
         )
 
     def whiten(self, values: Complex) -> NDArray[np.float64]:
-        """(n, ...) complex to (2 n, ...) real of unit scatter."""
+        """Values in units of the scatter.
+
+        Parameters
+        ----------
+        values : ndarray of complex (n, ...)
+            Of ln E*.
+
+        Returns
+        -------
+        ndarray (2n, ...)
+            Real, of unit scatter.
+        """
         white = np.concatenate([self._whitened(0, values.real), self._whitened(1, values.imag)])
         if self.discrepancy is None:
             return white
@@ -150,17 +215,39 @@ class Noise:
 
 @dataclass(frozen=True)
 class Fitted:
-    """A joint fit. residual (2n,), jacobian (2n, p): whitened; precision (p, p), gradient (p,): of the parameters."""
+    """A joint fit.
 
-    law: Vector  # parameters of the base
-    scales: Vector  # (S,) ln of the specimens' scales
+    Parameters
+    ----------
+    law : ndarray
+        Parameters of the base.
+    scales : ndarray (S,)
+        ln of the specimens' scales.
+    active : tuple of Candidate
+        Causes, with their values.
+    objective : float
+        Squares of whitened residuals and priors.
+    modelled : ndarray of complex (n,)
+        ln E*.
+    residual : ndarray (2n,)
+        Whitened.
+    jacobian : ndarray (2n, p)
+        Whitened.
+    precision : ndarray (p, p)
+        Of the parameters.
+    gradient : ndarray (p,)
+        Of half the objective, downwards; zero at the best fit.
+    """
+
+    law: Vector
+    scales: Vector
     active: tuple[Candidate, ...]
-    objective: float  # squares of whitened residuals and priors
-    modelled: Complex  # (n,) ln E*
+    objective: float
+    modelled: Complex
     residual: Vector
     jacobian: NDArray
     precision: NDArray
-    gradient: Vector  # (p,) of half the objective, downwards; zero at the best fit
+    gradient: Vector
 
     @property
     def covariance(self) -> NDArray:
@@ -169,7 +256,17 @@ class Fitted:
 
 
 class Joint:
-    """The joint model of one table."""
+    """The joint model of one table.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    base : Base
+        Law of the mix.
+    noise : Noise
+        Scatter of the tests.
+    """
 
     def __init__(self, observed: Observations, base: Base, noise: Noise) -> None:
         self.observed, self.base, self.noise = observed, base, noise
@@ -185,7 +282,24 @@ class Joint:
     def apparent(
         self, law: Vector, active: tuple[Candidate, ...], scales: Vector | None = None
     ) -> tuple[Complex, Complex]:
-        """Apparent E* (n,), and its derivatives (n, p + S) with respect to the law and the scales (none: 0)."""
+        """Apparent E* with causes.
+
+        Parameters
+        ----------
+        law : ndarray (p,)
+            Parameters of the base.
+        active : tuple of Candidate
+            Causes, with their values.
+        scales : ndarray (S,), optional
+            ln of the specimens' scales; none: 0.
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            E* [Pa].
+        ndarray of complex (n, p + S)
+            Its derivatives with respect to law and scales.
+        """
         observed = self.observed
         modulus, slope = self._unscaled(law, active)
         # The scale belongs to the specimen: what the head adds, a mass say, is not scaled with it.
@@ -230,7 +344,26 @@ class Joint:
     def direction(
         self, law: Vector, scales: Vector, active: tuple[Candidate, ...], index: int, parameter: int
     ) -> Complex:
-        """Derivative (n,) of ln E* with respect to one parameter of active[index], in typical units."""
+        """Derivative of ln E* with respect to one parameter of a cause.
+
+        Parameters
+        ----------
+        law : ndarray (p,)
+            Parameters of the base.
+        scales : ndarray (S,)
+            ln of the specimens' scales.
+        active : tuple of Candidate
+            Causes, with their values.
+        index : int
+            Which cause.
+        parameter : int
+            Which of its parameters.
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            In typical units.
+        """
         typical = active[index].typical
         low_high = []
         for sign in (-1.0, 1.0):
@@ -241,7 +374,22 @@ class Joint:
         return np.asarray(np.log(low_high[1] / low_high[0]) / 2e-3, complex)
 
     def linearise(self, law: Vector, scales: Vector, active: tuple[Candidate, ...]) -> Fitted:
-        """Objective and derivatives where the parameters stand."""
+        """Objective and derivatives where the parameters stand.
+
+        Parameters
+        ----------
+        law : ndarray
+            Parameters of the base.
+        scales : ndarray (S,)
+            ln of the specimens' scales.
+        active : tuple of Candidate
+            Causes, with their values.
+
+        Returns
+        -------
+        Fitted
+            Not moved.
+        """
         modulus, slope = self.apparent(law, active, scales)
         modelled = np.log(np.abs(modulus)) + 1j * np.angle(modulus)
         causes = [
@@ -275,12 +423,36 @@ class Joint:
         )
 
     def predict(self, fitted: Fitted) -> Complex:
-        """ln E* (n,) of these observations from a fit to others of the same specimens."""
+        """These observations from a fit to others of the same specimens.
+
+        Parameters
+        ----------
+        fitted : Fitted
+            To the others.
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            ln E*.
+        """
         modulus = self.apparent(fitted.law, fitted.active, fitted.scales)[0]
         return np.log(np.abs(modulus)) + 1j * np.angle(modulus)
 
     def without(self, rows: NDArray[np.int64], fitted: Fitted) -> Fitted:
-        """The fit repeated without some rows; a cause that reaches no other row is absent from it."""
+        """The fit repeated without some rows; a cause that reaches no other row is absent from it.
+
+        Parameters
+        ----------
+        rows : ndarray of int
+            Left out.
+        fitted : Fitted
+            To start from.
+
+        Returns
+        -------
+        Fitted
+            To the other rows.
+        """
         kept = np.setdiff1d(np.arange(self.observed.size), rows)
         part = Joint(self.observed.subset(kept), self.base, self.noise.subset(kept))
         active = tuple(c for c in fitted.active if c.cause.rows(part.observed, c.place).any())
@@ -292,6 +464,22 @@ class Joint:
         """Levenberg-Marquardt from where the parameters stand; bounds of causes are respected.
 
         A step to where the model overflows counts as one that gains nothing.
+
+        Parameters
+        ----------
+        law : ndarray
+            Parameters of the base.
+        scales : ndarray (S,)
+            ln of the specimens' scales.
+        active : tuple of Candidate
+            Causes, with their values.
+        converged : float
+            Change of the objective that ends it.
+
+        Returns
+        -------
+        Fitted
+            The best fit.
         """
         now = self.linearise(law, scales, active)
         damping = 1e-3

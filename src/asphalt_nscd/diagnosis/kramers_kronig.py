@@ -52,10 +52,24 @@ class Required:
 
 
 def required_phase(frequency: ArrayLike, log_modulus: ArrayLike, scatter: ArrayLike = ROUNDING) -> Required:
-    """Phase [rad] required by ln|E*| (n,) at the frequencies (n,) [Hz] of one isotherm of one specimen.
+    """Phase required by ln|E*| of one isotherm of one specimen: Bode's relation, see the module.
 
-    scatter: standard deviation of ln|E*| of one test, or of each (n,). Bode's relation, see the module.
+    Parameters
+    ----------
+    frequency : array_like (n,)
+        [Hz].
+    log_modulus : array_like (n,)
+        ln|E*|.
+    scatter : array_like
+        Standard deviation of ln|E*| of one test, or of each (n,).
 
+    Returns
+    -------
+    Required
+        Phase [rad] and its standard error, (n,) each.
+
+    Examples
+    --------
     >>> power_law = required_phase([0.1, 1.0, 10.0], [0.0, 0.3 * np.log(10.0), 0.3 * np.log(100.0)])
     >>> float(np.degrees(power_law.phase[1]).round())  # 0.3 * 90 degrees
     27.0
@@ -79,7 +93,18 @@ def required_phase(frequency: ArrayLike, log_modulus: ArrayLike, scatter: ArrayL
 
 
 def covariances(frequency: ArrayLike) -> NDArray:
-    """Prior covariance (4, 2n, 2n) of ln|E*| and phase [rad] at n frequencies [Hz], for each of RIPPLES."""
+    """Prior covariance of ln|E*| and phase.
+
+    Parameters
+    ----------
+    frequency : array_like (n,)
+        [Hz].
+
+    Returns
+    -------
+    ndarray (4, 2n, 2n)
+        For each of RIPPLES; phases in rad.
+    """
     log_f = np.log(np.asarray(frequency, float))
     edges = np.arange(log_f.min() - MARGIN, log_f.max() + MARGIN + CELL, CELL)
     modulus = _integral(edges, log_f) - _integral(edges, np.array([log_f.mean()]))

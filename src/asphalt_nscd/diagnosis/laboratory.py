@@ -24,18 +24,52 @@ STEP = 0.05  # K, of the derivative along the temperature
 
 @dataclass(frozen=True)
 class Laboratory:
-    """Sizes of the effects of LABORATORY in a table, in their units."""
+    """Sizes of the effects of LABORATORY in a table.
+
+    Parameters
+    ----------
+    sizes : dict of str to float
+        In their units.
+    """
 
     sizes: dict[str, float]
 
     def factor(self, joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> NDArray[np.complex128]:
-        """Factor (n, q) of the covariance of ln E*; mounting (n,): number of the specimen's isotherm of each test."""
+        """What the laboratory adds to the scatter.
+
+        Parameters
+        ----------
+        joint : Joint
+            Model of the table.
+        at : Fitted
+            Where it is linearised.
+        mounting : ndarray of int (n,)
+            Number of the specimen's isotherm of each test.
+
+        Returns
+        -------
+        ndarray of complex (n, q)
+            Factor of the covariance of ln E*.
+        """
         own = [self.sizes[kind] * root for kind, root in _roots(joint, at, mounting).items()]
         return np.hstack([_of_isotherm(joint, at), *own])
 
 
 def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
-    """Sizes in a table, beside the discrepancy; joint: whose noise is the scatter of single tests."""
+    """Sizes in a table, beside the discrepancy.
+
+    Parameters
+    ----------
+    joint : Joint
+        Whose noise is the scatter of single tests.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    Laboratory
+        Sizes.
+    """
     own = {
         kind: LABORATORY[kind].size * root for kind, root in _roots(joint, fitted, joint.noise.block).items()
     }
@@ -60,7 +94,22 @@ def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
 
 
 def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | None]:
-    """The model with what the laboratory adds to the scatter, and that; without it where there is but one isotherm."""
+    """The model with what the laboratory adds to the scatter.
+
+    Parameters
+    ----------
+    joint : Joint
+        Whose noise is the scatter of single tests.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    Joint
+        With it; without it where there is but one isotherm.
+    Laboratory or None
+        What it adds.
+    """
     if not isinstance(joint.base, FlexibleSpectrum) or joint.observed.isotherms.size < 2:
         return joint, None
     # What a block shares is its mounting's: it is not counted twice.

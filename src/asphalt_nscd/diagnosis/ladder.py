@@ -20,9 +20,22 @@ from asphalt_nscd.diagnosis.written import widening
 
 @dataclass(frozen=True)
 class Rung:
-    """One step: the cause taken, its chance level, the fits before and after, and who did as well.
+    """One step of the ladder.
 
-    probability: of the name; shared: of it or one of those that did as well.
+    Parameters
+    ----------
+    candidate : Candidate
+        The cause taken.
+    p_value : float
+        Its chance level.
+    before, after : Fitted
+        The fits.
+    rivals : tuple of Candidate
+        Who did as well.
+    probability : float
+        Of the name.
+    shared : float
+        Of it or one of those that did as well.
     """
 
     candidate: Candidate
@@ -49,12 +62,32 @@ class Remaining:
 
 @dataclass
 class Ladder:
-    """What was climbed.
+    """What was climbed. Where structure was left, it was climbed anew beside a discrepancy.
 
-    Where structure was left, it was climbed anew beside a discrepancy: discrepancy holds the size of each of
-    its processes in units of the scatter, hangs_on what must not be left out for a cause to be seen, estimates
-    the amplitude and standard error of every cause. withdrawn: causes that the first ascent named and the
-    second did not.
+    Parameters
+    ----------
+    joint : Joint
+        The model.
+    start : Fitted
+        Its fit without causes.
+    rungs : list of Rung
+        Causes, in the order taken.
+    withdrawn : list of Rung
+        Causes that the first ascent named and the second did not.
+    remaining : Remaining, optional
+        What no cause explains.
+    limits : dict of tuple to float
+        Amplitude of each cause and place that these tests would show.
+    unseen : list of Candidate
+        Causes that they would not show.
+    alike : list of tuple of Candidate
+        Pairs that they do not tell apart.
+    discrepancy : dict of Process to float
+        Size of each of its processes in units of the scatter.
+    hangs_on : dict of tuple to list of str
+        What must not be left out for a cause to be seen.
+    estimates : dict of tuple to tuple of float
+        Amplitude and standard error of every cause.
     """
 
     joint: Joint
@@ -75,7 +108,18 @@ class Ladder:
         return self.rungs[-1].after if self.rungs else self.start
 
     def std_errors(self, candidate: Candidate) -> NDArray[np.float64]:
-        """Of each parameter of a named cause in the last fit, that of the amplitude with the discrepancy's sizes."""
+        """Standard errors of a named cause in the last fit, that of the amplitude with the discrepancy's sizes.
+
+        Parameters
+        ----------
+        candidate : Candidate
+            Which cause.
+
+        Returns
+        -------
+        ndarray (p,)
+            Of each parameter, in its unit.
+        """
         fitted = self.fitted
         first = fitted.jacobian.shape[1] - sum(len(one.values) for one in fitted.active)
         for active in fitted.active:
@@ -112,7 +156,18 @@ class Ladder:
         return self.spread_without(frozenset())
 
     def spread_without(self, left_out: frozenset[str]) -> float:
-        """The same without causes of these names."""
+        """The same without some causes.
+
+        Parameters
+        ----------
+        left_out : frozenset of str
+            Their names.
+
+        Returns
+        -------
+        float
+            1 at least.
+        """
         left_out = left_out | {rung.candidate.cause.name for rung in self.rungs}
         squares: dict[str, list[float]] = {}
         for (name, _), (value, error) in self.estimates.items():
@@ -128,7 +183,26 @@ class Ladder:
 
 
 def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, seed: int) -> Ladder:
-    """Take causes until none beats chance and a discrepancy without a name, then judge what remains."""
+    """Take causes until none beats chance and a discrepancy without a name, then judge what remains.
+
+    Parameters
+    ----------
+    joint : Joint
+        The model.
+    start : Fitted
+        Its fit without causes.
+    catalogue : sequence of Cause
+        Causes.
+    draws : int
+        Of the chance level.
+    seed : int
+        Of the draws.
+
+    Returns
+    -------
+    Ladder
+        What was climbed.
+    """
     random = np.random.default_rng(seed)
     ladder = Ladder(joint, start)
     if not isinstance(joint.base, FlexibleSpectrum):

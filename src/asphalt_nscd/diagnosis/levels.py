@@ -36,7 +36,18 @@ ONE_MIX = 25.0  # percent by which specimens of one mix hardly differ; T 378 exp
 
 
 def odd(observed: Observations) -> list[dict[str, Any]]:
-    """Specimen, temperature [degC] and factor of |E*| of each isotherm off the level of its specimen."""
+    """Isotherms whose |E*| is off the level of their specimen.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of dict
+        specimen, temperature_C and factor of |E*| of each.
+    """
     level = _levels(observed, observed.logarithm.real)
     found = _beyond_the_median(level) | _told_apart(level, NEAR, 1)
     return [
@@ -46,9 +57,19 @@ def odd(observed: Observations) -> list[dict[str, Any]]:
 
 
 def odd_phases(observed: Observations) -> list[dict[str, Any]]:
-    """Specimen, temperature [degC] and departure of the phase [deg]; temperature None: of the whole specimen.
+    """Isotherms and specimens whose phase is off.
 
     A departure in proportion to the phase, as of another mix, belongs to a specimen: it is no odd isotherm.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of dict
+        specimen, temperature_C (None: of the whole specimen) and phase_deg, the departure.
     """
     phase = np.degrees(observed.logarithm.imag)
     level = _levels(observed, phase)
@@ -68,10 +89,22 @@ def odd_phases(observed: Observations) -> list[dict[str, Any]]:
 def odd_temperatures(
     observed: Observations, levels: list[dict[str, Any]], phases: list[dict[str, Any]]
 ) -> list[dict[str, Any]]:
-    """Where an odd |E*| and an odd phase are those of one wrong temperature: specimen, temperature [degC], kelvin.
+    """Where an odd |E*| and an odd phase are those of one wrong temperature.
 
-    levels, phases: of `odd` and `odd_phases`. kelvin: by how much the specimen seems warmer than stated; both changes
-    ask for a temperature of one sign, within ALIKE of each other.
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    levels : list of dict
+        Of `odd`.
+    phases : list of dict
+        Of `odd_phases`.
+
+    Returns
+    -------
+    list of dict
+        specimen, temperature_C and kelvin: by how much the specimen seems warmer than stated; both changes
+        ask for a temperature of one sign, within ALIKE of each other.
     """
     found = []
     for level in levels:
@@ -202,7 +235,20 @@ def _departures(level: Mapping[Place, float]) -> Iterator[tuple[int, float]]:
 
 
 def rows(observed: Observations, found: Iterable[Mapping[str, Any]]) -> NDArray[np.bool_]:
-    """Rows (n,) of odd isotherms and specimens, of `odd` or `odd_phases`."""
+    """Rows of odd isotherms and specimens.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    found : iterable of mapping
+        Of `odd` or `odd_phases`.
+
+    Returns
+    -------
+    ndarray of bool (n,)
+        True in them.
+    """
     out = np.zeros(observed.size, bool)
     for one in found:
         here = observed.specimen == observed.names.index(one["specimen"])

@@ -40,7 +40,17 @@ class Hidden:
 
 @dataclass(frozen=True)
 class Trials:
-    """How the diagnoses are run: scatter as stated by the user, seed, and processes at once."""
+    """How the diagnoses are run.
+
+    Parameters
+    ----------
+    scatter : tuple of float, optional
+        As stated by the user.
+    seed : int
+        Of the draws.
+    processes : int, optional
+        At once; one a core if None.
+    """
 
     scatter: tuple[float, float] | None = None
     seed: int = 0
@@ -53,7 +63,22 @@ class Trials:
 
 
 def verify(diagnosis: Diagnosis, trials: Trials, progress: Progress = lambda *_: None) -> pd.DataFrame:
-    """One row for each cause, place, sign and multiple; equal on one core or many."""
+    """Hold the stated limits against what is found; equal on one core or many.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Whose limits.
+    trials : Trials
+        How to run.
+    progress : callable
+        progress(stage, done, total).
+
+    Returns
+    -------
+    DataFrame
+        One row for each cause, place, sign and multiple.
+    """
     hidden = list(plan(diagnosis))
     work = [(diagnosis, one, trials) for one in hidden]
     rows = []
@@ -137,7 +162,18 @@ def _tried(work: tuple[Diagnosis, Hidden, Trials]) -> dict[str, Any]:
 
 
 def summarised(table: pd.DataFrame) -> dict[str, Any]:
-    """Content of `measured_limits`: of each cause, how often it was named, and how often it should have been."""
+    """Content of `measured_limits`.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Of `verify`.
+
+    Returns
+    -------
+    dict
+        Of each cause, how often it was named, and how often it should have been.
+    """
     out: dict[str, Any] = {}
     for cause, rows in table.groupby("cause", sort=True):
         times = rows["times_limit"].abs()

@@ -17,15 +17,42 @@ HELD = 3  # tests of an isotherm that may be off by itself
 class Observations:
     """n tests on S specimens, one row each.
 
-    specimen (n,): index into names; temperature (n,) [degC]; frequency (n,) [Hz]; modulus (n,): apparent
-    E* [Pa]; form_factor (n,): gamma [1/m] between force over displacement at the head and modulus; inertia
-    (n,): gamma mu [kg/m], of which the reduction added omega^2 to force over displacement, Eq. (1);
-    amplitude (n,) [m], order (n,), cycles (n,), time_step (n,) [s]: None where the table has no such column.
-    static_modulus: modulus at long times [Pa], known from another test, or None. whole: the table these
-    are rows of, None if they are all. nominal_temperature (n,): temperature of the isotherm each test belongs
-    to [degC], where the measured ones differ within it; strain (n,): amplitude of the strain, where measured.
-    quality: columns of the testing machine by name, (n,) each, NaN where it gave none (see
-    `diagnosis.quality`). test_type: "bending" (two-point), "tension-compression" (a cylinder) or "unknown".
+    Parameters
+    ----------
+    specimen : ndarray of int (n,)
+        Index into names.
+    names : tuple of str (S,)
+        Of the specimens.
+    temperature : ndarray (n,)
+        As measured [degC].
+    frequency : ndarray (n,)
+        [Hz].
+    modulus : ndarray of complex (n,)
+        Apparent E* [Pa].
+    form_factor : ndarray (n,)
+        gamma between force over displacement at the head and modulus [1/m].
+    inertia : ndarray (n,)
+        gamma mu, of which the reduction added omega^2 to force over displacement, Eq. (1) [kg/m].
+    amplitude : ndarray (n,), optional
+        [m]; None where the table has no such column, as of the next three.
+    order : ndarray (n,), optional
+        Of the tests in time.
+    cycles : ndarray (n,), optional
+        Load cycles before or in the test.
+    time_step : ndarray (n,), optional
+        Of a simulation [s].
+    static_modulus : float, optional
+        Modulus at long times [Pa], known from another test, or None.
+    whole : Observations, optional
+        The table these are rows of, None if they are all.
+    nominal_temperature : ndarray (n,), optional
+        Temperature of the isotherm each test belongs to [degC], where the measured ones differ within it.
+    strain : ndarray (n,), optional
+        Amplitude of the strain, where measured.
+    quality : mapping of str to ndarray (n,)
+        Columns of the testing machine, NaN where it gave none (see `diagnosis.quality`).
+    test_type : str
+        "bending" (two-point), "tension-compression" (a cylinder) or "unknown".
     """
 
     specimen: NDArray[np.int64]
@@ -96,13 +123,35 @@ class Observations:
         return np.unique(np.column_stack(conditions), axis=0, return_inverse=True)[1].ravel()
 
     def known(self, name: str) -> Vector:
-        """An optional column that the caller knows to be there."""
+        """An optional column that the caller knows to be there.
+
+        Parameters
+        ----------
+        name : str
+            Of the field.
+
+        Returns
+        -------
+        ndarray (n,)
+            The column.
+        """
         column: Vector | None = getattr(self, name)
         assert column is not None, name
         return column
 
     def subset(self, rows: NDArray) -> Observations:
-        """The rows of a mask or index; names stay, so that numbers keep their meaning."""
+        """Some of the rows; names stay, so that numbers keep their meaning.
+
+        Parameters
+        ----------
+        rows : ndarray
+            Mask or index.
+
+        Returns
+        -------
+        Observations
+            Of these.
+        """
         optional: dict[str, Any] = {
             name: None if (value := getattr(self, name)) is None else value[rows]
             for name in ("amplitude", "order", "cycles", "time_step", "nominal_temperature", "strain")

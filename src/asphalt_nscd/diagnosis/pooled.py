@@ -48,7 +48,17 @@ SHOWS = 5.0  # times the error of the whole, up to which a part is told
 
 @dataclass(frozen=True)
 class Part:
-    """An amplitude in one campaign, isotherm or frequency, in the unit of its cause; NaN where nothing shows it."""
+    """An amplitude in one campaign, isotherm or frequency, in the unit of its cause.
+
+    Parameters
+    ----------
+    where : str
+        Which.
+    value : float
+        NaN where nothing shows it.
+    std_error : float
+        Of the value.
+    """
 
     where: str
     value: float
@@ -83,11 +93,21 @@ class Common:
 
 @dataclass(frozen=True)
 class Pooled:
-    """What the campaigns of a machine have in common; limits: amplitude of each cause that they would show together."""
+    """What the campaigns of a machine have in common.
+
+    Parameters
+    ----------
+    found : tuple of Common
+        Causes, common ones first.
+    limits : mapping of str to float
+        Amplitude of each cause that they would show together.
+    left_out : tuple of str
+        Campaigns that one law does not describe.
+    """
 
     found: tuple[Common, ...]
     limits: Mapping[str, float]
-    left_out: tuple[str, ...]  # campaigns that one law does not describe
+    left_out: tuple[str, ...]
 
     @property
     def table(self) -> pd.DataFrame:
@@ -183,7 +203,22 @@ def of_machine(cause: Cause) -> bool:
 
 
 def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -> Pooled:
-    """Find what the campaigns, by name, have in common."""
+    """Find what the campaigns have in common.
+
+    Parameters
+    ----------
+    campaigns : mapping of str to Diagnosis
+        By name.
+    draws : int
+        Of the chance level.
+    seed : int
+        Of the draws.
+
+    Returns
+    -------
+    Pooled
+        `str` of it says what was found.
+    """
     random = np.random.default_rng(seed)
     begun = {name: _begin(name, diagnosis) for name, diagnosis in campaigns.items()}
     states = [one for one in begun.values() if one is not None]

@@ -21,7 +21,21 @@ from asphalt_nscd.diagnosis.observations import Observations
 def log_odds(candidate: Candidate, observed: Observations, gain: float, std_error: float) -> float:
     """ln of the odds of a cause at its place over none.
 
-    gain: of -2 ln likelihood at its best size; std_error: of its amplitude, both with its other parameters fitted.
+    Parameters
+    ----------
+    candidate : Candidate
+        The cause.
+    observed : Observations
+        Measured tests.
+    gain : float
+        Of -2 ln likelihood at its best size.
+    std_error : float
+        Of its amplitude; both with its other parameters fitted.
+
+    Returns
+    -------
+    float
+        Natural logarithm.
     """
     expected, first = EXPECTED[candidate.cause.name], candidate.cause.parameters[0]
     ways = 1.0 if first.low < 0.0 else 2.0  # one sign alone has twice the density
@@ -35,5 +49,16 @@ def log_odds(candidate: Candidate, observed: Observations, gain: float, std_erro
 
 
 def shares(odds: Sequence[float]) -> NDArray[np.float64]:
-    """Probability of each of several names of which at most one holds, from the ln odds of each over none."""
+    """Probability of each of several names of which at most one holds.
+
+    Parameters
+    ----------
+    odds : sequence of float (k,)
+        ln odds of each over none.
+
+    Returns
+    -------
+    ndarray (k,)
+        Together at most 1.
+    """
     return np.asarray(np.exp(np.array(odds) - logsumexp([0.0, *odds])))

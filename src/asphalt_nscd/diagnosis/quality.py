@@ -15,9 +15,20 @@ SPECIMEN, MACHINE = "the gauges and the ends of the specimens", "the control of 
 
 @dataclass(frozen=True)
 class Limit:
-    """Largest value of a quality column that the standard accepts, in `unit` ("%" or "deg").
+    """Largest value of a quality column that the standard accepts.
 
-    check: what to check where most tests exceed it.
+    Parameters
+    ----------
+    limit : float
+        In `unit`.
+    unit : str
+        "%" or "deg".
+    label : str
+        Of the column, for a reader.
+    check : str
+        What to check where most tests exceed it.
+    source : str
+        The standard.
     """
 
     limit: float
@@ -50,7 +61,18 @@ COLUMNS = (*LIMITS, *UNLIMITED)
 
 
 def exceeded(observed: Observations) -> list[Exceeded]:
-    """Every quality value above its limit, by row and then in the order of LIMITS; NaN exceeds nothing."""
+    """Every quality value above its limit; NaN exceeds nothing.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of Exceeded
+        By row and then in the order of LIMITS.
+    """
     found = [
         Exceeded(int(row), name, float(observed.quality[name][row]), limit.limit)
         for name, limit in LIMITS.items()
@@ -62,7 +84,20 @@ def exceeded(observed: Observations) -> list[Exceeded]:
 
 
 def where(observed: Observations, column: str) -> str:
-    """Specimens, each at the isotherms where half of its tests or more exceed the limit of a column, in words."""
+    """Where a limit is exceeded.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    column : str
+        Of quality.
+
+    Returns
+    -------
+    str
+        Specimens, each at the isotherms where half of its tests or more exceed the limit, in words.
+    """
     rows = [one.row for one in exceeded(observed) if one.column == column]
     above = np.isin(np.arange(observed.size), rows)
     places, parts = [], []

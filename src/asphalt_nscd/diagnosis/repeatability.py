@@ -18,9 +18,18 @@ Vector = NDArray[np.float64]
 
 
 def coefficients(observed: Observations) -> dict[str, Any] | None:
-    """`between` and `within` specimens, for all tests and by isotherm; None where nothing was repeated.
+    """Coefficients of variation `between` and `within` specimens, for all tests and by isotherm.
 
-    Each is {"E_percent", "phase_deg"}; `within` is None where it cannot be told from the specimens' levels.
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    dict or None
+        Each is {"E_percent", "phase_deg"}; `within` is None where it cannot be told from the specimens'
+        levels. None where nothing was repeated.
     """
     rows = {
         float(t): found

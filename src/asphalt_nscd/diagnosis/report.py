@@ -22,7 +22,20 @@ from asphalt_nscd.diagnosis.written import SCHEMA_VERSION, name_at
 
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
-    """Content of `diagnosis.json` (schema: diagnosis.schema.yaml beside this file)."""
+    """Content of `diagnosis.json` (schema: diagnosis.schema.yaml beside this file).
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+
+    Returns
+    -------
+    dict
+        What JSON can hold.
+    """
     ladder, held = [], HeldOut(by_tests_alone(diagnosis))
     if diagnosis.relaxation_spectrum:
         ladder.append(of_law(diagnosis, specimen, held))
@@ -199,7 +212,18 @@ def _spread_note(spread: float) -> list[str]:
 
 
 def physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
-    """Limits that the cause can reach within the bounds of its amplitude."""
+    """Limits that the cause can reach within the bounds of its amplitude.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+
+    Returns
+    -------
+    dict of tuple to float
+        By cause and place.
+    """
     most = {
         cause.name: max(abs(cause.parameters[0].low), abs(cause.parameters[0].high)) for cause in CATALOGUE
     }

@@ -90,13 +90,35 @@ def mix_modulus(
 
 
 def freedom_of(diagnosis: Diagnosis) -> tuple[float, float]:
-    """Degrees of freedom of the standard errors of |E*| and of the phase of the mix."""
+    """Degrees of freedom of the standard errors of the mix.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+
+    Returns
+    -------
+    tuple of float
+        Of |E*| and of the phase.
+    """
     freedom = diagnosis.noise.freedom
     return min(freedom, SCALE_FREEDOM + len(diagnosis.observed.names) - 1), freedom
 
 
 def standard_values(diagnosis: Diagnosis) -> pd.DataFrame:
-    """E* of the mix at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84."""
+    """E* of the mix at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+
+    Returns
+    -------
+    DataFrame
+        One row for each condition, with 95 % intervals.
+    """
     conditions = [EN_12697_26, *((t, f) for t in R_84_CELSIUS for f in R_84_HERTZ)]
     temperature, frequency = np.array(conditions).T
     return mix_modulus(diagnosis, temperature, frequency).table()
@@ -105,7 +127,17 @@ def standard_values(diagnosis: Diagnosis) -> pd.DataFrame:
 def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:
     """E* of the mix with its intervals over the band of the tests, at one temperature.
 
-    at [degC]: else the reference temperature of the free curve.
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    at : float, optional
+        [degC]; else the reference temperature of the free curve.
+
+    Returns
+    -------
+    DataFrame
+        One row for each frequency.
     """
     base, law, observed = diagnosis.ladder.joint.spectrum, diagnosis.ladder.fitted.law, diagnosis.observed
     at = base.reference_temperature if at is None else at
@@ -121,7 +153,22 @@ def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:
 
 
 def with_law(curve: pd.DataFrame, law: Spectrum, uncertainty: Uncertainty | None) -> pd.DataFrame:
-    """The master curve beside that of a law with its 95 % interval, where it is known; columns law_..."""
+    """The master curve beside that of a law with its 95 % interval, where it is known.
+
+    Parameters
+    ----------
+    curve : DataFrame
+        Of `master_curve`.
+    law : Spectrum
+        Of the mix.
+    uncertainty : Uncertainty or None
+        Of the law, if known.
+
+    Returns
+    -------
+    DataFrame
+        With columns law_...
+    """
     omega, temperature = 2.0 * np.pi * curve["frequency_Hz"].to_numpy(), curve["temperature_C"].to_numpy()
     star = law.complex_modulus(omega, temperature)
     modulus, phase = np.abs(star) * 1e-6, np.degrees(np.angle(star))
@@ -137,7 +184,15 @@ def with_law(curve: pd.DataFrame, law: Spectrum, uncertainty: Uncertainty | None
 def corrected(diagnosis: Diagnosis) -> pd.DataFrame:
     """Each test of the table as recorded and after the corrections that were made, and why any was left out.
 
-    A test that was left out has no corrected values.
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+
+    Returns
+    -------
+    DataFrame
+        One row for each test; one that was left out has no corrected values.
     """
     whole = diagnosis.observed if diagnosis.whole is None else diagnosis.whole
     doubts = {one.row: one for one in diagnosis.suspects} if diagnosis.whole is not None else {}

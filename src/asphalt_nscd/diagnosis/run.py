@@ -59,7 +59,15 @@ MATTERING = 0.02  # share of the tests that doubtful ones must have for one
 
 @dataclass
 class Steps:
-    """Says how far a diagnosis has come."""
+    """Says how far a diagnosis has come.
+
+    Parameters
+    ----------
+    progress : callable
+        progress(stage, done, total).
+    done : int
+        Steps.
+    """
 
     progress: Progress
     done: int = 0
@@ -72,25 +80,63 @@ class Steps:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a diagnosis gives: the content of its files."""
+    """What a diagnosis gives: the content of its files.
 
-    content: dict[str, Any]  # of diagnosis.json
+    Parameters
+    ----------
+    content : dict
+        Of diagnosis.json.
+    residuals : DataFrame
+        Of residuals.csv.
+    causality : DataFrame
+        Of causality.csv.
+    law : dict or None
+        Content of law.json; None for one isotherm.
+    diagnosis : Diagnosis, optional
+        That gave them; None if they were read from files.
+    limits : DataFrame, optional
+        Of limits.csv, where limits were verified.
+    to_report : mapping of str to DataFrame
+        Of further tables, by the stem of their file.
+    """
+
+    content: dict[str, Any]
     residuals: pd.DataFrame
     causality: pd.DataFrame
-    law: dict[str, Any] | None  # content of law.json; None for one isotherm
-    diagnosis: Diagnosis | None = None  # that gave them; None if they were read from files
-    limits: pd.DataFrame | None = None  # of limits.csv, where limits were verified
-    to_report: Mapping[str, pd.DataFrame] = field(
-        default_factory=dict
-    )  # of further tables, by the stem of their file
+    law: dict[str, Any] | None
+    diagnosis: Diagnosis | None = None
+    limits: pd.DataFrame | None = None
+    to_report: Mapping[str, pd.DataFrame] = field(default_factory=dict)
 
     def with_limits(self, table: pd.DataFrame) -> Outcome:
-        """The same with limits that were verified."""
+        """The same with limits that were verified.
+
+        Parameters
+        ----------
+        table : DataFrame
+            Of `measured_limits.verify`.
+
+        Returns
+        -------
+        Outcome
+            Another one.
+        """
         content = self.content | {"measured_limits": measured_limits.summarised(table)}
         return replace(self, content=content, limits=table)
 
     def write(self, folder: str | Path) -> list[str]:
-        """Write the files into a folder; their names."""
+        """Write the files into a folder.
+
+        Parameters
+        ----------
+        folder : path
+            Made where it does not exist.
+
+        Returns
+        -------
+        list of str
+            Their names.
+        """
         folder = Path(folder)
         write_table(folder / "residuals.csv", self.residuals)
         write_table(folder / "causality.csv", self.causality)
@@ -111,7 +157,18 @@ class Outcome:
         ]
 
     def written(self, folder: str | Path) -> str:
-        """Write the files; the answer, and what was written."""
+        """Write the files.
+
+        Parameters
+        ----------
+        folder : path
+            Made where it does not exist.
+
+        Returns
+        -------
+        str
+            The answer, and what was written.
+        """
         names = self.write(folder)
         return f"{answer(self.content)}\n\nWritten to {folder}: {', '.join(names)}."
 
@@ -203,7 +260,33 @@ def conclude(
     draws: Draws = Draws(),  # noqa: B008  frozen
     progress: Progress = lambda *_: None,
 ) -> Outcome:
-    """Diagnose measurements."""
+    """Diagnose measurements.
+
+    Parameters
+    ----------
+    measurements : path or Campaign
+        Table or campaign.
+    geometry : path or mapping
+        Of the specimens.
+    stated : Stated
+        What the user says beside the table.
+    simulated : Simulated
+        What was simulated of the same tests.
+    draws : Draws
+        Of the chance level.
+    progress : callable
+        progress(stage, done, total).
+
+    Returns
+    -------
+    Outcome
+        Content of the files.
+
+    Raises
+    ------
+    InputError
+        For a table that cannot be diagnosed.
+    """
     scatter = stated.scatter
     done = Steps(progress)
     numerical = read_specimen(simulated.specimen)
@@ -298,7 +381,18 @@ def conclude(
 
 
 def law_parameters(law: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
-    """Parameters in the content of a law file with their intervals; `tau_s` carries its unit."""
+    """Parameters in the content of a law file with their intervals; `tau_s` carries its unit.
+
+    Parameters
+    ----------
+    law : mapping
+        Content of law.json.
+
+    Returns
+    -------
+    dict of str to dict
+        value, interval_95 and determined of each.
+    """
     intervals = law.get("interval_95", {})
     return {
         key: {
@@ -343,7 +437,22 @@ def _begin_with_campaigns(
 def with_suspects(
     diagnosis: Diagnosis, scatter: tuple[float, float] | None, seed: int
 ) -> dict[str, Any] | None:
-    """What is named if the tests that were set aside are used; None where none was."""
+    """What is named if the tests that were set aside are used.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    scatter : tuple of float, optional
+        As stated by the user.
+    seed : int
+        Of the draws.
+
+    Returns
+    -------
+    dict or None
+        None where none was set aside.
+    """
     if diagnosis.whole is None or not diagnosis.set_aside.size:
         return None
     return _named(diagnose(diagnosis.whole, scatter, draws=FEW_DRAWS, seed=seed, use_suspects=True))
@@ -352,7 +461,22 @@ def with_suspects(
 def without_doubtful(
     diagnosis: Diagnosis, scatter: tuple[float, float] | None, seed: int
 ) -> dict[str, Any] | None:
-    """What is named if the doubtful tests are not used either; None where nothing was, or they are few or too many."""
+    """What is named if the doubtful tests are not used either.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    scatter : tuple of float, optional
+        As stated by the user.
+    seed : int
+        Of the draws.
+
+    Returns
+    -------
+    dict or None
+        None where nothing was named, or they are few or too many.
+    """
     whole = diagnosis.whole
     rows = [one.row for one in diagnosis.suspects]
     kept = sum(one.used for one in diagnosis.suspects)

@@ -18,12 +18,40 @@ from asphalt_nscd.diagnosis.written import interval_95, name_at, widening
 
 
 def name_of(candidate: Candidate) -> str:
-    """`cause` or `cause @ place`."""
+    """`cause` or `cause @ place`.
+
+    Parameters
+    ----------
+    candidate : Candidate
+        Which cause.
+
+    Returns
+    -------
+    str
+        Its name.
+    """
     return name_at(*candidate.key)
 
 
 def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
-    """What a rung gains in sample and on tests left out, as diagnosis.json has it."""
+    """What a rung gains in sample and on tests left out, as diagnosis.json has it.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    rung : Rung
+        One cause.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+    held : HeldOut
+        Predictions of tests left out.
+
+    Returns
+    -------
+    dict
+        Of the ladder.
+    """
     observed = diagnosis.observed
     before, after = (nearest(diagnosis, fitted, specimen) for fitted in (rung.before, rung.after))
     gain: dict[str, Any] = {"in_sample": before_and_after(diagnosis, before, after)}
@@ -60,7 +88,22 @@ def _final(diagnosis: Diagnosis, candidate: Candidate) -> Candidate:
 
 
 def amplitude(diagnosis: Diagnosis, candidate: Candidate) -> tuple[float, float]:
-    """Amplitude of a named cause and its standard error, in the last fit."""
+    """Size of a named cause in the last fit.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    candidate : Candidate
+        Which cause.
+
+    Returns
+    -------
+    float
+        Amplitude.
+    float
+        Its standard error.
+    """
     first = next(iter(_parameters(diagnosis, _final(diagnosis, candidate)).values()))
     return first["value"], first["std_error"]
 
@@ -77,7 +120,22 @@ def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[st
 
 
 def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
-    """The first rung: one continuous spectrum for all temperatures instead of a Burgers law for each."""
+    """The first rung: one continuous spectrum for all temperatures instead of a Burgers law for each.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+    held : HeldOut
+        Predictions of tests left out.
+
+    Returns
+    -------
+    dict
+        Of the ladder.
+    """
     ladder, observed = diagnosis.ladder, diagnosis.observed
     before = with_burgers_laws(diagnosis, specimen)
     after = with_common_law(diagnosis, specimen)

@@ -36,10 +36,24 @@ def pure_error(observed: Observations, nuisance: NDArray) -> tuple[Vector, Vecto
 
 
 def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise | None:
-    """Noise of a table, None where no condition was repeated.
+    """Noise of a table.
 
-    A scatter that a whole isotherm of a specimen shares (its temperature, its mounting) is a component
-    of its own; scales (S,): ln of the specimens' scales, first guess.
+    A scatter that a whole isotherm of a specimen shares (its temperature, its mounting) is a component of its
+    own.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    nuisance : ndarray
+        What replicates may differ by beside scatter.
+    scales : ndarray (S,)
+        ln of the specimens' scales, first guess.
+
+    Returns
+    -------
+    Noise or None
+        None where no condition was repeated.
     """
     modulus, phase, freedom = pure_error(observed, nuisance)
     if freedom < 6:
@@ -60,7 +74,26 @@ def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise
 def stated(
     observed: Observations, modulus: float, phase: float, scale: float, freedom: int = STATED
 ) -> Noise:
-    """Noise of stated size: relative scatter of |E*|, scatter of the phase [rad], of whole specimens."""
+    """Noise of stated size.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    modulus : float
+        Relative scatter of |E*|.
+    phase : float
+        Scatter of the phase [rad].
+    scale : float
+        Of whole specimens.
+    freedom : int
+        Degrees of freedom.
+
+    Returns
+    -------
+    Noise
+        The same for each test.
+    """
     within = np.tile([[modulus], [phase]], observed.size)
     return Noise(within, np.zeros_like(within), _blocks(observed), (modulus, phase), scale, freedom)
 
@@ -114,6 +147,19 @@ def _scale(scales: Vector) -> float:
 
 
 def median_by(values: Vector, label: NDArray[np.int64]) -> Vector:
-    """Median of the group of each row."""
+    """Median of the group of each row.
+
+    Parameters
+    ----------
+    values : ndarray (n,)
+        Of the rows.
+    label : ndarray of int (n,)
+        Group of each.
+
+    Returns
+    -------
+    ndarray (n,)
+        One for each row.
+    """
     medians = np.array([np.median(values[label == k]) for k in range(label.max() + 1)])
     return medians[label]

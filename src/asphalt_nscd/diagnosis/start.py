@@ -25,7 +25,24 @@ WLF_STARTS = ((12.0, 60.0), (12.0, 100.0), (20.0, 200.0), (30.0, 280.0))  # C1, 
 def fit_spectrum(
     observed: Observations, noise: Noise, active: tuple[Candidate, ...] = ()
 ) -> tuple[Joint, Fitted]:
-    """The flexible spectrum, with any causes active, of the roughness of largest marginal likelihood (Laplace)."""
+    """The flexible spectrum, of the roughness of largest marginal likelihood (Laplace).
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    noise : Noise
+        Their scatter.
+    active : tuple of Candidate
+        Causes in the fit.
+
+    Returns
+    -------
+    Joint
+        The model.
+    Fitted
+        Its fit.
+    """
     best: tuple[float, Joint, Fitted] | None = None
     for c1, c2 in WLF_STARTS:
         base = _spectrum(observed, c1, c2)
@@ -41,7 +58,24 @@ def fit_spectrum(
 def of_likeliest_roughness(
     joint: Joint, fitted: Fitted, converged: float = CONVERGED
 ) -> tuple[Joint, Fitted]:
-    """The roughness of largest marginal likelihood, each fitted from where the one before ended."""
+    """The roughness of largest marginal likelihood, each fitted from where the one before ended.
+
+    Parameters
+    ----------
+    joint : Joint
+        The model.
+    fitted : Fitted
+        Where it stands.
+    converged : float
+        Change of the objective that ends a fit.
+
+    Returns
+    -------
+    Joint
+        The model.
+    Fitted
+        Its fit.
+    """
     scored = []
     for roughness in ROUGHNESS:
         smooth = Joint(joint.observed, replace(joint.spectrum, roughness=roughness), joint.noise)
@@ -59,7 +93,22 @@ def marginal_likelihood(joint: Joint, fitted: Fitted) -> float:
 
 
 def fit_burgers_at_each(observed: Observations, noise: Noise) -> tuple[Joint, Fitted]:
-    """A Burgers law for each temperature, the paper's baseline."""
+    """A Burgers law for each temperature, the paper's baseline.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    noise : Noise
+        Their scatter.
+
+    Returns
+    -------
+    Joint
+        The model.
+    Fitted
+        Its fit.
+    """
     base = BurgersAtEach(observed.isotherms)
     law = [
         _first_burgers(observed.omega[at], observed.modulus[at])

@@ -126,12 +126,39 @@ class StiffnessOnly:
 
 
 def has_no_phase(campaign: Campaign) -> bool:
-    """Whether a campaign gives |E*| alone."""
+    """Whether a campaign gives |E*| alone.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Tests.
+
+    Returns
+    -------
+    bool
+        True without a column of phases.
+    """
     return "E_MPa" in campaign.table.columns and "phase_deg" not in campaign.table.columns
 
 
 def fit_stiffness(campaign: Campaign) -> StiffnessOnly:
-    """The master curve of a campaign without phases; specimens differ by a factor each, as usual ones do."""
+    """The master curve of a campaign without phases; specimens differ by a factor each, as usual ones do.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Tests.
+
+    Returns
+    -------
+    StiffnessOnly
+        Curve, band and scatter.
+
+    Raises
+    ------
+    InputError
+        For one temperature.
+    """
     table = campaign.table
     temperature, frequency, modulus = (
         table.numbers(name, LIMITS[name]) for name in ("temperature_C", "frequency_Hz", "E_MPa")

@@ -48,7 +48,17 @@ IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may b
 
 @dataclass(frozen=True)
 class Suspect:
-    """A test (row of the observations), why it is doubtful, and whether the diagnosis still uses it."""
+    """A doubtful test.
+
+    Parameters
+    ----------
+    row : int
+        Of the observations.
+    reasons : tuple of str
+        Why it is doubtful.
+    used : bool
+        Whether the diagnosis still uses it.
+    """
 
     row: int
     reasons: tuple[str, ...]
@@ -57,9 +67,20 @@ class Suspect:
 
 @dataclass(frozen=True)
 class BrokenIsotherm:
-    """An isotherm [degC] whose phase departs from what |E*| requires by more than single tests explain.
+    """An isotherm whose phase departs from what |E*| requires by more than single tests explain.
 
-    frequency (k,) [Hz]; difference, std_error (k,): phase measured less required [deg], mean over specimens.
+    Parameters
+    ----------
+    temperature : float
+        [degC].
+    frequency : ndarray (k,)
+        [Hz].
+    difference : ndarray (k,)
+        Phase measured less required [degrees], mean over specimens.
+    std_error : ndarray (k,)
+        Of the difference [degrees].
+    specimens : int
+        How many.
     """
 
     temperature: float
@@ -86,7 +107,20 @@ class BrokenIsotherm:
 
 
 def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspect]:
-    """Suspect tests by row, each with the sentences that a reader can check; loo: if it is already computed."""
+    """Suspect tests, each with the sentences that a reader can check.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    loo : LooPrediction, optional
+        If it is already computed.
+
+    Returns
+    -------
+    list of Suspect
+        By row.
+    """
     loo = loo or within_isotherm.leave_one_out(observed)
     broken = np.isin(observed.isotherm, _broken_temperatures(observed, loo))
     values = loo.chance.shape[1] * max(np.count_nonzero(loo.judged), 1)
@@ -149,7 +183,20 @@ def _shared(
 
 
 def broken_isotherms(observed: Observations, loo: LooPrediction | None = None) -> list[BrokenIsotherm]:
-    """Isotherms that contradict themselves as a whole, ascending; their single tests are no suspects."""
+    """Isotherms that contradict themselves as a whole; their single tests are no suspects.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    loo : LooPrediction, optional
+        If it is already computed.
+
+    Returns
+    -------
+    list of BrokenIsotherm
+        Ascending.
+    """
     loo = loo or within_isotherm.leave_one_out(observed)
     difference = np.degrees(observed.logarithm.imag - loo.required)
     error = np.degrees(np.hypot(loo.required_error, loo.scatter[:, 1]))
@@ -171,7 +218,20 @@ def broken_isotherms(observed: Observations, loo: LooPrediction | None = None) -
 
 
 def one_sided(observed: Observations, loo: LooPrediction) -> str:
-    """A sentence where at least half of the phases lie on one side of what |E*| alone requires, beyond error."""
+    """Whether phases lie on one side of what |E*| alone requires, beyond error.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    loo : LooPrediction
+        What the isotherms say.
+
+    Returns
+    -------
+    str
+        A sentence where at least half of them do; else empty.
+    """
     rows = loo.judged & loo.in_place
     apart = np.degrees(observed.logarithm.imag - loo.required)[rows]
     far = np.abs(apart) > 2.0 * np.degrees(loo.required_error[rows])
@@ -186,7 +246,22 @@ def one_sided(observed: Observations, loo: LooPrediction) -> str:
 
 
 def table(observed: Observations, found: list[Suspect], loo: LooPrediction) -> pd.DataFrame:
-    """One row for each test: the phase measured and the one that |E*| alone requires, and what is suspect."""
+    """The phase measured and the one that |E*| alone requires, and what is suspect.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    found : list of Suspect
+        Of `find`.
+    loo : LooPrediction
+        What the isotherms say.
+
+    Returns
+    -------
+    DataFrame
+        One row for each test.
+    """
     suspect = {one.row: one for one in found}
     flagged = {one.row for one in quality.exceeded(observed)}
     rows = range(observed.size)

@@ -25,17 +25,48 @@ HALF = 0.5  # of the strain, at which linearity is checked
 
 @dataclass(frozen=True)
 class Costs:
-    """Machine hours; those of a usual laboratory."""
+    """Machine hours; those of a usual laboratory.
+
+    Parameters
+    ----------
+    mounting : float
+        Of a specimen [h].
+    conditioning : float
+        Of a specimen to a temperature other than that of the room [h].
+    room : tuple of float
+        Temperatures of the room [degC].
+    new_specimen : float
+        Cored, trimmed, glued [h].
+    cycles : float
+        At each frequency.
+    pause : float
+        At each frequency [h].
+    """
 
     mounting: float = 0.5
-    conditioning: float = 2.0  # of a specimen to a temperature other than that of the room
-    room: tuple[float, float] = (15.0, 25.0)  # degC
-    new_specimen: float = 4.0  # cored, trimmed, glued
+    conditioning: float = 2.0
+    room: tuple[float, float] = (15.0, 25.0)
+    new_specimen: float = 4.0
     cycles: float = 20.0
-    pause: float = 1.0 / 60.0  # at each frequency
+    pause: float = 1.0 / 60.0
 
     def hours(self, specimen: str, temperature: float, frequencies: Sequence[float]) -> float:
-        """Hours of a sweep of one specimen at a temperature [degC] and frequencies [Hz]."""
+        """Hours of a sweep of one specimen.
+
+        Parameters
+        ----------
+        specimen : str
+            Its name.
+        temperature : float
+            [degC].
+        frequencies : sequence of float
+            [Hz].
+
+        Returns
+        -------
+        float
+            [h].
+        """
         away = specimen != METAL and not self.room[0] <= temperature <= self.room[1]
         fixed = self.mounting + self.conditioning * away + self.new_specimen * (specimen == NEW)
         return fixed + sum(self.cycles / f / 3600.0 + self.pause for f in frequencies)
@@ -52,7 +83,23 @@ class Costs:
 
 @dataclass(frozen=True)
 class Sweep:
-    """One specimen at one temperature over some frequencies, at the usual strain or at half of it."""
+    """One specimen at one temperature over some frequencies.
+
+    Parameters
+    ----------
+    specimen : str
+        Its name.
+    temperature : float
+        [degC].
+    frequencies : tuple of float
+        [Hz].
+    half_strain : bool
+        At half of the usual strain.
+    tested : Tested
+        Its rows and their scatter.
+    hours : float
+        That it takes.
+    """
 
     specimen: str
     temperature: float
@@ -63,7 +110,18 @@ class Sweep:
 
 
 def temperatures(observed: Observations) -> list[float]:
-    """Isotherms tested (a dozen at most), one between any two that are far apart, one beyond either end [degC]."""
+    """Isotherms tested (a dozen at most), one between any two that are far apart, one beyond either end.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of float
+        [degC], ascending.
+    """
     tested = _some(observed.isotherms, ISOTHERMS)
     middle = [round(float(a + b) / 2.0) for a, b in pairwise(tested) if b - a >= APART]
     ends = [round(float(tested[0] - BEYOND)), round(float(tested[-1] + BEYOND))]
@@ -72,7 +130,18 @@ def temperatures(observed: Observations) -> list[float]:
 
 
 def frequencies(observed: Observations) -> list[float]:
-    """Frequencies tested (at most eight of them), and one below them [Hz]."""
+    """Frequencies tested (at most eight of them), and one below them.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of float
+        [Hz], ascending.
+    """
     tested = _some(observed.frequencies, 8)
     lower = float(f"{tested[0] / 3.0:.1g}")
     return [*([lower] if lower >= 0.01 else []), *map(float, tested)]
@@ -84,14 +153,38 @@ def _some(values: NDArray[np.float64], most: int) -> NDArray[np.float64]:
 
 
 def with_strain(observed: Observations) -> Observations:
-    """With amplitudes relative to the usual one, where the table has none."""
+    """With amplitudes relative to the usual one, where the table has none.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    Observations
+        The same tests.
+    """
     if observed.amplitude is not None:
         return observed
     return replace(observed, amplitude=np.ones(observed.size), whole=None)
 
 
 def every_test(observed: Observations, at: Sequence[float]) -> Observations:
-    """The tests done, then every specimen, with a new one, at every temperature and frequency and two strains."""
+    """The tests done, then every specimen, with a new one, at every temperature and frequency and two strains.
+
+    Parameters
+    ----------
+    observed : Observations
+        Tests done.
+    at : sequence of float
+        Temperatures [degC].
+
+    Returns
+    -------
+    Observations
+        N rows.
+    """
     names = (*observed.names, NEW)
     full = [(s, t, f, 1.0) for s in range(len(names)) for t in at for f in frequencies(observed)]
     tested = set(zip(observed.specimen.tolist(), observed.isotherm.tolist(), strict=True))
@@ -152,13 +245,39 @@ def _after(observed: Observations, name: str, specimen: NDArray[np.int64]) -> ND
 
 
 def at_half_strain(table: Observations) -> NDArray[np.bool_]:
-    """Rows (N,) of tests at half the usual strain."""
+    """Rows of tests at half the usual strain.
+
+    Parameters
+    ----------
+    table : Observations
+        N tests.
+
+    Returns
+    -------
+    ndarray of bool (N,)
+        True for these.
+    """
     strain = table.known("amplitude")
     return np.asarray(strain < 0.5 * (1.0 + HALF) * np.median(strain))
 
 
 def noise_of(noise: Noise, observed: Observations, table: Observations) -> Noise:
-    """Scatter of each isotherm; that of the whole table on a new one. Every sweep is a mounting of its own."""
+    """Scatter of each isotherm; that of the whole table on a new one. Every sweep is a mounting of its own.
+
+    Parameters
+    ----------
+    noise : Noise
+        Of the tests done.
+    observed : Observations
+        Tests done.
+    table : Observations
+        N tests.
+
+    Returns
+    -------
+    Noise
+        Of all N.
+    """
     within, shared = (np.empty((2, table.size)) for _ in range(2))
     for wide, known in ((within, noise.within), (shared, noise.shared)):
         wide[:] = known.mean(axis=1, keepdims=True)
@@ -170,7 +289,20 @@ def noise_of(noise: Noise, observed: Observations, table: Observations) -> Noise
 
 
 def scatter_of(within: NDArray, shared: NDArray, block: NDArray) -> NDArray[np.float64]:
-    """Covariance (2n, 2n) of ln|E*| and phase; within, shared (2, n): of a test and of the mounting block (n,)."""
+    """Covariance of ln|E*| and phase.
+
+    Parameters
+    ----------
+    within, shared : ndarray (2, n)
+        Standard deviations of a test and of its mounting.
+    block : ndarray of int (n,)
+        Number of the mounting.
+
+    Returns
+    -------
+    ndarray (2n, 2n)
+        ln|E*| first.
+    """
     same = block[:, None] == block
     out = np.zeros((2 * block.size, 2 * block.size))
     for k, (single, common) in enumerate(zip(within, shared, strict=True)):
@@ -180,7 +312,24 @@ def scatter_of(within: NDArray, shared: NDArray, block: NDArray) -> NDArray[np.f
 
 
 def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: Costs) -> Iterator[Sweep]:
-    """Sweeps of all specimens; the rows of table behind those of observed hold them."""
+    """Sweeps of all specimens; the rows of table behind those of observed hold them.
+
+    Parameters
+    ----------
+    observed : Observations
+        Tests done.
+    table : Observations
+        N tests.
+    noise : Noise
+        Of all N.
+    costs : Costs
+        Machine hours.
+
+    Yields
+    ------
+    Sweep
+        One after another.
+    """
     first = observed.size
     halved = at_half_strain(table)
     groups: dict[tuple, dict[float, int]] = {}
@@ -212,7 +361,18 @@ def _sweep(
 
 
 def on_metal(observed: Observations) -> Observations:
-    """A metal specimen at the frequencies tested."""
+    """A metal specimen at the frequencies tested.
+
+    Parameters
+    ----------
+    observed : Observations
+        Tests done.
+
+    Returns
+    -------
+    Observations
+        One row for each frequency.
+    """
     at = np.array(
         [
             np.flatnonzero(observed.frequency == f)[0]
@@ -224,7 +384,24 @@ def on_metal(observed: Observations) -> Observations:
 
 
 def sweeps_on_metal(metal: Observations, first: int, noise: Noise, costs: Costs) -> Iterator[Sweep]:
-    """Sweeps of a metal specimen, whose rows stand behind those of the table."""
+    """Sweeps of a metal specimen, whose rows stand behind those of the table.
+
+    Parameters
+    ----------
+    metal : Observations
+        Of `on_metal`.
+    first : int
+        Row of its first test.
+    noise : Noise
+        Of the tests done.
+    costs : Costs
+        Machine hours.
+
+    Yields
+    ------
+    Sweep
+        One after another.
+    """
     f = [float(value) for value in metal.frequency]
     ends = sorted({0, len(f) - 1})  # both: of one frequency nobody tells an offset from a delay
     for chosen in dict.fromkeys([tuple(range(len(f))), tuple(sorted({*ends, len(f) // 2})), tuple(ends)]):

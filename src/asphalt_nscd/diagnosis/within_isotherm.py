@@ -51,12 +51,24 @@ ASIDE = 100.0  # variance that takes a value out
 class LooPrediction:
     """What the isotherms say of each value; columns 0 and 1 are ln|E*| and phase [rad].
 
-    judged (n,): whether the isotherm has tests enough; expected, std_error (n, 2): what the rest of the isotherm asks
-    for, the scatter of one test included; chance (n, 3): of a departure as large in ln|E*|, in the phase, or in both,
-    where neither is asked for the other; required, required_error (n,) [rad]: phase that |E*| alone requires;
-    log_evidence (n, 4, 5): ln evidence of each ripple and bend; scatter (n, 2): of single tests; delay [s]: between the
-    channels, common to all tests, which the expected phase holds; exchanged: readings that stand in each other's
-    place; everything else here is of the readings put right.
+    Parameters
+    ----------
+    judged : ndarray of bool (n,)
+        Whether the isotherm has tests enough.
+    expected, std_error : ndarray (n, 2)
+        What the rest of the isotherm asks for, the scatter of one test included.
+    chance : ndarray (n, 3)
+        Of a departure as large in ln|E*|, in the phase, or in both, where neither is asked for the other.
+    required, required_error : ndarray (n,)
+        Phase that |E*| alone requires [rad].
+    log_evidence : ndarray (n, 4, 5)
+        ln evidence of each ripple and bend.
+    scatter : ndarray (n, 2)
+        Of single tests.
+    delay : float
+        Between the channels [s], common to all tests, which the expected phase holds.
+    exchanged : tuple of Exchange
+        Readings that stand in each other's place; everything else here is of the readings put right.
     """
 
     judged: NDArray[np.bool_]
@@ -361,7 +373,18 @@ def most_doubtful(tests: int) -> int:
 
 
 def leave_one_out(observed: Observations) -> LooPrediction:
-    """Each value of the table held against the rest of its isotherm."""
+    """Each value of the table held against the rest of its isotherm.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    LooPrediction
+        What the isotherms say.
+    """
     table = _Table(observed)
     if not table.groups:
         return table.leave_one_out()
@@ -387,7 +410,18 @@ def leave_one_out(observed: Observations) -> LooPrediction:
 
 
 def blocks(observed: Observations) -> NDArray[np.int64]:
-    """(n,) number of the specimen, isotherm and amplitude of each test."""
+    """Specimen, isotherm and amplitude of each test.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    ndarray of int (n,)
+        Number of the three together.
+    """
     columns = [observed.specimen, observed.isotherm]
     if observed.amplitude is not None:
         columns.append(observed.amplitude)

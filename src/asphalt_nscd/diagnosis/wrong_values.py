@@ -38,10 +38,23 @@ def _sets(tests: int) -> tuple[tuple[NDArray[np.int64], float], ...]:
 def likeliest(
     precision: NDArray, pull: NDArray, weighed: NDArray, room: int
 ) -> list[tuple[float, NDArray[np.int64]]]:
-    """For each of b isotherms of k tests the likeliest set of wrong values, and its ln odds over none.
+    """For each of b isotherms of k tests the likeliest set of wrong values.
 
-    precision (b, m, 2k, 2k) of each ripple and bend; pull (b, m, 2k): precision times values; weighed (b, m): ln
-    evidence as given. room: tests that may be wrong at once.
+    Parameters
+    ----------
+    precision : ndarray (b, m, 2k, 2k)
+        Of each ripple and bend.
+    pull : ndarray (b, m, 2k)
+        Precision times values.
+    weighed : ndarray (b, m)
+        ln evidence as given.
+    room : int
+        Tests that may be wrong at once.
+
+    Returns
+    -------
+    list of tuple of float and ndarray of int (b,)
+        Its ln odds over none, and the values.
     """
     tests = pull.shape[2] // 2
     whole = logsumexp(weighed, axis=1)[:, None]
