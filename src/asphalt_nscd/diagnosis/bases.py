@@ -167,6 +167,8 @@ class FlexibleSpectrum:
         away = temperature - self.reference_temperature
         bent = away / (1.0 + curvature * away)
         wlf = -LN10 * np.exp(x[-3]) * bent
+        # odd in the distance, so that it bends both ends apart and leaves slope and curvature to the WLF
+        # shift
         cubic = (away / self.DEPARTURE[1]) ** 3
         return wlf + x[-1] * cubic, np.column_stack([wlf, -wlf * bent * change, cubic])
 
@@ -236,6 +238,7 @@ class FlexibleSpectrum:
         """
         m = self.times.size
         rows = np.zeros((m + 2, self.parameters))
+        # second differences: a power law, whose spectrum is straight, costs nothing
         rows[: m - 2, :m] = np.diff(np.eye(m), 2, axis=0) / self.roughness
         if self.ends_straight:
             rows[m - 2 - self.SLOWEST : m - 2, :m] *= max(self.roughness / self.STRAIGHT, 1.0)

@@ -27,15 +27,35 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Structure:
-    """A nameless pattern: what an effect outside the catalogue might look like."""
+    """A nameless pattern: what an effect outside the catalogue might look like.
+
+    Parameters
+    ----------
+    name : str
+        In words.
+    direction : ndarray of complex (n,)
+        Of ln E*.
+    """
 
     name: str
-    direction: NDArray[np.complex128]  # (n,) of ln E*
+    direction: NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
 class Scores:
-    """z (k,) of k directions; information (k,): d.A d; correlation (k, k) of the z where nothing is hidden."""
+    """Score tests of k directions.
+
+    Parameters
+    ----------
+    z : ndarray (k,)
+        Of each.
+    information : ndarray (k,)
+        d.A d.
+    seen : ndarray of bool (k,)
+        Whether the law leaves enough of a direction.
+    correlation : ndarray (k, k)
+        Of the z where nothing is hidden.
+    """
 
     z: Vector
     information: Vector
@@ -46,7 +66,24 @@ class Scores:
 def scores(
     joint: Joint, fitted: Fitted, directions: NDArray[np.complex128], confined: NDArray[np.bool_]
 ) -> Scores:
-    """Score tests of the columns of directions (n, k); confined (k,): to a specimen, so no law takes them."""
+    """Score tests of directions.
+
+    Parameters
+    ----------
+    joint : Joint
+        Model of the table.
+    fitted : Fitted
+        Where it stands.
+    directions : ndarray of complex (n, k)
+        Of ln E*.
+    confined : ndarray of bool (k,)
+        To a specimen, so no law takes them.
+
+    Returns
+    -------
+    Scores
+        Of each direction.
+    """
     d = joint.noise.whiten(directions)
     taken = fitted.jacobian.T @ d
     gram = d.T @ d - taken.T @ np.linalg.solve(fitted.precision, taken)
@@ -63,7 +100,26 @@ def scores(
 def largest_by_chance(
     found: Scores, one_sided: NDArray[np.bool_], freedom: int, draws: int, random: np.random.Generator
 ) -> Vector:
-    """(draws,) largest of the z, in absolute value or upwards only, that chance alone gives."""
+    """Largest of the z that chance alone gives.
+
+    Parameters
+    ----------
+    found : Scores
+        Scores.
+    one_sided : ndarray of bool (k,)
+        Directions that count upwards only.
+    freedom : int
+        Degrees of freedom of the scatter.
+    draws : int
+        How many.
+    random : Generator
+        Whence.
+
+    Returns
+    -------
+    ndarray (draws,)
+        In absolute value, or upwards only.
+    """
     value, vector = np.linalg.eigh(found.correlation)
     root = vector * np.sqrt(np.maximum(value, 0.0))
     normal = random.standard_normal((draws, value.size)) @ root.T
@@ -73,7 +129,20 @@ def largest_by_chance(
 
 
 def tail(by_chance: Vector, z: float) -> float:
-    """Chance of z or more: the share of draws, and beyond them the normal tail scaled to meet them."""
+    """Chance of z or more: the share of draws, and beyond them the normal tail scaled to meet them.
+
+    Parameters
+    ----------
+    by_chance : ndarray (draws,)
+        Of `largest_by_chance`.
+    z : float
+        Found.
+
+    Returns
+    -------
+    float
+        Above zero.
+    """
     share = float(np.mean(by_chance >= z))
     if share * by_chance.size >= 10:
         return share
@@ -87,7 +156,20 @@ def effective(found: Scores, one_sided: NDArray[np.bool_]) -> Vector:
 
 
 def catalogue_candidates(observed: Observations, catalogue: Sequence[Cause]) -> list[Candidate]:
-    """Every cause at every place with every starting shape, absent (amplitude zero)."""
+    """Every cause at every place with every starting shape, absent (amplitude zero).
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    catalogue : sequence of Cause
+        Causes.
+
+    Returns
+    -------
+    list of Candidate
+        One for each cause, place and shape.
+    """
     return [
         Candidate(cause, place, (0.0, *shape))
         for cause in catalogue
@@ -97,7 +179,22 @@ def catalogue_candidates(observed: Observations, catalogue: Sequence[Cause]) -> 
 
 
 def candidate_directions(joint: Joint, fitted: Fitted, candidates: list[Candidate]) -> NDArray:
-    """(n, k) derivatives of ln E* with respect to the amplitudes, in typical units."""
+    """Derivatives of ln E* with respect to the amplitudes.
+
+    Parameters
+    ----------
+    joint : Joint
+        Model of the table.
+    fitted : Fitted
+        Where it stands.
+    candidates : list of Candidate (k,)
+        Causes at their places.
+
+    Returns
+    -------
+    ndarray of complex (n, k)
+        In typical units.
+    """
     active = fitted.active
     return (
         np.column_stack(
@@ -109,7 +206,18 @@ def candidate_directions(joint: Joint, fitted: Fitted, candidates: list[Candidat
 
 
 def structures(observed: Observations) -> list[Structure]:
-    """Nameless patterns by frequency, isotherm, specimen, condition and single test."""
+    """Nameless patterns by frequency, isotherm, specimen, condition and single test.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of Structure
+        Of modulus and of phase.
+    """
     log_f = np.log(observed.frequency) - np.log(observed.frequency).mean()
     above = observed.temperature - observed.temperature.mean()
     patterns = {
@@ -135,7 +243,18 @@ def structures(observed: Observations) -> list[Structure]:
 
 
 def specimen_structures(observed: Observations) -> list[Structure]:
-    """Nameless patterns of one specimen against the others."""
+    """Nameless patterns of one specimen against the others.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of Structure
+        Of modulus and of phase.
+    """
     if len(observed.names) < 2:
         return []
     log_f = np.log(observed.frequency) - np.log(observed.frequency).mean()

@@ -40,7 +40,15 @@ NOTABLE = 3.0  # standard deviations from which the mean residual of a condition
 
 @dataclass(frozen=True)
 class Expected:
-    """Chance that a campaign has a cause at all, and its usual size in the unit of its amplitude."""
+    """What a campaign may have.
+
+    Parameters
+    ----------
+    chance : float
+        That a campaign has a cause at all.
+    size : float
+        Usual, in the unit of its amplitude.
+    """
 
     chance: float
     size: float
@@ -65,7 +73,15 @@ EXPECTED = {
 
 @dataclass(frozen=True)
 class Usual:
-    """Usual standard deviation of what a laboratory adds, and that of its logarithm between laboratories."""
+    """What a laboratory adds.
+
+    Parameters
+    ----------
+    size : float
+        Usual standard deviation.
+    spread : float
+        Standard deviation of its logarithm between laboratories.
+    """
 
     size: float
     spread: float

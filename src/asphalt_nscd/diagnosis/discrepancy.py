@@ -234,6 +234,7 @@ def factor_of(points: NDArray, kernel: Kernel, left_out: float) -> NDArray:
     distinct, place, count = np.unique(points[rows], axis=0, return_inverse=True, return_counts=True)
     apart = distinct.T[:, :, None] - distinct.T[:, None, :]
     weight = np.sqrt(count)
+    # weighed by the number of tests at a point, so that what is dropped is little in the table's own norm
     value, vector = np.linalg.eigh(weight[:, None] * kernel(apart) * weight)
     value, vector = np.maximum(value[::-1], 0.0), vector[:, ::-1] / weight[:, None]
     rank = int(np.searchsorted(np.cumsum(value), (1.0 - left_out) * value.sum())) + 1
@@ -421,6 +422,7 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
     usual = model.processes.usual
     log_v = np.log(usual**2 if start is None else np.maximum(start, LEAST))
     now = _point(model, cause, log_v)
+    # SQUAREM: two multiplicative steps, then a long one along both, taken back where it does not gain
     for _ in range(ITERATIONS):
         first = np.clip(log_v + now.step, lowest, highest)
         middle = _point(model, cause, first)
@@ -514,6 +516,8 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
     data = s * model.along
     right = data[:, None] if cause is None else np.column_stack([data, s * cause.cross[:, 0]])
     solved = dpotrs(lower, right, lower=1)[0]
+    # the diagonal of U^T P U from the triangular inverse alone: the whole matrix would cost several times as
+    # much
     diagonal = (1.0 - (dtrtri(lower, lower=1)[0] ** 2).sum(axis=0)) / s**2
     pull = solved[:, 0] / s
     misfit = 2.0 * float(np.log(np.diag(lower)).sum()) - float(data @ solved[:, 0])
@@ -521,6 +525,7 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
     if cause is not None:
         information = max(float(cause.own[0, 0] - right[:, 1] @ solved[:, 1]), 1e-12)
         along = float(cause.along[0] - right[:, 1] @ solved[:, 0])
+        # ln information is what restricted likelihood pays for the amplitude, as for the law
         amplitude, std_error, interval = along / information, information**-0.5, np.log(information)
         misfit -= along * amplitude
         sensed = solved[:, 1] / s
@@ -530,12 +535,15 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
     misfit += prior
     trace = np.bincount(block, np.maximum(diagonal, 0.0), m) + np.maximum(slope, 0.0)
     square = np.bincount(block, pull**2, m) + np.maximum(-slope, 0.0)
+    # the multiplicative step keeps variances positive; its power of a half makes it monotone (minorise-
+    # maximise)
     step = 0.5 * np.log(np.maximum(square, 1e-12) / trace)
     return _Point(misfit + interval, misfit, step, amplitude, std_error)
 
 
 def _factor(model: Reduced, s: Vector) -> tuple[NDArray, bool]:
     """Lower factor of 1 + S G S, and whether there is none: rounding, where a size is absurd."""
+    # I + S G S, whose eigenvalues are 1 at least: its factor exists even where variances vanish
     whole = s[:, None] * model.gram * s
     whole[np.diag_indices(s.size)] += 1.0
     lower, failed = dpotrf(whole, lower=1)

@@ -61,6 +61,7 @@ def find_doubts(
         taken = active[candidate.key]
         own = [*_of_size(taken, plain.observed), *_of_many(candidate, named, len(plain.observed.names))]
         own += _beside_rivals(table, taken)
+        # a cause that was found after a doubtful one was fitted beside it
         if not own and found:
             own = ["It was found after another cause that is itself not certain"]
         if own:
@@ -135,6 +136,7 @@ class _Table:
             None if direction is None else discrepancy.directions(model, rest, direction)
         )
         begin = np.concatenate([self.variances, np.full(len(roots), FIRST**2)])
+        # the likelihood of a variance may have two maxima, one of them at none: from either side
         tried = [discrepancy.estimate(model, along, start) for start in (begin, None)]
         return min(tried, key=lambda one: one.misfit)
 

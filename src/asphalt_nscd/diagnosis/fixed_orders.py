@@ -18,7 +18,20 @@ Orders = list[dict[str, Any]]
 
 
 def gauges(done: Observations, costs: Costs) -> Orders:
-    """Tests again after a check, of specimens beyond a quality limit that half of all tests exceed or more."""
+    """Tests again after a check, of specimens beyond a quality limit that half of all tests exceed or more.
+
+    Parameters
+    ----------
+    done : Observations
+        The tests there are.
+    costs : Costs
+        Machine hours.
+
+    Returns
+    -------
+    Orders
+        None where none is.
+    """
     above = quality.exceeded(done)
     orders: Orders = []
     for name, limit in quality.LIMITS.items():
@@ -41,7 +54,22 @@ def gauges(done: Observations, costs: Costs) -> Orders:
 
 
 def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
-    """Metal, where the phases lie on one side of what |E*| requires, in words, and no cause explains it."""
+    """Metal, where the phases lie on one side of what |E*| requires, and no cause explains it.
+
+    Parameters
+    ----------
+    done : Observations
+        The tests there are.
+    costs : Costs
+        Machine hours.
+    one_sided : str
+        On which side, in words.
+
+    Returns
+    -------
+    Orders
+        One order.
+    """
     ends = [float(done.frequencies[0]), float(done.frequencies[-1])]
     hours = costs.hours(METAL, float(np.mean(costs.room)), ends)
     why = (
@@ -53,7 +81,22 @@ def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
 
 
 def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, Any]]) -> Orders:
-    """Tests again of specimens measured off their target at one isotherm: a slip there makes false biases."""
+    """Tests again of specimens measured off their target at one isotherm: a slip there makes false biases.
+
+    Parameters
+    ----------
+    done : Observations
+        The tests there are.
+    costs : Costs
+        Machine hours.
+    found : sequence of mapping
+        Tests off their target.
+
+    Returns
+    -------
+    Orders
+        One for each specimen and isotherm.
+    """
     orders: Orders = []
     for t in sorted({one["temperature_C"] for one in found}):
         here = [one for one in found if one["temperature_C"] == t]
@@ -73,7 +116,20 @@ def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, An
 
 
 def second_specimen(done: Observations, costs: Costs) -> Orders:
-    """A new specimen at the same conditions, where one alone was tested."""
+    """A new specimen at the same conditions, where one alone was tested.
+
+    Parameters
+    ----------
+    done : Observations
+        The tests there are.
+    costs : Costs
+        Machine hours.
+
+    Returns
+    -------
+    Orders
+        None where there are several.
+    """
     if len(done.names) > 1:
         return []
     why = "Two specimens show the scatter from test to test. Without it nothing here is certain."
@@ -83,7 +139,20 @@ def second_specimen(done: Observations, costs: Costs) -> Orders:
 
 
 def more_temperatures(done: Observations, costs: Costs) -> Orders:
-    """As many as certainty lacks: beyond those tested, then between them."""
+    """As many as certainty lacks: beyond those tested, then between them.
+
+    Parameters
+    ----------
+    done : Observations
+        The tests there are.
+    costs : Costs
+        Machine hours.
+
+    Returns
+    -------
+    Orders
+        None where none is lacking.
+    """
     tested = done.isotherms
     beyond = [t for t in (tested[-1] + BEYOND, tested[0] - BEYOND) if COLDEST <= t <= WARMEST]
     between = [t for t in temperatures(done) if tested[0] < t < tested[-1] and t not in tested]
@@ -138,7 +207,18 @@ def _content(
 
 
 def named(specimens: Sequence[str]) -> str:
-    """`specimens A and B`, `specimen A and a new specimen`."""
+    """`specimens A and B`, `specimen A and a new specimen`.
+
+    Parameters
+    ----------
+    specimens : sequence of str
+        Their names.
+
+    Returns
+    -------
+    str
+        In words.
+    """
     own = [name for name in specimens if name not in (METAL, NEW)]
     others = [name for name in specimens if name in (METAL, NEW)]
     if len(own) > 1 and specimen_named(own[0]) != own[0]:
@@ -147,7 +227,18 @@ def named(specimens: Sequence[str]) -> str:
 
 
 def band(f: Sequence[float]) -> str:
-    """`1 and 10 Hz`, `0.1 to 25 Hz (6 frequencies)`."""
+    """`1 and 10 Hz`, `0.1 to 25 Hz (6 frequencies)`.
+
+    Parameters
+    ----------
+    f : sequence of float
+        Frequencies [Hz], ascending.
+
+    Returns
+    -------
+    str
+        In words.
+    """
     if len(f) < 4:
         return f"{joined([f'{x:g}' for x in f])} Hz"
     return f"{f[0]:g} to {f[-1]:g} Hz ({len(f)} frequencies)"

@@ -47,9 +47,22 @@ REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that shou
 def instructions(
     diagnosis: Diagnosis, costs: Costs | None = None, ahead: fixed_orders.Orders | None = None
 ) -> dict[str, Any]:
-    """Content of `instructions` in diagnosis.json: at most five, doubtful tests first, then by gain per hour.
+    """Content of `instructions` in diagnosis.json: at most five orders, doubtful tests first, then by gain per
+    hour.
 
-    ahead: orders that come before all others.
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    costs : Costs, optional
+        Machine hours; usual ones if None.
+    ahead : fixed_orders.Orders, optional
+        Orders that come before all others.
+
+    Returns
+    -------
+    dict
+        costs and orders.
     """
     costs = costs or Costs()
     model = possible(diagnosis, costs)
@@ -83,7 +96,20 @@ def instructions(
 
 
 def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
-    """Sweeps by gain per hour, each given those before it; the same sweep on several specimens is one order."""
+    """Sweeps by gain per hour, each given those before it; the same sweep on several specimens is one order.
+
+    Parameters
+    ----------
+    model : Possible
+        At all tests that could follow.
+    questions : sequence of Open
+        Open ones.
+
+    Returns
+    -------
+    list of Order
+        In the order chosen.
+    """
     inquiry = Inquiry(model.linear, model.old, [one.asked for one in questions])
     orders: list[Order] = []
     waiting = list(model.sweeps)

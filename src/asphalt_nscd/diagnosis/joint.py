@@ -197,6 +197,7 @@ class Noise:
         modulus, phase = np.split(self.discrepancy, 2)
         factor = np.concatenate([self._whitened(0, modulus), self._whitened(1, phase)])
         square, vector = np.linalg.eigh(factor.T @ factor)
+        # rounding may leave eigenvalues of a Gram matrix below zero
         square = np.maximum(square, 0.0)
         root = np.sqrt(1.0 + square)
         # (1 - 1/root)/square, without the difference of near numbers where the square is small.
@@ -311,6 +312,8 @@ class Joint:
             values = np.array(candidate.values)
             after = candidate.cause.apparent(modulus, values, observed)
             step = 1e-6 * modulus
+            # causes are analytic in the modulus, so one complex derivative carries those of all parameters
+            # before it
             gain = (candidate.cause.apparent(modulus + step, values, observed) - after) / step
             modulus = np.where(rows, after, modulus)
             slope = np.where(rows, gain, 1.0)[:, None] * slope
@@ -366,6 +369,7 @@ class Joint:
         """
         typical = active[index].typical
         low_high = []
+        # central differences, which err by the square of the step
         for sign in (-1.0, 1.0):
             values = np.array(active[index].values)
             values[parameter] += sign * 1e-3 * typical[parameter]
@@ -398,6 +402,7 @@ class Joint:
             for j in range(len(candidate.values))
         ]
         left = self.observed.logarithm - modelled
+        # one whitening for all columns
         whitened = self.noise.whiten(np.column_stack([slope / modulus[:, None], *causes, left]))
         jacobian, residual = np.ascontiguousarray(whitened[:, :-1]), whitened[:, -1].copy()
         prior, prior_slope = self.base.prior(law)
@@ -488,6 +493,7 @@ class Joint:
             while gained < 0.0 and damping < MOST_DAMPED:
                 step = _damped_step(now, damping)
                 if step is not None:
+                    # fits without causes start far from their end, where a whole step may leave all sense
                     limited = np.clip(step, -3.0, 3.0) if active == () else step
                     trial = self._moved(now, limited)
                     gained = now.objective - trial.objective
@@ -498,6 +504,7 @@ class Joint:
             if gained < 0.0:
                 break
             now, damping = trial, max(damping / 5.0, 1e-9)
+            # a small gain under heavy damping says that the step was short, not that the fit is at its best
             if gained < converged and (damping < 1e-2 or converged > CONVERGED):
                 break
         return now
@@ -518,6 +525,7 @@ class Joint:
 
 def _damped_step(now: Fitted, damping: float) -> Vector | None:
     """None where the precision is no positive definite matrix of finite numbers."""
+    # Marquardt's scaling: the damping means the same whatever the units of the parameters
     damped = now.precision + damping * np.diag(np.diag(now.precision) + 1e-9)
     if not (np.isfinite(damped).all() and np.isfinite(now.gradient).all()):
         return None

@@ -76,6 +76,7 @@ def required_phase(frequency: ArrayLike, log_modulus: ArrayLike, scatter: ArrayL
     """
     log_modulus = np.asarray(log_modulus, float)
     n = log_modulus.size
+    # the level says nothing of the slope; centred, it costs no digits against LEVEL
     centred = log_modulus - log_modulus.mean()
     evidence, means, variances = [], [], []
     for covariance, weight in zip(covariances(frequency), WEIGHTS, strict=True):
@@ -86,6 +87,8 @@ def required_phase(frequency: ArrayLike, log_modulus: ArrayLike, scatter: ArrayL
         )
         means.append(gain.T @ centred)
         variances.append(np.diag(covariance[n:, n:] - covariance[n:, :n] @ gain))
+    # the ripple is averaged over, not chosen: five frequencies seldom tell a smooth spectrum from one
+    # relaxation time
     share = np.exp(np.array(evidence) - logsumexp(evidence))
     mean = share @ np.array(means)
     spread = share @ (np.maximum(variances, 0.0) + (np.array(means) - mean) ** 2)
@@ -115,6 +118,7 @@ def covariances(frequency: ArrayLike) -> NDArray:
     slow = CONSTANT**2 + SLOW[0] ** 2 * np.exp(-0.5 * (apart / SLOW[1]) ** 2)
     quick = np.exp(-0.5 * (apart / QUICK) ** 2)
     slow, quick = (of_slope @ kernel @ of_slope.T for kernel in (slow, quick))
+    # a wide prior of the level stands for a flat one and keeps the covariance regular
     slow[: log_f.size, : log_f.size] += LEVEL**2
     return slow + np.array(RIPPLES)[:, None, None] ** 2 * quick
 

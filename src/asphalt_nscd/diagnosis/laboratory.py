@@ -115,6 +115,7 @@ def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | N
     # What a block shares is its mounting's: it is not counted twice.
     alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared))
     held = Joint(joint.observed, joint.base, alone.beside(_parts(_of_isotherm(joint, fitted))))
+    # what an isotherm's own temperature adds has a stated size; the others are estimated beside it
     found = estimate(held, held.linearise(fitted.law, fitted.scales, fitted.active))
     noise = alone.beside(_parts(found.factor(joint, fitted, alone.block)))
     return Joint(joint.observed, joint.base, noise), found

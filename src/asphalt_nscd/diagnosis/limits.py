@@ -56,6 +56,7 @@ def detection_limits(
     for k, candidate in enumerate(candidates):
         if found.seen[k]:
             size = threshold / np.sqrt(found.information[k]) * candidate.typical[0]
+            # where the law follows nearly all of a direction, the linear score says little of what it leaves
             size *= _by_refit(joint, fitted, candidate, size, threshold) if share[k] < CLOSE else 1.0
             if size <= candidate.cause.parameters[0].high:  # no cause is larger
                 sizes.setdefault(candidate.key, []).append(size)
@@ -97,6 +98,7 @@ def _beyond(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, thr
     present = (*fitted.active, candidate.with_values(np.array([size, *candidate.values[1:]])))
     modulus = joint.apparent(fitted.law, present, fitted.scales)[0]
     shown = Joint(replace(joint.observed, modulus=modulus), joint.base, joint.noise)
+    # against the truth, not zero: the priors of law and scales cost something there too
     truth = shown.linearise(fitted.law, fitted.scales, present).objective
     follows = shown.fit(fitted.law, fitted.scales, fitted.active, CONVERGED)
     left = of_likeliest_roughness(shown, follows, CONVERGED)[1].objective - truth

@@ -30,13 +30,28 @@ CLEAR = 2.0 * float(np.log(1000.0))  # strength from which two causes are told a
 class Open:
     """An open question, and how a reader is told what the tests would do for it.
 
-    about: what it is about, in words; other: what that is held against, in words. candidate, rival: the causes that
-    are meant, None where it is about a departure. alike: whether the two causes fitted the tests equally well. hidden:
-    strength that the tests done have less than the linear model says, for the law follows a large effect further than a
-    small one.
+    Parameters
+    ----------
+    kind : str
+        kept, metal, apart, repeat, level, linear or reach.
+    asked : Asked
+        The question, and the tests that count for it.
+    about : str
+        What it is about, in words.
+    other : str
+        What that is held against, in words.
+    candidate, rival : Candidate, optional
+        The causes that are meant, None where it is about a departure.
+    departure : Departure, optional
+        That it is about.
+    alike : bool
+        Whether the two causes fitted the tests equally well.
+    hidden : float
+        Strength that the tests done have less than the linear model says, for the law follows a large effect
+        further than a small one.
     """
 
-    kind: str  # kept, metal, apart, repeat, level, linear or reach
+    kind: str
     asked: Asked
     about: str
     other: str = ""
@@ -47,7 +62,18 @@ class Open:
     hidden: float = 0.0
 
     def at(self, order: Order) -> bool:
-        """Whether an order tests the specimen, isotherm and frequency of the departure that it is about."""
+        """Whether an order tests the departure that a question is about.
+
+        Parameters
+        ----------
+        order : Order
+            To the laboratory.
+
+        Returns
+        -------
+        bool
+            True at its specimen, isotherm and frequency.
+        """
         one, sweep = self.departure, order.sweep
         return (
             one is not None
@@ -64,9 +90,20 @@ class Open:
 
 @dataclass
 class Order:
-    """One order to the laboratory; hours, nats: what it costs and is expected to tell.
+    """One order to the laboratory.
 
-    helps: of each question that it helps, the strength before and after.
+    Parameters
+    ----------
+    sweep : Sweep
+        The tests.
+    specimens : list of str
+        Their names.
+    hours : float
+        What it costs.
+    nats : float
+        What it is expected to tell.
+    helps : dict of int to tuple of float
+        Of each question that it helps, the strength before and after.
     """
 
     sweep: Sweep
@@ -78,7 +115,17 @@ class Order:
 
 @dataclass(frozen=True)
 class Context:
-    """What an order stands in: others before it, a check of gauges among them; tests that somebody typed in."""
+    """What an order stands in.
+
+    Parameters
+    ----------
+    later : bool
+        Others come before it.
+    checked : bool
+        A check of gauges is among them.
+    typed : bool
+        Somebody typed the tests in.
+    """
 
     later: bool = False
     checked: bool = False
@@ -86,7 +133,22 @@ class Context:
 
 
 def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[str]:
-    """What the tests would do for the questions that they help most."""
+    """What the tests would do for the questions that they help most.
+
+    Parameters
+    ----------
+    order : Order
+        To the laboratory.
+    questions : sequence of Open
+        Open ones.
+    context : Context
+        What the order stands in.
+
+    Returns
+    -------
+    list of str
+        Sentences.
+    """
     told = {
         k: strengths
         for k, strengths in order.helps.items()
@@ -125,7 +187,20 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
 
 
 def purpose(order: Order, questions: Sequence[Open]) -> str:
-    """What an order is for, in a few words, without its first reason's numbers."""
+    """What an order is for, in a few words, without its first reason's numbers.
+
+    Parameters
+    ----------
+    order : Order
+        To the laboratory.
+    questions : sequence of Open
+        Open ones.
+
+    Returns
+    -------
+    str
+        "to ...".
+    """
     helped = [questions[k] for k in order.helps]
     here = f"{order.sweep.temperature:g} degC"
     again = [one.departure.frequency for one in helped if one.kind == "repeat" and one.departure]
@@ -227,7 +302,20 @@ def _reason(one: Open, before: float, after: float) -> str:
 
 
 def in_a_sentence(one: Order, done: Observations) -> str:
-    """An order in one sentence, its time first; done: the tests there are."""
+    """An order in one sentence, its time first.
+
+    Parameters
+    ----------
+    one : Order
+        The order.
+    done : Observations
+        The tests there are.
+
+    Returns
+    -------
+    str
+        The sentence.
+    """
     where = "" if one.sweep.specimen == METAL else f" at {one.sweep.temperature:g} degC"
     half = ", at half the strain" if one.sweep.half_strain else ""
     again = " again" if _all_tested(one, done) else ""

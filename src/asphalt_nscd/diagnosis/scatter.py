@@ -29,6 +29,8 @@ def pure_error(observed: Observations, nuisance: NDArray) -> tuple[Vector, Vecto
     design = np.vstack([np.hstack([cells, zero, nuisance.real]), np.hstack([zero, cells, nuisance.imag])])
     values = np.concatenate([logarithm.real, logarithm.imag])
     left, size, _ = np.linalg.svd(design, full_matrices=False)
+    # columns that say the same, as of a specimen tested at one condition, count once in the degrees of
+    # freedom
     left = left[:, size > 1e-9 * size[0]]
     residual = values - left @ (left.T @ values)
     n = observed.size
@@ -56,8 +58,10 @@ def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise
         None where no condition was repeated.
     """
     modulus, phase, freedom = pure_error(observed, nuisance)
+    # of five degrees of freedom the 95 % interval of a scatter spans a factor of four
     if freedom < 6:
         return None
+    # each residual is smaller than the scatter by what the conditions took; the same factor for all
     share = 2.0 * observed.size / freedom
     block = _blocks(observed)
     within, shared, sigmas = [], [], []

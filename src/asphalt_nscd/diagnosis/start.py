@@ -49,6 +49,7 @@ def fit_spectrum(
         joint = Joint(observed, base, noise)
         law = _first_law(observed, base, c1, c2)
         fitted = joint.fit(law, np.zeros(len(observed.names)), active)
+        # starts that end in the same minimum differ by rounding: the first of them is kept, on every machine
         if best is None or fitted.objective < best[0] - 1e-3:
             best = fitted.objective, joint, fitted
     assert best is not None
@@ -78,6 +79,7 @@ def of_likeliest_roughness(
     """
     scored = []
     for roughness in ROUGHNESS:
+        # from smooth to rough, each from the fit before, so that it starts near its end
         smooth = Joint(joint.observed, replace(joint.spectrum, roughness=roughness), joint.noise)
         fitted = smooth.fit(fitted.law, fitted.scales, fitted.active, converged)
         scored.append((marginal_likelihood(smooth, fitted), smooth, fitted))
@@ -128,6 +130,7 @@ def _first_burgers(omega: Vector, modulus: NDArray[np.complex128]) -> Vector:
         relative = (terms * modulus / stress).T
         compliance, miss = nnls(np.vstack([relative.real, relative.imag]), target)
         if best is None or miss < best[0]:
+            # NNLS gives zeros, of which no logarithm can start
             em, eta_m, ek = stress / np.maximum(compliance, UNSEEN) / [1.0, rate, 1.0]
             best = miss, np.array([em, eta_m, ek, ek * time])
     assert best is not None
@@ -152,6 +155,7 @@ def _first_law(observed: Observations, base: FlexibleSpectrum, c1: float, c2: fl
     largest = float(np.abs(observed.modulus).max())
     m = base.times.size
     slope = np.linspace(0.0, -4.0, m)  # weaker where slower
+    # the sum of the elements is to be a little more than the stiffest test, whatever their number
     strength = np.log(1.2 * largest) + slope - np.log(np.exp(slope).sum())
     c2 = max(c2, base.below + 2.0 * CLEAR)
     return np.concatenate([strength, [np.log(1e-3 * largest), np.log(c1 / c2), base.log_odds(1.0 / c2), 0.0]])

@@ -49,7 +49,20 @@ CONVERGED = 0.01  # change of the objective at which a fit beside a discrepancy 
 class State:
     """A fit of law and causes beside the discrepancy, and the model linearised there.
 
-    plain: the joint model whose noise is the scatter alone; wide: with the discrepancy; fitted: under wide.
+    Parameters
+    ----------
+    plain : Joint
+        The joint model whose noise is the scatter alone.
+    wide : Joint
+        With the discrepancy.
+    fitted : Fitted
+        Under wide.
+    linear : Fitted
+        Under plain, at the same parameters.
+    model : Reduced
+        Reduced to the processes.
+    variances : ndarray (m,)
+        Of the processes.
     """
 
     plain: Joint
@@ -73,9 +86,20 @@ class State:
 
 @dataclass(frozen=True)
 class Found:
-    """One cause taken: how likely by chance, the states before and after, and who did as well.
+    """One cause taken.
 
-    probability, shared: as of `ladder.Rung`.
+    Parameters
+    ----------
+    candidate : Candidate
+        The cause.
+    p_value : float
+        How likely by chance.
+    before, after : State
+        The states.
+    rivals : tuple of Candidate
+        Who did as well.
+    probability, shared : float
+        As of `ladder.Rung`.
     """
 
     candidate: Candidate
@@ -98,21 +122,68 @@ class Survey:
 
 
 def begin(plain: Joint, fitted: Fitted) -> State:
-    """Law and discrepancy with the causes of the fit, mostly none."""
+    """Law and discrepancy with the causes of the fit, mostly none.
+
+    Parameters
+    ----------
+    plain : Joint
+        The joint model whose noise is the scatter alone.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    State
+        The first state.
+    """
     found = discrepancy.processes(plain, fitted)
     start = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances
     return _smoothed(_settle(plain, found, fitted, fitted.active, start))
 
 
 def with_causes(state: State, active: tuple[Candidate, ...]) -> State:
-    """Fitted anew with these causes."""
+    """Fitted anew with other causes.
+
+    Parameters
+    ----------
+    state : State
+        To start from.
+    active : tuple of Candidate
+        The causes.
+
+    Returns
+    -------
+    State
+        With them.
+    """
     return _settle(state.plain, state.model.processes, state.fitted, active, state.variances)
 
 
 def climb(
     state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
 ) -> tuple[list[Found], State, Survey]:
-    """Causes that beat both chance and a discrepancy without a name, one after the other; the last state."""
+    """Causes that beat both chance and a discrepancy without a name, one after the other.
+
+    Parameters
+    ----------
+    state : State
+        To start from.
+    catalogue : sequence of Cause
+        Causes.
+    draws : int
+        Of the chance level.
+    random : Generator
+        Whence.
+
+    Returns
+    -------
+    list of Found
+        In the order taken.
+    State
+        The last one.
+    Survey
+        All causes, estimated there.
+    """
     taken: list[Found] = []
     surveyed = survey(state, catalogue)
     while len(taken) < MOST_CAUSES:
@@ -128,7 +199,26 @@ def climb(
 def again(
     state: State, kept: Sequence[Found], catalogue: Sequence[Cause]
 ) -> tuple[list[Found], State, Survey]:
-    """The ascent with these causes alone, in their order; state: without any cause."""
+    """The ascent with some causes alone, in their order.
+
+    Parameters
+    ----------
+    state : State
+        Without any cause.
+    kept : sequence of Found
+        The causes.
+    catalogue : sequence of Cause
+        All causes.
+
+    Returns
+    -------
+    list of Found
+        In the order taken.
+    State
+        The last one.
+    Survey
+        All causes, estimated there.
+    """
     taken: list[Found] = []
     for one in kept:
         candidate = one.after.fitted.active[-1]
@@ -174,7 +264,20 @@ def _smoothed(state: State) -> State:
 
 
 def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
-    """Candidates that the table can show, each estimated beside the discrepancy."""
+    """Candidates that the table can show, each estimated beside the discrepancy.
+
+    Parameters
+    ----------
+    state : State
+        Where they are estimated.
+    catalogue : sequence of Cause
+        Causes.
+
+    Returns
+    -------
+    Survey
+        Of each candidate.
+    """
     candidates, pointing = _pointing(state, catalogue)
     # A cause with shapes of its own has many directions: one start is enough for a candidate that is refitted. In a
     # large table the sizes are well determined, and each start takes a second.
@@ -341,10 +444,24 @@ def of_shapes(fitted: Fitted, candidate: Candidate, observed: Observations) -> f
 
 
 def hangs_on(state: State, candidate: Candidate, before: State | None = None) -> list[str]:
-    """What must not be left out for the cause to be seen: isotherms, frequencies, specimens; best none.
+    """What must not be left out for a cause to be seen.
 
-    A cause with shapes of its own is judged by what it gains over a fit without it: its shapes make its size uncertain
-    long before they make it doubtful that there is one. before: that fit, made here if not given.
+    A cause with shapes of its own is judged by what it gains over a fit without it: its shapes make its size
+    uncertain long before they make it doubtful that there is one.
+
+    Parameters
+    ----------
+    state : State
+        With the cause.
+    candidate : Candidate
+        The cause.
+    before : State, optional
+        The fit without it, made here if not given.
+
+    Returns
+    -------
+    list of str
+        Isotherms, frequencies, specimens; best none.
     """
     observed = state.plain.observed
     sign, carried = np.sign(candidate.values[0]), []
@@ -394,10 +511,22 @@ def _enough(rest: Observations, name: str) -> bool:
 
 
 def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]]:
-    """Amplitude of every cause at every place and its standard error, in physical units.
+    """Amplitude of every cause at every place.
 
     Of a cause that is in the fit, and of each other as if it were the next one. Of several shapes, the one
     that the table sees best.
+
+    Parameters
+    ----------
+    state : State
+        The last one.
+    surveyed : Survey
+        All causes, estimated there.
+
+    Returns
+    -------
+    dict of tuple to tuple of float
+        Amplitude and standard error in physical units, by cause and place.
     """
     out: dict[tuple, tuple[float, float]] = {}
     for active in state.fitted.active:
@@ -450,7 +579,28 @@ def _shapes_at(state: State, candidate: Candidate, amplitude: float) -> float:
 def detection_limits(
     state: State, surveyed: Survey, draws: int, random: np.random.Generator
 ) -> tuple[dict[tuple, float], list[Candidate], list[tuple[Candidate, Candidate]]]:
-    """Limits beside the discrepancy of this table, causes never seen in it, and pairs that look alike."""
+    """Limits beside the discrepancy of this table.
+
+    Parameters
+    ----------
+    state : State
+        The last one.
+    surveyed : Survey
+        All causes, estimated there.
+    draws : int
+        Of the chance level.
+    random : Generator
+        Whence.
+
+    Returns
+    -------
+    dict of tuple to float
+        By cause and place.
+    list of Candidate
+        Causes never seen in it.
+    list of tuple of Candidate
+        Pairs that look alike.
+    """
     sizes: dict[tuple, float] = {}
     unseen: list[Candidate] = []
     alike: list[tuple[Candidate, Candidate]] = []

@@ -44,7 +44,27 @@ _OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
 
 
 def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -> dict[str, Any]:
-    """Return `config` checked and with every default filled in; `source` names it in messages."""
+    """A study, checked and with every default filled in.
+
+    Parameters
+    ----------
+    config : mapping
+        As Snakemake read it.
+    source : str
+        Its name in messages.
+    schema : path
+        Of the configuration.
+
+    Returns
+    -------
+    dict
+        A new mapping.
+
+    Raises
+    ------
+    InputError
+        Which names the key and the mend.
+    """
     rules = yaml.safe_load(Path(schema).read_text(encoding="utf-8"))
     study = _numbers(copy.deepcopy(dict(config)))
     if isinstance(study.get("test"), str):
@@ -105,7 +125,18 @@ def refuse_repeated_keys(path: str | Path) -> None:
 
 
 def label(value: float) -> str:
-    """Temperature or frequency as it stands in file names: 15, -10, 12.5. Ten digits, as in tables."""
+    """Temperature or frequency as it stands in file names: 15, -10, 12.5.
+
+    Parameters
+    ----------
+    value : float
+        [degC] or [Hz].
+
+    Returns
+    -------
+    str
+        Ten digits, as in tables.
+    """
     return f"{value:.10g}"
 
 

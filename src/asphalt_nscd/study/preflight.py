@@ -24,7 +24,20 @@ KEYS = {"temperatures_C": "temperature_C", "frequencies_Hz": "frequency_Hz"}
 
 
 def require_feasible(study: Mapping[str, Any], source: str) -> None:
-    """Refuse a complete study (`complete_study`) that would fail later; `source` names it."""
+    """Refuse a study that would fail later.
+
+    Parameters
+    ----------
+    study : mapping
+        Complete (`complete_study`).
+    source : str
+        Its name in messages.
+
+    Raises
+    ------
+    InputError
+        Of the step which would fail, with the key of the study.
+    """
     if isinstance(study["geometry"], Mapping):
         with _at(source):
             read_geometry(study["geometry"], [])

@@ -32,7 +32,17 @@ class NotTests(InputError):
 
 @dataclass(frozen=True)
 class Sheet:
-    """Rows of one sheet of a workbook, or of a text file, which has no name; `notes` say how they were read."""
+    """Rows of one sheet of a workbook, or of a text file.
+
+    Parameters
+    ----------
+    name : str or None
+        None of a text file.
+    rows : list of Row
+        As text, with their line in the file.
+    notes : list of str
+        How they were read.
+    """
 
     name: str | None
     rows: list[Row]
@@ -41,9 +51,20 @@ class Sheet:
 
 @dataclass(frozen=True)
 class Cells:
-    """A header, and below it rows as long as it, with their line in the file; `notes` say how it was read.
+    """A header, and below it rows as long as it.
 
-    at: for each column the conditions that lines above its name give it, as in `Heading.at`.
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    header : list of str
+        Names of the columns.
+    rows : list of Row
+        As text, with their line in the file.
+    notes : list of str
+        How it was read.
+    at : list of dict of str, optional
+        For each column the conditions that lines above its name give it, as in `Heading.at`.
     """
 
     path: Path
@@ -54,7 +75,25 @@ class Cells:
 
 
 def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
-    """Cells of a CSV, TSV or XLSX file below its line of names; see `read_rows`."""
+    """Cells of a CSV, TSV or XLSX file below its line of names; see `read_rows`.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    sheet : str, optional
+        Of an XLSX file.
+
+    Returns
+    -------
+    Cells
+        As text.
+
+    Raises
+    ------
+    InputError
+        For what is no table.
+    """
     return as_cells(Path(path), *read_rows(path, sheet))
 
 
@@ -70,7 +109,24 @@ def read_rows(path: str | Path, sheet: str | None = None) -> tuple[list[Row], li
 def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
     """Each sheet of a CSV, TSV or XLSX file with its rows; blank rows and those that begin with # are left out.
 
-    sheet: name of the XLSX sheet, if only one is wanted.
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    sheet : str, optional
+        Name of the XLSX sheet, if only one is wanted.
+
+    Returns
+    -------
+    list of Sheet
+        At least one.
+
+    Raises
+    ------
+    NotTests
+        For a file that is empty or holds no table.
+    InputError
+        For one that is missing, too large, old or encrypted.
     """
     path = Path(path)
     if not path.is_file():
@@ -106,7 +162,27 @@ def _held(rows: list[Row]) -> list[Row]:
 
 
 def as_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
-    """A table from its rows, a title above its line of names left out; a row longer than that line is refused."""
+    """A table from its rows, a title above its line of names left out.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    rows : list of Row
+        As text, with their line in the file.
+    notes : list of str
+        How they were read.
+
+    Returns
+    -------
+    Cells
+        A header and rows.
+
+    Raises
+    ------
+    InputError
+        For a row that is longer than the header.
+    """
     rows, notes = list(rows), list(notes)
     while len(rows) > 2 and len(rows[0][1]) == 1 < len(rows[1][1]):
         notes.append(f"line {rows[0][0]} taken for a title: {rows[0][1][0]!r}")

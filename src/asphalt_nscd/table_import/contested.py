@@ -15,7 +15,18 @@ NEARER = 0.5  # of that, at the other temperature
 
 
 def refuse_mislabelled(parts: Sequence[Part]) -> None:
-    """Refuse an export whose moduli belong to the temperature that was not taken for it."""
+    """Refuse an export whose moduli belong to the temperature that was not taken for it.
+
+    Parameters
+    ----------
+    parts : sequence of Part
+        Of the campaign.
+
+    Raises
+    ------
+    InputError
+        Which names both temperatures.
+    """
     for part in parts:
         if not part.contested:
             continue

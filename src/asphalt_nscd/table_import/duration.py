@@ -17,10 +17,28 @@ CORES = 2
 def duration(
     spheres: int, samples: int, temperatures: int, frequencies: Sequence[float], time_step: float
 ) -> str:
-    """`about 20 minutes`, for two cores.
+    """How long a study will take on two cores.
 
-    Every test runs twice, as it is and extended by the diagnosis, and those of one temperature once
-    more for each changed parameter.
+    Every test runs twice, as it is and extended by the diagnosis, and those of one temperature once more for
+    each changed parameter.
+
+    Parameters
+    ----------
+    spheres : int
+        Of a specimen.
+    samples : int
+        Specimens.
+    temperatures : int
+        How many.
+    frequencies : sequence of float
+        [Hz].
+    time_step : float
+        [s].
+
+    Returns
+    -------
+    str
+        `about 20 minutes`.
     """
     isotherms = 2 * temperatures + CHANGED_LAWS
     steps = sum(CYCLES / (frequency * time_step) + REST_STEPS for frequency in frequencies)

@@ -19,7 +19,18 @@ TEST_TYPE, NOTES, SOURCE = "test_type", "notes", "source"  # keys of `attrs`
 
 
 def frame_of(campaign: Campaign) -> pd.DataFrame:
-    """The tests of a campaign, one row each; `attrs` holds the test type, the source and the notes of the import."""
+    """The tests of a campaign as a data frame.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Tests.
+
+    Returns
+    -------
+    DataFrame
+        One row each; `attrs` holds the test type, the source and the notes of the import.
+    """
     columns: dict[str, Any] = {}
     for name, cells in campaign.table.columns.items():
         if name in (*TEXTS, "record"):
@@ -40,7 +51,24 @@ def campaign_of(
 ) -> Campaign:
     """The campaign in a data frame, whose columns are named as those of a file may be.
 
-    chosen: see `understand`. test_type: else that of `attrs`, else bending.
+    Parameters
+    ----------
+    frame : DataFrame
+        Tests.
+    chosen : mapping of str to str, optional
+        See `understand`.
+    test_type : str, optional
+        Else that of `attrs`, else bending.
+
+    Returns
+    -------
+    Campaign
+        Tests in our columns.
+
+    Raises
+    ------
+    InputError
+        For no rows, or columns that are not understood.
     """
     header = [str(name) for name in frame.columns]
     texts = [[_text(value) for value in frame[name]] for name in frame.columns]

@@ -14,7 +14,29 @@ LEAST_FREQUENCY_STEP = 0.02  # relative
 
 
 def grid(frame: pd.DataFrame, path: Path) -> tuple[list[float], list[float], list[str]]:
-    """Temperatures [degC], frequencies [Hz] of the largest full grid, and tests outside it, as a note."""
+    """The largest full grid of temperatures and frequencies.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        Tests.
+    path : path
+        Of the table, for messages.
+
+    Returns
+    -------
+    list of float
+        Temperatures [degC].
+    list of float
+        Frequencies [Hz].
+    list of str
+        Tests outside it, as a note.
+
+    Raises
+    ------
+    InputError
+        For one frequency alone.
+    """
     temperatures, frequencies = (np.unique(frame[name]) for name in ("temperature_C", "frequency_Hz"))
     _require_apart(temperatures, np.diff(temperatures) < LEAST_TEMPERATURE_STEP, "temperatures", "degC", path)
     near = np.diff(frequencies) < LEAST_FREQUENCY_STEP * frequencies[:-1]

@@ -48,9 +48,16 @@ _UNIT_AT_END = re.compile(r"(?P<stem>.*?)\s*(?P<unit>[(\[{][^()\[\]{}]*[)\]}])\s
 
 @dataclass(frozen=True)
 class Heading:
-    """A heading without its conditions, `|E*| (MPa)`, and these as text, by the column that each becomes.
+    """A heading without its conditions, `|E*| (MPa)`, and these.
 
-    left_out: it stands above deviations of other columns.
+    Parameters
+    ----------
+    name : str
+        Without conditions.
+    at : mapping of str to str
+        Conditions, by the column that each becomes.
+    left_out : bool
+        It stands above deviations of other columns.
     """
 
     name: str
@@ -70,7 +77,18 @@ class Heading:
 
 
 def known(name: str) -> Column | None:
-    """The column that a name stands for; None also where it has a unit of another quantity."""
+    """The column that a name stands for.
+
+    Parameters
+    ----------
+    name : str
+        Of a column.
+
+    Returns
+    -------
+    Column or None
+        None also where it has a unit of another quantity.
+    """
     try:
         return recognise(name) if name else None
     except InputError:  # `understand` refuses it
@@ -78,7 +96,18 @@ def known(name: str) -> Column | None:
 
 
 def read_heading(text: str) -> Heading:
-    """The heading of one cell."""
+    """The heading of one cell.
+
+    Parameters
+    ----------
+    text : str
+        Of the cell.
+
+    Returns
+    -------
+    Heading
+        Name and conditions.
+    """
     if len(text) > LONGEST_NAME or known(text) is not None:
         return Heading(text)
     if _SPREAD.search(text):
@@ -102,13 +131,35 @@ def read_heading(text: str) -> Heading:
 
 
 def condition(text: str) -> dict[str, str]:
-    """What a cell says that holds nothing but conditions, `T = 4 °C`, `10 Hz`, `Spec. 1`; else empty."""
+    """What a cell says that holds nothing but conditions, `T = 4 °C`, `10 Hz`, `Spec. 1`.
+
+    Parameters
+    ----------
+    text : str
+        Of the cell.
+
+    Returns
+    -------
+    dict of str to str
+        By the column that each becomes; else empty.
+    """
     at: dict[str, str] = {}
     return at if len(text) <= LONGEST_NAME and not _tidy(_taken(text, at)) else {}
 
 
 def without_condition(name: str) -> str:
-    """Name of a column without what it is for."""
+    """Name of a column without what it is for.
+
+    Parameters
+    ----------
+    name : str
+        Of the column.
+
+    Returns
+    -------
+    str
+        The rest.
+    """
     return read_heading(name).name
 
 
@@ -134,5 +185,16 @@ def _tidy(text: str) -> str:
 
 
 def is_spread(label: str) -> bool:
-    """Whether what stands in place of a specimen says that a column holds deviations of others."""
+    """Whether what stands in place of a specimen says that a column holds deviations of others.
+
+    Parameters
+    ----------
+    label : str
+        That stands there.
+
+    Returns
+    -------
+    bool
+        True then.
+    """
     return bool(_SPREAD.match(label))

@@ -24,7 +24,18 @@ _PLURALS = {CELSIUS: "temperatures", FAHRENHEIT: "temperatures", HERTZ: "frequen
 
 
 def headings_of(cells: Cells) -> list[Heading]:
-    """The headings of a table, with what its lines above them say."""
+    """The headings of a table, with what its lines above them say.
+
+    Parameters
+    ----------
+    cells : Cells
+        The table.
+
+    Returns
+    -------
+    list of Heading
+        One for each column.
+    """
     read = _replicates([read_heading(name) for name in cells.header])
     return [
         replace(one, at={**one.at, **at}) if one.is_result else one
@@ -45,7 +56,18 @@ def _replicates(headings: list[Heading]) -> list[Heading]:
 
 
 def held(cells: Cells) -> set[str]:
-    """Quantities that the columns and their headings give."""
+    """Quantities that the columns and their headings give.
+
+    Parameters
+    ----------
+    cells : Cells
+        The table.
+
+    Returns
+    -------
+    set of str
+        Our names.
+    """
     found = set()
     for heading in headings_of(cells):
         told = [name for name, text in heading.at.items() if text != MEAN]
@@ -54,13 +76,35 @@ def held(cells: Cells) -> set[str]:
 
 
 def holds_means(cells: Cells) -> bool:
-    """Whether all results of a table are means."""
+    """Whether all results of a table are means.
+
+    Parameters
+    ----------
+    cells : Cells
+        The table.
+
+    Returns
+    -------
+    bool
+        False without results.
+    """
     results = [one for one in headings_of(cells) if one.is_result]
     return bool(results) and all(one.at.get(SPECIMEN) == MEAN for one in results)
 
 
 def melted(cells: Cells) -> Cells:
-    """One row for each test, where headings hold conditions; other tables as they are."""
+    """One row for each test, where headings hold conditions.
+
+    Parameters
+    ----------
+    cells : Cells
+        The table.
+
+    Returns
+    -------
+    Cells
+        Other tables as they are.
+    """
     headings, notes = headings_of(cells), list(cells.notes)
     means = [n for n, one in enumerate(headings) if one.at.get(SPECIMEN) == MEAN]
     others = [one for one in headings if one.is_result and one.at.get(SPECIMEN) != MEAN]

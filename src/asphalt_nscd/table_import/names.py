@@ -19,10 +19,20 @@ _SAME = 1.0  # K between a temperature in a name and the target it means
 
 @dataclass(frozen=True)
 class Name:
-    """A specimen, the temperature that stood in its name ([degC], as text), and what the operator remarked.
+    """What an operator typed for one test.
 
-    contradicts: the name gives another temperature than the header. hyphened: a single hyphen stands before the
-    temperature, which may be a minus.
+    Parameters
+    ----------
+    specimen : str
+        Its own name.
+    temperature : str or None
+        That stood in its name [degC], as text.
+    repeated : bool
+        The operator remarked that.
+    contradicts : bool
+        The name gives another temperature than the header.
+    hyphened : bool
+        A single hyphen stands before the temperature, which may be a minus.
     """
 
     specimen: str
@@ -35,7 +45,17 @@ class Name:
 def specimen_of(text: str, target: float | None) -> Name:
     """Name of the specimen, without temperature, remarks and the bracket at the end.
 
-    target: temperature of the test as the header has it [degC]; None if it has none.
+    Parameters
+    ----------
+    text : str
+        That was typed.
+    target : float or None
+        Temperature of the test as the header has it [degC]; None if it has none.
+
+    Returns
+    -------
+    Name
+        And what else it says.
     """
     plain = re.sub(r"\s*[(\[][^)\]]*[)\]]\s*$", "", text).strip()
     found = list(_TEMPERATURE.finditer(plain))
@@ -59,17 +79,50 @@ def _is(match: re.Match[str], target: float) -> bool:
 
 
 def of_file(stem: str) -> str:
-    """What an export's file is called, without the machine's mark of a summary."""
+    """What an export's file is called, without the machine's mark of a summary.
+
+    Parameters
+    ----------
+    stem : str
+        Of its name.
+
+    Returns
+    -------
+    str
+        The rest.
+    """
     return re.sub(r"[_\s-]*Sum(mary)?$", "", stem, flags=re.IGNORECASE)
 
 
 def one_of_another(first: str, second: str) -> bool:
-    """Whether two names are of two specimens of one series: `Mix-B` and `Mix-C`, `K10` and `K11`."""
+    """Whether two names are of two specimens of one series: `Mix-B` and `Mix-C`, `K10` and `K11`.
+
+    Parameters
+    ----------
+    first, second : str
+        The names.
+
+    Returns
+    -------
+    bool
+        True then.
+    """
     return spelling(first) != spelling(second) and _series(first) == _series(second)
 
 
 def spelling(name: str) -> str:
-    """A name without what people write now one way and now another: capitals, blanks, hyphens."""
+    """A name without what people write now one way and now another: capitals, blanks, hyphens.
+
+    Parameters
+    ----------
+    name : str
+        Any.
+
+    Returns
+    -------
+    str
+        To compare.
+    """
     return re.sub(r"[\W_]+", "-", name.casefold())
 
 
@@ -82,6 +135,19 @@ def _degrees(match: re.Match[str]) -> float:
 
 
 def celsius(text: str, unit: str) -> float:
-    """A temperature in C, F or K [degC]."""
+    """A temperature in degC.
+
+    Parameters
+    ----------
+    text : str
+        The number.
+    unit : str
+        "C", "F" or "K".
+
+    Returns
+    -------
+    float
+        [degC].
+    """
     value = float(text.replace(",", "."))
     return {"C": value, "F": celsius_of_fahrenheit(value), "K": value - 273.15}[unit]

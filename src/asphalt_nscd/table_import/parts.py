@@ -24,8 +24,22 @@ _LEAST = 2  # frequencies for that: of one, the retest may be the mend
 class Part:
     """Tests of one file or sheet, or of one block of an export.
 
-    means: its results are means. tested: when, as the header has it. repeated: whether it was marked as a
-    repetition. contested, unnamed: see `Block`.
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    read : ParsedTable
+        The tests.
+    exported : bool
+        By a machine.
+    repeated : bool
+        Whether it was marked as a repetition.
+    tested : str
+        When, as the header has it.
+    contested, unnamed : str
+        See `Block`.
+    means : bool
+        Its results are means.
     """
 
     path: Path
@@ -51,7 +65,20 @@ class Part:
 
 
 def without_copies(parts: list[Part], notes: list[str]) -> list[Part]:
-    """Parts without those whose every test another file holds already, whatever it calls the specimens."""
+    """Parts without those whose every test another file holds already, whatever it calls the specimens.
+
+    Parameters
+    ----------
+    parts : list of Part
+        Of the campaign.
+    notes : list of str
+        Are added to.
+
+    Returns
+    -------
+    list of Part
+        Those kept.
+    """
     kept: list[Part] = []
     for part in parts:
         others = [one for one in kept if one.source != part.source or one.path != part.path]
@@ -80,7 +107,20 @@ def _saved_twice(part: Part, holders: list[Part]) -> str:
 
 
 def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
-    """Parts in which exports that spell one specimen differently, `Mix-A` and `mix a`, give it one name."""
+    """Parts in which exports that spell one specimen differently, `Mix-A` and `mix a`, give it one name.
+
+    Parameters
+    ----------
+    parts : list of Part
+        Of the campaign.
+    notes : list of str
+        Are added to.
+
+    Returns
+    -------
+    list of Part
+        All.
+    """
     first: dict[str, str] = {}
     others: dict[str, list[str]] = {}
     kept = []
@@ -98,7 +138,21 @@ def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
 
 
 def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
-    """Parts in which no two files or sheets give one test: that of the later date, or marked as repeated, is kept."""
+    """Parts in which no two files or sheets give one test: that of the later date, or marked as repeated, is
+    kept.
+
+    Parameters
+    ----------
+    parts : list of Part
+        Of the campaign.
+    notes : list of str
+        Are added to.
+
+    Returns
+    -------
+    list of Part
+        Those kept.
+    """
     _require_specimens_of_names(parts)
     _require_alike(parts)
     taken: dict[tuple[str, ...], int] = {}

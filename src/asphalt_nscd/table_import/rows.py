@@ -34,9 +34,26 @@ _NAMES, _REMARK, _MEAN, _NOT_MEASURED = (
 
 
 def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -> Cells:
-    """The rows that are tests; what merged cells hold is written into each row. The notes say what was left out.
+    """The rows that are tests; what merged cells hold is written into each row.
 
-    places: columns by what they hold. measured: which of these are the results of a test.
+    Parameters
+    ----------
+    cells : Cells
+        The table.
+    places : mapping of str to int
+        Columns by what they hold.
+    measured : sequence of str
+        Which of these are the results of a test.
+
+    Returns
+    -------
+    Cells
+        The notes say what was left out.
+
+    Raises
+    ------
+    InputError
+        For no line with numbers.
     """
     keys = [places[name] for name in ("temperature_C", "frequency_Hz")]
     results = [places[name] for name in measured]

@@ -18,7 +18,18 @@ _SCHEMES = {
 
 
 def schemes_in(path: Path) -> set[str]:
-    """Kinds of test, of TEST_TYPES, that the first lines of a file name."""
+    """Kinds of test that the first lines of a file name.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+
+    Returns
+    -------
+    set of str
+        Of TEST_TYPES.
+    """
     try:
         sheets = read_sheets(path)
     except InputError:

@@ -13,7 +13,17 @@ MOST_NAMES = 3
 
 @dataclass(frozen=True)
 class SkippedFile:
-    """A file or a sheet, why it is passed over, and how to mend that."""
+    """A file or a sheet that is passed over.
+
+    Parameters
+    ----------
+    name : str
+        Of the file.
+    reason : str
+        Why.
+    mend : str
+        How to mend that.
+    """
 
     name: str
     reason: str
@@ -21,14 +31,40 @@ class SkippedFile:
 
 
 def refused(name: str, error: InputError, path: Path) -> SkippedFile:
-    """A file that was refused; path: as the error names it."""
+    """A file that was refused.
+
+    Parameters
+    ----------
+    name : str
+        Of the file.
+    error : InputError
+        Which refused it.
+    path : path
+        As the error names it.
+
+    Returns
+    -------
+    SkippedFile
+        With reason and mend.
+    """
     said = str(error).removeprefix(f"{path}: ").removeprefix(f"{path}, ")
     reason, _, mend = said.partition("; ")
     return SkippedFile(name, reason.partition(" (found:")[0], mend)
 
 
 def listed(files: Sequence[SkippedFile]) -> str:
-    """`a.csv, b.csv, c.csv and 9 more (the file is empty); d.pdf (neither CSV, ...)`."""
+    """`a.csv, b.csv, c.csv and 9 more (the file is empty); d.pdf (neither CSV, ...)`.
+
+    Parameters
+    ----------
+    files : sequence of SkippedFile
+        Passed over.
+
+    Returns
+    -------
+    str
+        By reason.
+    """
     by_reason: dict[str, list[str]] = {}
     for one in files:
         by_reason.setdefault(one.reason, []).append(one.name)
@@ -40,5 +76,16 @@ def listed(files: Sequence[SkippedFile]) -> str:
 
 
 def common_mend(files: Sequence[SkippedFile]) -> str:
-    """What mends all of them, if they have one reason; else empty."""
+    """What mends all of them, if they have one reason.
+
+    Parameters
+    ----------
+    files : sequence of SkippedFile
+        Passed over.
+
+    Returns
+    -------
+    str
+        Else empty.
+    """
     return files[0].mend if len({one.reason for one in files}) == 1 else ""

@@ -28,18 +28,43 @@ MOST_SPHERES = 200_000
 
 @dataclass(frozen=True)
 class Spheres:
-    """counts: number by diameter [mm]; box: length, width, height [m] that holds them and the specimen."""
+    """The spheres of a study and their box.
+
+    Parameters
+    ----------
+    counts : Series
+        Number by diameter [mm].
+    box : tuple of float
+        Length, width, height [m] that holds them and the specimen.
+    smallest_mm : float
+        What is finer belongs to the mastic [mm].
+    """
 
     counts: pd.Series
     box: tuple[float, float, float]
-    smallest_mm: float = SMALLEST_MM  # what is finer belongs to the mastic
+    smallest_mm: float = SMALLEST_MM
 
 
 def spheres_for(shape: Shape, grading: pd.Series | None = None) -> Spheres:
-    """Spheres of the paper's volume per volume of specimen, of its sizes, in a cylinder twice as large, or of a sieve
-    curve.
+    """Spheres of the paper's volume per volume of specimen, of its sizes, in a cylinder twice as large, or of a
+    sieve curve.
 
-    grading: per cent passing by sieve [mm].
+    Parameters
+    ----------
+    shape : Shape
+        Geometry of the specimen.
+    grading : Series, optional
+        Per cent passing by sieve [mm].
+
+    Returns
+    -------
+    Spheres
+        And their box.
+
+    Raises
+    ------
+    InputError
+        For more spheres than MOST_SPHERES.
     """
     coarser = COARSER if isinstance(shape, Cylinder) else 1.0
     room, smallest = _block(shape) / _block(PAPER), SMALLEST_MM * coarser
@@ -81,7 +106,25 @@ def _box(geometry: Shape, counts: pd.Series) -> tuple[float, float, float]:
 
 
 def read_grading(path: str | Path, sheet: str | None = None) -> pd.Series:
-    """Per cent passing by sieve [mm], from a table of any kind that `read_cells` reads."""
+    """Read a sieve curve, from a table of any kind that `read_cells` reads.
+
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    sheet : str, optional
+        Of an XLSX file.
+
+    Returns
+    -------
+    Series
+        Per cent passing by sieve [mm].
+
+    Raises
+    ------
+    InputError
+        Which names column or line and the mend.
+    """
     cells = read_cells(path, sheet)
     places = {}
     for place, name in enumerate(cells.header):

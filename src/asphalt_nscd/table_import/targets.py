@@ -23,7 +23,17 @@ _NUMBER = re.compile(r"[-−]?\d+(?:[.,]\d+)?")
 
 @dataclass(frozen=True)
 class Header:
-    """The target in the header as it stands there, its unit (C, F or K), and the name of a column for it."""
+    """The target in the header of an export.
+
+    Parameters
+    ----------
+    text : str
+        As it stands there.
+    unit : str
+        "C", "F" or "K".
+    column : str
+        Name of a column for it.
+    """
 
     text: str
     unit: str
@@ -37,7 +47,17 @@ class Header:
 
 @dataclass(frozen=True)
 class Target:
-    """The target taken and the name of its column; contested: what a name or the header says beside it [degC]."""
+    """The target taken.
+
+    Parameters
+    ----------
+    text : str
+        The temperature.
+    column : str
+        Its name.
+    contested : str
+        What a name or the header says beside it [degC].
+    """
 
     text: str
     column: str
@@ -45,7 +65,22 @@ class Target:
 
 
 def median_reading(rows: Sequence[Row], place: int | None, unit: str | None) -> float | None:
-    """The middle one of the temperatures measured [degC]; None if a cell is no number, or no unit is known."""
+    """The middle one of the temperatures measured.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        As text, with their line in the file.
+    place : int or None
+        Of the column.
+    unit : str or None
+        Of the column.
+
+    Returns
+    -------
+    float or None
+        [degC]; None if a cell is no number, or no unit is known.
+    """
     unit = (unit or "")[-1:]
     if place is None or unit not in ("C", "F", "K"):
         return None
@@ -59,10 +94,30 @@ def median_reading(rows: Sequence[Row], place: int | None, unit: str | None) -> 
 def decided(
     path: Path, header: Header | None, names: Sequence[str], measured: float | None, notes: list[str]
 ) -> Target | None:
-    """The target; None if there is neither a target nor a name that must stand for one.
+    """The target of an export. A name or a header that is far from the readings gives way to the other.
 
-    names: texts that may say a temperature. measured: the middle reading [degC]. A name or a header that is far from
-    the readings gives way to the other; without readings two that are far apart are refused.
+    Parameters
+    ----------
+    path : path
+        Of the file.
+    header : Header or None
+        Its target.
+    names : sequence of str
+        Texts that may say a temperature.
+    measured : float or None
+        The middle reading [degC].
+    notes : list of str
+        Are added to.
+
+    Returns
+    -------
+    Target or None
+        None if there is neither a target nor a name that must stand for one.
+
+    Raises
+    ------
+    InputError
+        For two that are far apart, and no readings that decide.
     """
     if header is None:
         return _without_header(path, names, measured, notes)

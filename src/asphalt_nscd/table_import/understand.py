@@ -42,10 +42,22 @@ _ANGLES = (
 
 @dataclass(frozen=True)
 class ParsedTable:
-    """A table in our columns and units, its form (a key of FORMS), and sentences on how it was read.
+    """A table in our columns and units.
 
-    sources: for each of our columns the user's, and the unit it was converted from. mix: its name, if a column says it.
-    modulus_unit: what |E*| was converted from, empty if it was in MPa.
+    Parameters
+    ----------
+    table : Table
+        The tests.
+    form : str
+        A key of FORMS.
+    notes : list of str
+        How it was read.
+    sources : dict of str to str
+        For each of our columns the user's, and the unit it was converted from.
+    mix : str
+        Its name, if a column says it.
+    modulus_unit : str
+        What |E*| was converted from, empty if it was in MPa.
     """
 
     table: Table
@@ -59,7 +71,22 @@ class ParsedTable:
 def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> ParsedTable:
     """Tests of a user's table.
 
-    chosen: names of columns by what they hold, `{"E_GPa": "Steifigkeit"}`, where a name does not tell.
+    Parameters
+    ----------
+    cells : Cells
+        The table.
+    chosen : mapping of str to str, optional
+        Names of columns by what they hold, `{"E_GPa": "Steifigkeit"}`, where a name does not tell.
+
+    Returns
+    -------
+    ParsedTable
+        In our columns and units.
+
+    Raises
+    ------
+    InputError
+        For what is ambiguous; it names the column and the mend.
     """
     if not chosen and (ours := _own(cells)):
         return ours
@@ -155,7 +182,18 @@ def _columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
 
 
 def names_force_or_modulus(cell: str) -> bool:
-    """Whether a cell is the name of a column with moduli or forces and says their unit, also of a wide table."""
+    """Whether a cell is the name of a column with moduli or forces and says their unit, also of a wide table.
+
+    Parameters
+    ----------
+    cell : str
+        Its text.
+
+    Returns
+    -------
+    bool
+        True then.
+    """
     try:
         column = recognise(read_heading(cell).name)
     except InputError:  # a unit that the quantity does not have

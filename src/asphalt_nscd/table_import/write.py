@@ -49,11 +49,27 @@ SMALL_SPHERES = Spheres(pd.Series({2.0: 600, 3.0: 200, 4.0: 90}), (0.06, 0.01, 0
 
 @dataclass(frozen=True)
 class StudyOptions:
-    """What the user says beside the table; None where nothing."""
+    """What the user says beside the table; None where nothing.
+
+    Parameters
+    ----------
+    geometry : mapping or path, optional
+        Of the specimen.
+    grading : path, optional
+        File of a sieve curve.
+    measured_in : str, optional
+        Test that gave the moduli, one of TEST_TYPES.
+    small : bool
+        Few spheres.
+    sheet : str, optional
+        Of an XLSX file.
+    columns : mapping of str to str, optional
+        See `understand`.
+    """
 
     geometry: Mapping[str, float] | Path | None = None
     grading: Path | None = None
-    measured_in: str | None = None  # test that gave the moduli, one of TEST_TYPES
+    measured_in: str | None = None
     small: bool = False
     sheet: str | None = None
     columns: Mapping[str, str] | None = None
@@ -62,8 +78,28 @@ class StudyOptions:
 def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) -> tuple[Path, list[str]]:
     """Write config/NAME.yaml, and below data/NAME/ the table in our columns and the spheres.
 
-    Returns the path of the configuration, and what was understood. Nothing is replaced, and what was
-    written is taken away again where the study would be refused.
+    Nothing is replaced, and what was written is taken away again where the study would be refused.
+
+    Parameters
+    ----------
+    name : str
+        Of the study.
+    measurements : sequence of path
+        Files and folders.
+    options : StudyOptions
+        What the user says beside them.
+
+    Returns
+    -------
+    Path
+        The configuration.
+    list of str
+        What was understood.
+
+    Raises
+    ------
+    InputError
+        For a study that would fail later.
     """
     config, folder = Path("config", f"{name}.yaml"), Path("data", name)
     _require_free(name, config, folder)

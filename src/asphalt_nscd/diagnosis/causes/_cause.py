@@ -23,7 +23,19 @@ MATERIAL, SPECIMEN, HEAD, CHANNEL = range(4)  # in the order in which a signal p
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter of a cause: unit, bounds, and the size at which its effect is of order a per cent."""
+    """One parameter of a cause.
+
+    Parameters
+    ----------
+    name : str
+        Of the parameter.
+    unit : str
+        Of its value.
+    low, high : float
+        Bounds.
+    typical : float
+        Size at which its effect is of order a per cent.
+    """
 
     name: str
     unit: str
@@ -54,21 +66,68 @@ class Cause(ABC):
     benches: ClassVar[tuple[str, ...]] = TEST_TYPES
 
     def places(self, observed: Observations) -> Sequence[Place]:
-        """Where the cause may sit; empty if the table cannot show it or the bench cannot have it."""
+        """Where the cause may sit.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        sequence
+            Specimens, isotherms [degC], or None: all tests; empty if the table cannot show it or the bench
+            cannot have it.
+        """
         return (None,) if self.on_bench(observed) else ()
 
     def on_bench(self, observed: Observations) -> bool:
-        """Whether the apparatus of these tests can have the cause at all."""
+        """Whether the apparatus of these tests can have the cause at all.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        bool
+            True if so, or if the bench is unknown and every bench can.
+        """
         if observed.test_type == UNKNOWN:  # only what every test can have
             return set(TEST_TYPES) <= set(self.benches)
         return observed.test_type in self.benches
 
     def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
-        """Values of the parameters after the first at which its search starts."""
+        """Values of the parameters after the first at which its search starts.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        sequence of tuple of float
+            At least one.
+        """
         return ((),)
 
     def rows(self, observed: Observations, place: Place) -> NDArray[np.bool_]:
-        """Rows (n,) that the cause reaches."""
+        """Rows that the cause reaches.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests.
+        place : Place
+            Where it sits.
+
+        Returns
+        -------
+        ndarray of bool (n,)
+            True there.
+        """
         if place is None:
             return np.ones(observed.size, bool)
         if isinstance(place, str):
@@ -76,20 +135,73 @@ class Cause(ABC):
         return observed.isotherm == place
 
     def impossible(self, values: Vector, observed: Observations) -> str:
-        """Why these tests cannot have a cause of this size; empty where they can."""
+        """Why these tests cannot have a cause of this size.
+
+        Parameters
+        ----------
+        values : ndarray (p,)
+            Of its parameters, in their units.
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        str
+            Empty where they can.
+        """
         return ""
 
     def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
-        """Temperature of the mix above the one stated [K], (n,)."""
+        """Temperature of the mix above the one stated.
+
+        Parameters
+        ----------
+        values : ndarray (p,)
+            Of its parameters, in their units.
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        ndarray (n,) or float
+            [K].
+        """
         return 0.0
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """Modulus E* (n,) [Pa] after this cause, of the modulus before it; analytic in the modulus."""
+        """Modulus after this cause, of the modulus before it; analytic in the modulus.
+
+        Parameters
+        ----------
+        modulus : ndarray of complex (n,)
+            E* before [Pa].
+        values : ndarray (p,)
+            Of its parameters, in their units.
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            E* after [Pa].
+        """
         return modulus
 
     def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
-        """What it changes at the head and in the channel of the simulation: keys of `rig.read_rig`.
+        """What it changes at the head and in the channel of the simulation.
 
-        form_factor: gamma [1/m] of the specimen; amplitude [m] of the simulated test.
+        Parameters
+        ----------
+        values : ndarray (p,)
+            Of its parameters, in their units.
+        form_factor : float
+            gamma of the specimen [1/m].
+        amplitude : float
+            Of the simulated test [m].
+
+        Returns
+        -------
+        dict of str to float
+            Keys of `rig.read_rig`.
         """
         return {}
