@@ -25,10 +25,25 @@ TITLE = "asphalt-nscd: complex modulus of asphalt concrete by nonsmooth contact 
 
 
 def write_crate(files: Sequence[Path], root: Path, workflow: Path, provenance: Path, output: Path) -> None:
-    """Put files (below root) and the workflow into the archive `output` (.zip), as the results of one run.
+    """Put files and the workflow into an archive, as the results of one run.
 
-    provenance: `asphalt-nscd provenance` of the run, which names the study, the commit and the versions of packages.
-    Raises InputError if a file is not there.
+    Parameters
+    ----------
+    files : sequence of path
+        Below root.
+    root : path
+        Of the study.
+    workflow : path
+        Its Snakefile.
+    provenance : path
+        `asphalt-nscd provenance` of the run, which names the study, the commit and the versions of packages.
+    output : path
+        Archive to write (.zip).
+
+    Raises
+    ------
+    InputError
+        If a file is not there.
     """
     for path in (*files, workflow, provenance):
         require_readable(path, "run the study first, or check the path")

@@ -19,7 +19,18 @@ MOST_LABELS = 8
 
 
 def banded(largest: float) -> BoundaryNorm:
-    """Bands 1, 2, 5, 10, ... about zero that reach the largest value."""
+    """Bands 1, 2, 5, 10, ... about zero that reach the largest value.
+
+    Parameters
+    ----------
+    largest : float
+        Of the values.
+
+    Returns
+    -------
+    BoundaryNorm
+        Of colours.
+    """
     steps = np.array([m * 10.0**e for e in range(-6, 6) for m in (1, 2, 5)])
     last = int(np.searchsorted(steps, largest))
     edges = steps[last - BANDS + 1 : last + 1]
@@ -29,7 +40,24 @@ def banded(largest: float) -> BoundaryNorm:
 def draw_table(
     axes: Axes, table: pd.DataFrame, norm: BoundaryNorm, bold: NDArray[np.bool_] | None = None
 ) -> QuadMesh:
-    """Cells of a table (index degC, columns Hz) with numbers where they are few; heavy ones where `bold`."""
+    """Cells of a table with numbers where they are few.
+
+    Parameters
+    ----------
+    axes : Axes
+        To draw on.
+    table : DataFrame
+        Index degC, columns Hz.
+    norm : BoundaryNorm
+        Of colours.
+    bold : ndarray of bool, optional
+        Whose numbers are heavy.
+
+    Returns
+    -------
+    QuadMesh
+        For a colour bar.
+    """
     axes.set_facecolor(style.PALE)  # shows where nothing was tested
     image = axes.pcolormesh(table.to_numpy(), cmap=COLOURS, norm=norm, edgecolors="white", linewidth=0.5)
     for (i, k), value in np.ndenumerate(table.to_numpy()):

@@ -27,7 +27,20 @@ VIEW = View(azimuth=-18.0, elevation=12.0)
 
 @style.journal
 def draw(deposit: list[Path], specimen: list[Path]) -> Figure:
-    """(a) lattice, (b) poured, (c) vibrated, (d) specimen, (e) section of it with its bonds."""
+    """(a) lattice, (b) poured, (c) vibrated, (d) specimen, (e) section of it with its bonds.
+
+    Parameters
+    ----------
+    deposit : list of path
+        HDF5 files of deposits.
+    specimen : list of path
+        HDF5 file of a specimen; the first is drawn.
+
+    Returns
+    -------
+    Figure
+        In the size of a journal column.
+    """
     poured = load(the_only(deposit, "deposit"), "deposit")
     cut = load(the_only(specimen, "specimen"), "specimen")
     radius, sizes = poured.arrays["radius"], np.unique(poured.arrays["radius"])

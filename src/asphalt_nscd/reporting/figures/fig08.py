@@ -21,7 +21,21 @@ HEIGHTS = 5  # shown in (b)
 
 @style.journal
 def draw(test: list[Path], specimen: list[Path]) -> Figure:
-    """(a) velocity along the drive against height, beside the beam or bar behind its form factor; (b) against time."""
+    """(a) velocity along the drive against height, beside the beam or bar behind its form factor; (b) against
+    time.
+
+    Parameters
+    ----------
+    test : list of path
+        HDF5 file of a test.
+    specimen : list of path
+        HDF5 file of a specimen; the first is drawn.
+
+    Returns
+    -------
+    Figure
+        In the size of a journal column.
+    """
     path = the_only(test, "test")
     record = load(path, "test")
     if "profile/velocity_m_s" not in record.arrays:

@@ -28,7 +28,23 @@ def draw(
 ) -> Figure:
     """(a) before, (b) after: simulated means and those they are held against, with standard deviations.
 
-    laws: the Burgers laws of (a), one for each temperature; common: the law of all temperatures in (b).
+    Parameters
+    ----------
+    simulations : list of path
+        simulations.csv of the study.
+    extended : list of path
+        Table of the extended simulation.
+    measured : list of path
+        Reduced measurements.
+    laws : list of path
+        The Burgers laws of (a), one for each temperature.
+    common : list of path
+        The law of all temperatures in (b).
+
+    Returns
+    -------
+    Figure
+        In the size of a journal column.
     """
     burgers = {read_json(path)["temperature_C"]: read_law(path).complex_modulus for path in laws}
     spectrum = read_spectrum(the_only(common, "common"))

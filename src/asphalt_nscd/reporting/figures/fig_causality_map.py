@@ -37,7 +37,20 @@ NONE = "No isotherm has the four tests needed to compare modulus and phase."
 
 @style.journal
 def draw(causality: list[Path], diagnosis: list[Path]) -> Figure:
-    """One panel for each specimen, one cell for each test; all share one scale, symmetric about zero."""
+    """One panel for each specimen, one cell for each test; all share one scale, symmetric about zero.
+
+    Parameters
+    ----------
+    causality : list of path
+        causality.csv.
+    diagnosis : list of path
+        diagnosis.json.
+
+    Returns
+    -------
+    Figure
+        In the size of a journal column.
+    """
     content, tests = read_diagnosis(diagnosis), read_causality(causality)
     tests["difference"] = tests["phase_deg"] - tests["phase_required_deg"]
     specimens = tests["specimen"].unique()

@@ -14,7 +14,20 @@ from asphalt_nscd.reporting.tables import fatigue
 
 @style.journal
 def draw(course: list[Path], profile: list[Path]) -> Figure:
-    """One curve for each sample, at the strain epsilon6; lives of all at three strains."""
+    """One curve for each sample, at the strain epsilon6; lives of all at three strains.
+
+    Parameters
+    ----------
+    course : list of path
+        Courses of fatigue, one file for each sample.
+    profile : list of path
+        Profiles of damage, one file for each sample.
+
+    Returns
+    -------
+    Figure
+        In the size of a journal column.
+    """
     figure, (falls, wohler, height) = style.new_figure(style.WIDE, 60.0, columns=3)
     lives, grows = fatigue.make(course), fatigue.factor(course)
     for path, beside, (colour, marker) in zip(course, profile, style.series(len(course)), strict=True):

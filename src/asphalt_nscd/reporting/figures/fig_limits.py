@@ -22,7 +22,18 @@ NONE = "No cause of the catalogue could have shown in these data."
 
 @style.journal
 def draw(diagnosis: list[Path]) -> Figure:
-    """One panel for each cause, in its own unit; one bar for each place where it may sit."""
+    """One panel for each cause, in its own unit; one bar for each place where it may sit.
+
+    Parameters
+    ----------
+    diagnosis : list of path
+        diagnosis.json.
+
+    Returns
+    -------
+    Figure
+        In the size of a journal column.
+    """
     content = read_diagnosis(diagnosis)
     limits = content["detection_limits"]
     if not limits:

@@ -15,7 +15,18 @@ from asphalt_nscd.reporting.figures import style
 
 @style.journal
 def draw(packing: list[Path]) -> Figure:
-    """One point for each deposit, labelled with its coefficient of friction; open: with bonds that are facets."""
+    """One point for each deposit, labelled with its coefficient of friction; open: with bonds that are facets.
+
+    Parameters
+    ----------
+    packing : list of path
+        packing.csv.
+
+    Returns
+    -------
+    Figure
+        In the size of a journal column.
+    """
     both = all("mapping" in read_csv(path).columns for path in packing)
     tests = read_tests(packing, numbers=["friction", "solid_fraction"], texts=["mapping"] if both else [])
     tests["facets"] = tests["mapping"] == "facets" if both else False

@@ -22,7 +22,20 @@ LOOKS = {
 
 @style.journal
 def draw(readings: list[Path], simulations: list[Path]) -> Figure:
-    """(a) |E*| over that of the law, (b) phase, with the phase of the law as a line."""
+    """(a) |E*| over that of the law, (b) phase, with the phase of the law as a line.
+
+    Parameters
+    ----------
+    readings : list of path
+        Tests of the other readings.
+    simulations : list of path
+        simulations.csv of the study.
+
+    Returns
+    -------
+    Figure
+        In the size of a journal column.
+    """
     other = read_tests(readings, texts=["head", "law_source"])
     other["reading"] = "blocked"
     other.loc[other["law_source"] == "pascal", "reading"] = "pascal"

@@ -21,7 +21,21 @@ UNSHIFTED = "frequency (Hz); no law common to all temperatures"
 
 @style.journal
 def draw(causality: list[Path], diagnosis: list[Path]) -> Figure:
-    """(a) Black diagram, (b, c) |E*| and phase against reduced frequency; a colour and a marker for each specimen."""
+    """(a) Black diagram, (b, c) |E*| and phase against reduced frequency; a colour and a marker for each
+    specimen.
+
+    Parameters
+    ----------
+    causality : list of path
+        causality.csv.
+    diagnosis : list of path
+        diagnosis.json.
+
+    Returns
+    -------
+    Figure
+        In the size of a journal column.
+    """
     content, tests = read_diagnosis(diagnosis), read_causality(causality)
     shift, axis = _shift(content)
     tests["reduced_Hz"] = tests["frequency_Hz"] * 10.0 ** tests["temperature_C"].map(shift).fillna(0.0)

@@ -17,16 +17,32 @@ SURROUNDINGS = 1.5  # mean radii over which surroundings are averaged
 
 @dataclass(frozen=True)
 class View:
-    """Orthographic camera: turned about the vertical by `azimuth`, then raised by `elevation` [deg].
+    """Orthographic camera. Untilted it looks along +y: x is to the right and z up.
 
-    Untilted it looks along +y: x is to the right and z up.
+    Parameters
+    ----------
+    azimuth : float
+        Turned about the vertical [degrees].
+    elevation : float
+        Then raised [degrees].
     """
 
     azimuth: float
     elevation: float
 
     def project(self, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Right, up and towards the viewer (n, 3) of positions (n, 3)."""
+        """Positions as the camera sees them.
+
+        Parameters
+        ----------
+        position : ndarray (n, 3)
+            [m].
+
+        Returns
+        -------
+        ndarray (n, 3)
+            Right, up and towards the viewer [m].
+        """
         a, e = np.radians([self.azimuth, self.elevation])
         right = np.array([np.cos(a), np.sin(a), 0.0])
         ahead = np.array([-np.sin(a) * np.cos(e), np.cos(a) * np.cos(e), -np.sin(e)])
@@ -41,9 +57,27 @@ def picture(
     view: View,
     resolution: float,
 ) -> tuple[NDArray[np.float64], tuple[float, float, float, float]]:
-    """RGBA image and its extent (left, right, bottom, top) [m] in the view's plane.
+    """Shaded spheres.
 
-    position (n, 3), radius (n,) [m]; colour (n, 3) in 0..1; resolution in pixels per metre.
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        [m].
+    radius : ndarray (n,)
+        [m].
+    colour : ndarray (n, 3)
+        0 to 1.
+    view : View
+        The camera.
+    resolution : float
+        Pixels per metre.
+
+    Returns
+    -------
+    ndarray (height, width, 4)
+        RGBA image.
+    tuple of float
+        Its extent (left, right, bottom, top) in the view's plane [m].
     """
     scale = resolution * OVERSAMPLING
     seen = view.project(position)

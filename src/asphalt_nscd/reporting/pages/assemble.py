@@ -20,7 +20,17 @@ COLUMN = 1000  # px, more than a journal's column of 90 mm has; a broader figure
 
 @dataclass(frozen=True)
 class Entry:
-    """A figure (PNG) or a table (the HTML page made of it), in a part of the report; the files that hold its data."""
+    """A figure (PNG) or a table (the HTML page made of it).
+
+    Parameters
+    ----------
+    part : str
+        Of the report.
+    path : path
+        Of the file.
+    sources : list of path
+        The files that hold its data.
+    """
 
     part: str
     path: Path
@@ -35,9 +45,25 @@ class Entry:
 def assemble(
     study: str, page: Mapping[str, Any], entries: Iterable[Entry], captions: Path, folder: Path = Path()
 ) -> str:
-    """HTML of the report. captions: folder with a reStructuredText file for each entry, its first line in bold.
+    """The report as one HTML file.
 
-    folder: where the report will stand; from there links lead to the files behind figures and tables.
+    Parameters
+    ----------
+    study : str
+        Its name.
+    page : mapping
+        First page.
+    entries : iterable of Entry
+        Figures and tables.
+    captions : path
+        Folder with a reStructuredText file for each entry, its first line in bold.
+    folder : path
+        Where the report will stand; from there links lead to the files behind figures and tables.
+
+    Returns
+    -------
+    str
+        HTML.
     """
     parts: dict[str, list[dict[str, Any]]] = {}
     for entry in entries:

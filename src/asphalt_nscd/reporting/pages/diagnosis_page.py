@@ -59,13 +59,39 @@ CELSIUS, DEGREES, MINUS = (
 
 
 def in_type(text: str) -> str:
-    """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus."""
+    """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus.
+
+    Parameters
+    ----------
+    text : str
+        Of the terminal.
+
+    Returns
+    -------
+    str
+        In print.
+    """
     text = DEGREES.sub("°", CELSIUS.sub("°C", text).replace("+-", "±"))
     return MINUS.sub("\N{MINUS SIGN}", text)
 
 
 def render(content: dict[str, Any], title: str, links: Sequence[str] = ()) -> str:
-    """HTML of the sections. links: files beside the page that hold what it shows."""
+    """HTML of the sections.
+
+    Parameters
+    ----------
+    content : dict
+        Of `sections`.
+    title : str
+        Of the page.
+    links : sequence of str
+        Files beside the page that hold what it shows.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
     filled = environment()
     filled.filters["in_type"] = in_type
     return filled.get_template(TEMPLATE).render(
@@ -83,7 +109,23 @@ def sections(
 ) -> dict[str, Any]:
     """What the page says, as text and rows of text, and plots that name their tests.
 
-    Of diagnosis.json, residuals.csv and causality.csv; table4, ladder: tables of a study; curve: master_curve.csv.
+    Parameters
+    ----------
+    diagnosis : list of path
+        diagnosis.json.
+    residuals : list of path
+        residuals.csv.
+    causality : list of path
+        causality.csv.
+    table4, ladder : sequence of path
+        Tables of a study.
+    curve : sequence of path
+        master_curve.csv.
+
+    Returns
+    -------
+    dict
+        For the template.
     """
     content = read_diagnosis(diagnosis)
     rungs = content["ladder"]
