@@ -122,6 +122,7 @@ def read_excerpt(path: str | Path, model_file: str | Path) -> ModelExcerpt:
         from asphalt_nscd.bending.model import read_model
 
         model = read_model(model_file)
+        # `condense` may have run again since, and left this excerpt behind
         if model.digest != attributes["model_digest"]:
             raise InputError(
                 f"{path}: belongs to another model than {model_file}; make both with one `condense`."

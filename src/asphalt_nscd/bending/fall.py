@@ -81,6 +81,7 @@ def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> Worl
         For a specimen that only plates hold together.
     """
     network, n = specimen.network, specimen.radius.size
+    # plates do not fall with the specimen
     inside = np.maximum(network.first, network.second) < n
     between = WorldBonds(
         network.first[inside],
@@ -100,6 +101,7 @@ def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> Worl
     made.cut(below[between.first] != below[between.second])
     turn = Rotation.from_euler("y", fall.tilt, degrees=True)
     made.position, made.rotation = turn.apply(specimen.position), turn * made.rotation
+    # the lowest surface, not the lowest centre, hangs at this height
     made.position[:, 2] += fall.height - (made.position[:, 2] - specimen.radius).min()
     return made
 

@@ -109,6 +109,7 @@ class Model:
         left = np.ones(self.bonds, bool)
         left[broken] = False
         plates = len(self.geometry.plates)
+        # plates of different clusters have no path of bonds between them
         plate = clusters(self.shape["first"][left], self.shape["second"][left], self.spheres + plates)[
             -plates:
         ]

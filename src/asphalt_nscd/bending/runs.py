@@ -174,6 +174,7 @@ def by_path(
 
 
 def _certified(stepper: ReducedStepper, model: Model | ModelExcerpt, run: Histories) -> Histories:
+    # the kernel breaks bonds without looking for pieces: asked once, at the end
     if run.broken:
         model.whole.require_whole(run.broken)
     certificate = stepper.certificate()
@@ -290,6 +291,7 @@ def _in_one_call(
     except FullSystemNeeded as accepted:
         whole, done = model.whole, accepted.force.size
         state = stepper.full_state()
+        # the full system goes on from where the last accepted step ended
         path = np.concatenate([[0.0], driven])[done:]
         full = _full_stepper(whole, law, stepper.dt, state, stepper.devices, path[0])
         rest = _follow(full, path, whole.layers, options, lambda: stepper.certify(full))
@@ -359,6 +361,7 @@ def _one_by_one(
         if small is None:
             run.velocity[n] = layers.mean @ stepper.state.velocity
         elif march.stepper is small:
+            # a break or an enrichment has widened the basis
             if small.model.basis.shape[1] != along.shape[1]:
                 along = layers.mean @ small.model.basis
             run.velocity[n] = along @ small.state.velocity

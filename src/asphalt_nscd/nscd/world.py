@@ -208,6 +208,8 @@ class World:
             Where the motion is not finite.
         """
         dt, law, before = self.dt, self._step_law, self.velocity
+        # the configuration in the middle of the step, by the velocity before it: openings then err by the
+        # square of dt
         ahead = self._moved(0.5 * dt * before)
         opening, frame, point = self._openings(*ahead)
         operator = opening_operator(self.bonds.first, self.bonds.second, frame, point, ahead[0])
@@ -222,6 +224,8 @@ class World:
             factor = factors(matrix.tocsc())
             push = self.mass * before + dt * self._load
             beyond = np.zeros_like(explicit)  # of the openings, what is not linear in the motion [m/s]
+            # openings are not linear in the motion: what G v lacks of them enters the law, until it does not
+            # change any more
             for _ in range(MOST_TURNS):
                 start = factor.solve(push + operator.T @ (scaled * (explicit - beyond)))
                 velocity = contacts.solve(start, factor, dt)
@@ -235,6 +239,7 @@ class World:
             worst = int(np.argmax(used)) if used.size else -1
             if worst < 0 or used[worst] <= 1.0:
                 break
+            # one at a time: a break unloads some of the bonds that were overstressed beside it
             self.broken[worst] = True
         if not np.isfinite(velocity).all():
             raise ArithmeticError("the motion of a step is not finite")
@@ -370,6 +375,7 @@ class _Contacts:
             free = rows @ velocity
             free[::3] += gap[touching] / dt
             delassus = rows @ response
+            # symmetric but for rounding of the factors
             solved = solve_contacts(
                 0.5 * (delassus + delassus.T), free, self.friction[touching], tolerance=TOLERANCE
             )
@@ -386,6 +392,7 @@ class _Contacts:
 
 def _frames(normal: np.ndarray) -> np.ndarray:
     """Axes (c, 3, 3), rows: normals (c, 3) and two tangents."""
+    # the axis farthest from the normal: the cross product keeps its digits
     least = np.eye(3)[np.argmin(np.abs(normal), axis=1)] if len(normal) else normal
     tangent = np.cross(normal, least)
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)

@@ -155,6 +155,7 @@ def _partners(
                 if needed <= other.shape[0]:
                     break
                 other = np.concatenate((other, np.empty(max(needed, other.shape[0]), np.int64)))
+            # ascending, so that reactions are carried from list to list in one pass
             _sort(other, end, end + found)
             found += _planes_near(
                 i,
@@ -367,6 +368,7 @@ def _fill_cells(position, radius, reach, extra):
     spheres = np.empty((blocks, 6, WIDTH))  # in the order of the cells: read in one stream
     spheres[:, :3] = FAR
     spheres[:, 3:] = 0.0
+    # from the last sphere, so that each cell holds its own in ascending order
     for i in range(n - 1, -1, -1):
         first[index[i]] -= 1
         at = first[index[i]]

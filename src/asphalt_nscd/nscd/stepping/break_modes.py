@@ -160,6 +160,8 @@ class StandBy:
         gram = self.projection.stiffness[np.ix_(columns[1:], columns[1:])]
         try:
             upper = np.linalg.inv(np.linalg.cholesky(gram)).T
+        # directions that depend on each other, to the rounding of single precision: the stepper then finds
+        # its own
         except np.linalg.LinAlgError:
             return None
         k = basis.shape[1] - 1
@@ -223,12 +225,14 @@ class _Network:
 
     def stress(self) -> np.ndarray:
         """Utilisation (b,) of each bond, either way, per unit of the driven motion; zero where broken."""
+        # least squares, for a break may leave a body loose and the stiffness singular
         others = np.linalg.lstsq(self._stiffness[1:, 1:], -self._stiffness[1:, 0], rcond=None)[0]
         shares = np.split(
             np.concatenate([[1.0], others]), np.cumsum([o.shape[1] for o in self._openings])[:-1]
         )
         opening = sum(part @ share for part, share in zip(self._openings, shares, strict=True))
         reaction = self._weight * opening
+        # the head moves both ways
         return np.maximum(self._system.utilisation(reaction), self._system.utilisation(-reaction))
 
 
