@@ -190,6 +190,20 @@ def test_a_summary_counts_what_it_says_and_puts_earlier_rates_beside():
     assert found.loc["pairs at 3 limits: both named", "met"] == "not tried"
 
 
+def test_a_table_with_a_broken_isotherm_is_not_one_without_structure():
+    rows = [row(None, "nothing", verdict="unexplained_structure"), *(row(None, "nothing") for _ in range(3))]
+    for one, broken in zip(rows, (True, True, False, False), strict=True):
+        one["broken"] = broken
+    rows.append(row(Fault("phase_offset", 1.1), ladder=[entry("phase_offset")]))
+    table, names = rates.frames([{"rows": rows, "names": []}])
+    found = rates.summary(table, names).set_index("what")
+    sound, broken = (
+        f"nothing put in, {what}: unexplained" for what in ("no isotherm broken", "an isotherm broken")
+    )
+    assert found.loc[sound, ["percent", "of", "met"]].tolist() == [0.0, 2, "yes"]
+    assert found.loc[broken, ["percent", "of"]].tolist() == [50.0, 2]
+
+
 def test_probabilities_are_held_against_how_often_they_are_right():
     names = pd.DataFrame(
         [{"established": True, "probability": 0.93, "right": n < 18} for n in range(20)]
