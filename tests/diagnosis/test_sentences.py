@@ -1,5 +1,6 @@
 """Sentences on tests that are doubtful, and on what another choice of tests would name."""
 
+import numpy as np
 import pytest
 
 from asphalt_nscd.diagnosis import sentences, unexplained
@@ -7,11 +8,13 @@ from asphalt_nscd.diagnosis.fixed_orders import named
 from asphalt_nscd.diagnosis.sentences import (
     cause_words,
     causes,
+    estimate,
     law_of_the_mix,
     with_suspects,
     without_doubtful,
 )
 from asphalt_nscd.diagnosis.unexplained import left
+from asphalt_nscd.diagnosis.written import interval_95
 
 
 def content(used: int, out: int, **then):
@@ -288,3 +291,12 @@ def test_what_would_not_be_seen_is_told(isotherms, spread, never, said):
     assert unexplained.unseen(content) == said
     named = content | {"ladder": [{"cause": "temperature_bias"}]}
     assert "emperature" not in " ".join(unexplained.unseen(named))
+
+
+def test_a_size_uncertain_by_a_factor_has_its_ends_beside_it():
+    strength = {"value": 2e9, "std_error": 1e9, "unit": "Pa", "interval_95": interval_95(2e9, 1e9, 1.0, True)}
+    assert strength["interval_95"][0] > 0.0
+    assert np.sqrt(np.prod(strength["interval_95"])) == pytest.approx(2e9)
+    assert estimate(strength) == "2000 (751 to 5330) MPa"
+    even = strength | {"interval_95": interval_95(2e9, 1e9)}
+    assert estimate(even) == "2000 +- 2000 MPa"

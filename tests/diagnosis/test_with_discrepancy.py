@@ -160,6 +160,22 @@ def test_the_cost_of_shapes_is_that_of_an_integral_over_them():
     assert with_discrepancy.of_shapes(fitted, single, observed) == 0.0
 
 
+def test_the_limit_of_a_second_process_pays_for_its_shapes(monkeypatch):
+    observed = table(broken=0.0, design=TRAPEZOIDS)
+    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    surveyed = with_discrepancy.survey(begun, CATALOGUE)
+
+    def limits():
+        return with_discrepancy.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
+
+    priced = limits()
+    monkeypatch.setattr(with_discrepancy, "_shapes_at", lambda state, candidate, amplitude: 0.0)
+    free = limits()
+    assert priced["secondary_process", None] > 1.1 * free["secondary_process", None]
+    assert priced["channel_delay", None] == free["channel_delay", None]
+
+
 def test_what_competes_for_a_name_has_a_size_and_shapes_of_its_own():
     observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
