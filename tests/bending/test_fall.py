@@ -36,6 +36,7 @@ def test_it_starts_at_rest_over_the_floor_in_two_pieces(small):
         released(clamped, QUICK_LAW, Fall(), Bonds())
 
 
+@pytest.mark.slow
 def test_what_a_fall_sets_free_is_what_named_parts_take(small):
     """In free fall 20 mm set m g h free and all is motion; on the floor, impacts and friction have taken it.
 

@@ -7,8 +7,29 @@ import pandas as pd
 import pytest
 from naive.prony import SPECTRA
 
+from asphalt_nscd.exports import card
 from asphalt_nscd.exports.law import read_law_file
+from asphalt_nscd.rheology.maxwell_fitting import fit_series
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
+
+
+@pytest.fixture(autouse=True)
+def series_fitted_once(monkeypatch, fitted_series):
+    """One series for all formats of a law, in place of a fit for each, which `rheology/test_maxwell.py` tests."""
+
+    def fit(modulus, lowest_omega, highest_omega, allowed):
+        law = modulus(np.geomspace(lowest_omega, highest_omega, 9)).tobytes()
+        key = (law, lowest_omega, highest_omega, allowed)
+        if key not in fitted_series:
+            fitted_series[key] = fit_series(modulus, lowest_omega, highest_omega, allowed)
+        return fitted_series[key]
+
+    monkeypatch.setattr(card, "fit_series", fit)
+
+
+@pytest.fixture(scope="session")
+def fitted_series():
+    return {}
 
 
 @pytest.fixture(params=SPECTRA)
