@@ -13,6 +13,8 @@ from pandas.testing import assert_frame_equal
 import asphalt_nscd as an
 from asphalt_nscd import cli
 
+pytestmark = pytest.mark.slow
+
 EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
 
 
@@ -60,8 +62,15 @@ def test_a_frame_is_diagnosed_as_the_files_it_was_read_from(diagnosis):
     assert from_frame.content["provenance"]["measurements"].startswith("DataFrame")
 
 
-def test_rows_taken_out_of_a_frame_are_not_diagnosed():
+@pytest.fixture(scope="module")
+def warm() -> pd.DataFrame:
+    """Tests of one temperature, whose diagnosis takes a tenth of the time."""
     table = an.read(EXPORTS)
+    return table[table["temperature_C"] > 45.0]
+
+
+def test_rows_taken_out_of_a_frame_are_not_diagnosed(warm):
+    table = warm
     without = an.diagnose(table[table["specimen"] != "Mix-B"], draws=an.Draws(500))
     assert set(without.residuals["specimen"]) == {"Mix-A", "Mix-C"}
     assert without.content["reading"]["test_type"] == "tension-compression"
@@ -145,8 +154,8 @@ def test_export_of_a_diagnosis_is_that_of_its_folder(diagnosis, folder, tmp_path
     assert said[0].partition(": ")[2] == said[1].partition(": ")[2]
 
 
-def test_the_kind_of_test_is_said_or_refused_as_by_the_command(tmp_path, capsys):
-    table = an.read(EXPORTS)
+def test_the_kind_of_test_is_said_or_refused_as_by_the_command(warm, tmp_path, capsys):
+    table = warm
     bent = an.diagnose(table, measured_in="bending", draws=an.Draws(500))
     assert bent.content["reading"]["test_type"] == "bending"
     with pytest.raises(
@@ -158,9 +167,9 @@ def test_the_kind_of_test_is_said_or_refused_as_by_the_command(tmp_path, capsys)
     assert done.value.code == 2 and "'bending', 'tension-compression'" in capsys.readouterr().err
 
 
-def test_what_is_known_beside_the_table(diagnosis):
+def test_what_is_known_beside_the_table(warm):
     stated = an.diagnose(
-        EXPORTS, known=an.Known(static_modulus_MPa=50.0, scatter=(2.0, 0.5)), draws=an.Draws(500)
+        warm, known=an.Known(static_modulus_MPa=50.0, scatter=(2.0, 0.5)), draws=an.Draws(500)
     )
     said = stated.content["provenance"]
     assert said["static_modulus_Pa"] == 50e6 and said["scatter_stated"] == pytest.approx(

@@ -9,6 +9,8 @@ import pytest
 
 import asphalt_nscd as an
 
+pytestmark = pytest.mark.slow
+
 SHAPE = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}
 
 

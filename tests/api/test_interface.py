@@ -74,6 +74,7 @@ def test_an_unknown_name_is_an_attribute_error():
         an.diagnos  # noqa: B018
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("before", ["", "import asphalt_nscd.specimen.preparation; "])
 def test_specimen_is_the_function_although_a_folder_has_its_name(before):
     script = (

@@ -16,6 +16,8 @@ from asphalt_nscd.cli.compare import command
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import HuetSayegh
 
+pytestmark = pytest.mark.slow
+
 GLASSY = {"soft": 24e9, "stiff <b>": 36e9, "soft too": 24.1e9}
 
 

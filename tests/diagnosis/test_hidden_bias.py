@@ -14,6 +14,8 @@ from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.table_import.campaign import read_campaign
 
+pytestmark = pytest.mark.slow
+
 EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
 
 

@@ -19,6 +19,8 @@ from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.sentences import in_words
 from asphalt_nscd.diagnosis.sweeps import METAL, NEW, Costs, Sweep
 
+pytestmark = pytest.mark.slow
+
 BIAS = TemperatureBias()
 
 

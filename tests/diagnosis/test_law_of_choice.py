@@ -20,6 +20,8 @@ from asphalt_nscd.reporting.pages.diagnosis_page import PARAMETERS
 from asphalt_nscd.reporting.pages.handout import law_in_words
 from asphalt_nscd.table_import.campaign import read_campaign
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):

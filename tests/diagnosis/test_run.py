@@ -25,6 +25,8 @@ from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 from asphalt_nscd.table_import.campaign import read_campaign
 
+pytestmark = pytest.mark.slow
+
 PUBLISHED = Path(__file__).parents[2] / "results/published/paper"
 EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
 FEW = run.Draws(500)

@@ -10,6 +10,8 @@ import pytest
 
 import asphalt_nscd
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 MODULES = [
     "api.arguments", "api.bending", "api.comparison", "api.contacts", "api.diagnosis", "api.exporting",

@@ -30,6 +30,7 @@ def test_densities_by_hand(recipe):
     assert densities(recipe) == pytest.approx([0.94 * maximum, maximum], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_more_air_and_more_binder_soften_and_a_stiffer_binder_stiffens(changes):
     signs = {"air voids": -1, "binder content": -1, "binder stiffness": 1, "dry contacts": 1}
     for name, sign in signs.items():
@@ -63,6 +64,7 @@ def many(recipe, packing):
     return changes_of(points, Networks(lambda level, seed: packing))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("decades", [0.6, -0.45])
 def test_a_stiffer_binder_moves_a_mix_along_its_own_curve(many, decades):
     """Whatever the mix: named alone, its size roughly."""

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import re
 
+import pytest
 import yaml
 from workspace import ROOT
+
+pytestmark = pytest.mark.slow
 
 PROFILE = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
 RULES = "".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))

@@ -139,6 +139,7 @@ def states(members: int) -> str:
     return hashlib.sha256(b"".join(array.tobytes() for array in told)).hexdigest()
 
 
+@pytest.mark.slow
 def test_no_number_of_threads_changes_a_bit():
     """Positions, velocities and impulses of every step on one thread, two and three."""
     one = states(1)

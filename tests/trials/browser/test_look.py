@@ -17,9 +17,12 @@ from asphalt_nscd.reporting.pages.diagnosis_page import render, sections
 from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE
 from asphalt_nscd.reporting.pages.style import page as page_of
 
-pytestmark = pytest.mark.skipif(
-    find() is None, reason="no Chromium on PATH (Debian: apt install chromium); CHROMIUM names another"
-)
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(
+        find() is None, reason="no Chromium on PATH (Debian: apt install chromium); CHROMIUM names another"
+    ),
+]
 
 
 def png(colour="white", width=4):

@@ -34,6 +34,7 @@ def test_a_seed_repeats_its_call_and_all_functions_are_called():
     assert calls.called(7) == calls.called(7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("function", ["law", "solve_contacts", "read", "read_packing", "export"])
 def test_a_few_calls_end_in_a_result_or_a_sentence(function):
     seeds = [seed for seed in range(300) if calls.called(seed) == function][:3]
