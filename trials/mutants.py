@@ -110,7 +110,7 @@ def earlier(path: Path) -> dict[str, str]:
     "--output",
     type=click.Path(path_type=Path),
     help="Folder for the table of mutants, and their number in each room. A mutant tried there before, with the same "
-    "sources and tests, is not tried again.",
+    "sources and tests, is not tried again; one that is not tried now keeps its row.",
 )
 def main(words: tuple[str, ...], output: Path | None) -> None:
     """Try the mutants, or those of which WORDS say something."""
@@ -133,14 +133,17 @@ def main(words: tuple[str, ...], output: Path | None) -> None:
 
 
 def write_tables(output: Path, mutants: list, digests: list[str], judged: dict[str, str]) -> None:
-    """The mutants judged so far, their number in each room, and from which commit."""
-    rows = [
-        one._asdict() | {"noticed_by": judged[digest], "sources": digest}
+    """The mutants judged so far, those of earlier runs too, their number in each room, and from which commit."""
+    path = output / "mutants.csv"
+    before = pd.read_csv(path, keep_default_na=False).to_dict("records") if path.is_file() else []
+    rows = {row["what"]: row for row in before} | {
+        one.what: one._asdict() | {"noticed_by": judged[digest], "sources": digest}
         for one, digest in zip(mutants, digests)
         if digest in judged
-    ]
-    write_table(output / "mutants.csv", pd.DataFrame(rows))
-    write_table(output / "summary.csv", summary(pd.DataFrame(rows)))
+    }
+    table = pd.DataFrame([rows[one.what] for one in MUTANTS if one.what in rows])
+    write_table(path, table)
+    write_table(output / "summary.csv", summary(table))
     write_json(output / "provenance.json", provenance())
 
 
