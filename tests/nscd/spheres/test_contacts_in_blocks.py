@@ -109,10 +109,14 @@ def test_sweeps_block_by_block_are_those_one_by_one(relaxation):
     packed, motion = rows_of(workspace)[contact], workspace.motion[:BODIES].copy()
     last, room = np.empty(len(workspace.motion), np.int32), np.empty((1, 1, WIDTH), np.int32)
     blocks, contacts, begin, count, visits = slabs.blocks, workspace.contacts, 0, slabs.begin[1], range(300)
+    spare = len(workspace.noted) - 2
     for quiet, calm in ((0.3, np.inf), (np.inf, 0.5)):
+        workspace.noted[:-1] = 7.0
         *sums, noted = sweep_blocks(
-            blocks, contacts, begin, count, 8, (0.3, 0.3), relaxation, quiet, calm, workspace, room
+            blocks, contacts, begin, count, 8, (0.3, 0.3), relaxation, quiet, calm, workspace, room, spare
         )
+        others = np.delete(workspace.noted[:-1], [*range(8, 8 + noted), spare], axis=0)
+        assert (others == 7.0).all()  # they may be those of another thread
         if contacts is workspace.lively_contacts:
             give_back(begin, count, workspace)
         *expected, lively, kinds = sweep_one_by_one(

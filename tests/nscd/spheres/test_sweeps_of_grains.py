@@ -65,7 +65,7 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
     once_more = [
         sweep_blocks(
             slabs.blocks, workspace.contacts, slabs.begin[slab], slabs.begin[slab + 1] - slabs.begin[slab],
-            WIDTH * slabs.begin[slab], (0.5, 0.5), 1.0, 0.0, np.inf, workspace, ROOM,
+            WIDTH * slabs.begin[slab], (0.5, 0.5), 1.0, 0.0, np.inf, workspace, ROOM, len(workspace.noted) - 2,
         )
         for slab in sorted(numbers, key=lambda slab: slab % 2)
     ]  # fmt: skip
@@ -101,6 +101,7 @@ def sweeps_of_a_squeezed_grain(relaxation):
             np.inf,
             workspace,
             ROOM,
+            len(workspace.noted) - 2,
         )
     raise AssertionError("not at rest")
 

@@ -109,14 +109,15 @@ def push(motion, blocks, block, contact, i, j, x, y, z):
 
 @compiled_for_teams
 def sweep_blocks(
-    blocks, contacts, begin, count, noted_from, friction, relaxation, quiet, calm, workspace, rows
+    blocks, contacts, begin, count, noted_from, friction, relaxation, quiet, calm, workspace, rows, spare
 ):
     """One Gauss-Seidel sweep over so many `blocks` of `contacts` from `begin` on; updates impulses and motion.
 
     Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than
     they may by more than `calm` [m/s], are noted in workspace.lively from `noted_from` on. Returns the sums of
     squares of the change of impulse and of the impulse, the largest excess of speed [m/s], how many were noted.
-    friction: between bodies that yield, with those that do not. rows (1, 1, 8): room.
+    friction: between bodies that yield, with those that do not. rows (1, 1, 8): room. spare: row of
+    workspace.noted for contacts that are not.
     """
     motion = workspace.motion
     changed, size, fastest = zeros(), zeros(), zeros()
@@ -135,8 +136,9 @@ def sweep_blocks(
         lively = above(moved, broadcast(quiet)) | above(excess, broadcast(calm))
         if lively:
             for lane in range(WIDTH):
-                rows[0, 0, lane] = noted  # one that is not noted gives its row to the next
+                rows[0, 0, lane] = spare
                 if lively >> lane & 1:
+                    rows[0, 0, lane] = noted
                     workspace.lively[noted] = blocks[block, 0, lane]
                     for side in range(2):
                         workspace.bodies[noted, side] = blocks[block, 1 + side, lane]
@@ -206,13 +208,13 @@ def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, ends, qu
     account = workspace.account
     for s in range(part[0], part[1], 2):
         start, count, of_lively = slabs.begin[s], slabs.begin[s + 1] - slabs.begin[s], WIDTH * slabs.begin[s]
-        blocks, contacts = slabs.blocks, workspace.contacts
+        blocks, contacts, spare = slabs.blocks, workspace.contacts, workspace.noted.shape[0] - 2 - s
         rough = friction if s < slabs.begin.shape[0] - 2 else (friction[1], friction[1])
         if not everyone:
             blocks, contacts = workspace.lively_blocks, workspace.lively_contacts
             start, count = first_lively(of_lively), int(account[s, LIVELY_BLOCKS])
         changed, size, fastest, noted = sweep_blocks(
-            blocks, contacts, start, count, of_lively, rough, relaxation, quiet, calm, workspace, rows
+            blocks, contacts, start, count, of_lively, rough, relaxation, quiet, calm, workspace, rows, spare
         )
         if ends and not everyone:
             give_back(start, count, workspace)

@@ -40,11 +40,9 @@ class Workspace(NamedTuple):
 
     motion: np.ndarray  # (r, 8) velocity [m/s], 1/mass [1/kg], spin as surface velocity [m/s], 5/2 of 1/mass
     place: np.ndarray  # (r, 8) [m] of a sphere: position, radius, zeros; of a plane: a point, 0, normal, 1
-    contacts: (
-        np.ndarray
-    )  # (b, 8, 8) normal, impulse [N s], target [m/s], mass that an impulse along it moves [kg]
+    contacts: np.ndarray  # (b, 8, 8) normal, impulse [N s], target [m/s], mass [kg] that one along it moves
     lively: np.ndarray  # (c,) contacts that were noted
-    noted: np.ndarray  # (c + 2, 8) their rows of `contacts`; the last row is zero
+    noted: np.ndarray  # (c + slabs + 2, 8) what `contacts` has of each; a spare row for each slab; zeros
     bodies: np.ndarray  # (c, 2) theirs
     lively_blocks: np.ndarray  # (2 b, 3, 8) in which they stand; see `first_lively`
     lively_contacts: np.ndarray  # (2 b, 8, 8) copies of them
@@ -81,7 +79,7 @@ def workspace_for(contacts: int, bodies: int, planes: int) -> Workspace:
         place=aligned((rows, WIDTH)),
         contacts=aligned((blocks, 8, WIDTH)),
         lively=lively,
-        noted=aligned((contacts + 2, 8)),
+        noted=aligned((contacts + MOST_SLABS + 2, 8)),
         bodies=np.empty((contacts, 2), np.int32),
         lively_blocks=np.empty((2 * blocks, 3, WIDTH), np.int32),
         lively_contacts=aligned((2 * blocks, 8, WIDTH)),
