@@ -43,31 +43,20 @@ def slide(slope: float, friction: float, steps: int = 40, dt: float = 1e-3) -> n
 
 @checks
 def block() -> list[Row]:
-    friction = 0.5
+    friction, moves = 0.5, "a = g (sin - mu cos)"
     angle = np.arctan(friction)
     below, above = slide(angle - 1e-3, friction), slide(angle + 1e-3, friction)
+    rests, found = np.abs(below).max(), float(np.array([0.6, 0.8, 0.0]) @ above)
     expected = G * (np.sin(angle + 1e-3) - friction * np.cos(angle + 1e-3)) * 0.04
     return [
-        Row(
-            "block 1e-3 rad below the angle of friction, speed",
-            0.0,
-            np.abs(below).max(),
-            1e-11,
-            "tan(slope) < mu: rests",
-        ),
-        Row(
-            "block 1e-3 rad above the angle of friction, speed",
-            expected,
-            float(np.array([0.6, 0.8, 0.0]) @ above),
-            1e-8,
-            "a = g (sin - mu cos)",
-        ),
+        Row("block 1e-3 rad below the angle of friction, speed", 0.0, rests, 1e-11, "tan(slope) < mu: rests"),
+        Row("block 1e-3 rad above the angle of friction, speed", expected, found, 1e-8, moves),
     ]
 
 
 @checks
 def one_contact() -> list[Row]:
-    masses, rows = np.diag([2.0, 7.0, 7.0]), []
+    masses, rows, source = np.diag([2.0, 7.0, 7.0]), [], "closed solution, cone of friction"
     for name, free, expected in (
         ("opens", [0.3, 1.0, -2.0], [0.0, 0.0, 0.0]),
         ("sticks", [-2.0, 1.4, -1.4], [1.0, -0.2, 0.2]),
@@ -75,13 +64,5 @@ def one_contact() -> list[Row]:
     ):
         found = solve_contacts(masses, np.array(free), 0.4, tolerance=1e-12).reactions
         error = float(np.abs(found - expected).max())
-        rows.append(
-            Row(
-                f"one contact that {name}, error of the impulse",
-                0.0,
-                error,
-                1e-10,
-                "closed solution, cone of friction",
-            )
-        )
+        rows.append(Row(f"one contact that {name}, error of the impulse", 0.0, error, 1e-10, source))
     return rows

@@ -91,15 +91,8 @@ def stacks() -> list[Row]:
     for name, shape, across in (("a wall of four rows of bricks", 4, 4), ("a tower of ten bricks", 10, 1)):
         w, q = wall(shape, across)
         solution = solve_contacts(w, q, 0.6, tolerance=1e-8)
-        rows.append(
-            Row(
-                f"{name}, error of the natural map",
-                0.0,
-                natural_map(w, q, 0.6, solution.reactions),
-                TOLERANCE,
-                APART,
-            )
-        )
+        error = natural_map(w, q, 0.6, solution.reactions)
+        rows.append(Row(f"{name}, error of the natural map", 0.0, error, TOLERANCE, APART))
         ground = solution.reactions[::3][: 4 * across].sum() / (shape * across * 2.0 * G * 1e-3)
         rows.append(Row(f"{name}, force on the ground over its weight", 1.0, ground, 1e-6, "equilibrium"))
     return rows
@@ -121,13 +114,7 @@ def generated() -> Row:
     for seed in range(10):
         w, q = twenty(seed)
         worst = max(worst, natural_map(w, q, 0.7, solve_contacts(w, q, 0.7, tolerance=1e-10).reactions))
-    return Row(
-        "twenty coupled contacts, error of the natural map",
-        0.0,
-        worst,
-        1e-9,
-        APART,
-    )
+    return Row("twenty coupled contacts, error of the natural map", 0.0, worst, 1e-9, APART)
 
 
 @checks

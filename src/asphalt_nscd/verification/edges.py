@@ -32,15 +32,10 @@ def refused(ask: Callable[[], Any]) -> float:
 def bonds() -> list[Row]:
     system, source = chain(3, 2e-3, 0.1), "a bond bears some force; bonded bodies do not overlap"
     strength, gap = np.where(np.arange(3) == 1, 0.0, 1.0), np.where(np.arange(3) == 1, -1e-9, 1.0)
+    weak, overlapping = lambda: replace(system, strength=strength), lambda: replace(system, gap=gap)
     return [
-        Row(
-            "a bond of zero strength, refused",
-            1.0,
-            refused(lambda: replace(system, strength=strength)),
-            0.0,
-            source,
-        ),
-        Row("a bond of negative gap, refused", 1.0, refused(lambda: replace(system, gap=gap)), 0.0, source),
+        Row("a bond of zero strength, refused", 1.0, refused(weak), 0.0, source),
+        Row("a bond of negative gap, refused", 1.0, refused(overlapping), 0.0, source),
         Row("a yield stress of zero, refused", 1.0, refused(lambda: Bonds(yield_Pa=0.0)), 0.0, source),
     ]
 
@@ -65,13 +60,8 @@ def passing_grains() -> Row:
     while pair.time < 4e-3:
         pair.advance(numerics)
     name = "grains that pass at 5 m/s, exchange in steps of 0.04 ms (m/s)"
-    return Row(
-        name,
-        0.0,
-        abs(pair.velocity[1, 2] + 5.0),
-        1e-12,
-        "nothing touches; in steps of 0.4 ms a tangent plane does",
-    )
+    source = "nothing touches; in steps of 0.4 ms a tangent plane does"
+    return Row(name, 0.0, abs(pair.velocity[1, 2] + 5.0), 1e-12, source)
 
 
 @checks
@@ -98,13 +88,8 @@ def heavy_on_light() -> list[Row]:
 def layer_out_of_balance() -> list[Row]:
     said = {"weight_balance": 0.74, "unbalanced_force": 0.0}
     still = {"weight_balance": 1e-4, "unbalanced_force": 4e-4}
+    told = [float(bool(unrest(one))) for one in (said, still)]
     return [
-        Row(
-            "a layer whose walls bear 0.26 of its weight, told",
-            1.0,
-            float(bool(unrest(said))),
-            0.0,
-            "equilibrium",
-        ),
-        Row("a layer at rest, told", 0.0, float(bool(unrest(still))), 0.0, "equilibrium"),
+        Row("a layer whose walls bear 0.26 of its weight, told", 1.0, told[0], 0.0, "equilibrium"),
+        Row("a layer at rest, told", 0.0, told[1], 0.0, "equilibrium"),
     ]

@@ -81,28 +81,11 @@ def patch() -> list[Row]:
     within &= deep[np.minimum(network.second, n - 1)]
     traction = np.einsum("bk,bka->ba", force.reshape(-1, 3)[within], network.frame[within])
     error = traction - network.area[within, None] * network.frame[within, 0] @ STRAIN
+    force, torque, misfit = (np.abs(of).max() / scale for of in (load[:, :3], load[:, 3:], error))
     return [
-        Row(
-            "uniform strain, largest force on a sphere",
-            0.0,
-            np.abs(load[:, :3]).max() / scale,
-            10 * LEFT_OUT,
-            source,
-        ),
-        Row(
-            "uniform strain, largest torque on a sphere (mm)",
-            0.0,
-            1e3 * np.abs(load[:, 3:]).max() / scale,
-            10 * LEFT_OUT,
-            source,
-        ),
-        Row(
-            "uniform strain, traction of a facet",
-            0.0,
-            np.abs(error).max() / scale,
-            1e-12,
-            "sigma n = E strain n",
-        ),
+        Row("uniform strain, largest force on a sphere", 0.0, force, 10 * LEFT_OUT, source),
+        Row("uniform strain, largest torque on a sphere (mm)", 0.0, 1e3 * torque, 10 * LEFT_OUT, source),
+        Row("uniform strain, traction of a facet", 0.0, misfit, 1e-12, "sigma n = E strain n"),
     ]
 
 
@@ -145,24 +128,15 @@ def four_points() -> list[Row]:
 
     Beside the law stands E* over that of statics; at a tenth of the stiffness an error of 2 % in the mass factor shows.
     """
-    beam, modulus = (
-        jittered_beam(seed=6, shape=(10, 3, 61), area="facets", test=Beam.test),
-        1e10 * np.exp(0.5j),
-    )
+    beam = jittered_beam(seed=6, shape=(10, 3, 61), area="facets", test=Beam.test)
+    modulus = 1e10 * np.exp(0.5j)
     geometry, system = beam.geometry, bending_system(beam, 0.35, np.inf, 0.7)
     share = geometry.counted_share(0.0)
     static = static_ratio(system, geometry)
     stiffness = abs(modulus) * static / geometry.form_factor()
-    source = "Timoshenko, k = 5/6, nu = 0"
-    rows = [
-        Row(
-            "prism of 10 facets over its depth, four-point bending over the law",
-            1.0 / (1.0 / (1.0 - 0.01) + 1.0 / share - 1.0),
-            share * static,
-            2e-3,
-            source,
-        )
-    ]
+    expected = 1.0 / (1.0 / (1.0 - 0.01) + 1.0 / share - 1.0)
+    name = "prism of 10 facets over its depth, four-point bending over the law"
+    rows = [Row(name, expected, share * static, 2e-3, "Timoshenko, k = 5/6, nu = 0")]
     for part in (1e-3, 0.1):
         omega = np.sqrt(part * stiffness / geometry.mass_factor())
         force = driving_force(system, modulus, omega)
@@ -243,16 +217,7 @@ def resonance() -> Row:
     share = geometry.counted_share(0.0)  # of the stiffness of bonds, which Eq. (3) has in bending
     speed = np.sqrt(modulus / share * geometry.width * geometry.thickness * geometry.h / geometry.mass)
     quarter = np.pi / 2.0 * speed / geometry.h
-    found = brentq(
-        lambda omega: driving_force(along, complex(modulus), omega).real,
-        0.9 * quarter,
-        1.1 * quarter,
-        rtol=1e-7,
-    )
-    return Row(
-        "bar of facets, first resonance in tension (rad/s)",
-        quarter,
-        found,
-        1e-3,
-        "c = sqrt(E/rho), pi c/(2 h)",
-    )
+    stiffness = lambda omega: driving_force(along, complex(modulus), omega).real  # noqa: E731
+    found = brentq(stiffness, 0.9 * quarter, 1.1 * quarter, rtol=1e-7)
+    name, source = "bar of facets, first resonance in tension (rad/s)", "c = sqrt(E/rho), pi c/(2 h)"
+    return Row(name, quarter, found, 1e-3, source)

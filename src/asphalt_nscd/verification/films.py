@@ -142,16 +142,8 @@ def network() -> list[Row]:
         rows.append(Row(name, 0.25, place, 0.25, "Hashin & Shtrikman 1963", 1.0))
     prism = jittered_beam(seed=4, shape=(5, 4, 12), fill=0.2, area="facets")
     fraction = solid_fraction(prism)
-    found = young(prism, bitumen(6e5)) / 6e5
-    rows.append(
-        Row(
-            f"{fraction:.3f} of grains, E over M",
-            1 + 2.5 * fraction,
-            found,
-            0.12,
-            "Einstein 1906, Smallwood 1944",
-        )
-    )
+    found, source = young(prism, bitumen(6e5)) / 6e5, "Einstein 1906, Smallwood 1944"
+    rows.append(Row(f"{fraction:.3f} of grains, E over M", 1 + 2.5 * fraction, found, 0.12, source))
     return rows
 
 

@@ -6,6 +6,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 PASSED, FAILED = "passed", "failed"
 
 
@@ -56,6 +59,7 @@ class Checks(list[Check]):
         return rows
 
 
-def order(errors: list[float]) -> float:
+def order(errors: ArrayLike) -> float:
     """Order of convergence from the last two errors, of steps halved each time."""
-    return math.log2(abs(errors[-2] / errors[-1]))
+    coarse, fine = np.asarray(errors, float)[-2:]
+    return math.log2(abs(coarse / fine))
