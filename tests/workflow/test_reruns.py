@@ -53,8 +53,7 @@ def paper(tmp_path_factory):
     content = yaml.safe_load((ROOT / "config/paper.yaml").read_text())
     (study.folder / "study.yaml").write_text(yaml.safe_dump(content))
     study.finish()
-    yield study
-    assert study.planned() == {}  # each test put it back
+    return study
 
 
 @pytest.fixture
@@ -68,6 +67,7 @@ def restored(paper):
         os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
     for path in paper.folder.glob("results/**/*.gone"):
         path.rename(path.with_suffix(""))
+    assert paper.planned() == {}
 
 
 def test_one_temperature_of_table_3_is_its_twenty_tests(restored):
