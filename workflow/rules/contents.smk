@@ -19,14 +19,6 @@ ELEMENT = {
 # name: category in the report, {kind of data: files}
 FIGURES = {
     "fig_residual_map": ("0 Diagnosis", RESIDUALS),
-    "fig_causality_map": (
-        "0 Diagnosis",
-        {"diagnosis": RESIDUALS["diagnosis"], "causality": DIAGNOSED[2:]},
-    ),
-    "fig_specimens": (
-        "0 Diagnosis",
-        {"diagnosis": RESIDUALS["diagnosis"], "causality": DIAGNOSED[2:]},
-    ),
     "fig_black": ("0 Diagnosis", RESIDUALS),
     "fig_master": ("0 Diagnosis", RESIDUALS),
     "fig_limits": ("0 Diagnosis", {"diagnosis": RESIDUALS["diagnosis"]}),

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import BoundaryNorm
@@ -13,15 +14,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from asphalt_nscd.diagnosis.criteria import NOTABLE
-from asphalt_nscd.diagnosis.written import (
-    BEFORE_AFTER,
-    RESIDUALS,
-    conditions,
-    read_diagnosis,
-    read_residuals,
-)
-from asphalt_nscd.reporting.figures import cells, numbers, style
+from asphalt_nscd.diagnosis.written import BEFORE_AFTER, RESIDUALS, conditions, read_diagnosis, read_residuals
+from asphalt_nscd.reporting.figures import numbers, style
 
+COLOURS = "RdBu_r"
+BANDS = 5  # steps of 1, 2, 5, ... on either side of zero
+MOST_NUMBERED = 8  # columns whose cells have room for a number
+MOST_LABELS = 8
 ROWS = {
     "E": ("|E*| {} − simulated (%)", "modulus_percent"),
     "phase": ("phase {} − simulated (°)", "phase_deg"),
@@ -51,9 +50,7 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     for row, (quantity, (words, scatter)) in zip(panels, ROWS.items(), strict=True):
         columns = [RESIDUALS[quantity].format(when) for when in BEFORE_AFTER]
         # Scatter alone must look pale.
-        norm = cells.banded(
-            max(float(means[columns].abs().max().max()), NOTABLE * content["scatter"][scatter])
-        )
+        norm = _banded(max(float(means[columns].abs().max().max()), NOTABLE * content["scatter"][scatter]))
         for axes, when, column in zip(row, BEFORE_AFTER, columns, strict=True):
             image = _map(axes, means, column, norm)
             style.letter(axes, next(letters), when)
@@ -82,10 +79,33 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     return figure
 
 
+def _banded(largest: float) -> BoundaryNorm:
+    """Bands 1, 2, 5, 10, ... about zero that reach the largest value."""
+    steps = np.array([m * 10.0**e for e in range(-6, 6) for m in (1, 2, 5)])
+    last = int(np.searchsorted(steps, largest))
+    edges = steps[last - BANDS + 1 : last + 1]
+    return BoundaryNorm(np.concatenate([-edges[::-1], edges]), colormaps[COLOURS].N)
+
+
 def _map(axes: Axes, conditioned: pd.DataFrame, column: str, norm: BoundaryNorm) -> QuadMesh:
+    """A cell for each condition, with its number where they are few; a frame about what is beyond scatter."""
     places = {"index": "temperature_C", "columns": "frequency_Hz"}
+    table = conditioned.pivot(values=column, **places)
     beyond = conditioned.pivot(values=f"z_{column}", **places).abs() > NOTABLE
-    image = cells.draw_table(axes, conditioned.pivot(values=column, **places), norm)
+    axes.set_facecolor(style.PALE)  # shows where nothing was tested
+    image = axes.pcolormesh(table.to_numpy(), cmap=COLOURS, norm=norm, edgecolors="white", linewidth=0.5)
+    for (i, k), value in np.ndenumerate(table.to_numpy()):
+        if np.isfinite(value) and table.shape[1] <= MOST_NUMBERED:
+            red, green, blue, _ = image.cmap(norm(value))
+            colour = "white" if 0.3 * red + 0.6 * green + 0.1 * blue < 0.5 else style.INK
+            digits = 0 if abs(value) >= 9.95 else 1
+            number = numbers.minus(f"{round(value, digits) + 0.0:.{digits}f}")
+            axes.text(k + 0.5, i + 0.5, number, ha="center", va="center", fontsize=5.5, color=colour)
+    for axis, values in ((axes.xaxis, table.columns), (axes.yaxis, table.index)):
+        every = -(-len(values) // MOST_LABELS)
+        labels = [numbers.minus(f"{value:g}") for value in values]
+        axis.set_ticks(np.arange(len(values))[::every] + 0.5, labels[::every])
+        axis.set_tick_params(length=0.0)
     for i, k in np.argwhere(beyond.to_numpy()):
         axes.add_patch(Rectangle((k + 0.06, i + 0.06), 0.88, 0.88, fill=False, edgecolor=style.INK, lw=0.8))
     return image
