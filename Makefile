@@ -72,10 +72,10 @@ benchmark: $(READY)
 	@echo "Tables: $(CURDIR)/results/benchmark/benchmark.csv, growth.csv"
 
 test: $(TOOLS)
-	.venv/bin/python -m pytest
+	.venv/bin/python -m pytest -n auto --dist loadfile
 
 test-fast: $(TOOLS)
-	.venv/bin/python -m pytest -m "not slow"
+	.venv/bin/python -m pytest -n auto --dist loadfile -m "not slow"
 
 check: $(TOOLS)
 	@.venv/bin/python tools/check.py
