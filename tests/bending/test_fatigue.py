@@ -9,6 +9,7 @@ import pytest
 from scipy import sparse
 
 from asphalt_nscd.bending.bending_test import bond_law
+from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.bending.fatigue import (
     FatigueLaw,
     cycle_by_cycle,
@@ -20,11 +21,15 @@ from asphalt_nscd.bending.fatigue import (
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.nscd.bonds.fatigue import Jumps, tire
+from asphalt_nscd.nscd.bonds.fatigue import Jumps, remaining_stiffness, tire
 from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.stepping.harmonic import driving_force
 from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.specimen.system import bending_system
 
 PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
+# At 15 degC with viscosities lowered: from 40 Hz on transients are over in two cycles.
+QUICK = bond_law(Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9))
 FINE = Jumps(bond=0.001, growth=0.0, stiffness=0.002)
 LAW = FatigueLaw(endured=1e-3, exponent=4.0)
 
@@ -76,14 +81,31 @@ def test_life_falls_by_the_power_of_strain_and_bonds_of_plates_do_not_tire(beam)
     assert profile_of(beam, one)["damage"].idxmax() < 10  # below the middle
 
 
+def strain_for(cycles, specimen):
+    """Largest strain that the specimen endures so many cycles."""
+    return 1e-3 * (fatigue(specimen, 1e-3, LAW).life() / cycles) ** (1.0 / LAW.exponent)
+
+
 def test_cycle_jumps_beside_every_cycle(beam):
-    # 40 Hz and 15 degC with viscosities lowered: transients are over in two cycles
-    law = bond_law(Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9))
-    strain = 1e-3 * (fatigue(beam, 1e-3, LAW).life() / 60.0) ** (1.0 / LAW.exponent)
+    strain = strain_for(60.0, beam)
     jumped = fatigue(beam, strain, LAW, jumps=Jumps(0.02, 2e-4, 0.005))
-    stepped = cycle_by_cycle(beam, strain, LAW, law, 40.0)
+    stepped = cycle_by_cycle(beam, strain, LAW, QUICK, 40.0)
     for share in (0.8, 0.65, 0.5):
         assert jumped.life(share) == pytest.approx(stepped.life(share), rel=0.04)
+
+
+def test_what_is_left_after_the_last_cycle_is_that_of_the_frequency_domain_with_inertia(beam):
+    """At 400 Hz the mass term of Eqs. (1)-(2) is 3 % of the stiffness at first and 8 % at last."""
+    omega, mass = 2.0 * np.pi * 400.0, beam.geometry.mass_factor()
+    stepped = cycle_by_cycle(beam, strain_for(60.0, beam), LAW, QUICK, 400.0)
+    system = bending_system(beam, Bonds().poisson, Bonds().yield_Pa, Bonds().friction)
+
+    def modulus(damage):
+        tired = replace(system, weight=system.weight * remaining_stiffness(damage))
+        return abs(driving_force(tired, QUICK.discrete_modulus(omega, 0.0), omega) + mass * omega**2)
+
+    left = modulus(stepped.damage) / modulus(np.zeros_like(stepped.damage))
+    assert stepped.stiffness[-1] == pytest.approx(left, rel=0.01)  # over that of the third cycle
 
 
 def test_a_cylinder_is_refused(beam):

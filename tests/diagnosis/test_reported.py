@@ -61,6 +61,23 @@ def test_few_specimens_widen_the_interval(diagnosis):
     assert 1.96 < of_phase < 2.01
 
 
+@pytest.mark.parametrize(
+    ("temperature", "frequency", "celsius", "factor"),
+    [(40.0, 0.1, 1.0, 0.5), (4.0, 25.0, -1.0, 2.0)],  # the softest test and the stiffest one
+)
+def test_the_tests_reach_2_kelvin_and_a_factor_of_2_beyond_the_last_of_them(
+    diagnosis, temperature, frequency, celsius, factor
+):
+    def reached(t, f):
+        return mix_modulus(diagnosis.outcome.diagnosis, np.array([t]), np.array([f])).tested[0]
+
+    assert reached(temperature, frequency * factor**0.95)
+    assert not reached(temperature, frequency * factor**1.05)
+    inner = frequency / factor**2  # of which a temperature beyond makes no reduced frequency beyond
+    assert reached(temperature + 1.9 * celsius, inner)
+    assert not reached(temperature + 2.1 * celsius, inner)
+
+
 def test_the_master_curve_is_that_of_the_mix(diagnosis):
     curve = diagnosis.outcome.to_report["master_curve"]
     omega = 2.0 * np.pi * curve["frequency_Hz"].to_numpy()
