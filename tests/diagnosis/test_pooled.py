@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.diagnosis import pooled
+from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import HuetSayegh
 
 SCATTER = 0.01, np.radians(0.3)
+OFFSET = next(cause for cause in CATALOGUE if cause.name == "phase_offset")
 
 
 def campaign(k, offset=0.0, delay=0.0):
@@ -73,6 +75,26 @@ def test_the_information_is_that_of_all_tests_in_one_model():
         error = np.sqrt(rung.after.covariance[-1, -1]) * rung.candidate.typical[0]
         assert part.value == pytest.approx(rung.candidate.values[0], abs=0.05)
         assert part.std_error == pytest.approx(error, rel=0.05)
+
+
+def test_what_the_machine_does_is_no_reason_to_believe_a_campaign_less():
+    """A mix whose estimates are spread by an offset is believed as the same mix without, once the offset is beside."""
+    sound, off = (
+        pooled._begin("a", diagnose(campaign(4, offset), SCATTER, draws=500)) for offset in (0.0, 0.5)
+    )
+    assert sound.spread == 1.0 and off.spread > 1.3
+    amplitude = np.array([0.5 / OFFSET.parameters[0].typical])
+    assert off.judged_beside([OFFSET], amplitude).spread == 1.0
+
+
+def test_where_the_discrepancy_starts_does_not_change_the_evidence():
+    """From sizes far from the likeliest, one descent ends elsewhere: in this table with an error 6 % larger."""
+    begun = pooled._begin("a", diagnose(campaign(1), SCATTER, draws=500))
+    state = begun.state
+    astray = replace(begun, state=replace(state, variances=np.full_like(state.variances, 4.0)))
+    one, other = (pooled._evidence(each, [OFFSET]) for each in (begun, astray))
+    assert other.information == pytest.approx(one.information, rel=1e-3)
+    assert other.score == pytest.approx(one.score, rel=0.01)
 
 
 def test_a_delay_is_not_called_an_offset():

@@ -77,7 +77,7 @@ def tables(lines: tuple[Path, ...], before: Path | None, folder: Path) -> None:
 @click.argument("number", type=int)
 @click.option("--folder", required=True, type=File)
 def machines(number: int, folder: Path) -> None:
-    """What pooling the campaigns of NUMBER machines finds of an offset too small for one campaign."""
+    """What pooling finds of an offset too small for one campaign on NUMBER machines, and on the NCAT campaigns."""
     import pandas as pd
 
     from asphalt_nscd.files.store import write_table
@@ -87,6 +87,7 @@ def machines(number: int, folder: Path) -> None:
     rows = pd.DataFrame([row for machine in range(number) for row in machines.tried(machine)])
     write_table(folder / "machines.csv", rows)
     write_table(folder / "machines_summary.csv", machines.summary(rows))
+    write_table(folder / "machine_measured.csv", machines.measured())
 
 
 if __name__ == "__main__":

@@ -20,13 +20,15 @@ from asphalt_nscd.diagnosis.pooled import Pooled, pool
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 
 from .faults import Fault, put
-from .laboratory import Campaign, invented
+from .laboratory import CYLINDER, Campaign, invented
+from .measured import SHIPPED
 from .rates import line
 
 SEED = 20261125
 CAMPAIGNS = 5
 OF_LIMIT = 0.4  # size of the offset over the limit of one campaign
 DRAWS = 1000
+SHOWN = 2.0  # deg, standard error up to which a part of the measured campaigns is told
 
 
 def campaigns(machine: int, seed: int = SEED) -> list[Campaign]:
@@ -73,6 +75,20 @@ def _row(machine: int, each: Sequence[Campaign], size: float, limit: float, foun
         "told_deg": right[0].value if right else None,
         "covered": abs(right[0].value - size) <= 1.96 * right[0].std_error if right else None,
     }  # fmt: skip
+
+
+def measured() -> pd.DataFrame:
+    """What the nine NCAT campaigns have in common, as an offset of the phase: as a whole, by campaign, isotherm and
+    frequency; parts that nothing shows are left out."""
+    found = {}
+    for path in sorted(SHIPPED.glob("*.csv")):
+        if path.name != "volumetrics.csv":
+            observed, _ = read_observations(campaign_in(path, measured_in=CYLINDER), PAPER_GEOMETRY)
+            found[path.stem] = diagnose(observed, draws=DRAWS)
+    table = pool(found, DRAWS).table
+    first = table[table["cause"] == "phase_offset"]
+    shown = first[first["std_error"] < SHOWN]
+    return shown.set_axis(shown["where"])[["value", "std_error"]].round(2).rename_axis("where").reset_index()
 
 
 def summary(rows: pd.DataFrame) -> pd.DataFrame:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -153,28 +153,7 @@ class Ladder:
         What a table holds and no process of its discrepancy describes spreads them all (genomic control of Devlin and
         Roeder 1999). An effect of a limit times this spread was named in 55 of 61 cases, one of the limit in 41 of 62.
         """
-        return self.spread_without(frozenset())
-
-    def spread_without(self, left_out: frozenset[str]) -> float:
-        """The same without some causes.
-
-        Parameters
-        ----------
-        left_out : frozenset of str
-            Their names.
-
-        Returns
-        -------
-        float
-            1 at least.
-        """
-        left_out = left_out | {rung.candidate.cause.name for rung in self.rungs}
-        squares: dict[str, list[float]] = {}
-        for (name, _), (value, error) in self.estimates.items():
-            if name not in left_out and 0.0 < error < np.inf:
-                squares.setdefault(name, []).append((value / error) ** 2)
-        each = [float(np.mean(one)) for one in squares.values()]
-        return max(1.0, float(np.sqrt(np.mean(each)))) if each else 1.0
+        return spread_of(self.estimates, frozenset(rung.candidate.cause.name for rung in self.rungs))
 
     @property
     def noticed(self) -> dict[Process, float]:
@@ -291,3 +270,26 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
             Remaining(min(p_value, 1.0), f"each specimen at each frequency, {name}", max(square - rank, 0.0))
         )
     return out
+
+
+def spread_of(estimates: Mapping[tuple, tuple[float, float]], left_out: Set[str]) -> float:
+    """Root mean square of the estimates of causes, in their standard errors.
+
+    Parameters
+    ----------
+    estimates : mapping of tuple to tuple of float
+        Amplitude and standard error, by cause and place.
+    left_out : set of str
+        Names of causes that do not count.
+
+    Returns
+    -------
+    float
+        1 at least.
+    """
+    squares: dict[str, list[float]] = {}
+    for (name, _), (value, error) in estimates.items():
+        if name not in left_out and 0.0 < error < np.inf:
+            squares.setdefault(name, []).append((value / error) ** 2)
+    each = [float(np.mean(one)) for one in squares.values()]
+    return max(1.0, float(np.sqrt(np.mean(each)))) if each else 1.0

@@ -33,12 +33,20 @@ from asphalt_nscd.diagnosis.criteria import (
 )
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.ladder import spread_of
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.sentences import an
 from asphalt_nscd.diagnosis.written import shown, three_digits, widening, with_interval
 from asphalt_nscd.files.words import joined
 
+
+def of_machine(cause: Cause) -> bool:
+    """Whether a cause sits in the head or the channels, the same in all tests of a machine."""
+    return cause.stage >= HEAD and not cause.confined_to and len(cause.parameters) == 1
+
+
 UNITS = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
+MACHINE = frozenset(cause.name for cause in CATALOGUE if of_machine(cause))
 Vector = NDArray[np.float64]
 FARTHEST = 30.0  # standard errors, beyond which a campaign is as far
 ITERATIONS = 30
@@ -180,6 +188,15 @@ class _Campaign:
         )
         return replace(self, state=with_discrepancy.with_causes(self.state, (*own, *added)))
 
+    def judged_beside(self, causes: Sequence[Cause], amplitudes: Vector) -> _Campaign:
+        """The same with the spread that is left beside causes of the machine: what is common to all is no reason to
+        believe each of them less.
+        """
+        state = self.with_causes(causes, amplitudes).state
+        estimates = with_discrepancy.estimates(state, with_discrepancy.survey(state, CATALOGUE))
+        named = {one.cause.name for one in state.fitted.active} | MACHINE
+        return replace(self, spread=widening(spread_of(estimates, named)))
+
 
 @dataclass(frozen=True)
 class _Evidence:
@@ -195,11 +212,6 @@ class _Evidence:
         for k, value in held.items():
             score -= self.information[at, k] * value
         return _Evidence(self.information[np.ix_(at, at)], score)
-
-
-def of_machine(cause: Cause) -> bool:
-    """Whether a cause sits in the head or the channels, the same in all tests of a machine."""
-    return cause.stage >= HEAD and not cause.confined_to and len(cause.parameters) == 1
 
 
 def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -> Pooled:
@@ -238,6 +250,11 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
             break
         each = {cause: [_evidence(one, [*causes, cause]) for one in states] for cause in open_}
         pooled = {cause: _together(each[cause], amplitudes) for cause in open_}
+        first = max(open_, key=lambda cause: _z(cause, pooled[cause]))
+        beside = np.append(amplitudes, pooled[first].value)
+        states = [one.judged_beside([*causes, first], beside) for one in states]
+        each = {cause: [_evidence(one, [*causes, cause]) for one in states] for cause in open_}
+        pooled = {cause: _together(each[cause], amplitudes) for cause in open_}
         by_chance = _by_chance(states, [*causes, *open_], len(causes), draws, random)
         threshold = float(np.quantile(by_chance, 1.0 - ALPHA_OF_MACHINE))
         for cause in open_:
@@ -251,7 +268,7 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
         best = _likeliest(pooled, gains)
         as_good = tuple(
             cause.name
-            for cause in common
+            for cause in open_
             if cause is not best and z_of[best] ** 2 - z_of[cause] ** 2 < TWENTY_TIMES
         )
         z = z_of[best]
@@ -280,8 +297,7 @@ def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
     plain = Joint(diagnosis.observed, base, diagnosis.noise)
     own = tuple(one for one in ladder.fitted.active if not of_machine(one.cause))
     fitted = plain.fit(ladder.fitted.law, ladder.fitted.scales, own)
-    # What the machine does to all campaigns is no reason to believe each of them less.
-    spread = ladder.spread_without(frozenset(cause.name for cause in CATALOGUE if of_machine(cause)))
+    spread = spread_of(ladder.estimates, MACHINE | {rung.candidate.cause.name for rung in ladder.rungs})
     return _Campaign(name, with_discrepancy.begin(plain, fitted), widening(spread))
 
 
@@ -302,7 +318,7 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
     model = discrepancy.reduce(state.model.processes, rest)
     pointing = discrepancy.directions(model, rest, state.plain.noise.whiten(np.column_stack(columns)))
     # Those before the last are held at where they stand: their size is common and known far better.
-    variances = discrepancy.estimate(model, pointing.column(len(shown) - 1), state.variances).variances
+    variances = with_discrepancy.likeliest(model, state.variances, pointing.column(len(shown) - 1)).variances
     if parts is not None:
         apart = columns[-1][:, None] * parts
         pointing = discrepancy.directions(model, rest, state.plain.noise.whiten(apart))

@@ -241,13 +241,29 @@ def _settle(
         law, scales, active = fitted.law, fitted.scales, fitted.active
         linear = plain.linearise(law, scales, active)
         model = discrepancy.reduce(found, linear)
-        variances = _likeliest(model, variances).variances
+        variances = likeliest(model, variances).variances
     return State(plain, wide, fitted, linear, model, variances)
 
 
-def _likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
-    """The likeliest of several answers: which of three specimens is odd, or a phase that is off at every
-    frequency for a modulus that is, may be told in two ways.
+def likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
+    """The likeliest of several answers.
+
+    Which of three specimens is odd, or a phase that is off at every frequency for a modulus that is, may be told in two
+    ways, and one start finds one of them.
+
+    Parameters
+    ----------
+    model : Reduced
+        Of `discrepancy.reduce`.
+    variances : ndarray (m,)
+        Where to start, among other places.
+    cause : Direction, optional
+        One direction that is in the model, or none.
+
+    Returns
+    -------
+    Estimate
+        Of the least misfit.
     """
     uncommon = np.where(
         [one.kind == "all" for one in model.processes.described], discrepancy.LEAST, variances
@@ -283,7 +299,7 @@ def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     # large table the sizes are well determined, and each start takes a second.
     several = state.plain.observed.size <= SEVERAL_STARTS
     estimates = [
-        _likeliest(state.model, state.variances, pointing.column(k))
+        likeliest(state.model, state.variances, pointing.column(k))
         if several and len(candidate.values) == 1
         else discrepancy.estimate(state.model, pointing.column(k), state.variances)
         for k, candidate in enumerate(candidates)
@@ -296,7 +312,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     candidates, estimates, one_sided = surveyed.candidates, surveyed.estimates, surveyed.one_sided
     if not candidates:
         return None
-    nothing = _likeliest(state.model, state.variances)
+    nothing = likeliest(state.model, state.variances)
     z = np.array([estimate.z for estimate in estimates])
     z = np.where(one_sided, np.maximum(z, 0.0), np.abs(z))
     gains = np.array([nothing.misfit - estimate.misfit for estimate in estimates])
