@@ -43,7 +43,7 @@ def test_limits_of_the_linear_model_are_those_of_the_diagnosis(empty):
         if limit is None or len(candidate.values) > 1 or candidate.key[0] == "temperature_bias":
             continue
         strength = Question(k, limit / candidate.typical[0], (), 1e9).strength(information)
-        assert np.sqrt(strength) == pytest.approx(5.3, rel=0.2), candidate.key
+        assert np.sqrt(strength) == pytest.approx(5.3, rel=0.04), candidate.key
 
 
 def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(delayed):
@@ -227,7 +227,7 @@ def test_a_sweep_that_was_asked_for_lowers_the_limit_as_promised(empty):
         wider = diagnose(_with(found.observed, one.specimen, one.temperature, one.frequencies), draws=1000)
         after[one.temperature] = wider.ladder.limits["temperature_bias", 30.0]
         promised = before * np.sqrt(known.information[k, k] / (known.information[k, k] + gained))
-        assert after[one.temperature] == pytest.approx(promised, rel=0.2)
+        assert after[one.temperature] == pytest.approx(promised, rel=0.1)  # the sweep adds its own scatter
     assert after[best.temperature] < 0.8 * after[least.temperature]
 
 

@@ -172,7 +172,8 @@ def test_an_odd_modulus_and_phase_that_one_temperature_explains_say_which(export
     odd = levels.odd(observed), levels.odd_phases(observed)
     (found,) = levels.odd_temperatures(observed, *odd)
     assert (found["specimen"], found["temperature_C"]) == ("Mix-B", 20)
-    assert found["kelvin"] == pytest.approx(kelvin, rel=0.25)
+    # The slope is that of the chord to the isotherms beside it, which is flatter than the curve: 11 and 14 % more.
+    assert found["kelvin"] == pytest.approx(1.125 * kelvin, rel=0.03)
     (said,) = levels.of_temperatures([found])
     side = "warmer" if kelvin > 0.0 else "colder"
     assert said.startswith(f"at 20 degC specimen Mix-B seems {abs(found['kelvin']):.2g} K {side} than stated")

@@ -43,8 +43,9 @@ def test_the_curve_that_made_them_is_found(table):
     assert said["E_MPa"].to_numpy() == pytest.approx(true, rel=0.05)
     # Three specimens that usually differ by 3 %: no better than 2 %, no worse than 8 %.
     assert (np.log(said["E_high_MPa"] / said["E_MPa"]).between(0.02, 0.08)).all()
-    assert found.within == pytest.approx(SCATTER, rel=0.2)
-    assert found.between == pytest.approx(0.026, abs=0.008)
+    # Of 90 tests the scatter is known within 8 %; the mean of a specimen's 30 tests within 0.0037.
+    assert found.within == pytest.approx(SCATTER, rel=0.16)
+    assert found.between == pytest.approx(np.std(list(LEVELS.values()), ddof=1), abs=0.004)
 
 
 def test_derivatives_are_those_of_the_curve():

@@ -86,7 +86,8 @@ def test_the_scatter_of_a_table_is_learnt():
             within_isotherm.leave_one_out(table(scatter=scatter, seed=seed)).scatter.mean(axis=0)
             for seed in range(6)
         ]
-        assert np.mean(found, axis=0) == pytest.approx(scatter, rel=0.25)
+        # A tenth and a fifth too low, whatever the scatter: the law of each isotherm takes a part of it.
+        assert np.mean(found, axis=0) / scatter == pytest.approx([0.9, 0.8], rel=0.05)
 
 
 def test_expectations_miss_by_their_standard_errors():
@@ -101,13 +102,17 @@ def test_expectations_miss_by_their_standard_errors():
     assert 0.02 < np.mean(far) < 0.09
 
 
-@pytest.mark.parametrize("delay", [6e-4, -6e-4])
-def test_a_delay_of_all_tests_is_taken_off_and_is_in_what_is_expected(delay):
-    observed = table(delay=delay)
-    loo = within_isotherm.leave_one_out(observed)
-    assert loo.delay == pytest.approx(delay, rel=0.25)
-    left = observed.logarithm.imag - loo.expected[:, 1]
-    assert np.sqrt(np.mean(left**2)) < 0.02
+def test_a_delay_of_all_tests_is_taken_off_and_is_in_what_is_expected():
+    found = []
+    for delay in (6e-4, -6e-4):
+        observed = table(delay=delay)
+        loo = within_isotherm.leave_one_out(observed)
+        left = observed.logarithm.imag - loo.expected[:, 1]
+        assert np.sqrt(np.mean(left**2)) < 0.02
+        found.append(loo.delay)
+    # Scatter, the same in both tables, looks like a delay of its own: too small to be taken off where it is alone.
+    assert found[0] - found[1] == pytest.approx(1.2e-3, rel=0.03)
+    assert abs(found[0] + found[1]) < 2e-4
     assert within_isotherm.leave_one_out(table()).delay == 0.0
 
 

@@ -166,7 +166,8 @@ def test_a_prior_pulls_an_undetermined_glassy_modulus_into_the_usual_range():
         assert "glassy_modulus" not in (fit_spectrum(omega, temperature, modulus, 15.0).std_error or {})
         found.append(fit.law.glassy_modulus)
         usual = USUAL["glassy_modulus"]
-        assert fit.std_error["glassy_modulus"] == pytest.approx(usual.deviation * found[-1], rel=0.3)
+        # The prior's, and a little less for what the soft end tells.
+        assert 0.8 < fit.std_error["glassy_modulus"] / (usual.deviation * found[-1]) < 1.0
     assert all(20e9 < value < 50e9 for value in found)
 
 

@@ -187,12 +187,17 @@ def held(campaign, specimens):
     return {(s, t, f): (e, p) for s, t, f, e, p in read_as}
 
 
-@pytest.mark.parametrize("name", FILES)
-@pytest.mark.parametrize("ending", ["xlsx", "csv"])
+@pytest.mark.parametrize(
+    ("name", "ending"),
+    [
+        (name, ending)
+        for ending in ("xlsx", "csv")
+        for name, (rows, _) in FILES.items()
+        if ending == "xlsx" or not isinstance(rows, dict)  # several sheets fit into no CSV file
+    ],
+)
 def test_what_laboratories_have_is_read(tmp_path, name, ending):
     rows, tests = FILES[name]
-    if ending == "csv" and isinstance(rows, dict):
-        pytest.skip("several sheets")
     found = held(read(tmp_path, rows, f"t.{ending}"), len({s for s, _, _ in tests}))
     assert found.keys() == tests.keys()
     for key, (e, p) in tests.items():
