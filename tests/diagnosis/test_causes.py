@@ -45,7 +45,7 @@ def reduced(stiffness):
 ROOT = (
     1j * OMEGA * 0.1 * np.exp(40e3 / 8.314462618 * (1 / (TABLE.temperature + 273.15) - 1 / 278.15))
 ) ** 0.5
-EXPECTED = {
+EFFECTS = {
     "channel_delay": (2e-4, reduced(force(E) * np.exp(2e-4j * OMEGA))),
     "phase_offset": (2.0, reduced(force(E) * np.exp(1j * np.pi / 90))),
     "moving_mass": (0.1, reduced(force(E) - 0.1 * OMEGA**2)),
@@ -63,9 +63,9 @@ EXPECTED = {
 }
 
 
-@pytest.mark.parametrize("name", EXPECTED)
+@pytest.mark.parametrize("name", EFFECTS)
 def test_apparent_modulus(name):
-    size, expected = EXPECTED[name]
+    size, expected = EFFECTS[name]
     shape = SHAPES.get(name, ())
     found = CAUSES[name].apparent(E, np.array([size, *shape]), TABLE)
     assert np.allclose(found, expected, rtol=1e-9)
@@ -83,9 +83,9 @@ def test_temperature_causes():
 
 
 def test_every_cause_has_an_effect_to_be_held_against():
-    """Named in CONTRIBUTING: a new cause is entered in EXPECTED, with its effect written down independently."""
+    """Named in CONTRIBUTING: a new cause is entered in EFFECTS, with its effect written down independently."""
     of_temperature = {"temperature_bias", "self_heating"}
-    assert set(EXPECTED) | of_temperature == set(CAUSES)
+    assert set(EFFECTS) | of_temperature == set(CAUSES)
     assert set(criteria.EXPECTED) == set(
         CAUSES
     )  # its chance and usual size, without which it has no probability

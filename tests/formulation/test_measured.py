@@ -11,7 +11,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.formulation.forecast import Networks, Settings, forecast, modulus_of
 from asphalt_nscd.formulation.mixes import bands, best_map, binder_shift, read_pairs
 from asphalt_nscd.formulation.recipe import read_recipe
-from asphalt_nscd.formulation.voids import compare_voids
+from asphalt_nscd.formulation.void_slopes import compare_voids
 
 
 @pytest.fixture(scope="module")

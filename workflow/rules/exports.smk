@@ -1,19 +1,21 @@
 # The law of the diagnosis in the files of other programs.
 
-# Format: the module that writes it, its file.
+from asphalt_nscd.exports.formats import FORMATS
+
+# Format: its file.
 EXPORTS = {
-    "abaqus": ("abaqus", "<results>/exports/law.inp"),
-    "ansys": ("ansys", "<results>/exports/law.mac"),
-    "comsol": ("comsol", "<results>/exports/law.txt"),
-    "xlsx": ("workbook", "<results>/exports/law.xlsx"),
-    "csv": ("prony_table", "<results>/prony.csv"),
-    "mepdg": ("mepdg", "<results>/dynamic_modulus.csv"),
+    "abaqus": "<results>/exports/law.inp",
+    "ansys": "<results>/exports/law.mac",
+    "comsol": "<results>/exports/law.txt",
+    "xlsx": "<results>/exports/law.xlsx",
+    "csv": "<results>/prony.csv",
+    "mepdg": "<results>/dynamic_modulus.csv",
 }
-EXPORTED = [path for _, path in EXPORTS.values()] if COMMON_LAW else []
+EXPORTED = list(EXPORTS.values()) if COMMON_LAW else []
 
 
 if COMMON_LAW:
-    for form, (module, path) in EXPORTS.items():
+    for form, path in EXPORTS.items():
 
         rule:
             name:
@@ -21,7 +23,7 @@ if COMMON_LAW:
             input:
                 law=COMMON_LAW,
                 diagnosed=DIAGNOSED,
-                code=code("export", f"exports.{module}"),
+                code=code("export", f"exports.{FORMATS[form][0]}"),
             output:
                 path,
             params:

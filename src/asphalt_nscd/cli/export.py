@@ -6,6 +6,7 @@ from typing import Any
 import click
 
 from asphalt_nscd.cli import _options
+from asphalt_nscd.exports.formats import FORMATS
 
 
 @click.command()
@@ -15,7 +16,7 @@ from asphalt_nscd.cli import _options
     "form",
     required=True,
     help="Program that will read it; mepdg is AASHTOWare, xlsx Excel. vtk is for spheres and tests.",
-    type=click.Choice(["abaqus", "ansys", "comsol", "csv", "xlsx", "mepdg", "vtk"]),
+    type=click.Choice([*FORMATS, "vtk"]),
 )
 @click.option(
     "--error-percent", default=1.0, type=_options.POSITIVE, help="Largest error of |E*| of the Prony series."

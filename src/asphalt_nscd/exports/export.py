@@ -6,21 +6,12 @@ from importlib import import_module
 from pathlib import Path
 
 from asphalt_nscd.exports.card import Card, Settings, make_card
+from asphalt_nscd.exports.formats import FORMATS, SOLIDS
 from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path
 
-SOLIDS = ("abaqus", "ansys", "comsol")  # programs that want a solid at infinite time
-# Format: its module and the endings of its files, the usual one first.
 FAR_OFF = 0.15  # of ln |E*|, root mean square: a law that is no law of these tests
-FORMATS = {
-    "abaqus": ("abaqus", (".inp",)),
-    "ansys": ("ansys", (".inp", ".mac", ".dat", ".txt")),
-    "comsol": ("comsol", (".txt",)),
-    "csv": ("prony_table", (".csv",)),
-    "xlsx": ("workbook", (".xlsx",)),
-    "mepdg": ("mepdg", (".csv",)),
-}
 
 
 def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Path) -> str:

@@ -16,13 +16,13 @@ from asphalt_nscd.measurements.campaign import UNKNOWN, Campaign, nominal_temper
 from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
 from asphalt_nscd.table_import.cells import Cells, NotTests, Row, Sheet, read_sheets
 from asphalt_nscd.table_import.contested import refuse_mislabelled
-from asphalt_nscd.table_import.exports import blocks
-from asphalt_nscd.table_import.headings import require_rows, sections, tabulated, with_units
+from asphalt_nscd.table_import.header_lines import require_rows, sections, tabulated, with_units
+from asphalt_nscd.table_import.machine_exports import blocks
 from asphalt_nscd.table_import.matrices import matrix_cells
 from asphalt_nscd.table_import.melt import holds_means
-from asphalt_nscd.table_import.parts import Part, with_one_spelling, without_copies, without_repeated
 from asphalt_nscd.table_import.quantities import QUALITY
 from asphalt_nscd.table_import.schemes import schemes_in
+from asphalt_nscd.table_import.several_files import Part, with_one_spelling, without_copies, without_repeated
 from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
 from asphalt_nscd.table_import.skipped_files import SkippedFile, common_mend, listed, refused
 from asphalt_nscd.table_import.targets import FAR

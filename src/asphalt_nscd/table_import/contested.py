@@ -7,7 +7,7 @@ from math import exp, log
 from statistics import median
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.table_import.parts import Part
+from asphalt_nscd.table_import.several_files import Part
 from asphalt_nscd.table_import.targets import FAR
 
 OFF = log(1.3)  # of |E*|, by which specimens of a mix hardly differ

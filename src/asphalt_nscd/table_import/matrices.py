@@ -10,8 +10,8 @@ from pathlib import Path
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells, Row, Sheet
 from asphalt_nscd.table_import.decimals import like_below
+from asphalt_nscd.table_import.header_lines import NUMBER, told_above
 from asphalt_nscd.table_import.heading import KEYS, SPECIMEN, Heading, condition, known, read_heading
-from asphalt_nscd.table_import.headings import NUMBER, told_above
 from asphalt_nscd.table_import.sheets import OF_OTHERS
 
 _ABSENT = ("", "-", "--", "–", "n/a", "na", "#n/a")

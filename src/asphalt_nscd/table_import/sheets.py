@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.decimals import number
-from asphalt_nscd.table_import.headings import with_constants
+from asphalt_nscd.table_import.header_lines import with_constants
 from asphalt_nscd.table_import.melt import held
 from asphalt_nscd.table_import.names import specimen_of
 from asphalt_nscd.table_import.quantities import recognise

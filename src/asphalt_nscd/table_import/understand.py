@@ -13,12 +13,12 @@ from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, REDUCED_COLUMNS
 from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.columns import Place, as_written, chosen_columns, one_of
 from asphalt_nscd.table_import.decimals import decimal_mark, number, with_point
+from asphalt_nscd.table_import.header_lines import with_units
 from asphalt_nscd.table_import.heading import known, read_heading
-from asphalt_nscd.table_import.headings import with_units
 from asphalt_nscd.table_import.melt import melted
-from asphalt_nscd.table_import.parts_of_modulus import WAYS, with_whole_modulus
 from asphalt_nscd.table_import.quantities import ABSENT, QUALITY, Column, derived, recognise
 from asphalt_nscd.table_import.rows import CARRIED, tests_in
+from asphalt_nscd.table_import.storage_loss import WAYS, with_whole_modulus
 
 TEXTS = ("specimen", "replicate", "origin")
 KEYS = ("temperature_C", "frequency_Hz")

@@ -175,7 +175,7 @@ def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
 def _tables(path: Path) -> list[Cells]:
     """The tables of a file: its matrices as one, else each sheet but those of means of others."""
     from asphalt_nscd.table_import.cells import read_sheets
-    from asphalt_nscd.table_import.headings import tabulated
+    from asphalt_nscd.table_import.header_lines import tabulated
     from asphalt_nscd.table_import.matrices import matrix_cells
     from asphalt_nscd.table_import.melt import holds_means
     from asphalt_nscd.table_import.sheets import of_other_sheets
