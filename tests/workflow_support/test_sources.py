@@ -1,5 +1,8 @@
 from __future__ import annotations
 
+import json
+import os
+
 import pytest
 
 from asphalt_nscd.workflow_support import sources
@@ -23,6 +26,30 @@ def package(tmp_path, monkeypatch):
     monkeypatch.setattr(sources, "PACKAGE", root)
     sources._read.cache_clear()
     return root
+
+
+@pytest.fixture
+def another_process(package, monkeypatch):
+    """As if the process ended and another began; gives the files that it parses."""
+    waiting, parsed = [], []
+    monkeypatch.setattr(sources.atexit, "register", lambda *call: waiting.append(call))
+    parse = sources._parse
+    monkeypatch.setattr(
+        sources, "_parse", lambda path, content: parsed.append(path.name) or parse(path, content)
+    )
+    sources._parsed.cache_clear()
+    (package / "__pycache__").mkdir()
+
+    def begin():
+        for keep, *parts in waiting:
+            keep(*parts)
+        sources._read.cache_clear()
+        sources._parsed.cache_clear()
+        for seen in (waiting, parsed):
+            seen.clear()
+        return parsed
+
+    return begin
 
 
 def names(root, *modules):
@@ -89,6 +116,67 @@ def test_a_stamp_changes_with_the_content_only(tmp_path, package):
     kernel.write_text("SIGN = -1\n")
     assert sources.stamp(tmp_path, "plotting", files).read_text() != first
     assert path.stat().st_mtime_ns == max(file.stat().st_mtime_ns for file in files)
+
+
+def test_what_one_process_parsed_another_takes_over(package, another_process):
+    parsed = another_process()
+    first = names(package, "step")
+    assert sorted(parsed) == ["errors.py", "kernel.py", "solver.py", "step.py"]
+    stamp = sources.stamp(package, "step", sources.source_files("step")).read_text()
+    parsed = another_process()
+    assert names(package, "step") == first and not parsed
+    assert sources.stamp(package, "step", sources.source_files("step")).read_text() == stamp
+
+
+def test_what_was_parsed_before_counts_for_the_same_content_alone(package, another_process):
+    """Though the file looks the same from outside: as long, and of the same time."""
+    another_process()
+    names(package, "plotting")
+    parsed = another_process()
+    solver, seen = package / "core/solver.py", (package / "core/solver.py").stat().st_mtime_ns
+    text = solver.read_text()
+    solver.write_text(text.replace("from . import kernel", "import math         "))
+    assert len(text) == len(solver.read_text())
+    os.utime(solver, ns=(seen, seen))
+    assert names(package, "plotting") == ["core/solver.py", "errors.py", "plotting.py"]
+    assert parsed == ["solver.py"]
+
+
+def test_a_module_that_appears_counts_for_sources_that_did_not_change(package, another_process):
+    (package / "core/kernel.py").unlink()
+    another_process()
+    assert "core/__init__.py" in names(package, "step")  # of which it is a name
+    parsed = another_process()
+    (package / "core/kernel.py").write_text("")
+    assert "core/kernel.py" in names(package, "step") and parsed == ["kernel.py"]
+
+
+@pytest.mark.parametrize(
+    "harm", ["half", "other shape", "other entries", "another's", "changed", "none to write"]
+)
+def test_a_broken_file_of_what_was_parsed_is_not_trusted(package, another_process, harm):
+    another_process()
+    first = names(package, "step")
+    another_process()
+    kept = package / "__pycache__/sources.json"
+    table = json.loads(kept.read_text())
+    files = sorted(table)
+    bad = {
+        "half": kept.read_text()[: kept.stat().st_size // 2],
+        "other shape": "[1]",
+        "other entries": json.dumps(dict.fromkeys(files, 1)),
+        "another's": json.dumps(dict(zip(files, [table[file] for file in files[1:] + files[:1]]))),
+        "changed": json.dumps({file: [seal, meaning, []] for file, (seal, meaning, _) in table.items()}),
+        "none to write": None,
+    }[harm]
+    kept.unlink()
+    if bad is None:
+        kept.mkdir()
+    else:
+        kept.write_text(bad)
+    assert names(package, "step") == first
+    another_process()
+    assert names(package, "step") == first
 
 
 def test_a_string_that_is_no_docstring_counts(tmp_path, package):

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import ast
+import atexit
 import csv
 import hashlib
+import json
 import os
+import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from asphalt_nscd.files.store import atomic_path
 
@@ -100,23 +105,75 @@ class _Source:
 
 @cache
 def _read(path: Path, mtime_ns: int) -> _Source:
-    """mtime_ns: as it stood at which moment. Parsed once for both, which takes most of the time."""
+    """mtime_ns: as it stood at which moment."""
+    place, content = path.relative_to(PACKAGE).as_posix(), path.read_bytes()
+    parsed = _parsed(PACKAGE)
+    entry = parsed.get(place)
+    # Sealed with all that it depends on, so that an entry that is stale, broken or of another Python says so itself.
+    if not isinstance(entry, list) or entry[:1] != [_seal(content, entry[1:])]:
+        found = _parse(path, content)
+        parsed[place] = entry = [_seal(content, found), *found]
+    _, meaning, imports = entry
+    files = (_file(tuple(name.split("."))) or _file(tuple(base.split("."))) for name, base in imports)
+    return _Source(meaning, frozenset(file for file in files if file is not None))
+
+
+def _parse(path: Path, content: bytes) -> list[Any]:
+    """Digest of the syntax tree without docstrings; names that may be modules, each with what else it may be."""
     package = ("asphalt_nscd", *path.relative_to(PACKAGE).parent.parts)
-    files: set[Path | None] = set()
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    imports: set[tuple[str, str]] = set()
+    tree = ast.parse(content)
     for node in ast.walk(tree):
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
             if ast.get_docstring(node, clean=False) is not None:
                 node.body = node.body[1:]
         elif isinstance(node, ast.Import):
-            files.update(_file(tuple(name.name.split("."))) for name in node.names)
+            imports.update((name.name, name.name) for name in node.names)
         elif isinstance(node, ast.ImportFrom):
             base = package[: len(package) - node.level + 1] if node.level else ()
             base += tuple((node.module or "").split(".")) if node.module else ()
-            for name in node.names:
-                files.add(_file((*base, name.name)) or _file(base))
+            imports.update((".".join((*base, name.name)), ".".join(base)) for name in node.names)
     meaning = hashlib.sha256(ast.dump(tree, annotate_fields=False).encode()).hexdigest()
-    return _Source(meaning, frozenset(file for file in files if file is not None))
+    return [meaning, sorted([name, base] for name, base in imports if name.startswith("asphalt_nscd"))]
+
+
+def _seal(content: bytes, found: list[Any]) -> str:
+    """Of what was found in a source file, by this Python and this module."""
+    parts = (sys.version.encode(), _own(), content, json.dumps(found).encode())
+    return hashlib.sha256(b"\0".join(parts)).hexdigest()
+
+
+@cache
+def _own() -> bytes:
+    return Path(__file__).read_bytes()
+
+
+@cache
+def _parsed(package: Path) -> dict[str, Any]:
+    """By its path in the package, what earlier processes and this one found in each source file.
+
+    To parse all of them takes a quarter of a dry run. They lie beside what Python compiled of them.
+    """
+    kept = package / "__pycache__/sources.json"
+    try:
+        table = json.loads(kept.read_bytes())
+    except (OSError, ValueError):
+        table = None
+    parsed = table if isinstance(table, dict) else {}
+    atexit.register(_keep_parsed, kept, parsed, json.dumps(parsed))
+    return parsed
+
+
+def _keep_parsed(kept: Path, parsed: dict[str, Any], before: str) -> None:
+    """For later processes. Where two end together one of them wins, and what it lacks is parsed again."""
+    text = json.dumps(parsed)
+    if text != before:
+        temporary = kept.with_suffix(f".{os.getpid()}")
+        with suppress(OSError):  # a package may stand where nobody writes
+            temporary.write_text(text)
+            temporary.replace(kept)
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
 
 
 def _file(module: tuple[str, ...]) -> Path | None:
