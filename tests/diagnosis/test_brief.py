@@ -418,3 +418,18 @@ def test_an_isotherm_that_is_to_be_checked_is_not_told_again_as_unexplained():
     assert answer(discrepancy=[*left, cold], **then)["Unexplained"] == [
         "Beyond scatter, the common master curve is off by 2.0 % in |E*| at 4 degC."
     ]
+
+
+def test_a_fault_of_one_place_is_no_fault_of_all_tests_and_is_checked_first():
+    odd = {
+        "specimen": "3",
+        "temperature_C": None,
+        "phase_deg": 1.2,
+        "interval_95": [1.0, 1.4],
+        "probability": 0.9,
+    }
+    told = answer(odd_phases=[odd])
+    assert told["Fault"] == ["None found beside what is to be checked first."]
+    assert told["Check first"][0].startswith("Specimen 3: phase 1.20 +- 0.20 deg above what its |E*| and")
+    by_levels = answer(odd_phases=[{key: odd[key] for key in ("specimen", "temperature_C", "phase_deg")}])
+    assert by_levels["Fault"] == ["None found."]

@@ -207,7 +207,7 @@ def test_every_test_is_counted_once_in_what_can_be_trusted(exports):
         Suspect(doubtful[0], ("x",), used=False),
         Suspect(doubtful[1], ("x",), used=True),
     ]
-    broken = [SimpleNamespace(temperature=50.0)]
+    broken = [50.0]
     found = trust(exports, SimpleNamespace(suspects=suspects), odd, broken)
     hot = int((exports.isotherm == 50).sum())
     assert found == {

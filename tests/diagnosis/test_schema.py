@@ -52,6 +52,10 @@ def outlier(frame):
     return frame.assign(E_MPa=frame["E_MPa"] * np.where(frame.index == 50, 1.4, 1.0))
 
 
+def one_specimen_turned(frame):
+    return frame.assign(phase_deg=frame["phase_deg"] + 2.0 * (frame["specimen"] == "2"))
+
+
 def few(frame):
     return frame[(frame["temperature_C"] == 15) & frame["frequency_Hz"].isin([3, 40])]
 
@@ -93,6 +97,14 @@ REACHED = {
         content["verdict"] == "unexplained_structure" and content["unexplained"]
     ),
     outlier: lambda content: [row["specimen"] for row in content["unexplained"]] == ["2"],
+    one_specimen_turned: lambda content: (
+        [
+            one["specimen"]
+            for one in content["odd_phases"]
+            if one["interval_95"][0] < 2.0 < one["interval_95"][1]
+        ]
+        == ["2"]
+    ),
     few: lambda content: content["verdict"] == "nothing_to_explain" and not content["ladder"],
     least: lambda content: content["tests"] == 4,
     ragged: lambda content: content["tests"] == 4,

@@ -157,6 +157,21 @@ def test_isotherm_without_any_order_is_broken_and_no_list_of_suspects():
     assert [one.temperature for one in suspects.broken_isotherms(broken)] == [37.0]
 
 
+def test_of_an_isotherm_that_is_torn_from_the_others_less_evidence_is_asked():
+    """Three tests are too few to break by themselves; 6 deg of a torn one are enough, 2 deg are not."""
+    whole = campaign()
+    few = whole.subset(np.flatnonzero(np.isin(whole.frequency, (0.1, 1.0, 10.0))))
+    hot = few.temperature == 37.0
+    for degrees, torn, expected in (
+        (-6.0, (), []),
+        (-6.0, (37.0,), [37.0]),
+        (-2.0, (37.0,), []),
+        (-6.0, (4.0,), []),
+    ):
+        turned = altered(few, hot, phase_deg=degrees)
+        assert [one.temperature for one in suspects.broken_isotherms(turned, torn=torn)] == expected
+
+
 def test_phase_offset_of_a_whole_campaign_breaks_nothing():
     observed = altered(campaign(), slice(None), phase_deg=3.0)
     assert not out(observed) and not suspects.broken_isotherms(observed)

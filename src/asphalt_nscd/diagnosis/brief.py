@@ -159,9 +159,14 @@ def _data(content: Content) -> list[str]:
 
 def _no_fault(content: Content, possible: bool, effects: bool) -> list[str]:
     """That none is certain, and how many temperatures certainty lacks; effects: whether any of the mix is certain."""
-    said = (
-        "None is certain" if possible else "None found beside the effect below" if effects else "None found"
-    )
+    odd = [
+        one
+        for key in ("odd_phases", "odd_temperatures", "contradictory_isotherms")
+        for one in content.get(key, [])
+    ]
+    checks = any("probability" in one for one in odd)
+    beside = ["what is to be checked first"] * checks + ["the effect below"] * effects
+    said = "None is certain" if possible else "None found" + f" beside {joined(beside)}" * bool(beside)
     at = len(content.get("reading", {}).get("isotherms_C", []))
     if 0 < at < LEAST_ISOTHERMS:
         there = "is" if at == 1 else "are"
@@ -311,6 +316,8 @@ def _where_exceeded(above: list[Content], content: Content) -> str:
 def _contradictions(found: list[Content]) -> list[str]:
     """Where isotherms contradict themselves most, what to check, and which tests to use then."""
     again = "then test there again. If phase and slope then agree, use the new tests in place of the old."
+    turned = [one for one in found if "offset_deg" in one]
+    found = [one for one in found if one not in turned]
     known = [one for one in found if "worst_deg" in one]
     said = [
         f"{one['temperature_C']:g} degC: |E*| and phase contradict each other. Check strain and machine, {again}"
@@ -328,7 +335,9 @@ def _contradictions(found: list[Content]) -> list[str]:
                 f"At {at} degC the phase is up to {most} {side} than |E*| requires (about 90 deg times the slope "
                 f"of log |E*| against log f). Check strain level, load control and gauges, {again}"
             )
-    return said
+    return said + [
+        f"{one['sentence']} Check the channels and their settings there, {again}" for one in turned
+    ]
 
 
 def _scatter(content: Content) -> list[str]:

@@ -69,6 +69,18 @@ EXPECTED = {
     "secondary_process": Expected(0.02, 2e9),  # Pa
     "solver": Expected(0.5, 1.0),  # of a simulated campaign
 }
+# Faults of one place (`diagnosis.confined`), which are told and not named; the chance is that of all places.
+CONFINED = {
+    "offset of one specimen": Expected(0.1, 1.2),  # deg; each has gauges of its own
+    "delay of one specimen": Expected(0.03, 2.5e-4),  # s
+    "offset of one isotherm": Expected(0.03, 1.2),  # deg
+    "temperature of one specimen on one isotherm": Expected(0.15, 1.5),  # K; one of a hundred sweeps
+}
+# Standard errors without a discrepancy of its place, from which a fault is estimated beside it: those told have 4.9.
+NEARLY_SURE = 4.0
+# Of -2 ln likelihood, that a discrepancy of its own gains at an isotherm that is torn from the others. In drawn tables:
+# 50 or more where gauges slip, at most 4 elsewhere.
+TORN = 25.0
 
 
 @dataclass(frozen=True)

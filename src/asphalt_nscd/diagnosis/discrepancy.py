@@ -261,6 +261,30 @@ class Reduced:
     gram: NDArray
     along: Vector
 
+    def only(self, kept: NDArray[np.bool_]) -> Reduced:
+        """With some of the processes alone.
+
+        Parameters
+        ----------
+        kept : ndarray of bool (m,)
+            Which.
+
+        Returns
+        -------
+        Reduced
+            Of these.
+        """
+        found, columns = self.processes, kept[self.processes.block]
+        less = Processes(
+            tuple(one for one, stays in zip(found.described, kept, strict=True) if stays),
+            tuple(root for root, stays in zip(found.roots, kept, strict=True) if stays),
+            found.factor[:, columns],
+            (np.cumsum(kept) - 1)[found.block[columns]],
+            found.usual[kept],
+            found.spread[kept],
+        )
+        return Reduced(less, self.gram[np.ix_(columns, columns)], self.along[columns])
+
 
 @dataclass(frozen=True)
 class Direction:

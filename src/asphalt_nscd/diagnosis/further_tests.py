@@ -184,7 +184,8 @@ def _repeats(
 def _odd(diagnosis: Diagnosis) -> list[dict[str, Any]]:
     """Isotherms and specimens that are odd."""
     done = diagnosis.whole or diagnosis.observed
-    return [*levels.odd(done), *levels.odd_phases(done)]
+    phases, _ = levels.with_confined(levels.odd_phases(done), [], diagnosis.ladder.of_one_place)
+    return [*levels.odd(done), *phases]
 
 
 def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mapping[str, Any]) -> Departure:
@@ -195,7 +196,8 @@ def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mappi
         again &= table.isotherm == one["temperature_C"]
     size = np.log(one["factor"]) if "factor" in one else 1j * np.radians(one["phase_deg"])
     effect = np.zeros(linear.effects.shape[0], complex)
-    effect[: table.size][again] = size
+    share = table.frequency[again] / diagnosis.observed.frequencies[-1] if "delay_s" in one else 1.0
+    effect[: table.size][again] = size * share
     return Departure("level", effect, one["specimen"], one["temperature_C"], odd=one)
 
 

@@ -55,8 +55,8 @@ class Laboratory:
         return np.hstack([_of_isotherm(joint, at), *own])
 
 
-def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
-    """Sizes in a table, beside the discrepancy.
+def processes(joint: Joint, fitted: Fitted) -> tuple[Processes, tuple[str, ...]]:
+    """What the laboratory adds, in its usual sizes, beside the discrepancy.
 
     Parameters
     ----------
@@ -67,8 +67,10 @@ def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
 
     Returns
     -------
-    Laboratory
-        Sizes.
+    Processes
+        Of the discrepancy, then of each effect.
+    tuple of str
+        The effects, of LABORATORY.
     """
     own = {
         kind: LABORATORY[kind].size * root for kind, root in _roots(joint, fitted, joint.noise.block).items()
@@ -87,10 +89,49 @@ def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
         np.concatenate([beside.usual, np.ones(len(own))]),
         np.concatenate([beside.spread, [LABORATORY[kind].spread for kind in own]]),
     )
-    variances = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances[len(beside.roots) :]
+    return found, tuple(own)
+
+
+def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
+    """Sizes in a table, beside the discrepancy.
+
+    Parameters
+    ----------
+    joint : Joint
+        Whose noise is the scatter of single tests.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    Laboratory
+        Sizes.
+    """
+    found, kinds = processes(joint, fitted)
+    variances = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances[-len(kinds) :]
     return Laboratory(
-        {kind: LABORATORY[kind].size * float(np.sqrt(v)) for kind, v in zip(own, variances, strict=True)}
+        {kind: LABORATORY[kind].size * float(np.sqrt(v)) for kind, v in zip(kinds, variances, strict=True)}
     )
+
+
+def of_single_tests(joint: Joint, fitted: Fitted) -> Joint:
+    """The model whose noise is the scatter of single tests and the temperatures of isotherms, whose size is stated.
+
+    Parameters
+    ----------
+    joint : Joint
+        With or without what else the laboratory adds.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    Joint
+        Without it.
+    """
+    # What a block shares is its mounting's: it is not counted twice.
+    alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared), discrepancy=None)
+    return Joint(joint.observed, joint.base, alone.beside(_parts(_of_isotherm(joint, fitted))))
 
 
 def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | None]:
@@ -112,11 +153,9 @@ def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | N
     """
     if not isinstance(joint.base, FlexibleSpectrum) or joint.observed.isotherms.size < 2:
         return joint, None
-    # What a block shares is its mounting's: it is not counted twice.
-    alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared))
-    held = Joint(joint.observed, joint.base, alone.beside(_parts(_of_isotherm(joint, fitted))))
-    # what an isotherm's own temperature adds has a stated size; the others are estimated beside it
+    held = of_single_tests(joint, fitted)
     found = estimate(held, held.linearise(fitted.law, fitted.scales, fitted.active))
+    alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared))
     noise = alone.beside(_parts(found.factor(joint, fitted, alone.block)))
     return Joint(joint.observed, joint.base, noise), found
 

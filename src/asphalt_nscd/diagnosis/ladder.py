@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from asphalt_nscd.diagnosis import chance, with_discrepancy
+from asphalt_nscd.diagnosis import chance, confined, with_discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE, NOTICED
@@ -88,6 +89,10 @@ class Ladder:
         What must not be left out for a cause to be seen.
     estimates : dict of tuple to tuple of float
         Amplitude and standard error of every cause.
+    odd : list of Odd
+        Faults of one place, which have no rung.
+    torn : list of float
+        Isotherms that follow no one law with the others, degC.
     """
 
     joint: Joint
@@ -101,11 +106,19 @@ class Ladder:
     discrepancy: dict[Process, float] = field(default_factory=dict)
     hangs_on: dict[tuple, list[str]] = field(default_factory=dict)
     estimates: dict[tuple, tuple[float, float]] = field(default_factory=dict)
+    odd: list[confined.Odd] = field(default_factory=list)
+    torn: list[float] = field(default_factory=list)
 
     @property
     def fitted(self) -> Fitted:
         """The fit with all causes named."""
         return self.rungs[-1].after if self.rungs else self.start
+
+    @property
+    def of_one_place(self) -> list[dict[str, Any]]:
+        """Faults of one place as `diagnosis.json` holds them."""
+        highest = float(self.joint.observed.frequencies[-1])
+        return [one.content(widening(self.estimates_spread), highest) for one in self.odd]
 
     def std_errors(self, candidate: Candidate) -> NDArray[np.float64]:
         """Standard errors of a named cause in the last fit, that of the amplitude with the discrepancy's sizes.
@@ -199,6 +212,7 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
         ladder.estimates = with_discrepancy.estimates(end, survey)
     ladder.hangs_on = {c.key: with_discrepancy.hangs_on(end, c) for c in end.fitted.active}
     ladder.limits, ladder.unseen, ladder.alike = with_discrepancy.detection_limits(end, survey, draws, random)
+    ladder.odd, ladder.torn = confined.find(end, survey)
     sizes = np.sqrt(end.variances)
     ladder.discrepancy = dict(zip(end.model.processes.described, sizes.tolist(), strict=True))
     ladder.remaining = _remaining(end.plain, end.linear, draws, random)

@@ -7,7 +7,7 @@ and the other specimens do.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from scipy.special import stdtrit
 
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.scatter import median_by
+from asphalt_nscd.diagnosis.written import with_interval
 from asphalt_nscd.files.words import specimen_named
 
 Vector = NDArray[np.float64]
@@ -32,6 +33,8 @@ LEAST_FREEDOM = 2  # degrees of freedom of the levels that judge one
 ALPHA_PER_TABLE = 0.003  # share of the tables without an odd level in which the levels name one by chance
 NORMAL = 1.4826  # standard deviation over the median absolute deviation
 LEAST_PHASE = 0.1  # deg: the logarithm of a phase needs one above zero
+OF_BOTH = ", which explains both: check that first"
+OF_SPECIMEN = "its gauges, channels and mounting"
 ONE_MIX = 25.0  # percent by which specimens of one mix hardly differ; T 378 expects some 13
 
 
@@ -125,6 +128,34 @@ def odd_temperatures(
                     {"specimen": level["specimen"], "temperature_C": level["temperature_C"], "kelvin": kelvin}
                 )
     return found
+
+
+def with_confined(
+    phases: list[dict[str, Any]], temperatures: list[dict[str, Any]], confined: Sequence[Mapping[str, Any]]
+) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Odd phases and temperatures, those that were told beside the last fit in place of others of the same place.
+
+    Parameters
+    ----------
+    phases, temperatures : list of dict
+        Of `odd_phases` and `odd_temperatures`.
+    confined : sequence of mapping
+        Of `confined.Odd.content`.
+
+    Returns
+    -------
+    list of dict
+        Odd phases.
+    list of dict
+        Odd temperatures.
+    """
+    channels, sweeps = ([dict(one) for one in confined if key in one] for key in ("phase_deg", "kelvin"))
+    whole = {one["specimen"] for one in channels}
+    told = {(one["specimen"], one["temperature_C"]) for one in sweeps}
+    return (
+        [*channels, *(one for one in phases if one["specimen"] not in whole)],
+        [*sweeps, *(one for one in temperatures if (one["specimen"], one["temperature_C"]) not in told)],
+    )
 
 
 def _per_kelvin(observed: Observations, temperature: float) -> tuple[float, float]:
@@ -264,8 +295,9 @@ def sentences(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> lis
 def of_temperatures(found: Iterable[Mapping[str, Any]]) -> list[str]:
     """What `odd_temperatures` found and what to check first, a sentence each without its full stop."""
     return [
-        f"at {one['temperature_C']:g} degC {specimen_named(one['specimen'])} seems {abs(one['kelvin']):.2g} K "
-        f"{'warmer' if one['kelvin'] > 0.0 else 'colder'} than stated, which explains both: check that first"
+        f"at {one['temperature_C']:g} degC {specimen_named(one['specimen'])} seems {_size(one, 'kelvin', '.2g')} K "
+        f"{'warmer' if one['kelvin'] > 0.0 else 'colder'} than stated"
+        + (": check its conditioning and the record" if "interval_95" in one else OF_BOTH)
         for one in found
     ]
 
@@ -278,11 +310,29 @@ def described(one: Mapping[str, Any]) -> tuple[str, str]:
             f"{place(one)}: |E*| {one['factor']:.2f} times {others}",
             "gauges, gain, unit and entered dimensions of these tests",
         )
+    if "delay_s" in one:
+        late = "after" if one["delay_s"] > 0.0 else "before"
+        return (
+            f"{place(one)}: displacement recorded {_size(one, 'delay_s', '.2g', 1e3)} ms {late} the force, "
+            f"{abs(one['phase_deg']):.1f} deg at the highest frequency",
+            "filters and settings of its channels",
+        )
     side = "above" if one["phase_deg"] > 0.0 else "below"
-    size = f"{place(one)}: phase {abs(one['phase_deg']):.1f} deg {side}"
+    size = f"{place(one)}: phase {_size(one, 'phase_deg', '.1f')} deg {side}"
+    if "interval_95" in one:
+        return f"{size} what its |E*| and the other specimens say, in all its tests", OF_SPECIMEN
     if one["temperature_C"] is None:
-        return f"{size} the mean of the other specimens", "its gauges, channels and mounting"
+        return f"{size} the mean of the other specimens", OF_SPECIMEN
     return f"{size} {others}", "gauges, channels and temperature of these tests"
+
+
+def _size(one: Mapping[str, Any], key: str, digits: str, factor: float = 1.0) -> str:
+    """Absolute value times a factor, with its interval where there is one."""
+    value = factor * abs(one[key])
+    if "interval_95" not in one:
+        return f"{value:{digits}}"
+    low, high = one["interval_95"]
+    return with_interval(value, 0.5 * factor * (high - low))
 
 
 def if_sound(one: Mapping[str, Any]) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import logsumexp
 
-from asphalt_nscd.diagnosis.criteria import EXPECTED
+from asphalt_nscd.diagnosis.criteria import EXPECTED, Expected
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 
@@ -38,10 +38,17 @@ def log_odds(candidate: Candidate, observed: Observations, gain: float, std_erro
         Natural logarithm.
     """
     expected, first = EXPECTED[candidate.cause.name], candidate.cause.parameters[0]
-    ways = 1.0 if first.low < 0.0 else 2.0  # one sign alone has twice the density
-    away = candidate.values[0] / expected.size
-    density = ways / (np.pi * expected.size * (1.0 + away**2))
-    chance = expected.chance / len(candidate.cause.places(observed))
+    places = len(candidate.cause.places(observed))
+    return odds_of(expected, places, candidate.values[0], std_error, gain, first.low >= 0.0)
+
+
+def odds_of(
+    expected: Expected, places: int, size: float, std_error: float, gain: float, one_sided: bool = False
+) -> float:
+    """ln of the odds of an effect of this size, in the unit of what is expected, at one of several places."""
+    ways = 2.0 if one_sided else 1.0  # one sign alone has twice the density
+    density = ways / (np.pi * expected.size * (1.0 + (size / expected.size) ** 2))
+    chance = expected.chance / places
     known = min(std_error, expected.size)
     return float(
         0.5 * gain + np.log(density * known * np.sqrt(2.0 * np.pi)) + np.log(chance / (1.0 - chance))

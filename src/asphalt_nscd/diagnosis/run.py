@@ -300,8 +300,14 @@ def conclude(
     except InputError as error:
         raise InputError(f"{given}: {error}") from None
     done.step()
-    odd = levels.odd(observed), levels.odd_phases(observed)
-    doubtful = levels.rows(diagnosis.observed, chain(*odd))
+    moduli, phases, own = levels.odd(observed), levels.odd_phases(observed), diagnosis.ladder.of_one_place
+    phases, temperatures = levels.with_confined(
+        phases, levels.odd_temperatures(observed, moduli, phases), own
+    )
+    odd = moduli, phases
+    doubtful = levels.rows(diagnosis.observed, chain(*odd, temperatures))
+    if np.unique(diagnosis.observed.isotherm[~doubtful]).size < diagnosis.observed.isotherms.size:
+        doubtful[:] = False  # the rest makes no law
     fit = None if observed.isotherms.size < 2 else material_law(diagnosis, ~doubtful, stated.law)
     content, before = report.as_json(diagnosis, numerical), None
     if fit is not None:
@@ -324,7 +330,7 @@ def conclude(
     content["one_sided"] = one_sided
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["odd_levels"], content["odd_phases"] = odd
-    content["odd_temperatures"] = levels.odd_temperatures(observed, *odd)
+    content["odd_temperatures"] = temperatures
     content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
     content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
     done.step()
@@ -332,7 +338,7 @@ def conclude(
     ahead += fixed_orders.metal(observed, Costs(), one_sided) if one_sided else []
     content["instructions"] = instructions(diagnosis, ahead=ahead)
     done.step()
-    broken = suspects.broken_isotherms(observed, loo)
+    broken = suspects.broken_isotherms(observed, loo, diagnosis.ladder.torn)
     content["contradictory_isotherms"] = [
         {
             "temperature_C": one.temperature,
@@ -343,7 +349,11 @@ def conclude(
         for one in broken
         for worst in [int(np.argmax(np.abs(one.difference)))]
     ]
-    content["trust"] = trust(observed, diagnosis, levels.rows(observed, chain(*odd)), broken)
+    to_check = [one.temperature for one in broken]
+    turned = [one for one in own if "offset_deg" in one and one["temperature_C"] not in to_check]
+    content["contradictory_isotherms"] += turned
+    to_check += [one["temperature_C"] for one in turned]
+    content["trust"] = trust(observed, diagnosis, levels.rows(observed, chain(*odd, temperatures)), to_check)
     standard = reported.standard_values(diagnosis)
     content["reported"] = standard.iloc[0].to_dict()
     content["provenance"] = {

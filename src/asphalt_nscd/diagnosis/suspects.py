@@ -12,6 +12,7 @@ ends of the band, mostly at the lowest frequency, where nothing on one side says
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,8 +23,9 @@ from scipy.special import logsumexp, stdtr
 from asphalt_nscd.diagnosis import contested, quality, within_isotherm
 from asphalt_nscd.diagnosis.copies import copied
 from asphalt_nscd.diagnosis.exchanged import Exchange
+from asphalt_nscd.diagnosis.kramers_kronig import required_phase
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.within_isotherm import BEND_WEIGHTS, BENDS, LooPrediction
+from asphalt_nscd.diagnosis.within_isotherm import BEND_WEIGHTS, BENDS, SCATTER, LooPrediction
 from asphalt_nscd.files.words import counted
 
 STRONG = 6e-3  # chance, times the number of values, below which causality alone takes a test out
@@ -36,6 +38,11 @@ LEANING, VERY_FAR = 0.1, 1e-5  # both limits where replicates say more: at the e
 PHASES = 0.0, 90.0  # deg, that a passive linear material can have
 BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1.5 deg or more
 BREAKS = BENDS > np.radians(1.0)
+TORN_APART = (
+    1.5  # standard errors of a phase that |E*| requires, where other isotherms speak against this one too
+)
+TORN_LEAST = 3.0  # deg, the same: isotherms of NCAT that are not broken depart by up to 2.4
+FEWEST = 3  # tests whose |E*| requires a phase
 LEAST_FREEDOM = 4  # of the replicates of an isotherm
 SHARED = "every specimen contradicts its isotherm here in the same way: look for a common cause, not for a bad test"
 HALVES = (
@@ -182,7 +189,9 @@ def _shared(
     return shared
 
 
-def broken_isotherms(observed: Observations, loo: LooPrediction | None = None) -> list[BrokenIsotherm]:
+def broken_isotherms(
+    observed: Observations, loo: LooPrediction | None = None, torn: Collection[float] = ()
+) -> list[BrokenIsotherm]:
     """Isotherms that contradict themselves as a whole; their single tests are no suspects.
 
     Parameters
@@ -191,6 +200,8 @@ def broken_isotherms(observed: Observations, loo: LooPrediction | None = None) -
         Measured tests.
     loo : LooPrediction, optional
         If it is already computed.
+    torn : collection of float
+        Isotherms that follow no one law with the others, of which less evidence is asked for, degC.
 
     Returns
     -------
@@ -198,11 +209,14 @@ def broken_isotherms(observed: Observations, loo: LooPrediction | None = None) -
         Ascending.
     """
     loo = loo or within_isotherm.leave_one_out(observed)
-    difference = np.degrees(observed.logarithm.imag - loo.required)
-    error = np.degrees(np.hypot(loo.required_error, loo.scatter[:, 1]))
-    found = []
-    for temperature in _broken_temperatures(observed, loo):
-        rows = loo.judged & loo.in_place & (observed.isotherm == temperature)
+    required, own_error = _required(observed, loo)
+    difference = np.degrees(observed.logarithm.imag - required)
+    error = np.degrees(np.hypot(own_error, loo.scatter[:, 1]))
+    broken, found = _broken_temperatures(observed, loo), []
+    for temperature in np.union1d(broken, list(torn)):
+        rows = np.isfinite(required) & loo.in_place & (observed.isotherm == temperature)
+        if temperature not in broken and not _contradicts(difference[rows], error[rows]):
+            continue
         frequency, at = np.unique(observed.frequency[rows], return_inverse=True)
         count = np.bincount(at)
         found.append(
@@ -215,6 +229,23 @@ def broken_isotherms(observed: Observations, loo: LooPrediction | None = None) -
             )
         )
     return found
+
+
+def _contradicts(difference: NDArray, error: NDArray) -> bool:
+    """Whether phases (k,) depart from those required, as a whole, by more than the error that they share [deg]."""
+    return difference.size > 0 and bool(abs(difference.mean()) > max(TORN_APART * error.mean(), TORN_LEAST))
+
+
+def _required(observed: Observations, loo: LooPrediction) -> tuple[NDArray, NDArray]:
+    """Phase (n,) that |E*| requires and its error [rad], of isotherms of three tests too."""
+    required, error = loo.required.copy(), loo.required_error.copy()
+    block = within_isotherm.blocks(observed)
+    for number in np.unique(block[~loo.judged]):
+        rows = np.flatnonzero(block == number)
+        if rows.size >= FEWEST:
+            one = required_phase(observed.frequency[rows], observed.logarithm.real[rows], SCATTER[0])
+            required[rows], error[rows] = one.phase, one.std_error
+    return required, error
 
 
 def one_sided(observed: Observations, loo: LooPrediction) -> str:

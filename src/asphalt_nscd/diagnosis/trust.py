@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from asphalt_nscd.diagnosis import levels, quality, within_isotherm
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.suspects import BrokenIsotherm
 from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET, isotherm_notes
 
@@ -71,7 +70,7 @@ def reading(
 
 
 def trust(
-    observed: Observations, diagnosis: Diagnosis, odd: NDArray[np.bool_], broken: Sequence[BrokenIsotherm]
+    observed: Observations, diagnosis: Diagnosis, odd: NDArray[np.bool_], broken: Collection[float]
 ) -> dict[str, Any]:
     """How many tests can be used as they are, of each specimen too, how many after a check, how many not at all.
 
@@ -82,9 +81,9 @@ def trust(
     diagnosis : Diagnosis
         What was found.
     odd : ndarray of bool (n,)
-        Rows of odd isotherms.
-    broken : sequence of BrokenIsotherm
-        Isotherms that contradict themselves.
+        Rows of odd isotherms and specimens.
+    broken : collection of float
+        Isotherms that contradict themselves, degC.
 
     Returns
     -------
@@ -93,7 +92,7 @@ def trust(
     """
     out = np.zeros(observed.size, bool)
     out[[one.row for one in diagnosis.suspects if not one.used]] = True
-    check = odd | np.isin(observed.isotherm, [one.temperature for one in broken])
+    check = odd | np.isin(observed.isotherm, list(broken))
     check |= levels.rows(observed, _off_target(observed))
     above = quality.exceeded(observed)
     for name in quality.LIMITS:
