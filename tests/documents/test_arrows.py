@@ -36,7 +36,7 @@ ARROWS = {
         "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
         "table_import", "packings", "formulation",
     ],
-    "web": ["files", "diagnosis", "exports", "reporting", "table_import", "api"],
+    "web": ["files", "measurements", "diagnosis", "exports", "reporting", "table_import", "api"],
     "cli": [
         "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
         "study", "table_import", "verification", "nscd", "api", "contact_problems", "formulation", "web",

@@ -12,7 +12,8 @@ import pandas as pd
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.campaign import TEST_TYPES, Campaign
+from asphalt_nscd.measurements.campaign import Campaign
+from asphalt_nscd.measurements.kinds import TEST_TYPES
 from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.frames import campaign_of
 

@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from asphalt_nscd.files.ranges import Range
+from asphalt_nscd.measurements.kinds import TEST_TYPES
 
 TRAPEZOID = ("b_mm", "B_mm", "e_mm", "h_mm", "mass_kg", "mobile_mass_kg")
 CYLINDER = ("d_mm", "h_mm", "mass_kg", "mobile_mass_kg")
@@ -151,6 +152,11 @@ law = click.option(
     default="2s2p1d",
     type=click.Choice(["2s2p1d", "huet-sayegh", "sigmoid", "cam"]),
     help="Form of the law in law.json; sigmoid is that of AASHTO R 84. Misfits of all four are compared.",
+)
+measured_in = click.option(
+    "--measured-in",
+    type=click.Choice(list(TEST_TYPES)),
+    help="Test that gave the moduli; else what the files say.",
 )
 column = click.option(
     "--column",

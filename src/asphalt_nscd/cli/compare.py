@@ -11,11 +11,7 @@ from asphalt_nscd.cli._progress import bars
 @click.command()
 @click.argument("mixes", type=_options.File, nargs=-1, required=True)
 @click.option("--output", required=True, type=_options.File, help="Folder for comparison.html and the rest.")
-@click.option(
-    "--measured-in",
-    type=click.Choice(["bending", "tension-compression"]),
-    help="Test that gave the moduli; else what the files say.",
-)
+@_options.measured_in
 @click.option(
     "--same-machine", is_flag=True, help="One machine tested all: say what it does to all of them, too."
 )

@@ -18,11 +18,7 @@ PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 )
 @click.option("--sheet", help="The only sheet of an XLSX file to read; else all that hold tests.")
 @_options.column
-@click.option(
-    "--measured-in",
-    type=click.Choice(["bending", "tension-compression"]),
-    help="Test that gave the moduli; else what the files say.",
-)
+@_options.measured_in
 @click.option(
     "--geometry",
     default=PAPER,

@@ -37,11 +37,7 @@ Of a sieve table:
     help="Specimens, b_mm equal to B_mm for prisms. Needed for F0 and z0. With moduli the default is the paper's, with "
     "those of a direct test a cylinder of d_mm=100,h_mm=150.",
 )
-@click.option(
-    "--measured-in",
-    type=click.Choice(["bending", "tension-compression"]),
-    help="Test that gave the moduli; else what the files say.",
-)
+@_options.measured_in
 @click.option("--grading", type=_options.File, help="Sieve table for the spheres: sieve (mm), passing (%).")
 @click.option("--small", is_flag=True, help="One sample of some hundred spheres, to try a study in minutes.")
 @_options.gather(

@@ -18,7 +18,8 @@ from asphalt_nscd.diagnosis.fixed_orders import band
 from asphalt_nscd.diagnosis.sentences import cause_words, doubtful, not_used, odd
 from asphalt_nscd.diagnosis.written import UNDETERMINED
 from asphalt_nscd.files.words import counted, joined, specimen_named
-from asphalt_nscd.measurements.campaign import OFF_TARGET, UNKNOWN
+from asphalt_nscd.measurements.campaign import OFF_TARGET
+from asphalt_nscd.measurements.kinds import UNKNOWN
 
 Content = Mapping[str, Any]
 Rows = list[tuple[str, list[str]]]
@@ -110,7 +111,7 @@ def _tests(content: Content) -> list[str]:
     if len(names) <= FEW:
         which = f"specimen{'s' * (len(names) > 1)} {joined(names)}"
     at = joined([f"{t:g}" for t in read["isotherms_C"]])
-    return [_sentence(f"{verdict.TEST_TYPES[read['test_type']]}: {which} at {at} degC")]
+    return [_sentence(f"{verdict.TESTS_OF[read['test_type']]}: {which} at {at} degC")]
 
 
 def _notes(content: Content) -> list[str]:

@@ -15,7 +15,7 @@ from asphalt_nscd.files.csvinput import Limits, Table, read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry
-from asphalt_nscd.measurements.reduction import FORMS, KEYS, REDUCED_COLUMNS, reduced_frame
+from asphalt_nscd.measurements.reduction import FORMS, KEYS, PICKED, is_reduced, reduced_frame
 from asphalt_nscd.measurements.signs import wrong_sign
 from asphalt_nscd.measurements.slips import slips
 from asphalt_nscd.measurements.twopoint import form_factor, mass_factor
@@ -27,7 +27,7 @@ OPTIONAL = {
     "time_step_s": Limits(1e-9, 10.0, "give the time step of the simulation in s"),
     "cycles": Limits(0, 1e12, "give the load cycles borne before the test"),
 }
-PEAKS = FORMS["peaks"] + REDUCED_COLUMNS[-2:]
+PEAKS = (*FORMS["peaks"], *PICKED)
 MOST_ROWS = 3000  # the chance level takes matrices of twice the rows
 BEYOND_SCATTER = 1.25  # a softest test may scatter below the static modulus, not by more
 HALF_MICRO = 0.5e-6  # the amplitude in one of a peak-to-peak value in millionths
@@ -61,7 +61,7 @@ def read_observations(
             f"{path}: |E*| without a phase, of which nothing can be diagnosed; add the phase, or take the master curve "
             "that `asphalt-nscd diagnose` gives of such a table."
         )
-    reduced = set(REDUCED_COLUMNS) <= set(table.columns)  # before: peaks stand beside the moduli
+    reduced = is_reduced(table.columns)  # before: peaks stand beside the moduli
     if reduced:
         table = _without(table, (name for name in PEAKS if not any(table.columns[name])))
     if len(table.lines) > MOST_ROWS:

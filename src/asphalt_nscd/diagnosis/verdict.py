@@ -19,12 +19,9 @@ from asphalt_nscd.diagnosis.sentences import (
 )
 from asphalt_nscd.diagnosis.written import mean_averages, three_digits
 from asphalt_nscd.files.words import joined
+from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
-TEST_TYPES = {
-    "bending": "two-point bending of trapezoids",
-    "tension-compression": "axial tests of cylinders (AMPT or UTM)",
-    "unknown": "tests of a kind that was not said",
-}
+TESTS_OF = TEST_TYPES | {UNKNOWN: "tests of a kind that was not said"}
 OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to} | {
     "relaxation_spectrum",
     BOND_MAPPING,

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.files.csvinput import Table
 
-TEST_TYPES = ("bending", "tension-compression")
-UNKNOWN = "unknown"  # of moduli where nothing says which test gave them
 READINGS_APART = 0.5  # K; neighbours in one isotherm are no further apart: T 378 holds +- 0.5 K
 WIDEST_ISOTHERM = 1.0  # K between the coldest and the warmest reading of one isotherm
 OFF_TARGET = 0.5  # K that T 378 lets the mean temperature of a test stray from its target
@@ -29,7 +27,7 @@ class Campaign:
     files : tuple of path
         Where they came from.
     test_type : str
-        One of TEST_TYPES, or UNKNOWN.
+        One of `kinds.TEST_TYPES`, or UNKNOWN.
     notes : tuple of str
         How they were read.
     without_tests : tuple of str

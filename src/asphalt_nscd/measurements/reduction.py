@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,19 +25,12 @@ LABELS = ("replicate",)  # told apart, not measured
 KEYS = ("temperature_C", "frequency_Hz")
 FORMS = {"peaks": ("F0_N", "z0_m", "psi_deg"), "moduli": ("E_MPa", "phase_deg"), "records": ("record",)}
 RECORD_COLUMNS = ("time_s", "force_N", "displacement_m")
-REDUCED_COLUMNS = (
-    "specimen",
-    "temperature_C",
-    "frequency_Hz",
-    "origin",
-    "F0_N",
-    "z0_m",
-    "psi_deg",
-    "E_MPa",
-    "phase_deg",
+PICKED = (
     "E_peak_MPa",
     "phase_peak_deg",
-)
+)  # from the peaks of a record, as in the paper; the rest is a harmonic fit
+OF_RECORDS = (*FORMS["peaks"], *FORMS["moduli"], *PICKED)
+REDUCED_COLUMNS = ("specimen", *KEYS, "origin", *OF_RECORDS)
 
 SHARE_LEFT_BY_MASS = 0.3  # of |E*|: in quadrature to the mass term stands its sine, of soft mixes above this
 # No mix below 15 GPa has all its phases under 90/57.3 deg, and none is glassy enough for less than 0.3 deg.
@@ -131,6 +124,22 @@ def reduced_frame(
     _check_stiffness(table, frame, form, stiffness, softest)
     _check_whole_table(table, frame, form)
     return frame
+
+
+def is_reduced(columns: Iterable[str]) -> bool:
+    """Whether a table with these columns is one that `reduce_table` wrote: peaks stand beside the moduli.
+
+    Parameters
+    ----------
+    columns : iterable of str
+        Its columns; further ones do not count.
+
+    Returns
+    -------
+    bool
+        True if so.
+    """
+    return {*KEYS, *FORMS["peaks"], *FORMS["moduli"], *PICKED} <= set(columns)
 
 
 def require_enough(tests: int, frequencies: int) -> None:
@@ -286,7 +295,7 @@ def _reduce_records(
             )
             values.extend(_in_table_units(modulus))
         reduced.append(values)
-    frame[list(REDUCED_COLUMNS[4:])] = np.array(reduced)
+    frame[list(OF_RECORDS)] = np.array(reduced)
 
 
 def _in_table_units(modulus: NDArray[np.complex128]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from asphalt_nscd.files.csvinput import Limits
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.paper import BENDING
-from asphalt_nscd.measurements.paper import PAPER_AMPLITUDE as PAPER_AMPLITUDE
+from asphalt_nscd.measurements.kinds import BENDING
+from asphalt_nscd.measurements.kinds import PAPER_AMPLITUDE as PAPER_AMPLITUDE
 from asphalt_nscd.measurements.shape import Shape
 
 HEAD_SHARE_OF_MASS = 0.135  # part of the specimen's mass that moves with the head, Eq. (1)

@@ -16,7 +16,7 @@ from jsonschema.exceptions import ValidationError, best_match
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file, require_readable
-from asphalt_nscd.measurements.paper import BENDING, PAPER_AMPLITUDE
+from asphalt_nscd.measurements.kinds import BENDING, PAPER_AMPLITUDE
 
 # YAML 1.1 reads 5e-5 as text, because it has no decimal point; the author meant a number.
 _SCIENTIFIC = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")

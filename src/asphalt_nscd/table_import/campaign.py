@@ -12,7 +12,8 @@ from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.files.words import counted
-from asphalt_nscd.measurements.campaign import UNKNOWN, Campaign, nominal_temperatures
+from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
+from asphalt_nscd.measurements.kinds import UNKNOWN
 from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
 from asphalt_nscd.table_import.cells import Cells, NotTests, Row, Sheet, read_sheets
 from asphalt_nscd.table_import.contested import refuse_mislabelled

@@ -28,7 +28,7 @@ def schemes_in(path: Path) -> set[str]:
     Returns
     -------
     set of str
-        Of TEST_TYPES.
+        Of `kinds.TEST_TYPES`.
     """
     try:
         sheets = read_sheets(path)

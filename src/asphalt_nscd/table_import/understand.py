@@ -9,7 +9,7 @@ from itertools import chain
 
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, REDUCED_COLUMNS
+from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, is_reduced
 from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.columns import Place, as_written, chosen_columns, one_of
 from asphalt_nscd.table_import.decimals import decimal_mark, number, with_point
@@ -139,7 +139,7 @@ def _converts(column: Column) -> bool:
 def _own(cells: Cells) -> ParsedTable | None:
     """A table that `reduce` wrote, or one that names records: in our columns already, taken as it is."""
     names = set(cells.header)
-    if not set(REDUCED_COLUMNS) <= names and not {"record", *KEYS} <= names:
+    if not is_reduced(names) and not {"record", *KEYS} <= names:
         return None
     columns = {name: [row[place] for _, row in cells.rows] for place, name in enumerate(cells.header)}
     form = "records" if "record" in names else "moduli"

@@ -13,13 +13,13 @@ from flask import Flask, Response, abort, jsonify, render_template, request, sen
 from werkzeug.exceptions import HTTPException
 
 from asphalt_nscd.api.laws import TITLES
+from asphalt_nscd.measurements.kinds import TEST_TYPES
 from asphalt_nscd.table_import.campaign import TABLES
 from asphalt_nscd.table_import.quantities import MEASURED
 from asphalt_nscd.web.work import SECONDS_TO_DIAGNOSE, SECONDS_TO_READ, Choices, Job
 
 MOST_BYTES = 40_000_000  # of all files of one drop
 MOST_FILES = 100
-TEST_TYPES = ("bending", "tension-compression")
 # What a page may load: nothing from elsewhere.
 POLICY = (
     "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
@@ -102,7 +102,9 @@ def create_app(token: str | None = None) -> Flask:
     @app.get("/<token>/")
     def page(token: str) -> str:
         units = {name: list(of) for name, (_, of) in MEASURED.items()}
-        return render_template("page.html", units=units, laws=TITLES, endings=", ".join(TABLES))
+        return render_template(
+            "page.html", units=units, laws=TITLES, kinds=TEST_TYPES, endings=", ".join(TABLES)
+        )
 
     @app.post("/<token>/files")
     def drop(token: str) -> Response:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.measurements.campaign import TEST_TYPES, UNKNOWN
+from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -63,7 +63,7 @@ class Cause(ABC):
     needs: ClassVar[str] = ""
     shows_in: ClassVar[str] = "other tests: in these, the master curve can bend to hide it"
     confined_to: ClassVar[str] = ""
-    benches: ClassVar[tuple[str, ...]] = TEST_TYPES
+    benches: ClassVar[tuple[str, ...]] = tuple(TEST_TYPES)
 
     def places(self, observed: Observations) -> Sequence[Place]:
         """Where the cause may sit.

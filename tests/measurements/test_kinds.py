@@ -1,0 +1,37 @@
+"""The kinds of test stand in Python once, and again where Python cannot be asked: in schemas and rules."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import yaml
+
+from asphalt_nscd.measurements.geometry import USUAL
+from asphalt_nscd.measurements.kinds import BENDING, TEST_TYPES, UNKNOWN
+from asphalt_nscd.table_import import schemes
+
+ROOT = Path(__file__).parents[2]
+STUDY = "workflow/schemas/study.schema.yaml"
+
+
+def properties(schema: str, *keys: str) -> dict:
+    content = yaml.safe_load((ROOT / schema).read_text(encoding="utf-8"))
+    for key in keys:
+        content = content["properties"][key]
+    return content
+
+
+def test_what_can_be_diagnosed():
+    assert set(schemes._SCHEMES) == set(TEST_TYPES)
+    for section in ("diagnosis", "tables_beside"):
+        assert properties(STUDY, section, "measured_in")["enum"] == list(TEST_TYPES)
+    written = (ROOT / "src/asphalt_nscd/diagnosis/diagnosis.schema.yaml").read_text(encoding="utf-8")
+    enum = re.search(r"test_type: \{.*enum: \[(.*)\]\}", written)
+    assert enum and enum[1].split(", ") == [*TEST_TYPES, UNKNOWN]
+
+
+def test_what_can_be_simulated():
+    assert properties(STUDY, "test", "type")["enum"] == list(USUAL)
+    rules = (ROOT / "workflow/rules/rigs.smk").read_text(encoding="utf-8")
+    assert [BENDING, *re.findall(r'"\w+": "([\w -]+)"', rules)] == list(USUAL)
