@@ -205,7 +205,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "poured_by": "poured by",
                 "seed": "seed",
                 "bonds": "bonds",
-                "solid_fraction": "solid fraction",
                 "E_over_law": "over law",
             }
         ),
@@ -343,7 +342,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "phase_difference_deg": " °",
                 "E_from_map_percent": "from map, %",
                 "phase_from_map_deg": "° ",
-                "cpu_s": "CPU, s",
             },
             figures=3,
         )
