@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import logit
 
 from asphalt_nscd.diagnosis import chance, discrepancy, limits
 from asphalt_nscd.diagnosis.causes._cause import Cause
@@ -561,21 +562,24 @@ def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]
 
 
 def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> float:
-    """Amplitude, in typical units, that gains enough over a discrepancy without a name in 19 of 20 cases.
+    """Amplitude, in typical units, that gets its name beside a discrepancy in 19 of 20 cases.
 
     The effect is put into this table, less its own value of it: the discrepancy may take up what it can.
     """
     candidate = surveyed.candidates[k]
+    typical = float(candidate.typical[0])
     one, direction = surveyed.estimates[k], surveyed.pointing.column(k)
     amplitude = (threshold + Z_95) * one.std_error
     for _ in range(LARGER):
         seen = amplitude - Z_95 * one.std_error
         model, pointing = discrepancy.moved(state.model, direction, seen - one.amplitude)
-        without = min(
-            discrepancy.estimate(model, start=start).misfit for start in (one.variances, state.variances)
-        )
+        without = likeliest(model, state.variances).misfit
         gain = without - discrepancy.estimate(model, pointing, one.variances).misfit
-        if gain - _shapes_at(state, candidate, amplitude) > TWENTY_TIMES:
+        gain -= _shapes_at(state, candidate, amplitude)
+        # A name asks for both: a gain over the discrepancy, and odds over none that hold what is usual of the cause.
+        present = candidate.with_values(np.array([amplitude * typical, *candidate.values[1:]]))
+        odds = log_odds(present, state.plain.observed, gain, one.std_error * typical)
+        if gain > TWENTY_TIMES and odds > logit(POSSIBLE):
             break
         amplitude *= 1.25
     return amplitude

@@ -35,6 +35,13 @@ def test_a_hidden_cause_is_named_rightly_and_its_empty_case_not_at_all(cause):
     assert abs(row["error_sigma"]) < 3.5
 
 
+@pytest.mark.parametrize("seed", [5, SEED, 9])
+def test_a_fault_of_one_specimen_is_named_at_the_limit_stated_for_it(seed):
+    """The limit knows that a discrepancy of the specimen takes the fault up, and what a name asks beside a gain."""
+    _, row = (row for _, row in opened("loose_clamp", seed, 1.0).iterrows())
+    assert row["named"] and row["wrong"] == 0, row
+
+
 @pytest.mark.parametrize("shift", laws.SHIFTS)
 @pytest.mark.parametrize("seed", [5, 9])
 def test_no_form_of_the_shift_is_taken_for_a_cause(shift, seed, monkeypatch):
