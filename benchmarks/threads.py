@@ -48,8 +48,9 @@ def shake(bed: GranularBed, numerics: PouringNumerics) -> None:
 def measured(bed: GranularBed, numerics: PouringNumerics, work, threads: int) -> tuple[float, bytes]:
     """Wall time [s] of the same work from the same state, and what came of it."""
     copy = deepcopy(bed)
-    copy._room = None  # rows of a copy do not begin at cache lines, as those of a pouring do
+    copy._workspace = None  # rows of a copy do not begin at cache lines, as those of a pouring do
     copy._list(copy._start, copy._other)
+    copy.impulse = bed.impulse
     with Team(threads) as copy.team:
         copy.advance(numerics)
         began = time.perf_counter()

@@ -38,9 +38,10 @@ def layer():
 
 def copy(of: GranularBed) -> GranularBed:
     other = granular_layer()
-    for name in ("position", "velocity", "impulse", "plane_point"):
+    for name in ("position", "velocity", "plane_point"):
         setattr(other, name, getattr(of, name).copy())
     other._list(of._start, of._other)
+    other.impulse = of.impulse
     other._reach = of._reach
     other._plane_reach, other._extra = of._plane_reach, of._extra
     other._searched_at, other._planes_at = of._searched_at.copy(), of._planes_at.copy()

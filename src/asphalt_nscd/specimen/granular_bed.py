@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.nscd.lanes import WIDTH
 from asphalt_nscd.nscd.spheres import granular, neighbours
 from asphalt_nscd.nscd.spheres.blocks import in_blocks
 from asphalt_nscd.nscd.spheres.slabs import Slabs, Workspace, slabs_of, workspace_for
@@ -165,7 +166,6 @@ class GranularBed:
     def __post_init__(self) -> None:
         self._start: np.ndarray | None = None
         self._other = np.empty(0, np.int64)
-        self.impulse = np.zeros((0, 3))
         self._slabs: Slabs | None = None
         self._workspace: Workspace | None = None
         self.drive = np.zeros(2)  # of the top wall: speed [m/s], largest impulse of a step [N s]
@@ -276,7 +276,6 @@ class GranularBed:
             self.plane_point,
             self.plane_normal,
             self.gravity,
-            self.impulse,
             self._slabs,
             self._workspace,
             self.drive,
@@ -349,13 +348,13 @@ class GranularBed:
         start, other = neighbours.find_pairs_within(
             self.team, position, radius, self.plane_point, self.plane_normal, within, n
         )
-        if self._start is None:
-            self.impulse = np.zeros((other.size, 3))
-        else:
-            self.impulse = neighbours.carry_reactions(
+        impulse = np.zeros((other.size, 3))
+        if self._start is not None:
+            impulse = neighbours.carry_reactions(
                 self.team, self._start, self._other, self.impulse, start, other
             )
         self._list(start, other)
+        self.impulse = impulse
         self._searched_at, self._planes_at = position.copy(), self.plane_point.copy()
         return meeting
 
@@ -367,6 +366,19 @@ class GranularBed:
         last_body = self.inverse_mass.size - 1
         begin, pair, bodies = slabs_of(self.team, self.position[: start.size - 1], start, other, last_body)
         self._slabs, self._workspace = in_blocks(self.team, begin, pair, bodies, self._workspace)
+
+    @property
+    def impulse(self) -> np.ndarray:
+        """Of the listed pairs (pairs, 3) [N s], on the second body; a copy, which may be assigned."""
+        impulse = np.zeros((self._other.size, 3))
+        if self._slabs is not None and self._workspace is not None:
+            self.team.run(granular.take_out, impulse, self._slabs.pair, self._workspace.contacts)
+        return impulse
+
+    @impulse.setter
+    def impulse(self, impulse: np.ndarray) -> None:
+        assert self._slabs is not None and self._workspace is not None
+        self.team.run(granular.lay_in, impulse, self._slabs.pair, self._workspace.contacts)
 
     def kinetic_energy(self) -> float:
         """Of the spheres [J]; spin counts with 2/5 of its surface velocity squared."""
@@ -440,10 +452,11 @@ class GranularBed:
 
     def touching_wall(self) -> np.ndarray:
         """Indices (t,) of the spheres that the top wall pushed in the last step."""
-        assert self._start is not None
-        listed = np.flatnonzero(self._other == self.radius.size + WALL)
-        pushed = listed[self.impulse[listed].any(axis=1)]
-        return np.searchsorted(self._start, pushed, side="right") - 1
+        assert self._start is not None and self._slabs is not None and self._workspace is not None
+        begin, end = self._slabs.begin[-2:]  # of the slab of pairs with the last body
+        pushed = self._workspace.contacts[begin:end, 3:6].any(axis=1).ravel()
+        pair = self._slabs.pair[WIDTH * begin : WIDTH * end][pushed]
+        return np.sort(np.searchsorted(self._start, pair, side="right") - 1)
 
     def out_of_balance(self, time_step: float) -> tuple[float, float]:
         """How far the forces of the last step are from equilibrium; both near zero at rest.
@@ -493,5 +506,6 @@ class GranularBed:
         """First and second body (c,) and impulse (c, 3) [N s] of contacts that had one in the last step."""
         assert self._start is not None
         first = np.repeat(np.arange(self._start.size - 1), np.diff(self._start))
-        pushed = np.flatnonzero(self.impulse.any(axis=1))
-        return first[pushed], self._other[pushed], self.impulse[pushed]
+        impulse = self.impulse
+        pushed = np.flatnonzero(impulse.any(axis=1))
+        return first[pushed], self._other[pushed], impulse[pushed]

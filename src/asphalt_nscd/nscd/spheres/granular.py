@@ -139,24 +139,31 @@ def unpack_motion(motion, begin, end, velocity):
 
 
 @compiled_for_teams
-def lay_in(impulse, slabs, contacts, begin, end):
-    """The impulses of the list of pairs (pairs, 3) into blocks begin:end of `contacts`."""
+def lay_in(rank, members, barrier, impulse, pair, contacts):
+    """The impulses of the list of pairs (pairs, 3) into `contacts`; run by all members of a team.
+
+    They stay there from step to step, as long as the list does.
+    """
+    mark_started(barrier)
+    begin, end = partition(rank, members, pair.shape[0] // WIDTH)
     for block in range(begin, end):
         for lane in range(WIDTH):
-            pair = slabs.pair[WIDTH * block + lane]
+            c = pair[WIDTH * block + lane]
             for k in range(3):
-                contacts[block, 3 + k, lane] = impulse[pair, k] if pair >= 0 else 0.0
+                contacts[block, 3 + k, lane] = impulse[c, k] if c >= 0 else 0.0
 
 
 @compiled_for_teams
-def take_out(impulse, slabs, contacts, begin, end):
+def take_out(rank, members, barrier, impulse, pair, contacts):
     """The other way round."""
+    mark_started(barrier)
+    begin, end = partition(rank, members, pair.shape[0] // WIDTH)
     for block in range(begin, end):
         for lane in range(WIDTH):
-            pair = slabs.pair[WIDTH * block + lane]
-            if pair >= 0:
+            c = pair[WIDTH * block + lane]
+            if c >= 0:
                 for k in range(3):
-                    impulse[pair, k] = contacts[block, 3 + k, lane]
+                    impulse[c, k] = contacts[block, 3 + k, lane]
 
 
 @compiled_for_teams
@@ -239,7 +246,6 @@ def step(
     plane_point,
     plane_normal,
     gravity,
-    impulse,
     slabs,
     workspace,
     drive,
@@ -254,7 +260,7 @@ def step(
     enough_sweeps,
     most_sweeps,
 ):
-    """Advance spheres by one step; position, velocity and impulse change in place. Run by all members of a team.
+    """Advance spheres by one step; position, velocity and impulses change in place. Run by all members of a team.
 
     Each member does its slabs and its share of the bodies. Overlaps beyond allowed_overlap are undone, no
     faster than by recovery_speed.
@@ -277,12 +283,10 @@ def step(
         [m], and unit normals that point to the spheres.
     gravity : ndarray (3,)
         [m/s2].
-    impulse : ndarray (pairs, 3)
-        [N s].
     slabs : Slabs
         The pairs.
     workspace : Workspace
-        For at least as many.
+        For at least as many; `contacts` has the impulses of the last step.
     drive : ndarray (2,)
         Speed [m/s] and largest impulse [N s] of the last plane where its mass is finite (guide_wall).
     dt : float
@@ -328,7 +332,6 @@ def step(
         mine, others = first_and_end(rank, members, last, kind)
         for s in range(mine, others, 2):
             pack_planes(s, plane_point, plane_normal, workspace)
-            lay_in(impulse, slabs, workspace.contacts, slabs.begin[s], slabs.begin[s + 1])
             pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin)
             if restitution > 0.0:
                 rebound(s, slabs, workspace, velocity, restitution)
@@ -346,10 +349,6 @@ def step(
         enough_sweeps,
         most_sweeps,
     )
-    for kind in range(3):
-        mine, others = first_and_end(rank, members, last, kind)
-        for s in range(mine, others, 2):
-            take_out(impulse, slabs, workspace.contacts, slabs.begin[s], slabs.begin[s + 1])
     unpack_motion(workspace.motion, begin, end, velocity)
     if rank == 0:  # who guides the wall
         unpack_motion(workspace.motion, n, bodies, velocity)

@@ -1,10 +1,12 @@
 """Pairs dealt into slabs upright in the layer, so that members of a team can work on them side by side.
 
-A slab is at least as wide as the two spheres of any pair are apart along the axis of slabs. So a pair lies in one slab
-or in two adjacent ones; it is counted to the first of them. Pairs of two slabs of even number then share no
-sphere, nor do pairs of two of odd number. The slabs come from the positions alone and not from the number of threads.
+The layer is cut into strips, each at least as wide as the two spheres of any pair are apart along the axis of strips.
+So a pair lies in one strip or in two adjacent ones; it is counted to the first of them. Pairs of two strips of even
+number then share no sphere, nor do pairs of two of odd number. A slab is some neighbours of the even strips, or of the
+odd ones: contacts of a large sphere must stand in blocks one after another (blocks.py), which one strip alone
+cannot fill. Slabs come from the positions alone and not from the number of threads.
 Within a slab, pairs are taken from the top down. Neighbours in this order are mostly apart from each other in the
-layer, so that few blocks hold them (blocks.py).
+layer, so that few blocks hold them.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ MOST_SLABS = 256
 LAYER = 5e-4  # m, within which pairs stand in the order of the list
 MOST_LAYERS = 1000
 FAIR = 4  # a multiple of it: as many slabs of even number as of odd, and equal parts for two threads
+STRIPS = 3  # of one slab, at least: blocks are then nearly full
 
 
 class Slabs(NamedTuple):
@@ -148,15 +151,17 @@ def slabs_of(
     low, extent = found[:, 0].min(axis=0), found[:, 1].max(axis=0) - found[:, 0].min(axis=0)
     axis = int(extent[1] > extent[0])
     apart = found[:, 2, axis].max() * (1.0 + 1e-9)  # rounding must not narrow them
-    slabs = int(np.clip(extent[axis] / apart, 1.0, MOST_SLABS)) if apart > 0.0 else 1
-    if slabs > FAIR:
-        slabs = slabs // FAIR * FAIR
+    strips = int(np.clip(extent[axis] / apart, 1.0, MOST_SLABS)) if apart > 0.0 else 1
+    slabs = strips
+    if strips > FAIR:
+        strips = strips // FAIR * FAIR
+        slabs = max(FAIR, strips // STRIPS // FAIR * FAIR)
     layers = int(min(extent[2] / LAYER + 1.0, MOST_LAYERS))
-    slab, layer = np.empty(n, np.int32), np.empty(pairs, np.int32)
+    strip, layer = np.empty(n, np.int32), np.empty(pairs, np.int32)
     place = np.zeros((team.members, (slabs + 1) * layers), np.int64)
     begin = np.empty(slabs + 2, np.int64)
-    box = axis, low[axis], extent[axis], low[2] + extent[2]
-    team.run(_deal, shares, position, start, other, last_body, box, slab, layer, place, begin, pair, bodies)
+    box = axis, low[axis], extent[axis], low[2] + extent[2], strips
+    team.run(_deal, shares, position, start, other, last_body, box, strip, layer, place, begin, pair, bodies)
     return begin, pair, bodies
 
 
@@ -188,7 +193,7 @@ def _deal(
     other,
     last_body,
     box,
-    slab,
+    strip,
     layer,
     place,
     begin,
@@ -197,16 +202,17 @@ def _deal(
 ):
     """Pairs into layers of slabs, in the order of the list in each. place (members, layers): zeros."""
     mark_started(barrier)
-    axis, low, extent, top = box
+    axis, low, extent, top, strips = box
     n, slabs = position.shape[0], begin.shape[0] - 2
     layers = place.shape[1] // (slabs + 1)
     for i in range(shares[rank], shares[rank + 1]):
-        slab[i] = min(int((position[i, axis] - low) / extent * slabs), slabs - 1) if slabs > 1 else 0
+        strip[i] = min(int((position[i, axis] - low) / extent * strips), strips - 1) if strips > 1 else 0
     barrier_wait(barrier, members)
     for i in range(shares[rank], shares[rank + 1]):
         for c in range(start[i], start[i + 1]):
             j = other[c]
-            s = slabs if j == last_body else min(slab[i], slab[j]) if j < n else slab[i]
+            s = min(strip[i], strip[j]) if j < n else strip[i]
+            s = slabs if j == last_body else s // 2 * slabs // strips * 2 + s % 2 if strips > slabs else s
             height = 0.5 * (position[i, 2] + position[j, 2]) if j < n else position[i, 2]
             layer[c] = s * layers + min(int((top - height) / LAYER), layers - 1)
             place[rank, layer[c]] += 1
