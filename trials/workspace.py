@@ -6,11 +6,24 @@ import os
 import shutil
 import subprocess
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
 
 ROOT = Path(__file__).parents[1]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Number of jobs of each rule, and all that a dry run says."""
+
+    jobs: dict[str, int]
+    lines: list[str]
+
+    def commands(self, step: str) -> list[str]:
+        """Command lines of a step."""
+        return [line for line in self.lines if f"asphalt-nscd {step} " in line]
 
 
 class Workspace:
@@ -56,14 +69,18 @@ class Workspace:
 
     def planned(self, *arguments: str) -> dict[str, int]:
         """Number of jobs of each rule that a dry run announces."""
-        done = self.run(*arguments, "--dry-run", "--quiet", "rules")
+        return self.plan(*arguments, "--quiet", "rules").jobs
+
+    def plan(self, *arguments: str) -> Plan:
+        """What a dry run announces."""
+        done = self.run(*arguments, "--dry-run", "--printshellcmds")
         assert done.returncode == 0, done.stderr
         lines = (done.stdout + done.stderr).splitlines()
         if "Job stats:" not in lines:
-            return {}
+            return Plan({}, lines)
         table = lines[lines.index("Job stats:") + 3 :]
         rows = (line.split() for line in table[: next(i for i, line in enumerate(table) if "total" in line)])
-        return {rule: int(count) for rule, count in rows}
+        return Plan({rule: int(count) for rule, count in rows}, lines)
 
     @property
     def environment(self) -> dict[str, str]:

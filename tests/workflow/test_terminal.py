@@ -23,7 +23,6 @@ SETTINGS = {
     "debug_dag": False,
     "quiet": [],
 }
-FITS = ["results/smoke/laws/fitted/T0.json", "results/smoke/laws/fitted/T20.json"]
 
 
 @pytest.fixture
@@ -107,15 +106,3 @@ def test_a_plan_is_told_by_snakemake_itself(handler):
     hushed, text = handler(terminal=False, quiet=[Quietness.ALL], printshellcmds=True, show_failed_logs=True)
     started(hushed)
     assert text.getvalue() == ""
-
-
-def test_a_run_is_a_line_for_each_step_and_its_commands_are_kept(workspace):
-    workspace.configure()
-    done = workspace.run("--logger", "steps", "--cores", "2", *FITS)
-    assert done.returncode == 0, done.stderr
-    lines = done.stderr.strip().splitlines()
-    steps = [line for line in lines if " s)" in line]
-    assert [line.split()[0] for line in steps] == ["1/4", "2/4", "3/4", "4/4"]
-    assert len(steps) == 4 and len(lines) <= len(steps) + 2 and max(map(len, lines)) < 120, lines
-    (log,) = workspace.folder.glob(".snakemake/log/*.log")
-    assert "asphalt-nscd reduce" in log.read_text()

@@ -12,9 +12,12 @@ import signal
 import subprocess
 import sys
 import time
+from functools import cache
 from pathlib import Path
 
 import pytest
+from snakemake.cli import parse_args
+from workspace import Plan, Workspace
 
 import asphalt_nscd as an
 
@@ -43,13 +46,65 @@ def wait_for(path: Path, seconds: float = 60.0) -> None:
         time.sleep(0.02)
 
 
-@pytest.mark.parametrize("target", MAKE)
-def test_make_hands_over_what_snakemake_understands(target):
-    recipe = MAKE[target].replace("$(CORES)", "all").replace("$(CONFIG)", "config/smoke.yaml")
-    recipe += " --dry-run --quiet all --nolock"
-    command = [sys.executable, "-m", "snakemake", *shlex.split(recipe)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+@cache
+def shipped(study: str, folder: Path) -> Plan:
+    """Of the whole study of a configuration, asked once."""
+    workspace = Workspace(folder)
+    (workspace.folder / "study.yaml").write_text((workspace.folder / f"config/{study}.yaml").read_text())
+    return workspace.plan()
+
+
+@pytest.fixture(scope="module")
+def plan_of(tmp_path_factory):
+    folders = {study: tmp_path_factory.mktemp(study) for study in ("smoke", "paper")}
+    return lambda study: shipped(study, folders[study])
+
+
+@pytest.fixture(scope="module")
+def fits(tmp_path_factory):
+    """A study whose laws were fitted, and what the terminal showed."""
+    workspace = Workspace(tmp_path_factory.mktemp("fits"))
+    workspace.configure()
+    done = workspace.run("--logger", "steps", "--cores", "2", *FITS)
     assert done.returncode == 0, done.stderr
+    return workspace, done.stderr
+
+
+@pytest.fixture
+def fitted(fits, tmp_path):
+    """The same in a folder of one's own."""
+    shutil.copytree(fits[0].folder, tmp_path, dirs_exist_ok=True)
+    copy = Workspace.__new__(Workspace)
+    copy.folder = tmp_path
+    return copy
+
+
+def test_make_hands_over_what_snakemake_understands():
+    """Whole studies are planned below."""
+    together = {}
+    for recipe in MAKE.values():
+        words = shlex.split(recipe.replace("$(CORES)", "all").replace("$(CONFIG)", "config/smoke.yaml"))
+        _, given = parse_args(words)
+        assert given.logger == ["steps"]
+        files = given.configfile or [Path("config/paper.yaml")]
+        assert all((ROOT / file).is_file() for file in files)
+        if given.targets:
+            whose = "blind" if files == [Path("config/blind.yaml")] else "paper"
+            together.setdefault(whose, []).append((words, given.targets))
+    assert {name for recipes in together.values() for _, names in recipes for name in names} == {
+        "blind",
+        "attack",
+        "verify",
+        "benchmark",
+    }
+    for recipes in together.values():
+        # the one with most configuration, and the targets of the others
+        recipes.sort(key=lambda recipe: -len(recipe[0]))
+        (words, _), *others = recipes
+        words = [*(name for _, names in others for name in names), *words]
+        command = [sys.executable, "-m", "snakemake", *words, "--dry-run", "--quiet", "all", "--nolock"]
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
 
 
 def test_misspelt_key_is_one_sentence(workspace):
@@ -97,14 +152,10 @@ def test_study_that_cannot_work_is_one_sentence(workspace):
     assert sentence in done.stderr.splitlines()
 
 
-def test_own_table_replaces_the_reconstruction(workspace):
-    workspace.configure()
-    assert "reconstruct" in workspace.planned()
-    workspace.configure(measurements=workspace.measure())
-    assert "reconstruct" not in workspace.planned()
-
-
-def test_least_study_is_the_tests_and_their_figures(workspace):
+def test_least_study_is_the_tests_and_their_figures_and_an_own_table_replaces_the_reconstruction(
+    workspace, plan_of
+):
+    assert "reconstruct" in plan_of("smoke").jobs
     workspace.configure(
         measurements=workspace.measure(), laws={"simulate": "fitted"}, **dict.fromkeys(OPTIONAL)
     )
@@ -123,25 +174,23 @@ def test_least_study_is_the_tests_and_their_figures(workspace):
     assert not others & set(jobs)
 
 
-def test_the_paper_is_120_tests_on_four_samples(workspace):
-    (workspace.folder / "study.yaml").write_text((workspace.folder / "config/paper.yaml").read_text())
-    jobs = workspace.planned("results/paper/simulations.csv")
+def test_the_paper_is_120_tests_on_four_samples(plan_of):
+    plan = plan_of("paper")
+    jobs = plan.jobs
     assert jobs["simulate"] == 120 and jobs["deposit"] == 4
-    said = workspace.run("results/paper/simulations.csv", "--dry-run", "--printshellcmds").stdout
-    written = re.findall(r"--frequency-hz (\S+) --law \S+/(T\S+).json --output \S+/(s\d/T\S+/f\S+).h5", said)
+    form = r"--frequency-hz (\S+) --law \S+/(T\S+).json --output results/paper/tests/(s\d/T\S+/f\S+).h5"
+    written = re.findall(form, "\n".join(plan.lines))
     assert len(set(written)) == 120
     assert all(output.endswith(f"/{temperature}/f{frequency}") for frequency, temperature, output in written)
-    jobs = workspace.planned()
     # the rest is one job for all frequencies
     assert jobs["simulate_scaled"] == 32 and jobs["simulate_extended"] == 24 and jobs["audit"] == 1
     assert jobs["simulate_facets"] == 24 and jobs["ladder"] == jobs["fracture"] == 1
     assert {f"fig{number:02d}" for number in (1, *range(5, 15))} | {"table2", "table3", "table4"} <= set(jobs)
 
 
-def test_bonds_are_made_ready_to_break_only_where_the_campaign_tests(workspace):
-    (workspace.folder / "study.yaml").write_text((workspace.folder / "config/paper.yaml").read_text())
-    said = workspace.run("--dry-run", "--printshellcmds").stdout
-    lines = [line for line in said.splitlines() if "asphalt-nscd condense" in line]
+def test_bonds_are_made_ready_to_break_only_where_the_campaign_tests(plan_of):
+    plan = plan_of("paper")
+    lines = plan.commands("condense")
     without = {
         re.search(r"--output results/paper/(\S+).h5", line)[1] for line in lines if "--stand-by 0" in line
     }
@@ -149,35 +198,36 @@ def test_bonds_are_made_ready_to_break_only_where_the_campaign_tests(workspace):
     other = {"models/blocked/s1", "time_step/models/free/s1"}
     assert without == {*other, *loose, *(f"facets/{model}" for model in loose)}
     assert len(lines) == 15
-    (line,) = (line for line in said.splitlines() if "asphalt-nscd timings" in line)
+    (line,) = plan.commands("timings")
     forecast = ("packings", "recipe", "mixes", "voids")
     assert all(f" results/paper/benchmarks/forecast_{part}.tsv" in line for part in forecast)
 
 
-def test_rungs_above_the_paper_s_are_simulated_with_facets_and_nothing_is_divided_out(workspace):
-    workspace.configure()
-    said = workspace.run("results/smoke/ladder.csv", "--dry-run", "--printshellcmds").stdout
-    by_output = {
-        found[2]: found[1] for found in re.finditer(r"asphalt-nscd simulate (\S+) .*--output (\S+)", said)
-    }
+def test_rungs_above_the_paper_s_are_simulated_with_facets_and_nothing_is_divided_out(plan_of):
+    plan = plan_of("smoke")
+    found = [
+        re.search(r"asphalt-nscd simulate (\S+) .*--output (\S+)", line) for line in plan.commands("simulate")
+    ]
+    by_output = {one[2]: one[1] for one in found}
     facets, paper = "results/smoke/facets/models/free/s1.h5", "results/smoke/models/free/s1.h5"
     for folder, model in (("tests", paper), ("facets/tests", facets), ("extended/tests", facets)):
         assert by_output[f"results/smoke/{folder}/s1/T20/f10.h5"] == model
-    (line,) = (line for line in said.splitlines() if "asphalt-nscd trim" in line and "/facets/" in line)
+    (line,) = (
+        line for line in plan.commands("trim") if "--output results/smoke/facets/specimens/s1.h5" in line
+    )
     assert "--area facets" in line and "results/smoke/deposits/s1.h5" in line
-    (line,) = (line for line in said.splitlines() if "asphalt-nscd extend" in line)
+    (line,) = plan.commands("extend")
     assert "--specimen" not in line
-    (line,) = (line for line in said.splitlines() if "asphalt-nscd diagnose" in line)
+    (line,) = plan.commands("diagnose results/smoke/measured.csv")
     assert "--facets results/smoke/facets.csv" in line
 
 
 def test_a_study_with_facets_has_no_first_rung(workspace):
     settings = {"seeds": [1], "counts_table": "config/smoke_counts.csv", "box_m": [0.06, 0.01, 0.2]}
     workspace.configure(specimens=settings | {"bonds": {"area": "facets"}})
-    jobs = workspace.planned()
-    assert not {"trim_facets", "simulate_facets", "fracture"} & set(jobs) and jobs["ladder"] == 1
-    said = workspace.run("--dry-run", "--printshellcmds").stdout
-    assert "--facets" not in said and "results/smoke/facets" not in said
+    plan = workspace.plan()
+    assert not {"trim_facets", "simulate_facets", "fracture"} & set(plan.jobs) and plan.jobs["ladder"] == 1
+    assert not any("--facets" in line or "results/smoke/facets" in line for line in plan.lines)
 
 
 def test_packings_stand_in_for_pouring(workspace):
@@ -200,24 +250,21 @@ def test_packings_stand_in_for_pouring(workspace):
     assert 0.5 < float(row["E_over_law"]) < 2.0 and float(row["largest_phase_difference_deg"]) < 0.2
 
 
-def test_timings_are_those_of_the_study_s_own_jobs(workspace):
-    """Not of a temperature that was left out since."""
-    workspace.configure(temperatures_C=[20])
+def test_timings_are_those_of_the_study_s_own_jobs_and_what_it_says_of_the_diagnosis_reaches_it(workspace):
+    """Timings not of a temperature that was left out since."""
+    scatter = {"modulus_scatter_percent": 2, "phase_scatter_deg": 0.5}
+    workspace.configure(
+        temperatures_C=[20], diagnosis={"seed": 7, "static_modulus_MPa": 30, "scatter": scatter}
+    )
     left = workspace.folder / "results/smoke/benchmarks/simulate/s1/T0/f3.tsv"
     left.parent.mkdir(parents=True)
     left.touch()
-    said = workspace.run("results/smoke/timings.csv", "--dry-run").stdout
-    (command,) = (line.split() for line in said.splitlines() if "asphalt-nscd timings" in line)
+    plan = workspace.plan("results/smoke/timings.csv")
+    (command,) = (line.split() for line in plan.commands("timings"))
     timed = [word.removeprefix("results/smoke/benchmarks/") for word in command if word.endswith(".tsv")]
     assert {"simulate/s1/T20/f3.tsv", "deposit/s1.tsv", "reconstruct.tsv", "fig09.tsv"} <= set(timed)
     assert "simulate/s1/T0/f3.tsv" not in timed and "timings.tsv" not in timed
-
-
-def test_what_the_study_says_of_the_diagnosis_reaches_it(workspace):
-    scatter = {"modulus_scatter_percent": 2, "phase_scatter_deg": 0.5}
-    workspace.configure(diagnosis={"seed": 7, "static_modulus_MPa": 30, "scatter": scatter})
-    done = workspace.run("results/smoke/diagnosis/diagnosis.json", "--dry-run", "--printshellcmds")
-    command = next(line for line in done.stdout.splitlines() if "asphalt-nscd diagnose" in line)
+    (command,) = plan.commands("diagnose results/smoke/measured.csv")
     for words in (
         "--seed 7",
         "--draws 4000",
@@ -274,20 +321,29 @@ def test_edited_record_is_reduced_again(workspace):
 
 
 @pytest.mark.parametrize("study", ["smoke", "paper"])
-def test_all_asks_for_each_file_by_name(workspace, study):
+def test_all_asks_for_each_file_by_name(workspace, plan_of, study):
     """Else one that a failed run left missing between newer ones would not be made."""
     (workspace.folder / "study.yaml").write_text((workspace.folder / f"config/{study}.yaml").read_text())
-    said = workspace.run("--dry-run").stdout
-    asked = re.search(r"^(?:local)?rule all:\n    input: (.+)", said, re.MULTILINE)[1].split(", ")
+    lines = plan_of(study).lines
+    at = next(n for n, line in enumerate(lines) if re.fullmatch("(local)?rule all:", line))
+    asked = lines[at + 1].removeprefix("    input: ").split(", ")
     made = re.findall(r"^(results/\S+)\t", workspace.run("--summary").stdout, re.MULTILINE)
     assert len(made) > 100
     assert {path for path in made if "/compiled/" not in path} <= set(asked)
 
 
-def test_killed_run_is_finished_by_the_same_command(workspace):
-    workspace.configure()
-    undisturbed = workspace.run("--cores", "2", *FITS)
-    assert undisturbed.returncode == 0, undisturbed.stderr
+def test_a_run_is_a_line_for_each_step_and_its_commands_are_kept(fits):
+    workspace, said = fits
+    lines = said.strip().splitlines()
+    steps = [line for line in lines if " s)" in line]
+    assert [line.split()[0] for line in steps] == ["1/4", "2/4", "3/4", "4/4"]
+    assert len(steps) == 4 and len(lines) <= len(steps) + 2 and max(map(len, lines)) < 120, lines
+    (log,) = workspace.folder.glob(".snakemake/log/*.log")
+    assert "asphalt-nscd reduce" in log.read_text()
+
+
+def test_killed_run_is_finished_by_the_same_command(fitted):
+    workspace = fitted
     results = workspace.folder / "results/smoke"
     expected = contents(results)
     assert len(expected) == 5
@@ -306,9 +362,8 @@ def test_killed_run_is_finished_by_the_same_command(workspace):
     assert contents(results) == expected
 
 
-def test_a_finished_table_that_decayed_is_set_aside_by_the_next_run_and_made_anew_by_the_one_after(workspace):
-    workspace.configure()
-    assert workspace.run("--cores", "2", *FITS).returncode == 0
+def test_a_finished_table_that_decayed_is_set_aside_by_the_next_run_and_made_anew_by_the_one_after(fitted):
+    workspace = fitted
     law = workspace.folder / FITS[0]
     whole, times = law.read_text(), law.stat()
     law.write_text(whole.replace("1", "2", 1))
@@ -338,10 +393,8 @@ def test_second_run_at_the_same_time_is_refused(workspace):
     assert "cannot be locked" in second.stderr
 
 
-def test_changed_law_reruns_only_what_depends_on_it(workspace):
-    workspace.configure()
-    assert workspace.run("--cores", "2", *FITS).returncode == 0
-    assert workspace.planned(*FITS) == {}
+def test_changed_law_reruns_only_what_depends_on_it(fitted):
+    workspace = fitted
     table = workspace.folder / "data/paper/table3_burgers.csv"
     os.utime(table)
     assert workspace.planned(*FITS) == {}, "the content is the same"
