@@ -16,7 +16,7 @@ from film_packings import jammed
 from film_voxels import VoxelCell
 
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.formulation.film import Solid
+from asphalt_nscd.forecasting.film import Solid
 
 PACKINGS = {"two": (32, 2.0, 1), "four": (48, 4.0, 3)}  # spheres, largest radius over smallest, seed
 GRAIN = Solid(1.0, 0.2)

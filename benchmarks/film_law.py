@@ -22,7 +22,7 @@ from film_cells import GRAIN, LOADS, MODULI, poisson, shrunk
 from film_packings import MANDEL, isotropic, network
 
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.formulation.film import (
+from asphalt_nscd.forecasting.film import (
     Films,
     Matrix,
     Solid,

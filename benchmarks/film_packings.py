@@ -9,7 +9,7 @@ from scipy import sparse
 from scipy.optimize import minimize
 from scipy.sparse.linalg import splu
 
-from asphalt_nscd.formulation.film import Films
+from asphalt_nscd.forecasting.film import Films
 from asphalt_nscd.specimen.power_diagram import Region, power_diagram
 
 

@@ -13,7 +13,7 @@ import numba
 import numpy as np
 from scipy import fft
 
-from asphalt_nscd.formulation.film import Solid
+from asphalt_nscd.forecasting.film import Solid
 
 WINDOW = 12  # steps whose gain in energy says whether to go on
 SUB = 4  # points along an edge of a cut voxel, by which its share of grain is counted

@@ -19,11 +19,11 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.files.store import load, write_table
-from asphalt_nscd.formulation.forecast import Networks, Settings, kept_in, modulus_of, physics_of
-from asphalt_nscd.formulation.network import Contents, bond_stiffness
-from asphalt_nscd.formulation.recipe import read_recipe
-from asphalt_nscd.formulation.static_map import RATIOS, fit_map
-from asphalt_nscd.formulation.stepping import Stiffness, fit_bonds, harmonic_stiffness, step_test
+from asphalt_nscd.forecasting.forecast import Networks, Settings, kept_in, modulus_of, physics_of
+from asphalt_nscd.forecasting.network import Contents, bond_stiffness
+from asphalt_nscd.forecasting.recipe import read_recipe
+from asphalt_nscd.forecasting.static_map import RATIOS, fit_map
+from asphalt_nscd.forecasting.stepping import Stiffness, fit_bonds, harmonic_stiffness, step_test
 from asphalt_nscd.measurements.twopoint import complex_modulus, norm_and_phase
 from asphalt_nscd.specimen.preparation import SPECIMEN, specimen_of
 from asphalt_nscd.specimen.system import bending_system, facet_share

@@ -16,11 +16,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.formulation import wrong_inputs
-from asphalt_nscd.formulation.forecast import Networks, kept_in
-from asphalt_nscd.formulation.levels import levels_of
-from asphalt_nscd.formulation.recipe import Recipe, read_recipe
-from asphalt_nscd.formulation.rivals import BINDER_BULK, hirsch
+from asphalt_nscd.forecasting import wrong_inputs
+from asphalt_nscd.forecasting.forecast import Networks, kept_in
+from asphalt_nscd.forecasting.levels import levels_of
+from asphalt_nscd.forecasting.recipe import Recipe, read_recipe
+from asphalt_nscd.forecasting.rivals import BINDER_BULK, hirsch
 
 STEPS = 60  # of the differential scheme
 TIMES = (0.0, 1.0, 2.0, 3.0)  # the limit

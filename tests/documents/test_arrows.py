@@ -22,24 +22,24 @@ ARROWS = {
     "specimen": ["files", "measurements", "nscd"],
     "packings": ["files", "nscd", "specimen"],
     "bending": ["files", "measurements", "nscd", "rheology", "specimen"],
-    "formulation": ["files", "measurements", "nscd", "rheology", "specimen"],
+    "forecasting": ["files", "measurements", "nscd", "rheology", "specimen"],
     "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
     "exports": ["files", "measurements", "rheology", "diagnosis"],
-    "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "formulation", "diagnosis"],
+    "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "forecasting", "diagnosis"],
     "study": ["files", "measurements", "rheology", "specimen", "packings", "reporting"],
     "table_import": ["files", "measurements", "study", "reporting"],
     "verification": [
         "files", "workflow_support", "measurements", "nscd", "contact_problems", "rheology", "specimen", "bending",
-        "formulation",
+        "forecasting",
     ],
     "api": [
         "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "table_import", "packings", "formulation",
+        "table_import", "packings", "forecasting",
     ],
     "web": ["files", "measurements", "diagnosis", "exports", "reporting", "table_import", "api"],
     "cli": [
         "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "study", "table_import", "verification", "nscd", "api", "contact_problems", "formulation", "web",
+        "study", "table_import", "verification", "nscd", "api", "contact_problems", "forecasting", "web",
     ],
 }  # fmt: skip
 

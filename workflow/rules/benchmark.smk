@@ -309,7 +309,7 @@ rule benchmark_films:
         specimen=f"{FACETS}/specimens/{SAMPLES[0]}.h5",
         recipe="data/forecast/recipe.yaml",
         packings="results/forecast/packings",
-        code=["benchmarks/films.py", "src/asphalt_nscd/formulation/stepping.py", code("forecast"), code("simulate")],
+        code=["benchmarks/films.py", "src/asphalt_nscd/forecasting/stepping.py", code("forecast"), code("simulate")],
     output:
         "results/benchmark/films.csv",
     log:

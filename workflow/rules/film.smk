@@ -44,7 +44,7 @@ rule film_cells:
     # The network of films beside each cell.
     input:
         rows=expand("results/film/cells/{cell}.csv", cell=FILM_CELLS),
-        code=["benchmarks/film_law.py", "src/asphalt_nscd/formulation/film.py"],
+        code=["benchmarks/film_law.py", "src/asphalt_nscd/forecasting/film.py"],
     output:
         "results/film/cells.csv",
     log:
@@ -58,7 +58,7 @@ rule film_cells:
 rule film_pairs:
     # One film by finite elements; needs scikit-fem and gmsh.
     input:
-        ["benchmarks/film_law.py", "benchmarks/film_pair.py", "src/asphalt_nscd/formulation/film.py"],
+        ["benchmarks/film_law.py", "benchmarks/film_pair.py", "src/asphalt_nscd/forecasting/film.py"],
     output:
         "results/film/pairs.csv",
     log:
@@ -74,7 +74,7 @@ rule film_pairs:
 rule film_shears:
     # One film that slides, likewise.
     input:
-        ["benchmarks/film_law.py", "benchmarks/film_pair.py", "src/asphalt_nscd/formulation/film.py"],
+        ["benchmarks/film_law.py", "benchmarks/film_pair.py", "src/asphalt_nscd/forecasting/film.py"],
     output:
         "results/film/shears.csv",
     log:

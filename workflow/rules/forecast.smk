@@ -119,7 +119,7 @@ rule forecast_wrong_recipes:
         recipe=RECIPE,
         packings="results/forecast/packings",
         program=shipped("trials/wrong_recipes.py"),
-        code=code("forecast_inputs", "formulation.wrong_inputs"),
+        code=code("forecast_inputs", "forecasting.wrong_inputs"),
     output:
         "results/forecast/wrong_recipes.csv",
     params:

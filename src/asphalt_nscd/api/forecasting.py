@@ -13,11 +13,11 @@ import pandas as pd
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
 from asphalt_nscd.api.pictures import drawing, shown_in_notebooks
-from asphalt_nscd.formulation import written
-from asphalt_nscd.formulation.forecast import Forecast as ForecastOfLevels
-from asphalt_nscd.formulation.forecast import Networks, kept_in
-from asphalt_nscd.formulation.forecast import forecast as forecast_of
-from asphalt_nscd.formulation.recipe import read_recipe, recipe_of
+from asphalt_nscd.forecasting import written
+from asphalt_nscd.forecasting.forecast import Forecast as ForecastOfLevels
+from asphalt_nscd.forecasting.forecast import Networks, kept_in
+from asphalt_nscd.forecasting.forecast import forecast as forecast_of
+from asphalt_nscd.forecasting.recipe import read_recipe, recipe_of
 from asphalt_nscd.nscd.core_cache import cache_base
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ class Forecast:
 
     Parameters
     ----------
-    found : formulation.forecast.Forecast
+    found : forecasting.forecast.Forecast
         What `forecast` computed, level by level.
 
     Examples

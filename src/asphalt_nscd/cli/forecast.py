@@ -25,9 +25,9 @@ def command(recipe: Path, output: Path, packings: Path | None, seeds: int, page:
     """
     if page:  # before the work, since it needs the extra `figures`
         from asphalt_nscd.reporting.pages.forecast_page import write_page
-    from asphalt_nscd.formulation.forecast import Networks, forecast, kept_in
-    from asphalt_nscd.formulation.recipe import read_recipe
-    from asphalt_nscd.formulation.written import points, write
+    from asphalt_nscd.forecasting.forecast import Networks, forecast, kept_in
+    from asphalt_nscd.forecasting.recipe import read_recipe
+    from asphalt_nscd.forecasting.written import points, write
 
     asked = read_recipe(recipe)
     with bars("", on_terminal=True) as progress:

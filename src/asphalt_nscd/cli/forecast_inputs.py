@@ -38,9 +38,9 @@ def command(
     import numpy as np
 
     from asphalt_nscd.files.store import write_table
-    from asphalt_nscd.formulation import wrong_inputs
-    from asphalt_nscd.formulation.forecast import Networks, kept_in
-    from asphalt_nscd.formulation.recipe import read_recipe
+    from asphalt_nscd.forecasting import wrong_inputs
+    from asphalt_nscd.forecasting.forecast import Networks, kept_in
+    from asphalt_nscd.forecasting.recipe import read_recipe
 
     if densities and densities[0] > densities[1]:
         raise InputError("--densities: the bulk density is above the maximum; give the bulk density first.")

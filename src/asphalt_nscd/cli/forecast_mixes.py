@@ -21,9 +21,9 @@ from asphalt_nscd.cli._progress import bars
 def command(recipe: Path, mixes: Path, packings: Path, output: Path) -> None:
     """Hold forecasts against mixes whose binder was measured too: what each part of the physics is worth."""
     from asphalt_nscd.files.store import write_table
-    from asphalt_nscd.formulation.forecast import Networks, kept_in
-    from asphalt_nscd.formulation.mixes import bands, compare, overall, read_pairs
-    from asphalt_nscd.formulation.recipe import read_recipe
+    from asphalt_nscd.forecasting.forecast import Networks, kept_in
+    from asphalt_nscd.forecasting.mixes import bands, compare, overall, read_pairs
+    from asphalt_nscd.forecasting.recipe import read_recipe
 
     with bars("", on_terminal=True) as progress:
         networks = Networks(kept_in(packings, progress))

@@ -17,9 +17,9 @@ from asphalt_nscd.cli._progress import bars
 @click.option("--output", required=True, type=_options.File, help="Folder of packings to fill.")
 def command(recipe: Path, seeds: int, other_cuts: bool, output: Path) -> None:
     """Pour the packings of a recipe's levels, so that forecasts find them; those that are there are kept."""
-    from asphalt_nscd.formulation.forecast import kept_in
-    from asphalt_nscd.formulation.levels import CUTS, OTHER_CUTS, levels_of
-    from asphalt_nscd.formulation.recipe import read_recipe
+    from asphalt_nscd.forecasting.forecast import kept_in
+    from asphalt_nscd.forecasting.levels import CUTS, OTHER_CUTS, levels_of
+    from asphalt_nscd.forecasting.recipe import read_recipe
 
     with bars("s") as progress:
         packing = kept_in(output, progress)

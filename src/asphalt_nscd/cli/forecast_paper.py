@@ -17,9 +17,9 @@ from asphalt_nscd.cli._progress import bars
 def command(recipe: Path, grading: Path, laws: Path, packings: Path, output: Path) -> None:
     """Forecast the paper's mix from its grading and the grade of its binder, beside its published laws."""
     from asphalt_nscd.files.store import write_table
-    from asphalt_nscd.formulation.forecast import Networks, kept_in
-    from asphalt_nscd.formulation.grade import compare_paper
-    from asphalt_nscd.formulation.recipe import read_recipe
+    from asphalt_nscd.forecasting.forecast import Networks, kept_in
+    from asphalt_nscd.forecasting.grade import compare_paper
+    from asphalt_nscd.forecasting.recipe import read_recipe
 
     with bars("", on_terminal=True) as progress:
         networks = Networks(kept_in(packings, progress))

@@ -18,9 +18,9 @@ from asphalt_nscd.cli._progress import bars
 def command(recipe: Path, campaign: Path, packings: Path, output: Path) -> None:
     """Hold what a percent of air costs in the forecast against specimens that differ in their air voids."""
     from asphalt_nscd.files.store import write_table
-    from asphalt_nscd.formulation.forecast import Networks, kept_in
-    from asphalt_nscd.formulation.recipe import read_recipe
-    from asphalt_nscd.formulation.void_slopes import compare_voids
+    from asphalt_nscd.forecasting.forecast import Networks, kept_in
+    from asphalt_nscd.forecasting.recipe import read_recipe
+    from asphalt_nscd.forecasting.void_slopes import compare_voids
 
     with bars("", on_terminal=True) as progress:
         found = compare_voids(campaign, read_recipe(recipe), Networks(kept_in(packings, progress)), progress)

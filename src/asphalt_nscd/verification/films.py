@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from asphalt_nscd.formulation.film import (
+from asphalt_nscd.forecasting.film import (
     Films,
     Matrix,
     Solid,

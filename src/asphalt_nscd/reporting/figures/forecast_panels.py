@@ -11,9 +11,9 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from asphalt_nscd.formulation.forecast import Forecast, LevelResult
-from asphalt_nscd.formulation.network import CONTACT
-from asphalt_nscd.formulation.packing import LARGEST, LevelPacking
+from asphalt_nscd.forecasting.forecast import Forecast, LevelResult
+from asphalt_nscd.forecasting.network import CONTACT
+from asphalt_nscd.forecasting.packing import LARGEST, LevelPacking
 from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.specimen.trimming import layer_height
 

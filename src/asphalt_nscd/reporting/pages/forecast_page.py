@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from asphalt_nscd.files.store import atomic_path
-from asphalt_nscd.formulation import written
-from asphalt_nscd.formulation.forecast import Forecast
+from asphalt_nscd.forecasting import written
+from asphalt_nscd.forecasting.forecast import Forecast
 from asphalt_nscd.reporting.figures import forecast_panels
 from asphalt_nscd.reporting.figures.save import as_bytes
 from asphalt_nscd.reporting.pages.style import STYLE, environment

@@ -3,14 +3,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.formulation.forecast import Networks, Settings, forecast, modulus_of
-from asphalt_nscd.formulation.levels import levels_of
-from asphalt_nscd.formulation.network import SKIN, Physics, bond_stiffness, contents_of, films_of, level_map
-from asphalt_nscd.formulation.packing import LARGEST
-from asphalt_nscd.formulation.recipe import recipe_of
-from asphalt_nscd.formulation.rivals import mori_tanaka
-from asphalt_nscd.formulation.static_map import RATIOS, fit_map
-from asphalt_nscd.formulation.written import law_of_mix, points, summary
+from asphalt_nscd.forecasting.forecast import Networks, Settings, forecast, modulus_of
+from asphalt_nscd.forecasting.levels import levels_of
+from asphalt_nscd.forecasting.network import SKIN, Physics, bond_stiffness, contents_of, films_of, level_map
+from asphalt_nscd.forecasting.packing import LARGEST
+from asphalt_nscd.forecasting.recipe import recipe_of
+from asphalt_nscd.forecasting.rivals import mori_tanaka
+from asphalt_nscd.forecasting.static_map import RATIOS, fit_map
+from asphalt_nscd.forecasting.written import law_of_mix, points, summary
 from asphalt_nscd.nscd.bonds.statics import Statics
 from asphalt_nscd.specimen.prism import pulled_system, static_motion, stretched
 
@@ -188,7 +188,7 @@ def test_a_shifted_binder_gives_a_law_at_few_temperatures(content, packing, temp
 
 
 def test_maps_are_solved_once(recipe, packing, monkeypatch):
-    from asphalt_nscd.formulation import forecast as module
+    from asphalt_nscd.forecasting import forecast as module
 
     solved = []
     real = module.level_map

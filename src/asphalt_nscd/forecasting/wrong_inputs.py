@@ -17,8 +17,8 @@ from scipy.interpolate import make_interp_spline
 
 from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.formulation.forecast import Networks, Settings, modulus_of
-from asphalt_nscd.formulation.recipe import Recipe
+from asphalt_nscd.forecasting.forecast import Networks, Settings, modulus_of
+from asphalt_nscd.forecasting.recipe import Recipe
 
 SIZES: dict[str, tuple[float, ...]] = {
     "air voids": (-0.03, -0.015, 0.0, 0.015, 0.03, 0.05),  # of the volume

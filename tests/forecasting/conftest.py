@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.formulation.packing import LARGEST, LevelPacking
-from asphalt_nscd.formulation.recipe import recipe_of
+from asphalt_nscd.forecasting.packing import LARGEST, LevelPacking
+from asphalt_nscd.forecasting.recipe import recipe_of
 
 CONTENT = {
     "name": "a hot mix",

@@ -5,8 +5,8 @@ import pytest
 import yaml
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.formulation.levels import film_thickness, levels_of
-from asphalt_nscd.formulation.recipe import read_recipe, recipe_of
+from asphalt_nscd.forecasting.levels import film_thickness, levels_of
+from asphalt_nscd.forecasting.recipe import read_recipe, recipe_of
 
 
 def test_the_shipped_recipe_is_read():

@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.formulation.levels import levels_of
-from asphalt_nscd.formulation.recipe import Grading, recipe_of
-from asphalt_nscd.formulation.rivals import hirsch, mori_tanaka, self_consistent, witczak
+from asphalt_nscd.forecasting.levels import levels_of
+from asphalt_nscd.forecasting.recipe import Grading, recipe_of
+from asphalt_nscd.forecasting.rivals import hirsch, mori_tanaka, self_consistent, witczak
 from asphalt_nscd.measurements.units import PSI
 
 

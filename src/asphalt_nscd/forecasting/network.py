@@ -8,10 +8,10 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial import cKDTree
 
-from asphalt_nscd.formulation.film import Films, Matrix, Solid, film_stiffness
-from asphalt_nscd.formulation.levels import Level
-from asphalt_nscd.formulation.packing import LARGEST, LevelPacking
-from asphalt_nscd.formulation.static_map import RATIOS, StaticMap, fit_map
+from asphalt_nscd.forecasting.film import Films, Matrix, Solid, film_stiffness
+from asphalt_nscd.forecasting.levels import Level
+from asphalt_nscd.forecasting.packing import LARGEST, LevelPacking
+from asphalt_nscd.forecasting.static_map import RATIOS, StaticMap, fit_map
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.statics import Statics
 from asphalt_nscd.specimen.network import facet_network

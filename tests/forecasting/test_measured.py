@@ -8,10 +8,10 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.formulation.forecast import Networks, Settings, forecast, modulus_of
-from asphalt_nscd.formulation.mixes import bands, best_map, binder_shift, read_pairs
-from asphalt_nscd.formulation.recipe import read_recipe
-from asphalt_nscd.formulation.void_slopes import compare_voids
+from asphalt_nscd.forecasting.forecast import Networks, Settings, forecast, modulus_of
+from asphalt_nscd.forecasting.mixes import bands, best_map, binder_shift, read_pairs
+from asphalt_nscd.forecasting.recipe import read_recipe
+from asphalt_nscd.forecasting.void_slopes import compare_voids
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +69,7 @@ def test_no_map_fits_warm_and_hot_mixes(pairs):
     """At equal modulus of the binder the mixes differ: the best map of the hot ones misses the warm ones."""
 
     def worst(of, on):
-        from asphalt_nscd.formulation.mixes import _any_map
+        from asphalt_nscd.forecasting.mixes import _any_map
 
         weights = best_map([pair for pair in pairs if pair.name[0] == of])
         return max(

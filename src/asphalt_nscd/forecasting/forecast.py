@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.formulation.film import Solid
-from asphalt_nscd.formulation.levels import CUTS, Level, film_thickness, levels_of
-from asphalt_nscd.formulation.network import Contents, Physics, contents_of, level_map
-from asphalt_nscd.formulation.packing import LevelPacking, packing_of
-from asphalt_nscd.formulation.recipe import Recipe
-from asphalt_nscd.formulation.static_map import StaticMap
+from asphalt_nscd.forecasting.film import Solid
+from asphalt_nscd.forecasting.levels import CUTS, Level, film_thickness, levels_of
+from asphalt_nscd.forecasting.network import Contents, Physics, contents_of, level_map
+from asphalt_nscd.forecasting.packing import LevelPacking, packing_of
+from asphalt_nscd.forecasting.recipe import Recipe
+from asphalt_nscd.forecasting.static_map import StaticMap
 
 Packings = Callable[[Level, int], LevelPacking]
 """The packing of a level and a seed."""

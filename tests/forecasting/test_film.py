@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.formulation.film import (
+from asphalt_nscd.forecasting.film import (
     Films,
     Matrix,
     Solid,

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from asphalt_nscd.files.store import load, save
-from asphalt_nscd.formulation.levels import Level
+from asphalt_nscd.forecasting.levels import Level
 from asphalt_nscd.specimen.deposit import Progress, Vibration
 from asphalt_nscd.specimen.preparation import Pouring, pour
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from asphalt_nscd.formulation.forecast import Networks
-from asphalt_nscd.formulation.grade import EXPONENT, compare_paper, softening_point, stiffness
+from asphalt_nscd.forecasting.forecast import Networks
+from asphalt_nscd.forecasting.grade import EXPONENT, compare_paper, softening_point, stiffness
 
 
 def test_a_point_by_hand():

@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.formulation import wrong_inputs
-from asphalt_nscd.formulation.forecast import Networks
-from asphalt_nscd.formulation.wrong_inputs import (
+from asphalt_nscd.forecasting import wrong_inputs
+from asphalt_nscd.forecasting.forecast import Networks
+from asphalt_nscd.forecasting.wrong_inputs import (
     along_reference,
     changed,
     changes_of,

@@ -16,9 +16,9 @@ import pandas as pd
 from scipy.stats import t as student
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.formulation.forecast import Networks, Settings, modulus_of
-from asphalt_nscd.formulation.recipe import Recipe
-from asphalt_nscd.formulation.rivals import hirsch, witczak
+from asphalt_nscd.forecasting.forecast import Networks, Settings, modulus_of
+from asphalt_nscd.forecasting.recipe import Recipe
+from asphalt_nscd.forecasting.rivals import hirsch, witczak
 from asphalt_nscd.rheology.spectrum import Spectrum
 
 STEP = 0.01  # of the volume: slopes are taken between so much less air and so much more

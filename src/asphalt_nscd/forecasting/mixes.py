@@ -17,11 +17,11 @@ import pandas as pd
 from scipy.optimize import least_squares, minimize_scalar, nnls
 
 from asphalt_nscd.files.csvinput import Limits, read_csv
-from asphalt_nscd.formulation.film import Solid
-from asphalt_nscd.formulation.forecast import LevelResult, Networks, Settings, forecast, modulus_of
-from asphalt_nscd.formulation.levels import OTHER_CUTS
-from asphalt_nscd.formulation.recipe import UNSTATED, Recipe
-from asphalt_nscd.formulation.rivals import RIVALS
+from asphalt_nscd.forecasting.film import Solid
+from asphalt_nscd.forecasting.forecast import LevelResult, Networks, Settings, forecast, modulus_of
+from asphalt_nscd.forecasting.levels import OTHER_CUTS
+from asphalt_nscd.forecasting.recipe import UNSTATED, Recipe
+from asphalt_nscd.forecasting.rivals import RIVALS
 from asphalt_nscd.rheology.shift import Arrhenius
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.formulation.recipe import Recipe
+from asphalt_nscd.forecasting.recipe import Recipe
 
 CUTS = (0.063e-3, 2e-3)  # m: filler, sand, stones
 OTHER_CUTS = {

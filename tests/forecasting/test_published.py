@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.formulation.forecast import MODEL
+from asphalt_nscd.forecasting.forecast import MODEL
 
 ROOT = Path(__file__).parents[2]
 OVERALL = pd.read_csv(ROOT / "results/published/forecast/mixes/overall.csv").set_index("forecast")

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from asphalt_nscd.formulation.levels import Level, levels_of
-from asphalt_nscd.formulation.recipe import Recipe
+from asphalt_nscd.forecasting.levels import Level, levels_of
+from asphalt_nscd.forecasting.recipe import Recipe
 from asphalt_nscd.measurements.units import PSI
 
 BINDER_BULK = 2.5e9  # Pa

@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.files.store import provenance, write_json, write_table
-from asphalt_nscd.formulation.forecast import DOUBTS, MODEL, Forecast
-from asphalt_nscd.formulation.levels import film_thickness
-from asphalt_nscd.formulation.rivals import RIVALS
+from asphalt_nscd.forecasting.forecast import DOUBTS, MODEL, Forecast
+from asphalt_nscd.forecasting.levels import film_thickness
+from asphalt_nscd.forecasting.rivals import RIVALS
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.laws_io import chain_content
 from asphalt_nscd.rheology.shift import WLF

@@ -16,7 +16,7 @@ from jsonschema.exceptions import best_match
 from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import require_readable
-from asphalt_nscd.formulation.film import Solid
+from asphalt_nscd.forecasting.film import Solid
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
 from asphalt_nscd.rheology.spectrum import Spectrum, TwoS2P1D
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum

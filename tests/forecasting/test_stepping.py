@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.formulation.stepping import fit_bonds, harmonic_stiffness, step_test
+from asphalt_nscd.forecasting.stepping import fit_bonds, harmonic_stiffness, step_test
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.rheology.spectrum import TwoS2P1D
 from asphalt_nscd.specimen.system import bending_system

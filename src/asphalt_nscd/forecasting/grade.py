@@ -15,8 +15,8 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.files.csvinput import Limits, read_csv
-from asphalt_nscd.formulation.forecast import Networks, Settings, modulus_of
-from asphalt_nscd.formulation.recipe import Grading, Recipe
+from asphalt_nscd.forecasting.forecast import Networks, Settings, modulus_of
+from asphalt_nscd.forecasting.recipe import Grading, Recipe
 from asphalt_nscd.rheology.published_laws import read_published
 
 EXPONENT = 0.368
