@@ -318,3 +318,20 @@ def test_a_discrepancy_that_may_take_a_cause_up_raises_its_limit():
         if one.key in found
     }
     assert ratio["temperature_bias", 37.0] > 1.25 * ratio["phase_offset", None]
+
+
+def test_a_spring_that_the_law_has_followed_gets_its_name():
+    """Slow elements leave 1e-3 of its direction; the law's end is told by the loss modulus, which it does not move."""
+    warm = table(broken=0.0, design=((10.0, 20.0, 30.0, 40.0, 50.0, 60.0), TRAPEZOIDS[1]))
+    spring = 150e6
+    observed = replace(
+        warm,
+        modulus=warm.modulus + spring,
+        static_modulus=LAW.static_modulus,
+        test_type="bending",
+    )
+    taken, state, _ = climbed(observed)
+    (one,) = taken
+    assert one.candidate.cause.name == "guide_stiffness"
+    error = with_discrepancy.of_taken(state, state.fitted.active[0]).std_error * 2e7
+    assert abs(state.fitted.active[0].values[0] - spring) < 3.0 * error and error < 0.1 * spring

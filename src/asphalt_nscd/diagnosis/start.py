@@ -18,7 +18,7 @@ MARGIN = 3.5  # of ln(time) beyond the tested band on either side
 ROUGHNESS = (0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
 KELVIN_TIMES = 24  # tried as first guess of a Burgers law, over the tested band and a decade on either side
 UNSEEN = np.exp(-14.0)  # relative compliance that no measured phase tells from none
-NEAR = 3.0  # times the static modulus: tests as soft as that see the end of the spectrum
+NEAR = 3.0  # times the static modulus: tests whose loss modulus is below that see the end of the spectrum
 WLF_STARTS = ((12.0, 60.0), (12.0, 100.0), (20.0, 200.0), (30.0, 280.0))  # C1, C2 [K] at mid temperature
 
 
@@ -146,7 +146,8 @@ def _spectrum(observed: Observations, c1: float, c2: float) -> FlexibleSpectrum:
     low, high = -reduced.max() - MARGIN, -reduced.min() + MARGIN
     times = np.exp(np.linspace(low, high, max(int(np.ceil((high - low) / SPACING)) + 1, 4)))
     static = observed.static_modulus
-    near = static is not None and float(observed.modulus.real.min()) < NEAR * static
+    # by the loss modulus, to which a spring in parallel adds nothing
+    near = static is not None and float(observed.modulus.imag.min()) < NEAR * static
     return FlexibleSpectrum(times, reference, below, above, 0.2, static, near)
 
 

@@ -22,6 +22,7 @@ from asphalt_nscd.diagnosis.criteria import (
     ABSORBED,
     ALPHA_PER_STEP,
     CONFIDENCE,
+    FOLLOWED,
     HIDES,
     MOST_CAUSES,
     POSSIBLE,
@@ -378,9 +379,11 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
         return [], Direction(np.zeros((0, 0)), np.zeros((0, 0)), np.zeros(0))
     d = state.plain.noise.whiten(chance.candidate_directions(state.plain, state.fitted, candidates))
     pointing = discrepancy.directions(state.model, state.linear, d)
-    confined = np.array([isinstance(c.place, str) for c in candidates])
+    # A law that was fitted without a cause has followed it and leaves little of its direction: a fit with the cause
+    # decides. A shift, though, may follow all of an error of temperature.
+    least = [ABSORBED if isinstance(c.place, float) else FOLLOWED for c in candidates]
     left, size = np.diag(pointing.own), (d**2).sum(axis=0)
-    seen = np.flatnonzero(left > np.where(confined, 1e-9, ABSORBED) * np.maximum(size, 1e-300))
+    seen = np.flatnonzero(left > least * np.maximum(size, 1e-300))
     kept = Direction(pointing.cross[:, seen], pointing.own[np.ix_(seen, seen)], pointing.along[seen])
     return [candidates[k] for k in seen], kept
 
