@@ -18,6 +18,7 @@ from asphalt_nscd.diagnosis.brief import rows
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.ladder import Ladder
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.report import physical_limits
 from asphalt_nscd.diagnosis.suspects import Suspect
 from asphalt_nscd.diagnosis.trust import reading
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, read_diagnosis
@@ -122,6 +123,9 @@ def test_estimates_that_spread_further_than_their_errors_widen_the_limits():
     }
     found = SimpleNamespace(ladder=Ladder(None, None, rungs=[rung], estimates=estimates))
     assert found.ladder.estimates_spread == pytest.approx(np.sqrt((9.0 + 2.0) / 2.0))
+    found.ladder.limits = {("phase_offset", None): 0.5, ("temperature_bias", 4.0): 8.0}
+    (wide,) = physical_limits(found).values()  # the other is wider than any error of temperature
+    assert wide == pytest.approx(0.5 * np.sqrt((9.0 + 2.0) / 2.0))
     estimates["phase_offset", None] = (0.1, 1.0)
     assert found.ladder.estimates_spread == pytest.approx(np.sqrt((0.01 + 2.0) / 2.0))
     estimates["temperature_bias", 20.0] = (0.2, 1.0)

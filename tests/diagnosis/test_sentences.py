@@ -246,11 +246,10 @@ LIMITS = {
 
 
 @pytest.mark.parametrize(
-    "isotherms,spread,never,said",
+    "isotherms,never,said",
     [
         (
             [20.0, 35.0],
-            1.0,
             [],
             [
                 "A common phase offset smaller than 0.5 deg.",
@@ -259,17 +258,15 @@ LIMITS = {
         ),
         (
             [4.0, 20.0, 35.0],
-            3.0,
             [],
             [
-                "A common phase offset smaller than 1.5 deg.",
-                "A temperature error at one isotherm smaller than 3.7 K at 20 degC and 2.6 K at 35 degC, and of any "
+                "A common phase offset smaller than 0.5 deg.",
+                "A temperature error at one isotherm smaller than 1.2 K at 20 degC and 0.88 K at 35 degC, and of any "
                 "size at 4 degC.",
             ],
         ),
         (
             [20.0, 35.0],
-            1.0,
             ["channel_delay", "strain_softening"],
             [
                 "A common phase offset smaller than 0.5 deg.",
@@ -280,11 +277,10 @@ LIMITS = {
         ),
     ],
 )
-def test_what_would_not_be_seen_is_told(isotherms, spread, never, said):
+def test_what_would_not_be_seen_is_told(isotherms, never, said):
     content = {
         "ladder": [],
         "detection_limits": LIMITS,
-        "estimates_spread": spread,
         "not_testable": [{"cause": name} for name in never],
         "reading": {"isotherms_C": isotherms},
     }

@@ -18,7 +18,7 @@ from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.rungs import name_of, of_cause, of_law
 from asphalt_nscd.diagnosis.scatter import STATED
 from asphalt_nscd.diagnosis.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import SCHEMA_VERSION, name_at
+from asphalt_nscd.diagnosis.written import SCHEMA_VERSION, name_at, widening
 
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
@@ -207,12 +207,12 @@ def _spread_note(spread: float) -> list[str]:
         return []
     return [
         f"These tests lie {spread:.1f} times as far from the free master curve as their scatter suggests. Intervals "
-        f"and limits are therefore multiplied by {spread:.1f} here and in diagnosis.html, but not in diagnosis.json."
+        f"and limits are therefore multiplied by {spread:.1f}; standard errors are not."
     ]
 
 
 def physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
-    """Limits that the cause can reach within the bounds of its amplitude.
+    """Limits that the cause can reach within the bounds of its amplitude, with the factor of a table far from the fit.
 
     Parameters
     ----------
@@ -227,7 +227,9 @@ def physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
     most = {
         cause.name: max(abs(cause.parameters[0].low), abs(cause.parameters[0].high)) for cause in CATALOGUE
     }
-    return {key: value for key, value in diagnosis.ladder.limits.items() if value <= most[key[0]]}
+    factor = widening(diagnosis.ladder.estimates_spread)
+    limits = {key: factor * value for key, value in diagnosis.ladder.limits.items()}
+    return {key: value for key, value in limits.items() if value <= most[key[0]]}
 
 
 def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:

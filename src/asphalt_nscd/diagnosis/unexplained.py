@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from asphalt_nscd.diagnosis import levels
-from asphalt_nscd.diagnosis.sentences import Content, more_than_scatter, odd, typed, widened
+from asphalt_nscd.diagnosis.sentences import Content, more_than_scatter, odd, typed
 from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
@@ -46,18 +46,15 @@ def _sizes(limit: Content, content: Content) -> str:
     """A limit, or that at each temperature where it depends on it."""
     places = limit.get("places", {})
     if not places:
-        return _size(limit["value"], limit["unit"], content)
-    sizes = [
-        f"{_size(places[at], limit['unit'], content)} at {float(at):g} degC"
-        for at in sorted(places, key=float)
-    ]
+        return _size(limit["value"], limit["unit"])
+    sizes = [f"{_size(places[at], limit['unit'])} at {float(at):g} degC" for at in sorted(places, key=float)]
     tested = content.get("reading", {}).get("isotherms_C", [])
     never = [f"{t:g}" for t in tested if t not in map(float, places)]
     return joined(sizes) + (f", and of any size at {joined(never)} degC" if never else "")
 
 
-def _size(value: float, unit: str, content: Content) -> str:
-    size, name = shown(widened(content) * value, unit)
+def _size(value: float, unit: str) -> str:
+    size, name = shown(value, unit)
     return f"{size:.2g} {typed(name)}"
 
 

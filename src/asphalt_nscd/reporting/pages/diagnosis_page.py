@@ -20,7 +20,6 @@ from asphalt_nscd.diagnosis.written import (
     read_diagnosis,
     shown,
     three_digits,
-    widening,
 )
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import specimen_named
@@ -144,7 +143,7 @@ def sections(
         "charts": plots.charts(residuals, diagnosis),
         "law": law(content, curve),
         "unexplained": [_unexplained(row) for row in content["unexplained"]],
-        "limits": _limits(content["detection_limits"], content.get("estimates_spread", 1.0)),
+        "limits": _limits(content["detection_limits"]),
         "limits_caption": _limits_caption(content.get("estimates_spread", 1.0)),
         "not_testable": [(member_name(row["cause"]), row["needs"]) for row in content["not_testable"]],
         "alike": [_members(group) for group in content["indistinguishable"]],
@@ -338,14 +337,13 @@ def _limits_caption(spread: float) -> str:
     return f"{caption}. A factor {spread:.1f} is included, by which these tests lie farther from the fit than assumed"
 
 
-def _limits(limits: dict[str, Any], spread: float) -> list[tuple[str, str]]:
-    """Cause, and its limit in words; places that share one stand together. spread: see `estimates_spread`."""
-    factor = widening(spread)
+def _limits(limits: dict[str, Any]) -> list[tuple[str, str]]:
+    """Cause, and its limit in words; places that share one stand together."""
     rows = []
     for cause, limit in limits.items():
         places: dict[str, list[str]] = {}
         for place, value in limits_by_place(cause, limit).items():
-            size, unit = shown(factor * value, limit["unit"])
+            size, unit = shown(value, limit["unit"])
             places.setdefault(f"{_number(size)} {unit}".rstrip(), []).append(place)
         words = (size + (f" ({', '.join(names)})" if any(names) else "") for size, names in places.items())
         rows.append((_words(cause), "; ".join(words)))
