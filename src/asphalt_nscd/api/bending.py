@@ -42,6 +42,22 @@ class Test(Result):
     name : str, optional
         Of the specimen in messages.
 
+    Notes
+    -----
+    Arrays of s steps, k breaks, t x l times and layers, f frames, n spheres and b bonds::
+
+        time_s, displacement_m, force_N             (s,)         record at the head
+        broken                                      (k,)         bonds in the order in which they broke
+        profile/velocity_m_s                        (t, l)       mean along the drive, by profile/height_m
+        frames/time_s                               (f,)         from the start of the oscillation
+        frames/position_m, frames/radius_m          (n, 3) (n,)  spheres before the test
+        frames/displacement_m, frames/velocity_m_s  (f, n, 3)    of spheres; weight included
+        frames/first, frames/second                 (b,)         bodies of a bond; n: head, n + 1: foot
+        frames/point_m, frames/area_m2              (b, 3) (b,)  where a bond acts, and on what area
+        frames/strength_N                           (b,)         to break it; infinite at head and foot
+        frames/bond_force_N                         (f, b, 3)    normal (tension positive), two shear;
+                                                                 zero if broken
+
     Examples
     --------
     >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
