@@ -104,7 +104,7 @@ def naive_step(
         for c in order:
             i, j, _, on_first, on_second, delassus, target = contacts[c]
             opening = on_first @ new[i] + on_second @ new[j] - [target, 0, 0]
-            excess = -opening[0]
+            violation = -opening[0]
             pace = delassus if turn in (0, ROUND - 1) else delassus / RELAXATION
             r = coulomb(pace, opening - pace @ local[c], friction[j >= n])
             delta, local[c] = r - local[c], r
@@ -112,8 +112,8 @@ def naive_step(
             new[j] += inverse[j] * (on_second.T @ delta)
             if turn == 0:
                 changed, size = changed + delta @ delta, size + r @ r
-                fastest = max(fastest, excess)
-            if delta @ delta > quiet or (r.any() or delta.any()) and excess > penetration / dt:
+                fastest = max(fastest, violation)
+            if delta @ delta > quiet or (r.any() or delta.any()) and violation > penetration / dt:
                 noted.append(c)
         if turn in (0, AGAIN):
             lively = noted
@@ -168,7 +168,7 @@ def blocks_in_order(bodies, fixed, width=8):
 def sweep_one_by_one(bodies, packed, motion, friction, visits, relaxation, quiet, calm):
     """A sweep over contacts, one after another; rows as in `Workspace`, changed in place.
 
-    Returns the sums of squares of the change of impulse and of the impulse, the largest excess, the noted contacts,
+    Returns the sums of squares of the change of impulse and of the impulse, the largest violation, the noted contacts,
     and how many opened or stayed open, stuck and slipped.
     """
     changed, size, fastest, noted, kinds = 0.0, 0.0, 0.0, [], {"open": 0, "sticks": 0, "slips": 0}
@@ -176,22 +176,22 @@ def sweep_one_by_one(bodies, packed, motion, friction, visits, relaxation, quiet
         (i, j), (nx, ny, nz, px, py, pz, target, mass) = bodies[c], packed[c]
         mass = relaxation * mass
         vx, vy, vz = motion[j, :3] - motion[i, :3]
-        sx, sy, sz = motion[j, 4:7] + motion[i, 4:7]
+        surface_x, surface_y, surface_z = motion[j, 4:7] + motion[i, 4:7]
         opening = vx * nx + vy * ny + vz * nz
-        excess = target - opening
+        violation = target - opening
         old_normal = px * nx + py * ny + pz * nz
-        new_normal = old_normal + excess * mass
+        new_normal = old_normal + violation * mass
         if new_normal <= 0.0:
             kinds["open"] += 1
             if not packed[c, 3:6].any():
                 continue
             qx = qy = qz = 0.0
         else:
-            softness = mass / 3.5
-            along = old_normal - softness * opening
-            qx = px - softness * (vx - (sy * nz - sz * ny)) - along * nx
-            qy = py - softness * (vy - (sz * nx - sx * nz)) - along * ny
-            qz = pz - softness * (vz - (sx * ny - sy * nx)) - along * nz
+            tangential_mass = mass / 3.5
+            along = old_normal - tangential_mass * opening
+            qx = px - tangential_mass * (vx - (surface_y * nz - surface_z * ny)) - along * nx
+            qy = py - tangential_mass * (vy - (surface_z * nx - surface_x * nz)) - along * ny
+            qz = pz - tangential_mass * (vz - (surface_x * ny - surface_y * nx)) - along * nz
             slips = qx * qx + qy * qy + qz * qz > (friction * new_normal) ** 2
             kinds["slips" if slips else "sticks"] += 1
             share = friction * new_normal / np.sqrt(qx * qx + qy * qy + qz * qz) if slips else 1.0
@@ -208,7 +208,7 @@ def sweep_one_by_one(bodies, packed, motion, friction, visits, relaxation, quiet
         motion[j, 4:7] -= motion[j, 7] * turn
         packed[c, 3:6] = qx, qy, qz
         moved = dx * dx + dy * dy + dz * dz
-        if moved > quiet or excess > calm:
+        if moved > quiet or violation > calm:
             noted.append(c)
-        changed, size, fastest = changed + moved, size + qx * qx + qy * qy + qz * qz, max(fastest, excess)
+        changed, size, fastest = changed + moved, size + qx * qx + qy * qy + qz * qz, max(fastest, violation)
     return changed, size, fastest, noted, kinds

@@ -98,7 +98,7 @@ def test_a_comment_reruns_nothing_and_another_sign_all_that_it_concerns(restored
     restored.edit(law, "import numpy as np\n", "import numpy as np  # arrays\n\n# of bonds\n")
     os.utime(restored.folder / law)
     assert restored.planned() == {}
-    restored.edit(law, "self.memory * sigma - ", "self.memory * sigma + ")
+    restored.edit(law, "self.spring_memory * sigma - ", "self.spring_memory * sigma + ")
     jobs = restored.planned()
     assert jobs["simulate"] == 120 and jobs["simulate_facets"] == jobs["simulate_extended"] == 24
     assert not {"deposit", "reconstruct", "fit"} & set(jobs)

@@ -19,11 +19,11 @@ LONGEST = 200  # s of CPU for the rows of a theme: ten times what they need, so 
 MUTANTS = [
     # what, theme that must notice, file, right, wrong
     ("dashpot in the compliance of a bond", "law", "nscd/bonds/law.py", "+ 1.0 / self.dashpot +", "- 1.0 / self.dashpot +"),
-    ("recall of the Kelvin element", "law", "nscd/bonds/law.py", "recall=springs / damped", "recall=-springs / damped"),
+    ("recall of the Kelvin element", "law", "nscd/bonds/law.py", "kelvin_recall=springs / damped", "kelvin_recall=-springs / damped"),
     ("growth of the Kelvin element", "law", "nscd/bonds/law.py", "* kelvin - _beside", "* kelvin + _beside"),
-    ("memory of the spring", "law", "nscd/bonds/law.py", "memory=1.0 / (dt * self.spring)", "memory=-1.0 / (dt * self.spring)"),
+    ("memory of the spring", "law", "nscd/bonds/law.py", "spring_memory=1.0 / (dt * self.spring)", "spring_memory=-1.0 / (dt * self.spring)"),
     ("tangential law of a bond", "law", "nscd/bonds/law.py", "[normal, tangential, tangential]", "[normal, normal, tangential]"),
-    ("law of another bond", "methods", "nscd/bonds/law.py", "recall for step in steps]", "keep for step in steps]"),
+    ("law of another bond", "methods", "nscd/bonds/law.py", "kelvin_recall for step in steps]", "kelvin_decay for step in steps]"),
     ("loss of a bond in the frequency domain", "methods", "nscd/stepping/harmonic.py", "system.weight * relative)", "system.weight * relative.conj())"),
     ("laws in the energy of the springs", "accounts", "nscd/stepping/energy.py", 'one["sigma"] / self.law.spring', 'one["sigma"] / np.mean(self.law.spring)'),
     ("lever arm of a bond", "beams", "nscd/bonds/system.py", "arm[k1] * frame[b, c, k2] - arm", "arm[k1] * frame[b, c, k2] + arm"),

@@ -59,7 +59,7 @@ def test_naive_twin(small, most_sweeps):
         assert force == pytest.approx(
             inertia - small.load[small.driven] - column @ reaction, rel=1e-9, abs=1e-9 * size
         )
-        kelvin = law.keep[:, None] * old_kelvin - law.gain[:, None] * reaction / small.weight
+        kelvin = law.kelvin_decay[:, None] * old_kelvin - law.kelvin_gain[:, None] * reaction / small.weight
         np.testing.assert_allclose(stepper.state.kelvin, kelvin, rtol=0, atol=1e-11 * np.abs(kelvin).max())
     assert stepper.sweeps == sweeps
 

@@ -63,10 +63,10 @@ class BondLaw:
         return LawStep(
             dt=dt,
             compliance=1.0 / (dt * self.spring) + 1.0 / self.dashpot + float((1.0 / damped).sum()),
-            memory=1.0 / (dt * self.spring),
-            recall=springs / damped,
-            keep=dashpots / damped,
-            gain=dt / damped,
+            spring_memory=1.0 / (dt * self.spring),
+            kelvin_recall=springs / damped,
+            kelvin_decay=dashpots / damped,
+            kelvin_gain=dt / damped,
         )
 
     def discrete_modulus(self, omega: float, dt: float) -> complex:
@@ -169,10 +169,10 @@ class BondLaws:
         return LawStep(
             dt=dt,
             compliance=np.array([step.compliance for step in steps])[self.kind],
-            memory=np.array([step.memory for step in steps])[self.kind],
-            recall=self._of_elements([step.recall for step in steps]),
-            keep=self._of_elements([step.keep for step in steps]),
-            gain=self._of_elements([step.gain for step in steps]),
+            spring_memory=np.array([step.spring_memory for step in steps])[self.kind],
+            kelvin_recall=self._of_elements([step.kelvin_recall for step in steps]),
+            kelvin_decay=self._of_elements([step.kelvin_decay for step in steps]),
+            kelvin_gain=self._of_elements([step.kelvin_gain for step in steps]),
         )
 
     def discrete_modulus(self, omega: float, dt: float) -> np.ndarray:
@@ -207,14 +207,16 @@ class LawStep:
 
     dt: float
     compliance: float | np.ndarray  # S, 1/(Pa s)
-    memory: float | np.ndarray  # factor of sigma- in b
-    recall: np.ndarray  # (k,) or (k, 3 b) factors of dk- in b, with minus
-    keep: np.ndarray  # factors of dk- in dk+
-    gain: np.ndarray  # factors of sigma+ in dk+, with minus
+    spring_memory: float | np.ndarray  # factor of sigma- in b
+    kelvin_recall: np.ndarray  # (k,) or (k, 3 b) factors of dk- in b, with minus
+    kelvin_decay: np.ndarray  # factors of dk- in dk+
+    kelvin_gain: np.ndarray  # factors of sigma+ in dk+, with minus
 
     def explicit_part(self, sigma: np.ndarray, kelvin: np.ndarray) -> np.ndarray:
         """b [m/s] from sigma (...,) [Pa] and kelvin displacements (k, ...) [m]."""
-        return np.asarray(self.memory * sigma - (_beside(self.recall, kelvin) * kelvin).sum(axis=0))
+        return np.asarray(
+            self.spring_memory * sigma - (_beside(self.kelvin_recall, kelvin) * kelvin).sum(axis=0)
+        )
 
     def update(self, explicit: np.ndarray, velocity: np.ndarray, kelvin: np.ndarray) -> tuple:
         """(sigma+, dk+) from the opening velocity U+ (...,) [m/s]."""
@@ -223,7 +225,9 @@ class LawStep:
 
     def stretched(self, kelvin: np.ndarray, sigma: np.ndarray) -> np.ndarray:
         """dk+ (k, ...) [m] from dk- and sigma+ (...,) [Pa]."""
-        return np.asarray(_beside(self.keep, kelvin) * kelvin - _beside(self.gain, kelvin) * sigma)
+        return np.asarray(
+            _beside(self.kelvin_decay, kelvin) * kelvin - _beside(self.kelvin_gain, kelvin) * sigma
+        )
 
 
 def _beside(factor: np.ndarray, kelvin: np.ndarray) -> np.ndarray:

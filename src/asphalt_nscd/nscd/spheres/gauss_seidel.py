@@ -56,28 +56,29 @@ def contacts_of(contacts, block):
 
 @compiled_for_teams
 def new_impulse(contact, i, j, friction, relaxation):
-    """(impulse x, y, z, excess of speed) of contacts between bodies that move as i and j, eight at once.
+    """(impulse x, y, z, violation [m/s]) of contacts between bodies that move as i and j, eight at once.
 
-    Signorini on velocities: opening >= target, impulse >= 0, complementary; Coulomb with `friction`.
+    Signorini on velocities: opening >= target, impulse >= 0, complementary; Coulomb with `friction`. The violation
+    is what the opening lacks of its target. A gap that is open may close, so its target is below zero.
     The local Delassus operator is diagonal: normal 1/m_i + 1/m_j, tangential 7/2 of it. The change of an impulse is
     multiplied by `relaxation` before the laws cut it.
     """
     nx, ny, nz, px, py, pz, target, mass = contact
     vx, vy, vz = j[0] - i[0], j[1] - i[1], j[2] - i[2]
-    sx, sy, sz = j[4] + i[4], j[5] + i[5], j[6] + i[6]
+    surface_x, surface_y, surface_z = j[4] + i[4], j[5] + i[5], j[6] + i[6]
     mass = relaxation * mass
     opening = vx * nx + vy * ny + vz * nz
-    excess = target - opening
+    violation = target - opening
     old_normal = px * nx + py * ny + pz * nz
-    new_normal = old_normal + excess * mass
+    new_normal = old_normal + violation * mass
     new_normal = select_greater(new_normal, zeros(), new_normal, zeros())
-    softness = mass / broadcast(3.5)
-    along = old_normal - softness * opening
-    qx = px - softness * (vx - (sy * nz - sz * ny)) - along * nx
-    qy = py - softness * (vy - (sz * nx - sx * nz)) - along * ny
-    qz = pz - softness * (vz - (sx * ny - sy * nx)) - along * nz
+    tangential_mass = mass / broadcast(3.5)
+    along = old_normal - tangential_mass * opening
+    qx = px - tangential_mass * (vx - (surface_y * nz - surface_z * ny)) - along * nx
+    qy = py - tangential_mass * (vy - (surface_z * nx - surface_x * nz)) - along * ny
+    qz = pz - tangential_mass * (vz - (surface_x * ny - surface_y * nx)) - along * nz
     qx, qy, qz = cut(qx, qy, qz, friction * new_normal)
-    return qx + new_normal * nx, qy + new_normal * ny, qz + new_normal * nz, excess
+    return qx + new_normal * nx, qy + new_normal * ny, qz + new_normal * nz, violation
 
 
 @compiled_for_teams
@@ -115,7 +116,7 @@ def sweep_blocks(
 
     Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than
     they may by more than `calm` [m/s], are noted in workspace.lively from `noted_from` on. Returns the sums of
-    squares of the change of impulse and of the impulse, the largest excess of speed [m/s], how many were noted.
+    squares of the change of impulse and of the impulse, the largest violation of speed [m/s], how many were noted.
     friction: between bodies that yield, with those that do not. rows (1, 1, 8): room. spare: row of
     workspace.noted for contacts that are not.
     """
@@ -126,14 +127,14 @@ def sweep_blocks(
         contact = contacts_of(contacts, block)
         i, j = gather(motion, blocks, block, 1), gather(motion, blocks, block, 2)
         rough = select_greater(j[3], zeros(), broadcast(friction[0]), broadcast(friction[1]))
-        x, y, z, excess = new_impulse(contact, i, j, rough, broadcast(relaxation))
+        x, y, z, violation = new_impulse(contact, i, j, rough, broadcast(relaxation))
         dx, dy, dz = x - contact[3], y - contact[4], z - contact[5]
         push(motion, blocks, block, contact, i, j, dx, dy, dz)
         store(contacts, block, 3, x)
         store(contacts, block, 4, y)
         store(contacts, block, 5, z)
         moved = dx * dx + dy * dy + dz * dz
-        lively = above(moved, broadcast(quiet)) | above(excess, broadcast(calm))
+        lively = above(moved, broadcast(quiet)) | above(violation, broadcast(calm))
         if lively:
             for lane in range(WIDTH):
                 rows[0, 0, lane] = spare
@@ -145,7 +146,7 @@ def sweep_blocks(
                     noted += 1
             nx, ny, nz = contact[:3]
             scatter(workspace.noted, rows, 0, 0, (nx, ny, nz, x, y, z, contact[6], contact[7]))
-        fastest = select_greater(excess, fastest, excess, fastest)
+        fastest = select_greater(violation, fastest, violation, fastest)
         changed = changed + moved
         size = size + (x * x + y * y + z * z)
     return total(changed), total(size), largest(fastest), noted - noted_from

@@ -45,9 +45,9 @@ def take_steps(run):
     new_v, new_s, new_q = run.trial[0], run.trial[1], run.trial[2]
     for n in range(run.driven.shape[0]):
         for a in range(k):
-            explicit[a] = run.memory * s[a]
-            for e in range(run.recall.shape[0]):
-                explicit[a] -= run.recall[e] * kelvin[e, a]
+            explicit[a] = run.spring_memory * s[a]
+            for e in range(run.kelvin_recall.shape[0]):
+                explicit[a] -= run.kelvin_recall[e] * kelvin[e, a]
         free_force = -run.head_load
         for a in range(k):
             free_force -= run.head_inertia[a] * v[a] + run.head_strain[a] * explicit[a]
@@ -102,8 +102,8 @@ def take_steps(run):
         force[n] = actuator_force(run.devices, dt, force[n], friction, q[0], v[0], new_v[0])
         for a in range(k):
             v[a], s[a], q[a] = new_v[a], new_s[a], new_q[a]
-            for e in range(run.recall.shape[0]):
-                kelvin[e, a] = run.keep[e] * kelvin[e, a] - run.gain[e] * new_s[a]
+            for e in range(run.kelvin_recall.shape[0]):
+                kelvin[e, a] = run.kelvin_decay[e] * kelvin[e, a] - run.kelvin_gain[e] * new_s[a]
             run.reached_sigma[a] = max(run.reached_sigma[a], abs(s[a]))
             run.reached_motion[a] = max(run.reached_motion[a], abs(q[a]))
             if a < kept:

@@ -25,10 +25,10 @@ class ReducedRun(NamedTuple):
     inverse: np.ndarray  # (k - 1, k - 1) of the step matrix without the head
     dt: float  # s
     compliance: float  # of the law, as those that follow
-    memory: float
-    recall: np.ndarray  # (e,)
-    keep: np.ndarray  # (e,)
-    gain: np.ndarray  # (e,)
+    spring_memory: float
+    kelvin_recall: np.ndarray  # (e,)
+    kelvin_decay: np.ndarray  # (e,)
+    kelvin_gain: np.ndarray  # (e,)
     residual_factor: np.ndarray  # upper triangle, with 2 k + 1 columns
     head_norm: float
     load_norm: float

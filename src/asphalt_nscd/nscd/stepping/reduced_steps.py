@@ -31,7 +31,7 @@ def advance_reduced(run: ReducedRun) -> tuple[int, int, int]:
     TypeError
         An array is not of contiguous doubles.
     """
-    sizes = [run.driven.size, run.q.size, run.recall.size, *run.residual_factor.shape]
+    sizes = [run.driven.size, run.q.size, run.kelvin_recall.size, *run.residual_factor.shape]
     sizes += [len(run.reaction), len(run.closing), run.velocity.shape[1]]
     counts, taken = np.array(sizes, np.intp), np.empty(3, np.intp)
     held = [value if isinstance(value, np.ndarray) else _numbers(value) for value in run]
