@@ -89,3 +89,42 @@ def test_a_pair_of_wrong_readings_in_four_is_left_out_and_the_reason_says_who_te
     assert out(observed) == wrong
     for one in suspects.find(observed):
         assert one.reasons == (suspects.HALVES,) or one.used
+
+
+@pytest.mark.parametrize("specimens", [3, 4])
+def test_two_wrong_readings_of_which_causality_accuses_none_are_told_by_the_other_specimens(specimens):
+    observed, none = campaign(specimens), mask(campaign(specimens), [])
+    wrong = rows_of(observed, 10.0, 25.0)
+    observed = altered(observed, wrong, np.log(1.3), 4.0)
+    for doubted in (wrong, wrong[:1]):
+        found = contested.masked(observed, none, mask(observed, doubted))
+        assert np.flatnonzero(found).tolist() == wrong
+    others = rows_of(observed, 3.0, 40.0)
+    assert not contested.masked(observed, none, none).any()
+    assert not contested.masked(observed, none, mask(observed, others)).any()
+    assert not contested.masked(observed, mask(observed, others[:1]), mask(observed, wrong)).any()
+
+
+def test_of_two_specimens_or_where_a_sweep_departs_smoothly_none_is_told():
+    two = campaign(2)
+    wrong = rows_of(two, 10.0, 25.0)
+    assert not contested.masked(altered(two, wrong, np.log(1.3)), mask(two, []), mask(two, wrong)).any()
+    observed = campaign()
+    for frequencies, size in (
+        (FREQUENCIES, np.array([0.3, 0.2, 0.13, 0.05])),
+        (FREQUENCIES[:3], 0.26),
+        ([10.0], 0.26),
+    ):
+        rows = rows_of(observed, *frequencies)
+        assert not contested.masked(
+            altered(observed, rows, size), mask(observed, []), mask(observed, rows)
+        ).any()
+
+
+def test_a_wrong_sweep_accuses_no_sound_one():
+    """Against three specimens of which one is far off, a sound one seems off by half as much."""
+    observed = campaign()
+    wrong = rows_of(observed, 10.0, 25.0)
+    observed = altered(observed, wrong, 0.6, 8.0)
+    found = contested.masked(observed, mask(observed, []), mask(observed, np.arange(observed.size)))
+    assert np.flatnonzero(found).tolist() == wrong

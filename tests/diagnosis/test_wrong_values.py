@@ -71,3 +71,11 @@ def test_odds_are_those_of_dense_matrices():
     density = -sum(np.log(np.sqrt(2.0 * np.pi) * width) for width in wrong_values.WIDE)
     before = wrong_values.RARE + wrong_values.WITH_IT  # modulus and phase of one test
     assert odds == pytest.approx(evidence(np.setdiff1d(every, found)) + density - evidence(every) + before)
+
+
+def test_a_value_taken_for_wrong_pays_for_the_width_that_it_then_has():
+    """Of one test and one spectrum: a Gaussian of precision 4 or 9 about the law, against one of the width WIDE."""
+    precision, pull = np.diag([4.0, 9.0])[None, None], np.array([[[6.0, 3.0]]])
+    each = 0.5 * np.array([36.0 / 4.0, 9.0 / 9.0]) - 0.5 * np.log([4.0, 9.0]) - np.log(wrong_values.WIDE)
+    ((odds, values),) = wrong_values.likeliest(precision, pull, np.zeros((1, 1)), room=1)
+    assert odds == pytest.approx(each.max() + wrong_values.RARE) and values.tolist() == [0]

@@ -15,6 +15,8 @@ from asphalt_nscd.diagnosis.within_isotherm import SCATTER, blocks
 
 FAR = 6.0  # usual departures of a table, beyond which a test is off the level of its specimen
 NEAR = 0.5  # share of the largest departure of a sweep, below which a test is held to be on the level
+CLEARLY_NEAR = 0.35  # the same where causality takes out none: what is merely soft or slow departs smoothly
+LEAST_SPECIMENS = 3  # of two, neither is the odd one
 
 
 def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
@@ -50,17 +52,67 @@ def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[n
     return now, turned
 
 
-def _from_level(observed: Observations) -> NDArray[np.float64]:
+def masked(observed: Observations, out: NDArray[np.bool_], doubtful: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Tests that hide each other in a sweep from which causality takes out none: of four it can accuse but one.
+
+    Two of a sweep at least must be far off the level of their specimen, one of them doubtful, and all others clearly on
+    it. The worst sweep comes first: what is out is no replicate of the others.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    out : ndarray of bool (n,)
+        Those that are out already.
+    doubtful : ndarray of bool (n,)
+        Those that causality might accuse.
+
+    Returns
+    -------
+    ndarray of bool (n,)
+        Tests to leave out besides.
+    """
+    block, found = blocks(observed), np.zeros(observed.size, bool)
+    sweeps = [np.flatnonzero(block == one) for one in np.unique(block[doubtful])]
+    while sweeps:
+        apart = _from_level(observed, out | found)
+        clear = [
+            rows
+            for rows in sweeps
+            if not (out | found)[rows].any()
+            and _two_stand_out(apart[rows], doubtful[rows])
+            and np.unique(observed.specimen[observed.isotherm == observed.isotherm[rows[0]]]).size
+            >= LEAST_SPECIMENS
+        ]
+        if not clear:
+            break
+        worst = max(clear, key=lambda rows: apart[rows].max())
+        found[worst] = apart[worst] > NEAR * apart[worst].max()
+    return found
+
+
+def _two_stand_out(distance: NDArray[np.float64], doubtful: NDArray[np.bool_]) -> bool:
+    """Of the tests of a sweep."""
+    largest = distance.max()
+    off = distance > NEAR * largest
+    some = 1 < np.count_nonzero(off) <= distance.size // 2 and bool((off & doubtful).any())
+    return bool(some and largest > FAR and distance[~off].max() < CLEARLY_NEAR * largest)
+
+
+def _from_level(observed: Observations, out: NDArray[np.bool_] | None = None) -> NDArray[np.float64]:
     """How far (n,) a test is off the other specimens at its condition, in usual departures of the table.
 
     What the specimen is off by on its other isotherms, a level and a phase, is taken off first. Zero where no other
-    specimen was tested.
+    specimen was tested, or all have a test of the sweep that is out (n,).
     """
     logarithm = observed.logarithm
     values = np.column_stack([logarithm.real, logarithm.imag])
     apart = np.full(values.shape, np.nan)
+    # A sweep is asked as a whole or not at all: specimens differ, so another reference would be a step.
+    block = blocks(observed)
+    cells = observed.cell if out is None else np.where(np.isin(block, block[out]), -1, observed.cell)
     for row, (cell, specimen) in enumerate(zip(observed.cell, observed.specimen, strict=True)):
-        others = (observed.cell == cell) & (observed.specimen != specimen)
+        others = (cells == cell) & (observed.specimen != specimen)
         if others.any():
             apart[row] = values[row] - np.median(values[others], axis=0)
     known = np.isfinite(apart[:, 0])

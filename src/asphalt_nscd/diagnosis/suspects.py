@@ -152,6 +152,8 @@ def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspe
     supported = agree & ((doubtful & far) | ((single < LEANING) & (chance * values < VERY_FAR)))
     out |= supported.any(axis=1)
     out, turned = contested.put_right(observed, out)
+    hidden = contested.masked(observed, out, worst < LEANING)
+    out, turned = out | hidden, turned | hidden
     listed = ((out & loo.in_place & ~copies) | (worst < NOTABLE * limit)) & ~turned
     # Beside a wrong phase the modulus seems wrong too: the less likely of the two is named, or the one with a witness.
     wrong = np.where(supported | ~supported.any(axis=1, keepdims=True), single, 1.0).argmin(axis=1)

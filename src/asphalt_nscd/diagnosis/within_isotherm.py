@@ -330,12 +330,18 @@ class _Table:
         return exchanged.least_gain(np.array([rows.size for group in self.groups for rows in group.rows]))
 
     def _gains(self, scatter: NDArray) -> Iterator[tuple[NDArray[np.int64], NDArray, float]]:
-        """Rows (k,) of each isotherm, what exchanges (3, p) gain there, and what one wrong value; scatter (n, 2)."""
+        """Rows (k,) of each isotherm, what exchanges (3, p) gain there, and what wrong values; scatter (n, 2)."""
         for group in self.groups:
-            precision, pull, evidence = self._evidence(group, _side_by_side(scatter**2, group.rows))
-            weighed = evidence + self.weights[group.first].reshape(evidence.shape)
+            precision, pull, weighed = self._weighed(group, scatter)
             gain = exchanged.gains(precision, pull, weighed, self.readings[group.rows])
-            yield from zip(group.rows, gain, exchanged.one_wrong(precision, pull, weighed), strict=True)
+            wrong = wrong_values.likeliest(precision, pull, weighed, most_doubtful(group.rows.shape[1]))
+            # An exchange is as rare as one wrong value; two of them, which pass for an exchange of others, are rarer.
+            yield from zip(group.rows, gain, (odds - wrong_values.RARE for odds, _ in wrong), strict=True)
+
+    def _weighed(self, group: _Group, scatter: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+        """As of `_evidence`, the ln evidence (b, m) with what is usual in the table; scatter (n, 2)."""
+        precision, pull, evidence = self._evidence(group, _side_by_side(scatter**2, group.rows))
+        return precision, pull, evidence + self.weights[group.first].reshape(evidence.shape)
 
     def set_gross_aside(self) -> None:
         """Take out what is wrong whatever the scatter, lest it make all others seem so."""
@@ -358,10 +364,8 @@ class _Table:
     def _set_wrong_aside(self, scatter: NDArray) -> None:
         """Take out the likeliest set of wrong values of each isotherm where it is sure; scatter (n, 2)."""
         for group in self.groups:
-            precision, pull, evidence = self._evidence(group, _side_by_side(scatter**2, group.rows))
-            weighed = evidence + self.weights[group.first].reshape(evidence.shape)
             k = group.rows.shape[1]
-            found = wrong_values.likeliest(precision, pull, weighed, most_doubtful(k))
+            found = wrong_values.likeliest(*self._weighed(group, scatter), most_doubtful(k))
             for rows, (odds, values) in zip(group.rows, found, strict=True):
                 if odds > wrong_values.SURE:
                     self.aside[rows[values % k], values // k] = True
