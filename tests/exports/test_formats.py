@@ -27,9 +27,12 @@ def test_a_study_writes_every_format():
 
 
 def test_the_documents_name_every_format():
-    said = re.search(r"Of a law ([\w, \n]+);", getdoc(export) or "")
-    assert said and set(re.findall(r"\w+", said[1])) - {"or"} == set(FORMATS)
+    docstring = re.search(r"Of a law ([\w, \n]+);", getdoc(export) or "")
+    assert docstring and set(re.findall(r"\w+", docstring[1])) - {"or"} == set(FORMATS)
     page = (ROOT / "docs/laws-out.md").read_text(encoding="utf-8")
-    rows = dict(re.findall(r"^\| `(\w+)` \| ([^|]+) \|", page, re.MULTILINE))
-    assert set(rows) == set(FORMATS)
-    assert all(set(re.findall(r"\.\w+", ends)) <= set(FORMATS[form][1]) for form, ends in rows.items())
+    said = [
+        re.findall(r"`(?:--format )?(\.?\w+)`", told)
+        for told in re.findall(r"^\*\*\w+\*\* \((.+?)\)", page, re.MULTILINE)
+    ]
+    assert {form for form, *_ in said} == set(FORMATS)
+    assert all(set(endings) <= set(FORMATS[form][1]) for form, *endings in said)

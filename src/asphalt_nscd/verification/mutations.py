@@ -70,7 +70,7 @@ MUTANTS = [
     ("impulse in the condensed contact", "accounts", "nscd/stepping/condensed.py", "+= response @ impulse", "-= response @ impulse"),
     ("gravity of a sphere", "spheres", "nscd/spheres/granular.py", "+= dt * gravity[k]", "-= dt * gravity[k]"),
     ("moment of a contact on a sphere", "spheres", "nscd/spheres/gauss_seidel.py", "j[2] + w * z, w, j[4] - u * tx", "j[2] + w * z, w, j[4] + u * tx"),
-    ("spin in the slip of two spheres", "spheres", "nscd/spheres/gauss_seidel.py", "(vx - (sy * nz - sz * ny))", "(vx + (sy * nz - sz * ny))"),
+    ("spin in the slip of two spheres", "spheres", "nscd/spheres/gauss_seidel.py", "(vx - (surface_y * nz - surface_z * ny))", "(vx + (surface_y * nz - surface_z * ny))"),
     ("width of the slabs that threads share out", "spheres", "nscd/spheres/slabs.py", "* (1.0 + 1e-9)", "* 0.3"),
     ("strength that a bond must have", "edges", "nscd/bonds/system.py", "self.strength > 0.0", "self.strength > -1.0"),
     ("gap that a bond must have", "edges", "nscd/bonds/system.py", "self.gap >= 0.0", "self.gap >= -1.0"),
