@@ -84,4 +84,4 @@ rule attack:
     message:
         "Copy what is committed of the attack, and fill its table in docs"
     shell:
-        "asphalt-nscd publish {input.files} --root results/attack --output results/published/attack --document docs --block attack={input.summary} --block machines={input.machines} --block machine-measured={input.measured}"
+        "asphalt-nscd publish {input.files} --root results/attack --output results/published/attack --document docs --block attack={input.summary} --block machines={input.machines} --block machine_measured={input.measured}"
