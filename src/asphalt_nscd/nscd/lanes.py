@@ -2,6 +2,7 @@
 
 LLVM makes such instructions of a loop only where it can prove that its rounds do not meet in memory. Lanes
 say so. A processor with narrower registers takes eight lanes in two or four parts, with equal bits.
+The numbers are of double precision or of single: those of the array that lanes are loaded from.
 """
 
 from __future__ import annotations
@@ -16,32 +17,36 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, models, overload, register_model
 
-WIDTH = 8  # lanes: 64 bytes, which is a cache line
-_VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
+WIDTH = 8  # lanes: of double precision 64 bytes, which is a cache line
+LINE = 64  # bytes
 _PLACE = ir.IntType(32)
 
 
 class _Lanes(types.Type):
-    def __init__(self) -> None:
-        super().__init__(name="Lanes")
+    def __init__(self, number: types.Float) -> None:
+        self.number = number
+        self.vector = ir.VectorType(ir.DoubleType() if number == types.float64 else ir.FloatType(), WIDTH)
+        super().__init__(name=f"Lanes({number})")
 
 
-_lanes = _Lanes()
+_lanes = _Lanes(types.float64)
 
 
 @register_model(_Lanes)
 class _LanesModel(models.PrimitiveModel):
     def __init__(self, manager: Any, of: Any) -> None:
-        super().__init__(manager, of, _VECTOR)
+        super().__init__(manager, of, of.vector)
 
 
-def aligned(shape: tuple[int, ...]) -> np.ndarray:
-    """Zeros of which each row of lanes is one cache line; rows across two take longer to read.
+def aligned(shape: tuple[int, ...], number: type[np.floating] = np.float64) -> np.ndarray:
+    """Zeros of which each row of lanes is one cache line or half of one; rows across two take longer to read.
 
     Parameters
     ----------
     shape : tuple of int
         Of the array.
+    number : type
+        Of double precision or of single.
 
     Returns
     -------
@@ -49,8 +54,8 @@ def aligned(shape: tuple[int, ...]) -> np.ndarray:
         Of this shape.
     """
     size = int(np.prod(shape))
-    room = np.zeros(size + WIDTH)
-    start = -room.ctypes.data // room.itemsize % WIDTH
+    room = np.zeros(size + 2 * WIDTH, number)
+    start = -room.ctypes.data % LINE // room.itemsize
     return room[start : start + size].reshape(shape)
 
 
@@ -62,11 +67,11 @@ def _lane_by_lane(action: Callable[..., Any], instruction: str) -> None:
         def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
             return getattr(builder, instruction)(*arguments)
 
-        return _lanes(_lanes, _lanes), code
+        return a(a, a), code
 
     @overload(action)
     def acts_on_lanes(a, b):  # its names and annotations must be those of what it returns
-        if isinstance(a, _Lanes) and isinstance(b, _Lanes):
+        if isinstance(a, _Lanes) and a == b:
             return lambda a, b: act(a, b)
         return None
 
@@ -91,8 +96,12 @@ def _row(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, *place: ir.
     return builder.gep(array.data, [at])
 
 
-def _as_lanes(builder: ir.IRBuilder, pointer: ir.Value) -> ir.Value:
-    return builder.bitcast(pointer, _VECTOR.as_pointer())
+def _as_lanes(builder: ir.IRBuilder, array: Any, pointer: ir.Value) -> ir.Value:
+    return builder.bitcast(pointer, _Lanes(array.dtype).vector.as_pointer())
+
+
+def _alignment(array: Any) -> int:
+    return int(array.dtype.bitwidth) // 8
 
 
 def _rows(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> list[ir.Value]:
@@ -103,7 +112,7 @@ def _rows(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -
     for lane in range(WIDTH):
         row = builder.load(builder.gep(first, [_PLACE(lane)]))
         row = builder.sext(row, arguments[2].type)
-        found.append(_as_lanes(builder, _row(context, builder, kind, arguments[0], row)))
+        found.append(_as_lanes(builder, kind, _row(context, builder, kind, arguments[0], row)))
     return found
 
 
@@ -126,9 +135,20 @@ def zeros(typing_context: Any) -> Any:
     """Lanes of zero."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        return ir.Constant(_VECTOR, [0.0] * WIDTH)
+        return ir.Constant(_lanes.vector, [0.0] * WIDTH)
 
     return _lanes(), code
+
+
+@intrinsic
+def zeros_of(typing_context: Any, array: Any) -> Any:
+    """Lanes of zero, of the numbers of an array."""
+    kind = _Lanes(array.dtype)
+
+    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        return ir.Constant(kind.vector, [0.0] * WIDTH)
+
+    return kind(array), code
 
 
 @intrinsic
@@ -136,7 +156,7 @@ def broadcast(typing_context: Any, value: Any) -> Any:
     """One number in all lanes."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        lanes = ir.Constant(_VECTOR, ir.Undefined)
+        lanes = ir.Constant(_lanes.vector, ir.Undefined)
         for lane in range(WIDTH):
             lanes = builder.insert_element(lanes, arguments[0], _PLACE(lane))
         return lanes
@@ -149,7 +169,7 @@ def sqrt(typing_context: Any, value: Any) -> Any:
     """Square roots."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        kind = ir.FunctionType(_VECTOR, [_VECTOR])
+        kind = ir.FunctionType(_lanes.vector, [_lanes.vector])
         name = f"llvm.sqrt.v{WIDTH}f64"
         return builder.call(cgutils.get_or_insert_function(builder.module, kind, name), arguments)
 
@@ -183,9 +203,9 @@ def load(typing_context: Any, array: Any, block: Any, row: Any) -> Any:
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _row(context, builder, signature.args[0], *arguments)
-        return builder.load(_as_lanes(builder, at), align=8)
+        return builder.load(_as_lanes(builder, signature.args[0], at), align=_alignment(array))
 
-    return _lanes(array, types.intp, types.intp), code
+    return _Lanes(array.dtype)(array, types.intp, types.intp), code
 
 
 @intrinsic
@@ -194,10 +214,10 @@ def store(typing_context: Any, array: Any, block: Any, row: Any, value: Any) -> 
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _row(context, builder, signature.args[0], *arguments[:3])
-        builder.store(arguments[3], _as_lanes(builder, at), align=8)
+        builder.store(arguments[3], _as_lanes(builder, signature.args[0], at), align=_alignment(array))
         return context.get_dummy_value()
 
-    return types.void(array, types.intp, types.intp, _lanes), code
+    return types.void(array, types.intp, types.intp, _Lanes(array.dtype)), code
 
 
 @intrinsic
@@ -205,10 +225,12 @@ def gather(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any)
     """Of an array (n, WIDTH) the rows numbers[block, side, :]: one a lane, a tuple of WIDTH columns."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        rows = [builder.load(at, align=8) for at in _rows(context, builder, signature, arguments)]
+        rows = [
+            builder.load(at, align=_alignment(array)) for at in _rows(context, builder, signature, arguments)
+        ]
         return context.make_tuple(builder, signature.return_type, _transposed(builder, rows))
 
-    return types.UniTuple(_lanes, WIDTH)(array, numbers, types.intp, types.intp), code
+    return types.UniTuple(_Lanes(array.dtype), WIDTH)(array, numbers, types.intp, types.intp), code
 
 
 @intrinsic
@@ -218,7 +240,7 @@ def scatter(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         rows = _transposed(builder, cgutils.unpack_tuple(builder, arguments[4]))
         for row, at in zip(rows, _rows(context, builder, signature, arguments), strict=True):
-            builder.store(row, at, align=8)
+            builder.store(row, at, align=_alignment(array))
         return context.get_dummy_value()
 
     return types.void(array, numbers, types.intp, types.intp, columns), code
@@ -226,16 +248,17 @@ def scatter(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any
 
 @intrinsic
 def total(typing_context: Any, value: Any) -> Any:
-    """Sum of the lanes, from the first to the last."""
+    """Sum of the lanes in double precision, from the first to the last."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         lanes = [builder.extract_element(arguments[0], _PLACE(lane)) for lane in range(WIDTH)]
+        lanes = [builder.fpext(lane, ir.DoubleType()) if value != _lanes else lane for lane in lanes]
         result = lanes[0]
         for lane in lanes[1:]:
             result = builder.fadd(result, lane)
         return result
 
-    return types.float64(_lanes), code
+    return types.float64(value), code
 
 
 @intrinsic

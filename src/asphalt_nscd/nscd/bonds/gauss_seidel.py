@@ -13,7 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from asphalt_nscd.nscd.compiled import compiled
-from asphalt_nscd.nscd.lanes import WIDTH, aligned, gather, load, scatter, store, total, zeros
+from asphalt_nscd.nscd.lanes import WIDTH, aligned, gather, load, scatter, store, total, zeros_of
 
 SYMMETRIC = np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2])  # the order of six entries
 WINDOW = 256
@@ -31,10 +31,18 @@ class PackedBonds:
         dt / mass [s/kg, s/(kg m2)], zero where a velocity is prescribed.
     law : ndarray (3 b,)
         Diagonal D of the affine law U = b - D R [m/(N s)].
+    number : type
+        Of single precision a sweep takes little more than half the time.
     """
 
-    def __init__(self, operator: sparse.csr_matrix, mobility: np.ndarray, law: np.ndarray) -> None:
-        self.size, self._law = mobility.size, law
+    def __init__(
+        self,
+        operator: sparse.csr_matrix,
+        mobility: np.ndarray,
+        law: np.ndarray,
+        number: type[np.floating] = np.float64,
+    ) -> None:
+        self.size, self._law, self._number = mobility.size, law, number
         bodies, self._frame, arm = _rigid_bonds(operator)
         nobody = -(-self.size // 6)
         bodies[bodies < 0] = nobody
@@ -57,7 +65,7 @@ class PackedBonds:
         self.visits = self._blocks[block, lane]
         self._bodies = np.full((len(self._blocks), 2, WIDTH), nobody, np.int32)
         self._bodies[block, :, lane] = bodies[self.visits]
-        self._packed = aligned((len(self._blocks), 18, WIDTH))
+        self._packed = aligned((len(self._blocks), 18, WIDTH), number)
         self._packed[block, 6:12, lane] = np.linalg.inv(response)[self.visits][:, *SYMMETRIC]
         self._packed[block, 12:, lane] = arm.reshape(-1, 6)[self.visits]
 
@@ -103,11 +111,11 @@ class PackedBonds:
             self._bodies, self._packed, motion, self._mobility, self._even, tolerance, most_sweeps
         )
         reaction = _reactions(self._blocks, self._frame, self._packed)
-        return reaction, motion[:, :6].ravel()[: self.size], sweeps, change
+        return reaction, motion[:, :6].astype(float).ravel()[: self.size], sweeps, change
 
     def _by_body(self, values: np.ndarray, nobody: int) -> np.ndarray:
         """Values (d,) in a row of eight for each body, and a row of zeros for what stands still."""
-        rows = aligned((nobody + 1, WIDTH))
+        rows = aligned((nobody + 1, WIDTH), self._number)
         six = np.zeros(6 * (nobody + 1))
         six[: self.size] = values
         rows[:, :6] = six.reshape(-1, 6)
@@ -214,7 +222,7 @@ def _sweep_until_still(bodies, packed, motion, mobility, even, tolerance, most_s
     change = 0.0
     blocks = packed.shape[0]
     for sweep in range(most_sweeps):
-        changed, size = zeros(), zeros()
+        changed, size = zeros_of(packed), zeros_of(packed)
         for n in range(blocks):
             block = n if sweep % 2 == 0 else blocks - 1 - n
             i, j = gather(motion, bodies, block, 0), gather(motion, bodies, block, 1)
