@@ -42,8 +42,12 @@ def test_limits_of_the_linear_model_are_those_of_the_diagnosis(empty):
         limit = empty.ladder.limits.get(candidate.key)
         if limit is None or len(candidate.values) > 1 or candidate.key[0] == "temperature_bias":
             continue
-        strength = Question(k, limit / candidate.typical[0], (), 1e9).strength(information)
-        assert np.sqrt(strength) == pytest.approx(5.3, rel=0.04), candidate.key
+        error = empty.ladder.estimates[candidate.key][1] / candidate.typical[0]
+        strength = Question(k, error, (), 1e9).strength(information)
+        assert np.sqrt(strength) == pytest.approx(1.0, rel=0.04), candidate.key
+        # raised by a quarter at a time where a discrepancy would take the effect up
+        raised = np.log(limit / candidate.typical[0] / (5.3 * error)) / np.log(1.25)
+        assert raised == pytest.approx(round(raised), abs=0.1) and round(raised) in range(7), candidate.key
 
 
 def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(delayed):
@@ -212,7 +216,7 @@ def test_a_gain_too_small_to_matter_is_no_reason():
     assert order_words._reason(asked, 1.8**2, 2.4**2).endswith("by 2.4 standard errors (now 1.8).")
 
 
-def test_a_sweep_that_was_asked_for_lowers_the_limit_as_promised(empty):
+def test_a_sweep_that_was_asked_for_lowers_the_standard_error_as_promised(empty):
     """A bias of one isotherm: the sweep that says most of it is added to the table, which is diagnosed again."""
     found = empty
     model = possible(found, Costs())
@@ -221,11 +225,11 @@ def test_a_sweep_that_was_asked_for_lowers_the_limit_as_promised(empty):
     own = [one for one in model.sweeps if one.specimen in found.observed.names and not one.half_strain]
     more = known.gained([one.tested for one in own])[:, k, k]
     best, least = own[int(np.argmax(more))], own[int(np.argmin(more))]
-    before = found.ladder.limits["temperature_bias", 30.0]
+    before = found.ladder.estimates["temperature_bias", 30.0][1]
     after = {}
     for one, gained in ((best, max(more)), (least, min(more))):
         wider = diagnose(_with(found.observed, one.specimen, one.temperature, one.frequencies), draws=1000)
-        after[one.temperature] = wider.ladder.limits["temperature_bias", 30.0]
+        after[one.temperature] = wider.ladder.estimates["temperature_bias", 30.0][1]
         promised = before * np.sqrt(known.information[k, k] / (known.information[k, k] + gained))
         assert after[one.temperature] == pytest.approx(promised, rel=0.1)  # the sweep adds its own scatter
     assert after[best.temperature] < 0.8 * after[least.temperature]
