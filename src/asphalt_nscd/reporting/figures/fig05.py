@@ -21,7 +21,7 @@ from asphalt_nscd.reporting.figures.spheres import View, picture
 HEIGHT, TALL, EDGE, GUTTER, TITLE = 113.0, 102.0, 1.0, 7.0, 9.0
 SECTION = 25.0  # the least height of the section below the layers, which a cylinder needs thick
 LEGEND = 17.0  # width of the column that says which shade is which size
-PIXELS = 20.0  # per mm
+PIXELS = 12.0  # per mm: 300 dots an inch
 VIEW = View(azimuth=-18.0, elevation=12.0)
 
 
