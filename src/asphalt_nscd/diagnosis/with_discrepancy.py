@@ -380,8 +380,8 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
     d = state.plain.noise.whiten(chance.candidate_directions(state.plain, state.fitted, candidates))
     pointing = discrepancy.directions(state.model, state.linear, d)
     # A law that was fitted without a cause has followed it and leaves little of its direction: a fit with the cause
-    # decides. A shift, though, may follow all of an error of temperature.
-    least = [ABSORBED if isinstance(c.place, float) else FOLLOWED for c in candidates]
+    # decides. A shift, though, may follow all of an error of temperature, and a law most shapes of a second process.
+    least = [ABSORBED if isinstance(c.place, float) or c.shaped else FOLLOWED for c in candidates]
     left, size = np.diag(pointing.own), (d**2).sum(axis=0)
     seen = np.flatnonzero(left > least * np.maximum(size, 1e-300))
     kept = Direction(pointing.cross[:, seen], pointing.own[np.ix_(seen, seen)], pointing.along[seen])
