@@ -306,18 +306,20 @@ def test_the_limit_of_a_cause_in_the_fit_is_its_standard_error_times_what_chance
     assert 4.0 < found[candidate.key] / own < 7.0
 
 
-def test_a_discrepancy_that_may_take_a_cause_up_raises_its_limit():
-    observed = table()
+@pytest.mark.parametrize("broken", [0.4, 1.0])
+def test_a_discrepancy_that_may_take_a_cause_up_raises_its_limit(broken):
+    """Where it takes up as much as an error of temperature can be, the table shows none."""
+    observed = table(broken=broken)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
     state = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
     survey = with_discrepancy.survey(state, CATALOGUE)
-    found, _, _ = with_discrepancy.detection_limits(state, survey, 500, np.random.default_rng(0))
+    found, unseen, _ = with_discrepancy.detection_limits(state, survey, 500, np.random.default_rng(0))
     ratio = {
-        one.key: found[one.key] / (estimate.std_error * one.typical[0])
+        one.key: found.get(one.key, np.inf) / (estimate.std_error * one.typical[0])
         for one, estimate in zip(survey.candidates, survey.estimates, strict=True)
-        if one.key in found
     }
     assert ratio["temperature_bias", 37.0] > 1.25 * ratio["phase_offset", None]
+    assert (("temperature_bias", 37.0) in [one.key for one in unseen]) == (broken == 1.0)
 
 
 def test_a_spring_that_the_law_has_followed_gets_its_name():

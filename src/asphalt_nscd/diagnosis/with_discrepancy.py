@@ -627,6 +627,7 @@ def detection_limits(
     sizes: dict[tuple, float] = {}
     unseen: list[Candidate] = []
     alike: list[tuple[Candidate, Candidate]] = []
+    taken_up: set[tuple] = set()
     threshold = USUAL_THRESHOLD
     if surveyed.candidates:
         threshold = float(np.quantile(_by_chance(state, surveyed, draws, random), 1.0 - ALPHA_PER_STEP))
@@ -641,12 +642,19 @@ def detection_limits(
             # Of several shapes the one that most of them exceed stands for all.
             k = sorted(group, key=lambda j: errors[j])[int(limits.MOST * (len(group) - 1))]
             needed = _named_from(state, surveyed, k, threshold) / (threshold + Z_95)
+            # In reach but for the discrepancy, which takes up all that is physical: the table shows none.
+            most = surveyed.candidates[k].cause.parameters[0].high / surveyed.candidates[k].typical[0]
+            if surveyed.estimates[k].std_error <= most / (threshold + Z_95) < needed:
+                taken_up.add(surveyed.candidates[k].key)
             at_least = errors[k] if len(group) > 1 else surveyed.estimates[k].std_error
             errors[group] *= max(at_least, needed) / errors[k]
         found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)
         sizes, unseen = limits.detection_limits(
             state.wide, state.fitted, surveyed.candidates, found, threshold + Z_95
         )
+        hidden = {one.key: one for one in surveyed.candidates if one.key in taken_up & sizes.keys()}
+        unseen += hidden.values()
+        sizes = {key: size for key, size in sizes.items() if key not in hidden}
         every = replace(found, seen=np.ones(errors.size, bool))
         alike = limits.alike(surveyed.candidates, every, TWENTY_TIMES)
     for active in state.fitted.active:
