@@ -11,6 +11,8 @@ from blind.causes import CATALOGUE
 from blind.outside import OUTSIDE
 from blind.plan import JUDGED, NEEDS, Case
 
+from asphalt_nscd.files.errors import InputError
+
 pytestmark = pytest.mark.slow
 
 SINGLES = [cause for cause in CATALOGUE if cause not in ("guide_stiffness", "secondary_process")]
@@ -87,3 +89,30 @@ def test_a_fresh_case_is_not_misnamed(capsys):
     row = rows.iloc[-1]
     assert row["cause"] == effect, f"BLIND_SEED={seed}: no effect can be made so visible in this mix"
     assert row["wrong"] == 0 or row["verdict"] == score.UNEXPLAINED, f"BLIND_SEED={seed}: {row.to_dict()}"
+
+
+def test_a_table_that_is_refused_leaves_its_effect_without_a_name_and_an_empty_one_stops_the_campaign(
+    monkeypatch,
+):
+    def refused(*_, **__):
+        raise InputError("the tests at 15 degC are stiffer than those at 10 degC")
+
+    monkeypatch.setattr(sealed, "open_case", refused)
+    (line,) = sealed.run([Case(SEED, "outside", ("gain_at_frequency",), 1.0, shape="huet_sayegh")])
+    row = score.outcomes([(line["seal"], line["diagnosis"])]).iloc[0]
+    assert row["outcome"] == score.REFUSED and not row["named"]
+    with pytest.raises(InputError):
+        list(sealed.run([Case(SEED, "limits", shape="huet_sayegh")]))
+    limits = {"temperature_bias": {"value": 2.0, "unit": "K"}}
+    monkeypatch.setattr(sealed, "at_limit", lambda *_: sealed.Hidden("temperature_bias", amplitude=2.0))
+    known = iter([{"detection_limits": limits, "verdict": "explained", "ladder": []}])
+
+    def second(*_, **__):
+        return next(known, None) or refused()
+
+    monkeypatch.setattr(sealed, "open_case", second)
+    cases = [
+        Case(SEED, "limits", shape="huet_sayegh"),
+        Case(SEED, "single", ("temperature_bias",), 5.0, shape="huet_sayegh"),
+    ]
+    assert list(sealed.run(cases))[1]["diagnosis"]["verdict"] == score.REFUSED
