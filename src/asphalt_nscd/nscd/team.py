@@ -254,3 +254,4 @@ class Team:
         for other in self._others:
             other.join()
         self._others = []
+        self.members = 1  # who runs a kernel later does all of it
