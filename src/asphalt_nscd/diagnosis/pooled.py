@@ -265,7 +265,7 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
         if not common or len(causes) == MOST_OF_MACHINE:
             break
         gains = {cause: _gain(each[cause], amplitudes) for cause in common}
-        best = _likeliest(pooled, gains)
+        best = _likeliest(pooled, gains, len(states))
         as_good = tuple(
             cause.name
             for cause in open_
@@ -429,12 +429,14 @@ def _densities(left: Vector, weight: Vector) -> Vector:
     )
 
 
-def _likeliest(pooled: Mapping[Cause, _Whole], gains: Mapping[Cause, float]) -> Cause:
-    """The cause of one size for all; if none has one, that of most likelihood with a size in each campaign."""
-    of_one_size = [cause for cause in gains if pooled[cause].differ >= DIFFERENT]
-    if of_one_size:
-        return max(of_one_size, key=lambda cause: abs(pooled[cause].z))
-    return max(gains, key=lambda cause: gains[cause])
+def _likeliest(pooled: Mapping[Cause, _Whole], gains: Mapping[Cause, float], campaigns: int) -> Cause:
+    """The cause of most likelihood: of one size for all, or with a size in each campaign, which costs two each."""
+
+    def worth(cause: Cause) -> float:
+        one = pooled[cause]
+        return one.z**2 if one.differ >= DIFFERENT else gains[cause] - 2.0 * (campaigns - 1)
+
+    return max(gains, key=worth)
 
 
 def _gain(each: Sequence[_Evidence], taken: Vector) -> float:

@@ -379,9 +379,10 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
         return [], Direction(np.zeros((0, 0)), np.zeros((0, 0)), np.zeros(0))
     d = state.plain.noise.whiten(chance.candidate_directions(state.plain, state.fitted, candidates))
     pointing = discrepancy.directions(state.model, state.linear, d)
-    # A law that was fitted without a cause has followed it and leaves little of its direction: a fit with the cause
-    # decides. A shift, though, may follow all of an error of temperature, and a law most shapes of a second process.
-    least = [ABSORBED if isinstance(c.place, float) or c.shaped else FOLLOWED for c in candidates]
+    # A law that was fitted without a spring has followed it and leaves little of its direction: a fit with the spring
+    # decides. It may follow all of most others, as a shift may of an error of temperature.
+    fitted = [isinstance(c.place, str) or c.cause.name == "guide_stiffness" for c in candidates]
+    least = np.where(fitted, FOLLOWED, ABSORBED)
     left, size = np.diag(pointing.own), (d**2).sum(axis=0)
     seen = np.flatnonzero(left > least * np.maximum(size, 1e-300))
     kept = Direction(pointing.cross[:, seen], pointing.own[np.ix_(seen, seen)], pointing.along[seen])
