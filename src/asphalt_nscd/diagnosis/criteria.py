@@ -32,9 +32,8 @@ LEAST_ISOTHERMS = 4
 MANY_ISOTHERMS = 3  # at which errors of temperature speak for a shift of another form: drawn Kaelble shifts
 MOST_SPECIMENS = 0.5  # share of the specimens at which a fault of one specimen may be named
 ABSORBED = 3e-3  # share of a direction's square that the law must leave for it to be seen at all
-FOLLOWED = (
-    1e-6  # the same of a fault of one specimen and of a spring, of which a law leaves 2e-4: a fit decides
-)
+# The same of a fault of one specimen and of a spring, which a fit decides: a law leaves 2e-4 of a spring.
+FOLLOWED = 1e-6
 WIDE_SPREAD = 1.2  # of the estimates of causes without a name, from which limits are multiplied by it
 NOTICED = 0.5  # size of a process over the scatter of one test, below which it is none: half of empty tables have 0.3
 HIDES = 1.0  # the same, from which it may be the shape of a cause that has one

@@ -38,9 +38,8 @@ LEANING, VERY_FAR = 0.1, 1e-5  # both limits where replicates say more: at the e
 PHASES = 0.0, 90.0  # deg, that a passive linear material can have
 BROKEN = 0.99  # probability that the phase of an isotherm departs smoothly by 1.5 deg or more
 BREAKS = BENDS > np.radians(1.0)
-TORN_APART = (
-    1.5  # standard errors of a phase that |E*| requires, where other isotherms speak against this one too
-)
+# Standard errors of a phase that |E*| requires, where other isotherms speak against this one too.
+TORN_APART = 1.5
 TORN_LEAST = 3.0  # deg, the same: isotherms of NCAT that are not broken depart by up to 2.4
 FEWEST = 3  # tests whose |E*| requires a phase
 LEAST_FREEDOM = 4  # of the replicates of an isotherm
