@@ -53,28 +53,42 @@ def nearest(printed: Printed, wanted: Complex) -> Complex | None:
         with np.errstate(over="ignore"):  # a wild trial
             return error, np.expm1(-error[:n]), error[n:] / (angle + error[n:])
 
-    def missed(x: Vector) -> Vector:
+    def missed(x: Vector, corner: float = 0.0) -> Vector:
         _, norm, phase = parts(x)
-        return np.array([np.abs(norm).mean() - printed.error, np.abs(phase).mean() - printed.phase_error])
+        means = np.hypot(norm, corner).mean(), np.hypot(phase, corner).mean()
+        return np.array(means) - (printed.error, printed.phase_error)
 
-    def slopes(x: Vector) -> NDArray[np.float64]:
+    def slopes(x: Vector, corner: float = 0.0) -> NDArray[np.float64]:
         error, norm, phase = parts(x)
-        by_norm = -np.sign(norm) * (1.0 + norm) / n
-        by_phase = np.sign(phase) * angle / (angle + error[n:]) ** 2 / n
+        by_norm = -_sign(norm, corner) * (1.0 + norm) / n
+        by_phase = _sign(phase, corner) * angle / (angle + error[n:]) ** 2 / n
         return np.stack([by_norm @ free[:n], by_phase @ free[n:]])
 
-    found = minimize(
-        lambda x: 0.5 * GAIN * ((x - start) ** 2).sum(),
-        start,
-        jac=lambda x: GAIN * (x - start),
-        constraints={"type": "eq", "fun": missed, "jac": slopes},
-        method="SLSQP",
-        options={"maxiter": 100, "ftol": 1e-10},
-    )
-    error = free @ found.x
-    if np.abs(missed(found.x)).max() > CLOSE or (angle + error[n:]).min() <= 0.0:
+    def moved(x: Vector, corner: float) -> Vector:
+        """From x to the printed errors; corner: how far the |error| of each test is rounded off at zero."""
+        found = minimize(
+            lambda x: 0.5 * GAIN * ((x - start) ** 2).sum(),
+            x,
+            jac=lambda x: GAIN * (x - start),
+            constraints={"type": "eq", "fun": missed, "jac": slopes, "args": (corner,)},
+            method="SLSQP",
+            options={"maxiter": 100, "ftol": 1e-10},
+        )
+        return np.asarray(found.x)
+
+    # The search may stop where an error changes its sign: then it begins anew from a path without these corners.
+    x = moved(start, 0.0)
+    if np.abs(missed(x)).max() > CLOSE:
+        x = moved(moved(start, printed.error), 0.0)
+    error = free @ x
+    if np.abs(missed(x)).max() > CLOSE or (angle + error[n:]).min() <= 0.0:
         return None
     return np.asarray(law + error[:n] + 1j * error[n:])
+
+
+def _sign(error: Vector, corner: float) -> Vector:
+    """Slope of |error| with its corner at zero rounded off."""
+    return np.asarray(error / np.hypot(error, corner) if corner else np.sign(error))
 
 
 def nearest_law(
