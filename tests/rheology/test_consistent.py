@@ -82,7 +82,7 @@ def test_draws_have_table_3_as_their_fit_and_table_4_as_its_errors(known):
 
 
 def test_data_are_found_although_an_error_changes_its_sign_on_the_way(known):
-    """From the corners of |error| alone 53 of these are found; on one processor it missed the data of the paper study."""
+    """From the corners of |error| alone 53 are found, and on one processor not those of the paper study."""
     about, noise = (
         np.log(SMOOTH.complex_modulus(OMEGA, -10.0)),
         np.random.default_rng(1).standard_normal((60, 2, 5)),
