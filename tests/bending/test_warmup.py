@@ -1,8 +1,8 @@
-"""What each of the two compilations of a study leaves in the cache."""
+"""Which kernels each of the two compilations of a study calls, and so leaves in the cache."""
 
 from __future__ import annotations
 
-import os
+import json
 import subprocess
 import sys
 
@@ -10,28 +10,35 @@ import pytest
 
 pytestmark = pytest.mark.slow
 
+# From the cache where they stand there: which are called does not depend on it.
+CALLED = """
+import json, sys
+from numba.core.dispatcher import Dispatcher
+from asphalt_nscd.cli import group
+from asphalt_nscd.nscd import native
+group.main(["compile", sys.argv[1]], standalone_mode=False)
+kernels = {}
+for name, module in sys.modules.items():
+    if name.startswith("asphalt_nscd.nscd."):
+        for one in vars(module).values():
+            if isinstance(one, Dispatcher) and one.py_func.__module__ == name and one.signatures:
+                kernels[f"{name[18:]}.{one.__name__}"] = len(one.signatures)
+print(json.dumps([kernels, len(native._loaded)]))
+"""
 
-def compiled(step, cache):
-    """Kernels in the cache after a compilation, `folder/module.function`, and how many types each was compiled for."""
-    code = f"from asphalt_nscd.cli import main; main(['compile', {step!r}])"
-    subprocess.run(
-        [sys.executable, "-c", code],
-        env=os.environ | {"ASPHALT_NSCD_CACHE": str(cache)},
-        check=True,
-        timeout=600,
-    )
-    types = {}
-    for path in cache.glob("core-*/*/*.nbc"):
-        name = f"{path.parent.name.partition('_')[0]}/{path.name.partition('-')[0]}"
-        types[name] = types.get(name, 0) + 1
-    return types
+
+def called(step):
+    """Kernels that a compilation calls, `folder.module.function`, with the number of types of each; native ones."""
+    command = [sys.executable, "-c", CALLED, step]
+    done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=600)
+    return json.loads(done.stdout)
 
 
-def test_a_step_compiles_its_own_kernels_and_those_of_no_other(tmp_path):
-    bending = compiled("simulate", tmp_path / "bending")
-    assert {name.partition("/")[0] for name in bending} == {"bonds", "stepping"}
-    assert bending["bonds/system._opening_rows"] == 1  # for the bonds of the paper and for facets
-    assert len(list(tmp_path.glob("bending/core-*/*.native"))) == 1
-    pouring = compiled("deposit", tmp_path / "pouring")
-    assert "spheres/granular.step" in pouring and "spheres/neighbours._partners" in pouring
+def test_a_step_compiles_its_own_kernels_and_those_of_no_other():
+    bending, native = called("simulate")
+    assert {name.partition(".")[0] for name in bending} == {"bonds", "stepping"}
+    assert bending["bonds.system._opening_rows"] == 1  # for the bonds of the paper and for facets
+    assert native == 1
+    pouring, _ = called("deposit")
+    assert "spheres.granular.step" in pouring and "spheres.neighbours._partners" in pouring
     assert not set(pouring) & set(bending)
