@@ -193,6 +193,83 @@ def test_what_competes_for_a_name_has_a_size_and_shapes_of_its_own():
     assert stands("guide_friction", 1e6)[0] is False  # its interval holds zero
 
 
+@pytest.mark.parametrize("strength", [5e8, 2e9])
+def test_a_second_process_that_shifts_as_fast_as_half_the_mix_is_found(strength):
+    """From 30 and 60 kJ/mol with an exponent of 0.6 alone, its size seems to be below zero."""
+    observed = table(broken=0.0)
+    second = next(cause for cause in CATALOGUE if cause.name == "secondary_process")
+    with_second = second.apparent(observed.modulus, np.array([strength, -1.2, 82.0, 0.8]), observed)
+    taken, state, survey = climbed(replace(observed, modulus=with_second))
+    assert [one.candidate.cause.name for one in taken] == ["secondary_process"]
+    candidate = state.fitted.active[0]
+    value, error = with_discrepancy.estimates(state, survey)[candidate.key]
+    assert abs(value - strength) < 2.0 * error and error < 0.5 * strength
+    assert candidate.values[1:] == pytest.approx((-1.2, 82.0, 0.8), rel=0.1)
+
+
+def _next_name(monkeypatch, observed: Observations, stands, odds: dict[str, float]) -> with_discrepancy.Found:
+    """The name taken where `stands(candidate)` says who competes, and odds are these."""
+    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    monkeypatch.setattr(
+        with_discrepancy, "_stands", lambda before, state, taken, own: stands(begun, taken, state)
+    )
+    monkeypatch.setattr(
+        with_discrepancy, "log_odds", lambda candidate, *_: odds.get(candidate.cause.name, -20.0)
+    )
+    surveyed = with_discrepancy.survey(begun, CATALOGUE)
+    return with_discrepancy._next(begun, surveyed, 500, np.random.default_rng(0))
+
+
+def test_a_fit_of_shapes_that_does_not_stand_gives_way_to_one_from_another_start(monkeypatch):
+    observed = table(broken=0.0)
+    second = next(cause for cause in CATALOGUE if cause.name == "secondary_process")
+    with_second = second.apparent(observed.modulus, np.array([1e9, -1.2, 60.0, 0.6]), observed)
+    tried = []
+
+    def stands(begun, taken, state):
+        tried.append(taken.cause.name)
+        return taken.shaped and tried.count(taken.cause.name) > 1
+
+    found = _next_name(
+        monkeypatch, replace(observed, modulus=with_second), stands, {"secondary_process": 9.0}
+    )
+    assert found.candidate.cause.name == "secondary_process"
+    assert tried.count("secondary_process") == 2
+
+
+@pytest.mark.parametrize("likelier", ["secondary_process", "channel_delay"])
+def test_of_causes_as_good_the_likelier_is_named_whatever_its_shapes(monkeypatch, likelier):
+    monkeypatch.setattr(with_discrepancy, "of_shapes", lambda *_: 0.0)
+    odds = {"secondary_process": 5.0, "channel_delay": 5.0} | {likelier: 9.0}
+    observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
+    found = _next_name(monkeypatch, observed, lambda *_: True, odds)
+    assert found.candidate.cause.name == likelier
+    assert found.rivals
+
+
+def test_the_limit_of_a_second_process_counts_wide_ones(monkeypatch):
+    """With an exponent of 0.5 it takes more than twice the strength of one of 0.8."""
+    observed = table(broken=0.0, design=TRAPEZOIDS)
+    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
+    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    second = next(cause for cause in CATALOGUE if cause.name == "secondary_process")
+    every = second.shapes(observed)
+
+    def limit(*exponents: float) -> float:
+        shapes = tuple(shape for shape in every if shape[-1] in exponents)
+        monkeypatch.setattr(type(second), "shapes", lambda self, observed: shapes)
+        surveyed = with_discrepancy.survey(begun, CATALOGUE)
+        limits = with_discrepancy.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
+        return limits["secondary_process", None]
+
+    narrow, medium, wide, of_all = (
+        limit(*exponents) for exponents in ((0.8,), (0.65,), (0.5,), (0.5, 0.65, 0.8))
+    )
+    assert wide > 2.0 * narrow
+    assert medium < of_all < wide
+
+
 @pytest.mark.parametrize(
     ("values", "carried", "stands"),
     [

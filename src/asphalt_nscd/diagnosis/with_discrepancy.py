@@ -41,6 +41,7 @@ from asphalt_nscd.files.words import specimen_named
 Vector = NDArray[np.float64]
 SEVERAL_STARTS = 300  # tests up to which the sizes of the discrepancy are sought from several starts
 REFITS = 4  # candidates that are refitted at each rung
+STARTS = 4  # of a cause with shapes of its own
 NEAR = 0.6  # share of what a name needs, above which a candidate is refitted
 SETTLED = 2  # rounds of fitting law and discrepancy in turn
 LARGER = 6  # times that a limit is raised by a quarter where a discrepancy would take the effect up
@@ -297,17 +298,41 @@ def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
         Of each candidate.
     """
     candidates, pointing = _pointing(state, catalogue)
-    # A cause with shapes of its own has many directions: one start is enough for a candidate that is refitted. In a
-    # large table the sizes are well determined, and each start takes a second.
+    # In a large table the sizes are well determined, and each start takes a second.
     several = state.plain.observed.size <= SEVERAL_STARTS
+    scored = _scored(state, pointing)
+    promising = set(_promising(candidates, scored))
     estimates = [
-        likeliest(state.model, state.variances, pointing.column(k))
-        if several and len(candidate.values) == 1
+        scored[k]
+        if candidate.shaped and k not in promising
+        else likeliest(state.model, state.variances, pointing.column(k))
+        if several and not candidate.shaped
         else discrepancy.estimate(state.model, pointing.column(k), state.variances)
         for k, candidate in enumerate(candidates)
     ]
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
     return Survey(candidates, pointing, estimates, one_sided)
+
+
+def _scored(state: State, pointing: Direction) -> list[Estimate]:
+    """Each candidate beside a discrepancy of the sizes that it has without, which no gain is told of."""
+    information, score = discrepancy.weighed(state.model, pointing, state.variances)
+    least = np.maximum(np.diag(information), 1e-12)
+    return [
+        Estimate(state.variances, np.inf, float(amplitude), float(error))
+        for amplitude, error in zip(score / least, least**-0.5, strict=True)
+    ]
+
+
+def _promising(candidates: Sequence[Candidate], scored: Sequence[Estimate]) -> Iterator[int]:
+    """Of each cause with shapes of its own the STARTS that the table speaks for most."""
+    best = np.argsort([-one.z for one in scored], kind="stable")
+    count: dict[tuple, int] = {}
+    for k in best.tolist():
+        key = candidates[k].key
+        count[key] = count.get(key, 0) + 1
+        if candidates[k].shaped and count[key] <= STARTS:
+            yield k
 
 
 def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Found | None:
@@ -322,13 +347,17 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     # A law fitted without the cause has followed it: what comes near is refitted before it is judged.
     least = float(np.quantile(by_chance, 1.0 - ALPHA_PER_STEP))
     eligible = (z > NEAR * least) & (gains > NEAR * TWENTY_TIMES)
-    shortlist: dict[tuple, int] = {}
+    shortlist: dict[tuple, list[int]] = {}
     for k in np.argsort(-np.where(eligible, gains, -np.inf)):
-        if eligible[k] and len(shortlist) < REFITS:
-            shortlist.setdefault(candidates[k].key, int(k))
+        key = candidates[k].key
+        if eligible[k] and (key in shortlist or len(shortlist) < REFITS):
+            shortlist.setdefault(key, []).append(int(k))
     refits = []
     odds: dict[int, float] = {}
-    for k in shortlist.values():
+    for k in (k for starts in shortlist.values() for k in starts):
+        # Of a cause with shapes of its own, a fit that does not stand gives way to one from another start.
+        if any(candidates[j].key == candidates[k].key for j in odds):
+            continue
         amplitude = estimates[k].amplitude * candidates[k].typical[0]
         first = candidates[k].cause.parameters[0]
         values = np.array([np.clip(amplitude, first.low, first.high), *candidates[k].values[1:]])
@@ -348,7 +377,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         return None
     most = max(gain for gain, _, _ in refits)
     as_good = [refit for refit in refits if most - refit[0] < TWENTY_TIMES]
-    _, k, after = min(as_good, key=lambda refit: (len(candidates[refit[1]].values), -odds[refit[1]]))
+    _, k, after = max(as_good, key=lambda refit: odds[refit[1]])
     rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
     share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
     shared = sum(share[j] for _, j, _ in as_good)
@@ -649,6 +678,7 @@ def detection_limits(
                 taken_up.add(surveyed.candidates[k].key)
             at_least = errors[k] if len(group) > 1 else surveyed.estimates[k].std_error
             errors[group] *= max(at_least, needed) / errors[k]
+            simple[group] &= np.array(group) == k  # to refit the law beside each shape would take seconds
         found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)
         sizes, unseen = limits.detection_limits(
             state.wide, state.fitted, surveyed.candidates, found, threshold + Z_95

@@ -1,4 +1,5 @@
 from collections.abc import Sequence
+from itertools import product
 
 import numpy as np
 
@@ -28,7 +29,8 @@ class SecondaryProcess(Cause):
     def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
         # Its peak anywhere in the tested band at the middle temperature, shifting less than the mix.
         slow, fast = -np.log10(observed.omega.min()) + 0.5, -np.log10(observed.omega.max()) - 0.5
-        return tuple((time, energy, 0.6) for time in np.linspace(fast, slow, 5) for energy in (30.0, 60.0))
+        times, energies, exponents = np.linspace(fast, slow, 5), (30.0, 60.0, 90.0), (0.5, 0.65, 0.8)
+        return tuple(product(times.tolist(), energies, exponents))
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         strength, log_time, energy, exponent = values
