@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.special import expit
 from scipy.stats import cauchy
-from test_diagnose import table
+from test_diagnose import EFFECTS, table
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.criteria import EXPECTED
+from asphalt_nscd.diagnosis.criteria import EXPECTED, HALF_FROM, NAMED, SUREST
+from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.joint import Candidate
-from asphalt_nscd.diagnosis.probability import log_odds, shares
+from asphalt_nscd.diagnosis.probability import log_odds, shares, stated
+from asphalt_nscd.diagnosis.report import as_json
+from asphalt_nscd.diagnosis.simulated import read_specimen
 
 CAUSES = {cause.name: cause for cause in CATALOGUE}
 
@@ -52,3 +58,41 @@ def test_shares_leave_room_for_none_and_for_rivals():
     assert shares([30.0, 30.0]).tolist() == pytest.approx([0.5, 0.5])
     assert shares([3.0, -40.0]).tolist() == pytest.approx([1.0 / (1.0 + np.exp(-3.0)), 0.0], abs=1e-9)
     assert shares([]).size == 0
+
+
+MODELLED = np.array([0.0, 1e-9, 0.1, 0.4, 0.5, 0.6, 0.8, 0.9, 0.95, 0.97, 0.99, 0.9999, 1.0 - 1e-12, 1.0])
+
+
+@pytest.mark.parametrize(
+    "established,doubted,most", [(True, False, 0.98), (False, False, 0.96), (False, True, 0.87)]
+)
+def test_a_stated_probability_rises_with_that_of_the_model_to_its_ceiling(established, doubted, most):
+    told = np.array([stated(one, established, doubted) for one in MODELLED])
+    assert (np.diff(told) >= 0.0).all() and (np.diff(told[told < most]) > 0.0).all()
+    assert told[0] == 0.0 and told[-1] == most and (told <= MODELLED).all()
+
+
+def test_an_established_name_keeps_its_probability_and_a_doubt_halves_the_odds():
+    assert stated(0.96, True, False) == 0.96 and SUREST[True] > NAMED
+    assert stated(0.9, False, False) == 0.9
+    even = expit(HALF_FROM)
+    assert stated(even, False, True) == pytest.approx(0.5)
+    further = stated(expit(HALF_FROM + 2.0), False, True)
+    assert np.log(further / (1.0 - further)) == pytest.approx(1.0)
+
+
+@pytest.mark.slow
+def test_the_report_states_the_calibrated_probability():
+    """A whole table establishes an angle; on three of its isotherms its size may differ between frequencies."""
+    whole = table(3, EFFECTS["phase_offset", None][1])
+    few = diagnose(whole.subset(np.flatnonzero(np.isin(whole.temperature, [-10.0, 10.0, 30.0]))))
+    (rung,) = few.ladder.rungs
+    assert few.doubts.keys() == {rung.candidate.key} and rung.probability > SUREST[False]
+
+    def told(found):
+        (one,) = [one for one in as_json(found, read_specimen())["ladder"] if one["cause"] == "phase_offset"]
+        return one["established"], one["probability"]
+
+    assert told(diagnose(whole)) == (True, SUREST[True])
+    assert told(few) == (False, stated(rung.probability, False, True))
+    assert told(replace(few, doubts={})) == (False, SUREST[False])

@@ -17,6 +17,7 @@ from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.laboratory import Laboratory, with_laboratory
 from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.probability import stated
 from asphalt_nscd.diagnosis.suspects import Suspect
 from asphalt_nscd.diagnosis.written import shown
 from asphalt_nscd.measurements.reduction import require_enough
@@ -52,6 +53,10 @@ class Diagnosis:
     def established(self, rung: Rung) -> bool:
         """Whether a name is more than the likeliest: no rival, with a name or without, carried by the whole table."""
         return not self.too_few and rung.probability >= NAMED and self.taken_off(rung)
+
+    def probability(self, rung: Rung) -> float:
+        """Of a name, as it is stated."""
+        return stated(rung.probability, self.established(rung), rung.candidate.key in self.doubts)
 
     def taken_off(self, rung: Rung) -> bool:
         """Whether law.json is free of a cause, and the extended simulation holds it.

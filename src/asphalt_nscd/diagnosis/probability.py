@@ -3,6 +3,9 @@
 Near its best size a a cause has the likelihood ratio exp(gain/2) over none. Integrated over the sizes that it may have,
 of prior density p(a), that is worth exp(gain/2) p(a) sqrt(2 pi) times its standard error (Laplace). The density is a
 Cauchy's with the usual size of the cause, so that a large error is not held to be impossible.
+
+These odds take it that what holds is in the catalogue, and an effect that it lacks can look like a cause. So the
+probability that is stated holds what else speaks for or against a name, and is calibrated on drawn tables.
 """
 
 from __future__ import annotations
@@ -11,9 +14,9 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import logsumexp
+from scipy.special import expit, logit, logsumexp
 
-from asphalt_nscd.diagnosis.criteria import EXPECTED, Expected
+from asphalt_nscd.diagnosis.criteria import DOUBTED, EXPECTED, HALF_FROM, SUREST, Expected
 from asphalt_nscd.diagnosis.joint import Candidate
 from asphalt_nscd.diagnosis.observations import Observations
 
@@ -69,3 +72,28 @@ def shares(odds: Sequence[float]) -> NDArray[np.float64]:
         Together at most 1.
     """
     return np.asarray(np.exp(np.array(odds) - logsumexp([0.0, *odds])))
+
+
+def stated(modelled: float, established: bool, doubted: bool) -> float:
+    """Probability of a name as it is stated: the share of names like it that are right in drawn tables.
+
+    A doubt halves what its ln odds exceed HALF_FROM by.
+
+    Parameters
+    ----------
+    modelled : float
+        Probability that the model gives the name.
+    established : bool
+        Whether the name is.
+    doubted : bool
+        Whether an effect that the catalogue lacks may stand behind it (`diagnosis.doubts`).
+
+    Returns
+    -------
+    float
+        At most that of the model.
+    """
+    most = min(modelled, SUREST[established])
+    if not doubted:
+        return most
+    return min(most, float(expit(0.5 * (logit(modelled) - HALF_FROM))), DOUBTED)

@@ -70,7 +70,7 @@ def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held
         "parameters": _parameters(diagnosis, final),
         "p_value": rung.p_value,
         "gain": gain,
-        "probability": rung.probability,
+        "probability": diagnosis.probability(rung),
         "as_good": [name_of(rival) for rival in rung.rivals],
         "established": diagnosis.established(rung),
         "taken_off": diagnosis.taken_off(rung),

@@ -246,8 +246,7 @@ def _doubts(rung: Content, content: Content) -> list[str]:
 
 def probability(rung: Content) -> str:
     """Of a name at its place; that another cause or none holds is the rest."""
-    value = 100.0 * rung["probability"]
-    return "above 99 %" if value > 99.0 else f"{value:.0f} %"
+    return f"{100.0 * rung['probability']:.0f} %"
 
 
 def worsens(rung: Content) -> bool:
