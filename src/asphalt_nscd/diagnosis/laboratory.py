@@ -15,9 +15,11 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis import discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import CHANNEL
 from asphalt_nscd.diagnosis.criteria import LABORATORY, OF_ISOTHERM
 from asphalt_nscd.diagnosis.discrepancy import Process, Processes
-from asphalt_nscd.diagnosis.joint import Fitted, Joint, Vector
+from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint, Vector
 
 STEP = 0.05  # K, of the derivative along the temperature
 
@@ -154,7 +156,9 @@ def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | N
     if not isinstance(joint.base, FlexibleSpectrum) or joint.observed.isotherms.size < 2:
         return joint, None
     held = of_single_tests(joint, fitted)
-    found = estimate(held, held.linearise(fitted.law, fitted.scales, fitted.active))
+    # An error that the phases of all tests share is no sum of mountings: with it they would seem up to twice as large.
+    shared = tuple(Candidate(cause, None, (0.0,)) for cause in CATALOGUE if cause.stage == CHANNEL)
+    found = estimate(held, held.linearise(fitted.law, fitted.scales, (*fitted.active, *shared)))
     alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared))
     noise = alone.beside(_parts(found.factor(joint, fitted, alone.block)))
     return Joint(joint.observed, joint.base, noise), found
