@@ -289,6 +289,7 @@ def test_bad_geometry_tables_are_refused(write, case):
         ({key: value for key, value in MAPPING.items() if key != "B_mm"}, "geometry: key 'B_mm' is missing"),
         (MAPPING | {"width": 3}, "geometry: key 'width' is not known"),
         (MAPPING | {"h_mm": "tall"}, "geometry: h_mm = 'tall' is not a number from 20 to 1000"),
+        (MAPPING | {"h_mm": 6 * 10**400}, "00 is not a number from 20 to 1000; give the height in mm"),
         (MAPPING | {"h_mm": math.nan}, "geometry: h_mm = nan is not a number"),
         (MAPPING | {"b_mm": 60}, "geometry: geometry: the head"),
     ],

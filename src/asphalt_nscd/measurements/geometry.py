@@ -204,7 +204,7 @@ def _from_mapping(mapping: Any, name: str, kind: type[Shape] | None = None) -> S
         value = mapping[key]
         number = isinstance(value, Real) and not isinstance(value, bool)
         if not number or not limits.low <= value <= limits.high:
-            said = f"{value:g}" if number else repr(value)
+            said = f"{value:g}" if isinstance(value, float) else repr(value)  # no float holds every int
             raise InputError(
                 f"{name}: {key} = {said} is not a number from {limits.low:g} to {limits.high:g}; "
                 f"{limits.mend}."
