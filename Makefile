@@ -71,9 +71,6 @@ benchmark: $(READY)
 	@.venv/bin/snakemake benchmark --logger steps --cores 1 --configfile config/paper.yaml
 	@echo "Tables: $(CURDIR)/results/benchmark/benchmark.csv, growth.csv"
 
-# Workers side by side: threads of BLAS would only wait for each other.
-test test-fast: export OPENBLAS_NUM_THREADS := 1
-
 test: $(TOOLS)
 	.venv/bin/python -m pytest -n auto --dist loadfile
 

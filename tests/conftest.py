@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 
 import pytest
+
+# Before numpy is loaded. Tests run side by side: more threads of BLAS only wait for each other.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
