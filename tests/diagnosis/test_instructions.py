@@ -51,30 +51,35 @@ def test_limits_of_the_linear_model_are_those_of_the_diagnosis(empty):
 
 
 def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(delayed):
-    first = instructions.instructions(delayed)["orders"][0]
+    orders = instructions.instructions(delayed)["orders"]
+    first = orders[0]
     assert first["specimens"] == [METAL] and first["temperature_C"] is None
     assert 40.0 in first["frequencies_Hz"]
     (why,) = [sentence for sentence in first["why"] if "Metal" in sentence]
     (rung,) = delayed.ladder.rungs
     assert f"{np.degrees(rung.candidate.values[0] * 80 * np.pi):.1f} deg of phase at 40 Hz" in why
-    assert len(instructions.instructions(delayed)["orders"]) <= 5
+    assert len(orders) <= 5
 
 
-def test_metal_is_ordered_once_and_each_order_says_why(delayed, monkeypatch):
-    """However little an order may tell: once several sweeps of metal came, and orders without a reason."""
-    monkeypatch.setattr(instructions, "LEAST", 1e-9)
-    monkeypatch.setattr(instructions, "MOST", 40)
-    orders = instructions.instructions(delayed)["orders"]
-    assert sum(one["specimens"] == [METAL] for one in orders) == 1
-    assert all(one["why"] for one in orders)
+@pytest.fixture(scope="module")
+def many_orders(delayed):
+    """However little an order may tell."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(instructions, "LEAST", 1e-9)
+        patch.setattr(instructions, "MOST", 40)
+        return instructions.instructions(delayed)["orders"]
 
 
-def test_no_test_is_ordered_twice(delayed, monkeypatch):
-    monkeypatch.setattr(instructions, "LEAST", 1e-9)
-    monkeypatch.setattr(instructions, "MOST", 40)
+def test_metal_is_ordered_once_and_each_order_says_why(many_orders):
+    """Once several sweeps of metal came, and orders without a reason."""
+    assert sum(one["specimens"] == [METAL] for one in many_orders) == 1
+    assert all(one["why"] for one in many_orders)
+
+
+def test_no_test_is_ordered_twice(many_orders):
     ordered = [
         (specimen, one["temperature_C"], frequency, one["half_strain"])
-        for one in instructions.instructions(delayed)["orders"]
+        for one in many_orders
         for specimen in one["specimens"]
         for frequency in one["frequencies_Hz"]
     ]

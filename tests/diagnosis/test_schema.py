@@ -115,7 +115,14 @@ REACHED = {
 }
 
 
-@pytest.fixture(scope="module", params=REACHED, ids=lambda change: change.__name__)
+QUICK = (plain, few, least, ragged, single)
+PARAMS = [
+    pytest.param(change, id=change.__name__, marks=() if change in QUICK else pytest.mark.slow)
+    for change in REACHED
+]
+
+
+@pytest.fixture(scope="module", params=PARAMS)
 def diagnosed(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("diagnosed")
     frame = pd.read_csv(ROOT / "results/published/paper/measured.csv", dtype={"specimen": str})[COLUMNS]
