@@ -87,14 +87,15 @@ def test_what_the_machine_does_is_no_reason_to_believe_a_campaign_less():
     assert off.judged_beside([OFFSET], amplitude).spread == 1.0
 
 
-def test_where_the_discrepancy_starts_does_not_change_the_evidence():
-    """From sizes far from the likeliest, one descent ends elsewhere: in this table with an error 6 % larger."""
-    begun = pooled._begin("a", diagnose(campaign(1), SCATTER, draws=500))
+@pytest.mark.parametrize(("seed", "size"), [(0, 4.0), (4, 16.0)])
+def test_where_the_discrepancy_starts_does_not_change_the_evidence(seed, size):
+    """From sizes far from the likeliest, one descent ends elsewhere: in these tables with a score 0.5 and 0.7 % off."""
+    begun = pooled._begin("a", diagnose(campaign(seed), SCATTER, draws=500))
     state = begun.state
-    astray = replace(begun, state=replace(state, variances=np.full_like(state.variances, 4.0)))
+    astray = replace(begun, state=replace(state, variances=np.full_like(state.variances, size)))
     one, other = (pooled._evidence(each, [OFFSET]) for each in (begun, astray))
     assert other.information == pytest.approx(one.information, rel=1e-3)
-    assert other.score == pytest.approx(one.score, rel=0.01)
+    assert other.score == pytest.approx(one.score, rel=1e-3)
 
 
 def test_a_delay_is_not_called_an_offset():
