@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.special import chdtrc, fdtrc
 
 from asphalt_nscd.diagnosis import causality, chance, copies, scatter, start, suspects, within_isotherm
+from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
@@ -49,6 +50,12 @@ class Diagnosis:
     too_few: str = ""  # why these data tell no cause from what the catalogue lacks; empty if they may
     doubts: dict[Key, list[str]] = field(default_factory=dict)  # of names, see `diagnosis.doubts`
     laboratory: Laboratory | None = None  # None where one isotherm was tested
+    common: tuple[Joint, Fitted] | None = None  # the law of all temperatures, if the ladder has none
+
+    def law_of_all(self) -> tuple[FlexibleSpectrum, Fitted]:
+        """One law for all temperatures and its fit: that of the ladder, or what was fitted in its place."""
+        joint, fitted = self.common or (self.ladder.joint, self.ladder.fitted)
+        return joint.spectrum, fitted
 
     def established(self, rung: Rung) -> bool:
         """Whether a name is more than the likeliest: no rival, with a name or without, carried by the whole table."""
@@ -108,9 +115,13 @@ def diagnose(
     spectrum_p = misfit_p_value(fitted, noise)
     spectrum_better = _information(fitted) < _information(baseline)
     no_common_law = baseline_p > ALPHA_PER_STEP and not spectrum_better and spectrum_p < ALPHA_PER_STEP
+    common = joint, fitted
     if no_common_law:
         joint, fitted = baseline_joint, baseline
-        notes.append("The Burgers laws fit and no law common to all temperatures does: no cause is sought.")
+        notes.append(
+            "The Burgers laws fit and no law common to all temperatures does: no cause is sought. What is reported of "
+            "the mix follows a common law all the same, and is less certain than it says."
+        )
     if observed.frequencies.size < 3:
         notes.append("Two frequencies: Burgers laws fit them exactly, so their misfit cannot be judged.")
     ladder = climb(joint, fitted, catalogue, draws, seed)
@@ -131,6 +142,7 @@ def diagnose(
     )
     diagnosis.whole, diagnosis.suspects = whole, tuple(doubtful)
     diagnosis.laboratory = laboratory
+    diagnosis.common = common if no_common_law else None
     diagnosis.doubts = _doubts(ladder, noise)
     diagnosis.verdict = _verdict(diagnosis)
     diagnosis.too_few = too_few = _too_few(diagnosis)

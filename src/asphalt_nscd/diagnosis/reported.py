@@ -67,11 +67,12 @@ def mix_modulus(
     by propagation of first order. |E*| is as uncertain as few specimens leave it, so that its intervals are of
     Student's t with their degrees of freedom. temperature [degC], frequency [Hz]: vectors (n,).
     """
-    ladder, observed = diagnosis.ladder, diagnosis.observed
-    base, law = ladder.joint.spectrum, ladder.fitted.law
+    observed = diagnosis.observed
+    base, fitted = diagnosis.law_of_all()
+    law = fitted.law
     modulus, slope = base.modulus(law, 2.0 * np.pi * frequency, temperature)
     along = slope / modulus[:, None]
-    covariance = ladder.fitted.covariance[: law.size, : law.size]
+    covariance = fitted.covariance[: law.size, : law.size]
     variance = [np.einsum("ij,jk,ik->i", part, covariance, part) for part in (along.real, along.imag)]
     within = (temperature >= observed.temperature.min() - NEAR) & (
         temperature <= observed.temperature.max() + NEAR
@@ -139,7 +140,8 @@ def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:
     DataFrame
         One row for each frequency.
     """
-    base, law, observed = diagnosis.ladder.joint.spectrum, diagnosis.ladder.fitted.law, diagnosis.observed
+    base, fitted = diagnosis.law_of_all()
+    law, observed = fitted.law, diagnosis.observed
     at = base.reference_temperature if at is None else at
     reduced = observed.frequency * np.exp(base.log_shift(law, observed.temperature)[0])
     reduced /= float(np.exp(base.log_shift(law, np.array([at]))[0][0]))
@@ -210,7 +212,8 @@ def corrected(diagnosis: Diagnosis) -> pd.DataFrame:
         ", ".join(doubts[row].reasons).replace("; ", ", ") if row in doubts else ""
         for row in range(whole.size)
     ]
-    shift = diagnosis.ladder.joint.spectrum.log_shift(diagnosis.ladder.fitted.law, whole.temperature)[0]
+    base, fitted = diagnosis.law_of_all()
+    shift = base.log_shift(fitted.law, whole.temperature)[0]
     return pd.DataFrame(
         {
             "specimen": np.array(whole.names)[whole.specimen],

@@ -1,5 +1,7 @@
 """Data that say little, or are wrong: a clear sentence or a diagnosis that states its limits, no wrong name."""
 
+import json
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -8,6 +10,7 @@ from blind.generator import Hidden, draw
 from blind.sealed import open_case
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE as NAMEABLE
+from asphalt_nscd.diagnosis.run import conclude
 from asphalt_nscd.files.errors import InputError
 
 pytestmark = pytest.mark.slow
@@ -78,6 +81,17 @@ def test_two_frequencies_that_no_common_law_fits_are_not_all_right():
     phase = table.table["phase_deg"] + 5.0
     found, named = diagnosed(table.table.assign(phase_deg=phase), table.geometry)
     assert named == set() and found["verdict"] == "unexplained_structure"
+
+
+def test_without_a_common_law_the_mix_is_still_reported_and_said_to_be_less_certain(tmp_path):
+    drawn = draw(1, design=factorial(frequencies=(3.0, 40.0)), form="moduli")
+    table = drawn.table.assign(phase_deg=drawn.table["phase_deg"] + 5.0)
+    table.to_csv(tmp_path / "measured.csv", index=False)
+    conclude(tmp_path / "measured.csv", drawn.geometry).written(tmp_path)
+    content = json.loads((tmp_path / "diagnosis.json").read_text(encoding="utf-8"))
+    assert any("less certain than it says" in note for note in content["notes"])
+    near = table[(table["temperature_C"] == 15.0) & (table["frequency_Hz"] == 40.0)]["E_MPa"].mean()
+    assert 0.5 * near < content["reported"]["E_MPa"] < near
 
 
 def test_limits_beyond_what_is_physical_are_none(full):
