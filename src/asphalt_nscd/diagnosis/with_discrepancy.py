@@ -405,7 +405,7 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
         c for c in chance.catalogue_candidates(state.plain.observed, catalogue) if c.key not in taken
     ]
     if not candidates:
-        return [], Direction(np.zeros((0, 0)), np.zeros((0, 0)), np.zeros(0))
+        return [], Direction(np.zeros((state.model.along.size, 0)), np.zeros((0, 0)), np.zeros(0))
     d = state.plain.noise.whiten(chance.candidate_directions(state.plain, state.fitted, candidates))
     pointing = discrepancy.directions(state.model, state.linear, d)
     # A law that was fitted without a spring has followed it and leaves little of its direction: a fit with the spring
