@@ -68,9 +68,7 @@ class Certificate:
     """What was verified at every accepted step, those of the full system included."""
 
     largest_residual: float  # of the full equations, relative to the load of the head
-    largest_utilisation: (
-        float  # of any bond left unbroken, an upper bound: exact of those watched near yielding
-    )
+    largest_utilisation: float  # of any bond left unbroken: exact near yielding, else an upper bound
     smallest_gap: float  # m, a lower bound
     enrichments: int
 

@@ -15,8 +15,7 @@ def make(simulations: list[Path], facets: list[Path]) -> pd.DataFrame:
     """One row for each mapping and temperature of the campaigns.
 
     broken_bonds: in all tests, and in the test that breaks most; largest_utilisation: stress over yield stress in the
-    bond that came nearest, at most, of the tests without broken bonds. A processor of another maker, which watched
-    other bonds closely, told up to 7 % more or less of it, and the same moduli to 1e-9.
+    bond that came nearest, an upper bound, of the tests without broken bonds.
     """
     rows = []
     for mapping, paths in (("paper", simulations), ("facets", facets)):
