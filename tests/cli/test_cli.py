@@ -403,7 +403,10 @@ def test_a_step_of_the_workflow_without_its_extra_is_one_sentence(capsys):
 
 
 @pytest.mark.parametrize("threads", ["0", "-2", "1000000"])
-def test_threads_that_the_machine_has_not_are_refused(threads, capsys, tmp_path):
+def test_threads_that_the_machine_has_not_are_refused_before_anything_is_compiled(
+    threads, capsys, tmp_path, monkeypatch
+):
+    monkeypatch.setattr("asphalt_nscd.nscd.core_cache.is_compiled", lambda _: False)
     counts, output = tmp_path / "counts.csv", tmp_path / "s1.h5"
     counts.write_text("diameter_mm,count\n5,20\n")
     with pytest.raises(SystemExit) as stop:

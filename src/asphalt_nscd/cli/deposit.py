@@ -86,10 +86,10 @@ def command(
     from asphalt_nscd.specimen.preparation import Pouring, Surfaces, deposit, unrest
 
     vibration["stroke"] *= 1e-3
+    fallen = Pouring(surfaces=Surfaces(**surfaces), vibration=Vibration(**vibration), **pouring)
     if not is_compiled("granular.step"):
         click.echo("compiling the core, once for this version: half a minute", err=True)
     with _progress.bars("s") as progress:
-        fallen = Pouring(surfaces=Surfaces(**surfaces), vibration=Vibration(**vibration), **pouring)
         attributes = deposit(counts, fallen, output, progress)
     if doubt := unrest(attributes):
         click.echo(f"warning: {doubt}", err=True)
