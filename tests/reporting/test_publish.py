@@ -74,12 +74,12 @@ def test_a_block_is_found_in_the_page_that_holds_it(tmp_path):
 
 def test_a_layout_chooses_columns_and_lists_what_is_long():
     table = pd.DataFrame(
-        {"seed": [1, 2], "E_over_law": [1.23456, 2.0], "other": [3, 4], "remark": ["long", None]}
-    ).assign(poured_by="us", bonds="facets")
-    lines = shown("outside", table).splitlines()
-    assert lines[0].replace(" ", "") == "|pouredby|seed|bonds|overlaw|"
-    assert lines[2].replace(" ", "") == "|us|1|facets|1.235|" and lines[-1] == "* us, facets: long"
-    assert shown("a block without a layout", table[["seed"]]).splitlines()[0].replace(" ", "") == "|seed|"
+        {"room": ["here", "there"], "mutants": [1.23456, 2.0], "noticed": [3, 4], "alive": ["long", None]}
+    ).assign(other=5)
+    lines = shown("mutants", table).splitlines()
+    assert lines[0].replace(" ", "") == "|folder|tried|noticed|"
+    assert lines[2].replace(" ", "") == "|here|1.235|3|" and lines[-1] == "* here: long"
+    assert shown("a block without a layout", table[["room"]]).splitlines()[0].replace(" ", "") == "|room|"
 
 
 def test_a_page_shows_some_rows():

@@ -293,14 +293,14 @@ rule benchmark_outside:
 
 
 rule publish_outside:
-    # What is committed of them, and their table in docs. Only on request: snakemake --cores 1 publish_outside
+    # What is committed of them. Only on request: snakemake --cores 1 publish_outside
     input:
         table="results/benchmark/outside.csv",
         code=code("publish"),
     message:
-        "Copy the comparison of packings, and fill its table in docs"
+        "Copy the comparison of packings"
     shell:
-        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark --document docs --block outside={input.table}"
+        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark"
 
 
 rule benchmark_films:
@@ -321,14 +321,14 @@ rule benchmark_films:
 
 
 rule publish_films:
-    # What is committed of them, and their table in docs. Only on request: snakemake --cores 1 publish_films
+    # What is committed of them. Only on request: snakemake --cores 1 publish_films
     input:
         table="results/benchmark/films.csv",
         code=code("publish"),
     message:
-        "Copy the tests on films, and fill their table in docs"
+        "Copy the tests on films"
     shell:
-        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark --document docs --block films={input.table}"
+        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark"
 
 
 rule benchmark_density:

@@ -3,7 +3,7 @@
 
 BLOCKS = {"samples": "<results>/samples.csv", "timings": "<results>/timings.md"}
 BLOCKS |= {"ladder": "<results>/ladder.csv"} if COMMON_LAW else {}
-BLOCKS |= {name: f"<results>/{name}.csv" for name in ("bond_readings", "reconstructions", "time_steps") if name in TABLES}
+BLOCKS |= {name: f"<results>/{name}.csv" for name in ("bond_readings", "reconstructions") if name in TABLES}
 
 
 rule publish:

@@ -32,6 +32,11 @@ p / r^2 added for the flow around. Both have the logarithm of spheres that do no
 pressure lambda tr(eps), which all films share, is no matter of pairs. `film_stiffness` scales the pairs to the Young's
 modulus 9 K G / (3 K + G) of this shear modulus, with K the lower bound of Hashin & Shtrikman; so one material gives
 the bond of docs/mapping.md, k = E A / l for normal and shear.
+
+Sources: rigid spheres: Jeffrey & Onishi, J. Fluid Mech. 139 (1984) 261; Kim & Karrila, Microhydrodynamics (1991),
+ch. 11; Brenner, Chem. Eng. Sci. 16 (1961) 242. A flat film, E (1 + 2 S^2): Gent & Lindley, Proc. Inst. Mech. Eng. 173
+(1959) 111. Grains that limit a thin film: Leroy & Charlaix, J. Fluid Mech. 674 (2011) 389. Bounds: Hashin & Shtrikman,
+J. Mech. Phys. Solids 11 (1963) 127.
 """
 
 from __future__ import annotations

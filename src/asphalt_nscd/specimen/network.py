@@ -118,8 +118,13 @@ def bond_network(position: np.ndarray, radius: np.ndarray, height: float, reach:
 def facet_network(position: np.ndarray, radius: np.ndarray, shape: Shape) -> Network:
     """Bond every pair of spheres whose cells share a facet, and every sphere whose cell reaches a plate.
 
-    A bond acts at the centroid of its facet: then spheres displaced by any uniform strain without turning are
-    in equilibrium where the tangential stiffness is the normal one (docs/mapping.md).
+    Let all spheres follow a uniform strain eps without turning, and let kt = kn. A bond opens by l eps n and carries
+    E A/l . l eps n = E A eps n, the traction of a continuum with the stress E eps. A cell is a closed polyhedron:
+
+        sum A n = 0,    sum A (c - x) (x) n = V I    (c centroid of a facet, x centre of the sphere).
+
+    By the first identity the forces on a sphere cancel. By the second the torques do, if the bond acts at the centroid
+    of its facet. So any uniform strain is in equilibrium in any packing, with the modulus E and Poisson's ratio zero.
 
     Parameters
     ----------

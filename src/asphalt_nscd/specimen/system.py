@@ -24,6 +24,9 @@ def affine_poisson(kt_over_kn: float) -> float:
     """Poisson's ratio of a network whose spheres follow the mean strain: from 1/4 without tangential stiffness
     to -1 with no other.
 
+    Isotropic normals n, spheres that follow the strain (Voigt), a = kt/kn and sum(A l) = 3 V give the stiffness
+    C = 3 E < n n n n + a (n n d - n n n n) >, d being the unit tensor.
+
     Parameters
     ----------
     kt_over_kn : float

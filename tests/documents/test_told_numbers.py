@@ -1,0 +1,56 @@
+"""Numbers in a sentence of docs/ that stands in place of a table are those of the published table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+
+ROOT = Path(__file__).parents[2]
+
+
+def published(table: str) -> pd.DataFrame:
+    return pd.read_csv(ROOT / f"results/published/{table}.csv")
+
+
+def page(name: str) -> str:
+    return " ".join((ROOT / f"docs/{name}.md").read_text(encoding="utf-8").split())
+
+
+def test_a_law_for_each_bond_against_two_other_solutions():
+    table = published("benchmark/films").abs()
+    assert table[["E_difference_percent", "E_from_map_percent"]].to_numpy().max() < 0.1
+    assert table[["phase_difference_deg", "phase_from_map_deg"]].to_numpy().max() < 0.1
+    told = "within 0.1 %, and its phase within 0.1°, of two other solutions"
+    assert told in page("core")
+    assert f"miss single bonds by up to {table.largest_bond_error_percent.max():.0f} %" in page("core")
+
+
+def test_packings_of_another_program():
+    over = published("benchmark/outside").set_index(["bonds", "poured_by"]).E_over_law
+    assert set(over["facets"].round(3)) <= {0.995, 0.996} and "is 0.995 of the law" in page("packings")
+    ranges = {who: over["paper"][who] for who in ("LIGGGHTS", "this program")}
+    told = [f"{values.min():.2f} to {values.max():.2f}" for values in ranges.values()]
+    assert f"{told[0]} with LIGGGHTS and {told[1]} here" in page("packings")
+
+
+def test_steps_that_are_solved_and_sweeps_that_stop_early():
+    table = published("paper/time_steps")
+    solved, sweeps = (table[table.scheme == scheme] for scheme in ("solved", "Gauss-Seidel"))
+    text = page("results")
+    assert solved.phase_difference_deg.abs().max() < 0.01 and (1 - solved.E_over_solution).max() <= 3e-4
+    assert "same |E\\*| within 0.03 % and the same phase within 0.01°" in text
+    least, most = 100 * sweeps.E_over_solution.min(), 100 * sweeps.E_over_solution.max()
+    assert f"gives {least:.1f} to {most:.1f} % of that |E\\*| ({sweeps.spheres.iloc[0]:.0f} spheres" in text
+    assert (
+        f"take {sweeps.sweeps_per_step.min():.0f} to {sweeps.sweeps_per_step.max():.0f} sweeps a step" in text
+    )
+    explicit = table.set_index("scheme").time_step_s["explicit (DEM), longest"]
+    assert round(5e-5 / explicit, -1) == 250 and "250 times that of an explicit DEM" in text
+
+
+def test_no_bitumen_of_the_paper_s_grade_is_stiff_enough():
+    table = published("forecast/paper_mix")
+    there = table[table.temperature_C.between(10, 20)]
+    assert (there.E_hard_MPa < there.E_table3_MPa).all() and not table.empty
+    assert "no such bitumen makes a mix as stiff as Table 3 between 10 and 20 °C" in page("forecast")
