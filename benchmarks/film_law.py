@@ -3,8 +3,7 @@
     python benchmarks/film_law.py cells --rows CELL.csv... --output CELLS.csv
     python benchmarks/film_law.py pairs --output PAIRS.csv
     python benchmarks/film_law.py shears --output SHEARS.csv
-    python benchmarks/film_law.py summaries PAIRS.csv SHEARS.csv CELLS.csv --output PAIRS_SUMMARY.csv \
-        SHEARS_SUMMARY.csv CELLS_SUMMARY.csv
+    python benchmarks/film_law.py summary CELLS.csv --output CELLS_SUMMARY.csv
 
 Moduli over Young's modulus of the grains, lengths over the edge of a cell or the radius of the larger sphere. `pairs`
 and `shears` need scikit-fem and gmsh: pip install "asphalt-nscd[film]".
@@ -149,51 +148,13 @@ def shears() -> pd.DataFrame:
     return pd.DataFrame(rows, columns=columns)
 
 
-def shears_summary(table: pd.DataFrame) -> pd.DataFrame:
-    """Errors, percent: a row for each ratio of radii between free sides and each modulus of the lattice."""
-    rows = []
-    for (test, ratio, modulus), same in table.groupby(["test", "ratio", "M_over_Ea"], sort=False):
-        errors = (100.0 * same.set_index("gap_over_smaller_radius")["error"]).round(1)
-        named = {"test": test, "R2 / R1": ratio, "M / Ea": modulus}
-        rows.append(named | {f"gap {gap:g}": value for gap, value in errors.items()})
-    return pd.DataFrame(rows)
-
-
-def pairs_summary(table: pd.DataFrame) -> pd.DataFrame:
-    """Largest errors over all ratios of radii, percent."""
-    rows = []
-    for modulus, same in table.groupby("M_over_Ea", sort=False):
-        by = 100.0 * same.groupby("gap_over_smaller_radius", sort=False)["error"].agg(
-            lambda error: error.loc[error.abs().idxmax()]
-        )
-        rows.append({"M / Ea": modulus} | {f"gap {gap:g}": value for gap, value in by.round(1).items()})
-    return pd.DataFrame(rows)
-
-
 def cells_summary(table: pd.DataFrame) -> pd.DataFrame:
-    """The finest cell of each packing and fraction; how much the coarser one differs, percent."""
-    rows = []
-    for (spheres, fraction, modulus), same in table.groupby(["spheres", "fraction", "M_over_Ea"], sort=False):
-        fine, coarse = same.sort_values("voxels").iloc[-1], same.sort_values("voxels").iloc[0]
-        change = coarse["E_voxels_over_M"] / fine["E_voxels_over_M"] - 1.0 if len(same) > 1 else np.nan
-        rows.append(
-            {
-                "spheres": spheres,
-                "fraction": fraction,
-                "M / Ea": modulus,
-                "lower": fine["E_lower_bound_over_M"],
-                "voxels": fine["E_voxels_over_M"],
-                "network": fine["E_network_over_M"],
-                "E, %": 100.0 * fine["E_error"],
-                "G, %": 100.0 * fine["G_error"],
-                "coarser, %": 100.0 * change,
-                "film": round(fine["voxels_in_least_gap"], 1),
-            }
-        )
-    return pd.DataFrame(rows).round({"E, %": 1, "G, %": 1, "coarser, %": 1})
-
-
-SUMMARIES = {"pairs": pairs_summary, "shears": shears_summary, "cells": cells_summary}
+    """Errors of the finest cell of each packing and fraction, percent."""
+    finest = table.sort_values("voxels", kind="stable").drop_duplicates(
+        ["spheres", "fraction", "M_over_Ea"], keep="last"
+    )
+    found = finest.sort_index()[["spheres", "fraction", "M_over_Ea"]].rename(columns={"M_over_Ea": "M / Ea"})
+    return found.assign(**{f"{name}, %": (100.0 * finest[f"{name}_error"]).round(1) for name in "EG"})
 
 
 def main() -> None:
@@ -203,17 +164,14 @@ def main() -> None:
     part.add_argument("--rows", nargs="+", required=True)
     parts.add_parser("pairs")
     parts.add_parser("shears")
-    part = parts.add_parser("summaries")
-    for table in SUMMARIES:
-        part.add_argument(table)
-    for name, part in parts.choices.items():
-        part.add_argument("--output", required=True, nargs=len(SUMMARIES) if name == "summaries" else None)
+    parts.add_parser("summary").add_argument("table")
+    for part in parts.choices.values():
+        part.add_argument("--output", required=True)
     given = parser.parse_args()
     if given.part == "cells":
         write_table(given.output, cells(given.rows))
-    elif given.part == "summaries":
-        for (table, summary), output in zip(SUMMARIES.items(), given.output, strict=True):
-            write_table(output, summary(pd.read_csv(getattr(given, table))))
+    elif given.part == "summary":
+        write_table(given.output, cells_summary(pd.read_csv(given.table)))
     else:
         write_table(given.output, pairs() if given.part == "pairs" else shears())
 

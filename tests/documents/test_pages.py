@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from asphalt_nscd.reporting.layouts import BLOCKS, Notes
+from asphalt_nscd.reporting.layouts import BLOCKS, Notes, shown
 
 ROOT = Path(__file__).parents[2]
 DOCS = [f"docs/{path.name}" for path in sorted((ROOT / "docs").glob("*.md"))]
@@ -96,6 +96,22 @@ def test_layouts_name_columns_that_are_published(block, table):
     there = set(pd.read_csv(ROOT / f"results/published/{table}.csv").columns)
     for part in BLOCKS[block]:
         assert ({*part.names, part.text} if isinstance(part, Notes) else set(part.columns)) <= there
+
+
+@pytest.mark.parametrize(
+    ("block", "table"),
+    [
+        ("attack", "attack/summary"),
+        ("blind", "blind/summary"),
+        ("blind_real", "blind/real_summary"),
+        ("blind_reported", "blind/reported_summary"),
+        ("machines", "attack/machines_summary"),
+    ],
+)
+def test_no_page_hides_a_goal_that_was_missed(block, table):
+    published = pd.read_csv(ROOT / f"results/published/{table}.csv")
+    missed = published[published["met"] == "no"]
+    assert shown(block, missed).count(" no ") == len(missed)
 
 
 def test_the_site_is_strict():

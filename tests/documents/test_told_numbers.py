@@ -54,3 +54,15 @@ def test_no_bitumen_of_the_paper_s_grade_is_stiff_enough():
     there = table[table.temperature_C.between(10, 20)]
     assert (there.E_hard_MPa < there.E_table3_MPa).all() and not table.empty
     assert "no such bitumen makes a mix as stiff as Table 3 between 10 and 20 °C" in page("forecast")
+
+
+def test_errors_of_the_law_of_a_film():
+    text = page("film")
+    pairs, shears, cells = (published(f"film/{name}") for name in ("pairs", "shears", "cells"))
+    assert 100 * pairs.error.abs().max() < 5 and "two spheres that approach: within 5 %" in text
+    errors = 100 * shears.set_index("test").error
+    assert f"rigid spheres that slide: within {errors['free sides'].abs().max():.0f} %" in text
+    least, most = -errors["lattice"].max(), -errors["lattice"].min()
+    assert f"sliding in a cubic lattice: {least:.0f} to {most:.0f} % too soft" in text
+    assert 100 * cells.E_error.abs().max() < 10 < 100 * cells.G_error.abs().max() < 11
+    assert "networks: E within 10 %, G just over" in text

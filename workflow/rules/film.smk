@@ -87,29 +87,25 @@ rule film_shears:
         MEASURE + "/film_law.py shears --output {output} > {log} 2>&1"
 
 
-rule film_summaries:
-    # What docs/film.md shows of all three.
+rule film_summary:
+    # What docs/film.md shows of the cells.
     input:
-        pairs="results/film/pairs.csv",
-        shears="results/film/shears.csv",
         cells="results/film/cells.csv",
         code="benchmarks/film_law.py",
     output:
-        pairs="results/film/pairs_summary.csv",
-        shears="results/film/shears_summary.csv",
-        cells="results/film/cells_summary.csv",
+        "results/film/cells_summary.csv",
     log:
-        "results/film/logs/summaries.log",
+        "results/film/logs/summary.log",
     message:
-        "Sum up the law of a film"
+        "Sum up the cells of films"
     shell:
-        MEASURE + "/film_law.py summaries {input.pairs} {input.shears} {input.cells} --output {output} > {log} 2>&1"
+        MEASURE + "/film_law.py summary {input.cells} --output {output} > {log} 2>&1"
 
 
 rule film:
     # What was solved, and by what.
     input:
-        rules.film_summaries.output,
+        [f"results/film/{file}.csv" for file in ("pairs", "shears", "cells_summary")],
         code=code("provenance"),
     output:
         "results/film/provenance.json",
@@ -126,11 +122,9 @@ rule publish_film:
     #   snakemake publish_film --cores 1 --configfile config/paper.yaml
     input:
         files=[f"results/film/{file}" for file in ("pairs.csv", "shears.csv", "cells.csv", "provenance.json")],
-        pairs="results/film/pairs_summary.csv",
-        shears="results/film/shears_summary.csv",
         cells="results/film/cells_summary.csv",
         code=code("publish"),
     message:
-        "Copy the tables of films, and fill those of docs/film.md"
+        "Copy the tables of films, and fill that of docs/film.md"
     shell:
-        "asphalt-nscd publish {input.files} --root results/film --output results/published/film --document docs --block film_pairs={input.pairs} --block film_shears={input.shears} --block film_cells={input.cells}"
+        "asphalt-nscd publish {input.files} --root results/film --output results/published/film --document docs --block film_cells={input.cells}"

@@ -68,8 +68,8 @@ def as_markdown(table: pd.DataFrame, elapsed_s: float) -> str:
     """The rules that take a twentieth of the time or more, the others in one line, the sum, and how long it took."""
     long = table["share_percent"] >= 5.0
     lines = [
-        "| rule | jobs | wall time, s | CPU time, s | longest job, s | memory, MB | share, % |",
-        "|---|" + "---:|" * 6,
+        "| rule | jobs | wall time, s | memory, MB | share, % |",
+        "|---|" + "---:|" * 4,
         *(_line(rule, table[table["rule"] == rule]) for rule in table.loc[long, "rule"]),
         _line("all others", table[~long]),
         _line("sum", table),
@@ -83,8 +83,6 @@ def _line(name: str, rules: pd.DataFrame) -> str:
     values = [
         rules["jobs"].sum(),
         rules["wall_s"].sum(),
-        rules["cpu_s"].sum(),
-        rules["longest_s"].max(),
         rules["memory_MB"].max(),
         rules["share_percent"].sum(),
     ]
