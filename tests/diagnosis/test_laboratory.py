@@ -70,9 +70,9 @@ def test_sizes_follow_the_table(kind):
     )  # drawn to the usual size by its prior
 
 
-@pytest.mark.parametrize("offset", [1.0, -1.0])
+@pytest.mark.parametrize("offset", [1.0, 5.0, -8.0])
 def test_an_angle_that_all_phases_share_is_no_error_of_mountings(offset):
-    """Mountings of two specimens vary by 0.34 deg, and would by 0.54 or 0.72 were the angle theirs."""
+    """Mountings of two specimens vary by 0.34 deg. A law fitted to the angle leaves moduli 12 % off, each by mounting."""
     observed = table(3)
     still = observed.subset((observed.isotherm % 15 == 0) & (observed.specimen < 2))
     drawn = np.radians(0.3) * np.random.default_rng(6).standard_normal((2, 3))
@@ -80,10 +80,10 @@ def test_an_angle_that_all_phases_share_is_no_error_of_mountings(offset):
     sizes = [
         laboratory.with_laboratory(
             *fitted(replace(still, modulus=still.modulus * moved * np.exp(1j * np.radians(angle))))
-        )[1].sizes["mounting, phase"]
+        )[1].sizes
         for angle in (0.0, offset)
     ]
-    assert sizes[1] == pytest.approx(sizes[0], rel=0.03)
+    assert sizes[1] == pytest.approx(sizes[0], rel=1e-3)
 
 
 def test_the_scatter_holds_every_effect_once():

@@ -1,4 +1,4 @@
-"""A delay put into a measured table, NCAT's S6-1_RH, is named however long it is."""
+"""A delay or an offset put into a measured table of NCAT is named however large it is."""
 
 from pathlib import Path
 
@@ -7,14 +7,14 @@ import pytest
 
 import asphalt_nscd as an
 
-TABLE = Path(__file__).resolve().parents[2] / "data/ncat/S6-1_RH.csv"
+NCAT = Path(__file__).resolve().parents[2] / "data/ncat"
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("delay_ms", [8.0, 12.0])
 def test_a_long_delay_is_named(delay_ms):
     """From 5 ms on none was, since the search ended there."""
-    table = pd.read_csv(TABLE, comment="#")
+    table = pd.read_csv(NCAT / "S6-1_RH.csv", comment="#")
     table["phase_deg"] += 360.0 * table["frequency_Hz"] * 1e-3 * delay_ms
     found = an.diagnose(table, measured_in="tension-compression", draws=an.Draws(1000))
     delays = [
@@ -22,3 +22,14 @@ def test_a_long_delay_is_named(delay_ms):
     ]
     assert len(delays) == 1 and delays[0]["unit"] == "s"
     assert 1e3 * delays[0]["value"] == pytest.approx(delay_ms, abs=1.5)
+
+
+@pytest.mark.parametrize("offset", [-4.9, -7.3])
+def test_a_large_offset_is_named(offset):
+    """The law bent to it, and a discrepancy of its isotherms took up the rest; 0.8 deg is the table's own."""
+    table = pd.read_csv(NCAT / "N5-1_CA.csv", comment="#")
+    table["phase_deg"] += offset
+    found = an.diagnose(table, measured_in="tension-compression", draws=an.Draws(1000))
+    (named,) = (rung for rung in found.content["ladder"] if rung["cause"] == "phase_offset")
+    low, high = named["parameters"]["offset"]["interval_95"]
+    assert low < offset + 0.77 < high

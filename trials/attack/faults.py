@@ -171,7 +171,7 @@ def _slip_of_ten(chain: Chain, fault: Fault) -> None:
     chain.channel += np.log(10.0) * fault.size * fault.rows(chain.campaign)
 
 
-CHAIN: dict[str, Callable[[Chain, Fault], None]] = {
+CAUSES: dict[str, Callable[[Chain, Fault], None]] = {
     "channel_delay": _delay,
     "phase_offset": _offset,
     "temperature_bias": _warmer,
@@ -183,6 +183,9 @@ CHAIN: dict[str, Callable[[Chain, Fault], None]] = {
     "strain_softening": _softening,
     "damage": _damage,
     "secondary_process": _secondary,
+}
+CATALOGUE = tuple(CAUSES)
+CHAIN = CAUSES | {
     "offset of one specimen": _offset,
     "delay of one specimen": _delay,
     "offset of one isotherm": _offset,
@@ -206,7 +209,6 @@ UNITS = {
     "low-pass filter": "Hz", "resonance": "Hz", "single bad test": "1", "masked pair of bad tests": "1",
     "slip of ten": "powers", "wrong recorded temperature": "K",
 }  # fmt: skip
-CATALOGUE = tuple(CHAIN)[:11]
 
 
 def _exchanged_specimens(table: pd.DataFrame, fault: Fault) -> pd.DataFrame:

@@ -8,7 +8,7 @@ an alias, a ratio to a limit, and what was found of what was hidden; no value, l
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -22,13 +22,17 @@ from .causes import CATALOGUE
 from .plan import RATIOS
 from .real_plan import RATIOS_OF, Task
 
+NAMEABLE = frozenset(cause.name for cause in sealed.NAMEABLE)
+# The untouched table on other tests or beside other causes: by the tests that it lacks, and the causes it may hold.
+Alike = dict[tuple[frozenset, frozenset[str]], Mapping[str, Any]]
+
 
 def run(group: list[Task]) -> Iterator[dict[str, Any]]:
     """Rows of all tasks of a group; see `real_score.row`."""
     for task in group:
         background, odd = _background(task)
         own = _diagnosed(background, background.table)
-        alike = {real_score.left_out(own): own}  # the same on other tests, by those left out
+        alike: Alike = {}
         if task.counted:
             # What a real table holds is not known, so that none of its names is known to be false.
             unknown = {"wrong": None} if task.path else {}
@@ -57,7 +61,7 @@ def _hidden(
     task: Task,
     background: Background,
     own: Mapping[str, Any],
-    alike: dict[frozenset, Mapping[str, Any]],
+    alike: Alike,
     cause: str,
     odd: str | None,
 ) -> Iterator[dict[str, Any]]:
@@ -87,18 +91,32 @@ def _hidden(
                 yield row | {"not_drawn": "not physical"}
                 continue
             after = _diagnosed(background, table)
-            left_out = real_score.left_out(after)
-            if left_out not in alike:
-                alike[left_out] = _diagnosed(background, background.without(left_out), use_suspects=True)
-            yield row | real_score.row(seal, limit["unit"], value, own, after, odd, alike[left_out])
+            left_out, held = real_score.left_out(after), _causes(after) | {cause}
+            same = own
+            if left_out != real_score.left_out(own) or not _causes(own) <= held:
+                if (left_out, held) not in alike:
+                    tests = background.without(left_out)
+                    alike[left_out, held] = _diagnosed(background, tests, True, NAMEABLE - held)
+                same = alike[left_out, held]
+            yield row | real_score.row(seal, limit["unit"], value, own, after, odd, same)
 
 
-def _diagnosed(background: Background, table: pd.DataFrame, use_suspects: bool = False) -> dict[str, Any]:
+def _causes(diagnosis: Mapping[str, Any]) -> frozenset[str]:
+    return frozenset(entry["cause"] for entry in real_score.names(diagnosis))
+
+
+def _diagnosed(
+    background: Background, table: pd.DataFrame, use_suspects: bool = False, removed: Collection[str] = ()
+) -> dict[str, Any]:
     """The diagnosis of a table, with its CPU seconds; a refusal or a failure is one without names."""
     began = time.process_time()
     try:
         found = sealed.open_case(
-            table, sealed.generator.GEOMETRY, test_type=background.test_type, use_suspects=use_suspects
+            table,
+            sealed.generator.GEOMETRY,
+            removed=removed,
+            test_type=background.test_type,
+            use_suspects=use_suspects,
         )
     except InputError:
         found = dict(sealed.REFUSED)

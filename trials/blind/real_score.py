@@ -51,11 +51,13 @@ def row(
 ) -> dict[str, Any]:
     """Row of one effect. limit: its detection limit [unit] stated for the table as it was; odd: as of `untouched`.
 
-    alike: the diagnosis of the untouched table on the tests that the later one used; `before` if None.
+    alike: that of the untouched table on the tests that the later one used and without causes that it does not name;
+    `before` if None.
 
     named: by some rung, in the right place or in a group that cannot be told apart; established: with confidence;
     covered: whether the size grew by what was put in, within its 95 % interval; covered_alike: the same over its
-    size on the same tests, for a table's own size may hang on tests that are no longer left out; added: confident
+    size there, for a table's own size may hang on tests that are no longer left out, and on a cause that it names
+    instead; added: confident
     names that are not true and were not there before; instead: such a name, and not the right one; own_over_limit:
     the table's own value.
     """

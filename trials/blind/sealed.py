@@ -6,7 +6,7 @@ The diagnosis gets a file, the geometry and, where the plan says so, the static 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -61,7 +61,7 @@ def run(cases: list[Case]) -> Iterator[dict[str, Any]]:
             continue
         try:
             found = open_case(
-                drawn.table, drawn.geometry, drawn.records, removed=case.removed, static_modulus=static
+                drawn.table, drawn.geometry, drawn.records, removed=(case.removed,), static_modulus=static
             )
         except InputError as error:
             if not case.hidden:
@@ -120,12 +120,15 @@ def open_case(
     table: pd.DataFrame,
     geometry: Mapping[str, float],
     records: Mapping[str, pd.DataFrame] | None = None,
-    removed: str = "",
+    removed: Collection[str] = (),
     static_modulus: float | None = None,
     test_type: str = "bending",
     use_suspects: bool = False,
 ) -> dict[str, Any]:
-    """The diagnosis of a table, by the functions behind `asphalt-nscd diagnose`, shortened to what is judged."""
+    """The diagnosis of a table, by the functions behind `asphalt-nscd diagnose`, shortened to what is judged.
+
+    removed: causes that it does not know.
+    """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "measured.csv")
         table.to_csv(path, index=False)
@@ -133,7 +136,7 @@ def open_case(
             record.to_csv(path.with_name(name), index=False)
         observed, _ = reading.read_observations(path, dict(geometry), static_modulus)
     observed = replace(observed, test_type=test_type)
-    catalogue = tuple(cause for cause in NAMEABLE if cause.name != removed)
+    catalogue = tuple(cause for cause in NAMEABLE if cause.name not in removed)
     content = report.as_json(
         diagnose(observed, catalogue=catalogue, use_suspects=use_suspects), read_specimen()
     )

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import discrepancy
+from asphalt_nscd.diagnosis import discrepancy, start
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import CHANNEL
@@ -155,10 +155,12 @@ def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | N
     """
     if not isinstance(joint.base, FlexibleSpectrum) or joint.observed.isotherms.size < 2:
         return joint, None
-    held = of_single_tests(joint, fitted)
-    # An error that the phases of all tests share is no sum of mountings: with it they would seem up to twice as large.
+    # An error that the phases of all tests share is no sum of mountings. Beside a law that bends to it, they would seem
+    # several times as large.
     shared = tuple(Candidate(cause, None, (0.0,)) for cause in CATALOGUE if cause.stage == CHANNEL)
-    found = estimate(held, held.linearise(fitted.law, fitted.scales, (*fitted.active, *shared)))
+    free, beside = start.fit_spectrum(joint.observed, joint.noise, (*fitted.active, *shared))
+    held = of_single_tests(free, beside)
+    found = estimate(held, held.linearise(beside.law, beside.scales, beside.active))
     alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared))
     noise = alone.beside(_parts(found.factor(joint, fitted, alone.block)))
     return Joint(joint.observed, joint.base, noise), found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -149,6 +150,12 @@ def _spectrum(observed: Observations, c1: float, c2: float) -> FlexibleSpectrum:
     # by the loss modulus, to which a spring in parallel adds nothing
     near = static is not None and float(observed.modulus.imag.min()) < NEAR * static
     return FlexibleSpectrum(times, reference, below, above, 0.2, static, near)
+
+
+def first_laws(joint: Joint) -> Iterator[Vector]:
+    """Where fits of a base may begin."""
+    for c1, c2 in WLF_STARTS:
+        yield _first_law(joint.observed, joint.spectrum, c1, c2)
 
 
 def _first_law(observed: Observations, base: FlexibleSpectrum, c1: float, c2: float) -> Vector:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.special import logit
 
 from asphalt_nscd.diagnosis import chance, discrepancy, limits
-from asphalt_nscd.diagnosis.causes._cause import Cause
+from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause
 from asphalt_nscd.diagnosis.chance import Scores
 from asphalt_nscd.diagnosis.criteria import (
     ABSORBED,
@@ -35,7 +35,7 @@ from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, R
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.probability import log_odds, shares
-from asphalt_nscd.diagnosis.start import of_likeliest_roughness
+from asphalt_nscd.diagnosis.start import first_laws, of_likeliest_roughness
 from asphalt_nscd.files.words import specimen_named
 
 Vector = NDArray[np.float64]
@@ -346,12 +346,17 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     by_chance = _by_chance(state, surveyed, draws, random)
     # A law fitted without the cause has followed it: what comes near is refitted before it is judged.
     least = float(np.quantile(by_chance, 1.0 - ALPHA_PER_STEP))
+    large = bool((state.variances > HIDES**2).any())
     eligible = (z > NEAR * least) & (gains > NEAR * TWENTY_TIMES)
     shortlist: dict[tuple, list[int]] = {}
     for k in np.argsort(-np.where(eligible, gains, -np.inf)):
         key = candidates[k].key
         if eligible[k] and (key in shortlist or len(shortlist) < REFITS):
             shortlist.setdefault(key, []).append(int(k))
+    # A discrepancy sized without an error of all phases may have taken it up whole.
+    taken_up = {k for k, one in enumerate(candidates) if large and one.cause.stage == CHANNEL}
+    for k in taken_up:
+        shortlist.setdefault(candidates[k].key, [k])
     refits = []
     odds: dict[int, float] = {}
     for k in (k for starts in shortlist.values() for k in starts):
@@ -363,6 +368,8 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         values = np.array([np.clip(amplitude, first.low, first.high), *candidates[k].values[1:]])
         active = (*state.fitted.active, candidates[k].with_values(values))
         after = _settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
+        if k in taken_up:
+            after = min(after, _afresh(state, active), key=lambda one: one.misfit)
         taken = after.fitted.active[-1]
         gain = state.misfit - after.misfit - of_shapes(after.fitted, taken, state.plain.observed)
         if gain > TWENTY_TIMES:
@@ -385,6 +392,16 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         return None
     p_value = chance.tail(by_chance, float(z[k]))
     return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k], shared)
+
+
+def _afresh(state: State, active: tuple[Candidate, ...]) -> State:
+    """Law and causes fitted before there is a discrepancy, which else keeps what it took up without them."""
+    laws = [state.fitted.law, *first_laws(state.plain)]
+    fits = [state.plain.fit(law, state.fitted.scales, active, CONVERGED) for law in laws]
+    fitted = min(fits, key=lambda one: one.objective)
+    found = discrepancy.processes(state.plain, fitted)
+    start = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances
+    return _settle(state.plain, found, fitted, fitted.active, start)
 
 
 def _stands(before: State, state: State, taken: Candidate, own: Estimate) -> bool:

@@ -81,7 +81,7 @@ MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
     "psi_deg": ("psi ψ", _DEGREE),
     "amplitude_m": ("", _METRE),
     "order": ("order", _NUMBER),
-    "cycles": ("cycles", _NUMBER),
+    "cycles": ("cycles loadcycles", _NUMBER),
     "time_step_s": ("", {"s": (1.0, 0.0)}),
     "microstrain": ("microstrain averagemicrostrain peaktopeakmicrostrain", _NUMBER),
     "load_drift_percent": ("loaddrift", _PERCENT),

@@ -78,6 +78,25 @@ def test_the_own_value_is_that_of_the_same_tests():
     assert row["covered"] and not row["covered_alike"]
 
 
+def test_the_own_value_is_that_beside_the_same_causes(monkeypatch):
+    """A table that is told another cause in the place of an offset has none; without that cause it has one of 0.7."""
+    task = real_plan.Task("N", "real", ("phase_offset",), str(real_plan.real_tables()[0]))
+    base = Background.read(task.path)
+
+    def told(table, geometry, removed=(), **more):
+        turned = float(np.degrees(np.angle(Background(table).modulus / base.modulus)).mean())
+        if abs(turned) > 0.5:
+            return diagnosis(rung("phase_offset", turned + 0.7, 0.1), limits=LIMITS)
+        if "channel_delay" in removed:
+            assert set(removed) == real.NAMEABLE - {"phase_offset"}
+            return diagnosis(estimates=own(0.7))
+        return diagnosis(rung("channel_delay"), limits=LIMITS, estimates=own(0.0))
+
+    monkeypatch.setattr(sealed, "open_case", told)
+    rows = [row for row in real.run([task]) if row["cause"] == "phase_offset"]
+    assert not any(row["covered"] for row in rows) and all(row["covered_alike"] for row in rows)
+
+
 def test_tests_that_were_left_out_are_taken_from_the_table():
     tests = [("A", 4.0, 25.0, False), ("A", 21.0, 25.0, True)]
     names = ("specimen", "temperature_C", "frequency_Hz", "used")
@@ -205,7 +224,7 @@ LIMITS = {
 }
 
 
-def perfect(table, geometry, test_type="bending", use_suspects=False):
+def perfect(table, geometry, removed=(), test_type="bending", use_suspects=False):
     """A diagnosis that measures an offset by what it knows of the untouched table."""
     base = Background.read(real_plan.real_tables()[-1])
     turned = np.degrees(np.angle(Background(table).modulus / base.modulus))
@@ -254,7 +273,7 @@ def test_rows_of_a_real_table_hold_rates_and_nothing_of_the_table(folder, monkey
 
 
 def test_a_diagnosis_that_fails_is_counted_and_stops_nothing(folder, monkeypatch):
-    def broken(table, geometry, test_type="bending", use_suspects=False):
+    def broken(table, geometry, removed=(), test_type="bending", use_suspects=False):
         if len(calls) > 0:
             raise np.linalg.LinAlgError("array must not contain infs or NaNs")
         calls.append(1)
