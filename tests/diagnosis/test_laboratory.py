@@ -72,7 +72,7 @@ def test_sizes_follow_the_table(kind):
 
 @pytest.mark.parametrize("offset", [1.0, 5.0, -8.0])
 def test_an_angle_that_all_phases_share_is_no_error_of_mountings(offset):
-    """Mountings of two specimens vary by 0.34 deg. A law fitted to the angle leaves moduli 12 % off, each by mounting."""
+    """Mountings of two specimens vary by 0.34 deg. A law bent to the angle leaves moduli off by as much as 10 %."""
     observed = table(3)
     still = observed.subset((observed.isotherm % 15 == 0) & (observed.specimen < 2))
     drawn = np.radians(0.3) * np.random.default_rng(6).standard_normal((2, 3))

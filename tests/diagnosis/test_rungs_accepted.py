@@ -36,6 +36,7 @@ def test_estimates_spread_is_that_of_causes_without_a_name():
         (bias.name, 0.0): (2.0, 1.0),
         (bias.name, 20.0): (0.0, 1.0),
         ("moving_mass", None): (5.0, np.inf),  # not seen
+        ("guide_friction", None): (-12.0, 1.0),  # friction that gives power
     }
     found = Ladder(None, None, rungs=[named], estimates=estimates)
     assert found.estimates_spread == pytest.approx(np.sqrt((1.5**2 + (2.0**2 + 0.0) / 2) / 2))

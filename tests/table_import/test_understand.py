@@ -48,7 +48,7 @@ def refusal(header, *rows, **chosen):
         ("Frequenz in Hz", "frequency_Hz", 1), ("Dynamic modulus E' (MPa)", None, None),
         ("Phase angle E* (°)", None, None), ("Operator", None, None),
         ("E' (MPa)", "E1_MPa", 1), ("E'' (MPa)", "E2_MPa", 1), ("|G*| (MPa)", None, None), ("e (mm)", None, None),
-        ("t (s)", None, None),
+        ("t (s)", None, None), ("Load cycles", "cycles", 1),
     ],
 )  # fmt: skip
 def test_names_and_units(name, quantity, one):

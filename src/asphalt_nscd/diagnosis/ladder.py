@@ -12,11 +12,14 @@ from scipy.special import fdtrc
 
 from asphalt_nscd.diagnosis import chance, confined, with_discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
+from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE, NOTICED
 from asphalt_nscd.diagnosis.discrepancy import Process
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.written import widening
+
+ONE_SIGN = frozenset(cause.name for cause in CATALOGUE if cause.parameters[0].low >= 0.0)
 
 
 @dataclass(frozen=True)
@@ -287,7 +290,7 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
 
 
 def spread_of(estimates: Mapping[tuple, tuple[float, float]], left_out: Set[str]) -> float:
-    """Root mean square of the estimates of causes, in their standard errors.
+    """Root mean square of the estimates of causes, in their standard errors; none counts of a sign that it cannot have.
 
     Parameters
     ----------
@@ -303,7 +306,7 @@ def spread_of(estimates: Mapping[tuple, tuple[float, float]], left_out: Set[str]
     """
     squares: dict[str, list[float]] = {}
     for (name, _), (value, error) in estimates.items():
-        if name not in left_out and 0.0 < error < np.inf:
+        if name not in left_out and 0.0 < error < np.inf and not (value < 0.0 and name in ONE_SIGN):
             squares.setdefault(name, []).append((value / error) ** 2)
     each = [float(np.mean(one)) for one in squares.values()]
     return max(1.0, float(np.sqrt(np.mean(each)))) if each else 1.0
