@@ -104,10 +104,10 @@ _CRITERIA = {
     "target": "target",
     "percent": "%",
     "interval_percent": "interval",
-    "of": "of",
     "met": "met",
 }
 BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
+    "faults": [Layout({name: name for name in ("kind", "faults", "passed")})],
     "ladder": [
         Rungs("E", "Modulus |E\\*|, mean relative error in percent:"),
         Rungs("phase", "Phase angle, mean relative error in percent:"),
