@@ -136,7 +136,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         Layout(
             {
                 "sample": "sample",
-                "bonds": "bonds",
                 "solid_fraction": "solid fraction",
                 "tests_with_broken_bonds": "breaks",
                 "E_over_law": "E over law",
@@ -222,7 +221,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             {
                 "reading": "reading",
                 "friction": "friction",
-                "E_over_law": "over law",
                 "expected": "expected",
                 "possible": "possible",
             }
@@ -254,6 +252,11 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "parameters": "fitted",
                 "factor_all": "factor of modulus",
                 "phase_all_deg": "phase, °",
+            },
+            but={
+                "forecast": [
+                    f"without {part}" for part in ("squeezed films", "grains that touch", "dry skeleton")
+                ]
             },
             figures=3,
         ),
