@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
 
 ROOT = Path(__file__).parents[1]
+
+# Half of a dry run is imports: one process has them, and whoever only asks is a fork of it. No module of ours is
+# among them, for a study may bring its own.
+_FORKS = multiprocessing.get_context("forkserver")
+_FORKS.set_forkserver_preload(
+    ["snakemake.cli", "snakemake.report.html_reporter", "pandas", "jsonschema", "jinja2"]
+)
+ASKED = {"--dry-run", "--summary", "--touch", "--lint"}  # options with which Snakemake starts no job
 
 
 @dataclass(frozen=True)
@@ -53,6 +63,8 @@ class Workspace:
         return [*snakemake, *arguments, "--configfile", "study.yaml"]
 
     def run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        if ASKED & {*arguments}:
+            return ask(self.command(*arguments)[3:], self.folder, self.environment)
         return subprocess.run(
             self.command(*arguments), cwd=self.folder, capture_output=True, text=True, env=self.environment
         )
@@ -85,3 +97,26 @@ class Workspace:
     @property
     def environment(self) -> dict[str, str]:
         return {name: value for name, value in os.environ.items() if not name.startswith("SNAKEMAKE")}
+
+
+def ask(arguments: list[str], folder: Path, environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
+    """What `python -m snakemake` says in a process of its own; for arguments with which it starts no job."""
+    with tempfile.NamedTemporaryFile("r") as out, tempfile.NamedTemporaryFile("r") as err:
+        process = _FORKS.Process(target=_answer, args=(arguments, folder, environment, out.name, err.name))
+        process.start()
+        process.join()
+        return subprocess.CompletedProcess(arguments, process.exitcode, out.read(), err.read())
+
+
+def _answer(arguments: list[str], folder: Path, environment: dict[str, str], out: str, err: str) -> None:
+    os.chdir(folder)
+    os.environ.clear()
+    os.environ.update(environment)
+    for name, descriptor in ((out, 1), (err, 2)):
+        os.dup2(os.open(name, os.O_WRONLY), descriptor)
+    searched = environment.get("PYTHONPATH", "").split(os.pathsep)
+    sys.path[:0] = [str(folder), *filter(None, searched)]
+    sys.argv = ["snakemake", *arguments]
+    from snakemake.cli import main
+
+    main()

@@ -9,15 +9,13 @@ import re
 import shlex
 import shutil
 import signal
-import subprocess
-import sys
 import time
 from functools import cache
 from pathlib import Path
 
 import pytest
 from snakemake.cli import parse_args
-from workspace import Plan, Workspace
+from workspace import Plan, Workspace, ask
 
 import asphalt_nscd as an
 
@@ -102,8 +100,7 @@ def test_make_hands_over_what_snakemake_understands():
         recipes.sort(key=lambda recipe: -len(recipe[0]))
         (words, _), *others = recipes
         words = [*(name for _, names in others for name in names), *words]
-        command = [sys.executable, "-m", "snakemake", *words, "--dry-run", "--quiet", "all", "--nolock"]
-        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+        done = ask([*words, "--dry-run", "--quiet", "all", "--nolock"], ROOT, {**os.environ})
         assert done.returncode == 0, done.stderr
 
 
@@ -130,10 +127,7 @@ def test_a_forgotten_caption_is_one_sentence(workspace):
     shutil.copy(ROOT / "Snakefile", workspace.folder)
     (workspace.folder / "workflow/report/fig07.rst").unlink()
     workspace.configure()
-    command = [sys.executable, "-m", "snakemake", "--dry-run", "--configfile", "study.yaml"]
-    done = subprocess.run(
-        command, cwd=workspace.folder, capture_output=True, text=True, env=workspace.environment
-    )
+    done = ask(["--dry-run", "--configfile", "study.yaml"], workspace.folder, workspace.environment)
     assert done.returncode != 0 and "Traceback" not in done.stderr
     sentence = (
         "error: workflow/report/fig07.rst: no caption of fig07; write it, its title in ** on the first line."
