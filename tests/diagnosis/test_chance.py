@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from asphalt_nscd.diagnosis import chance
+from asphalt_nscd.diagnosis import chance, ladder
 from asphalt_nscd.diagnosis.chance import Scores
 
 N, P, K = 15, 6, 4  # tests, parameters of the law, directions
@@ -117,3 +117,14 @@ def test_chance_of_a_score_is_the_share_of_draws_and_beyond_them_falls_like_the_
 def test_the_wrong_sign_of_a_one_sided_effect_is_nothing():
     found = Scores(np.array([-4.0, -4.0, 3.0]), np.ones(3), np.ones(3, bool), np.eye(3))
     assert chance.effective(found, np.array([True, False, True])).tolist() == [0.0, 4.0, 3.0]
+
+
+def test_a_law_that_takes_all_that_specimens_do_at_a_frequency_leaves_no_pattern(monkeypatch):
+    """Each specimen at frequencies of its own: nothing is left of the directions, and once this was divided by none."""
+    observed = SimpleNamespace(
+        specimen=np.repeat([0, 1], 6), frequency=np.tile([1.0, 3.0, 9.0], 4), names=("a", "b"), size=12
+    )
+    nothing = Scores(np.zeros(6), np.zeros(6), np.zeros(6, bool), np.zeros((6, 6)))
+    monkeypatch.setattr(chance, "scores", lambda *_: nothing)
+    joint = SimpleNamespace(observed=observed, noise=SimpleNamespace(freedom=10.0))
+    assert ladder._interactions(joint, None) == []

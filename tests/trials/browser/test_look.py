@@ -32,13 +32,19 @@ def png(colour="white", width=4):
     return stream.getvalue()
 
 
-def found(path, width=WIDTHS[0], how=look):
+@pytest.fixture(scope="module")
+def browser():
     with Page(find()) as page:
-        return how(page, path, width)
+        yield page
+
+
+@pytest.fixture
+def found(browser):
+    return lambda path, width=WIDTHS[0], how=look: how(browser.anew(), path, width)
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_report_has_nothing_to_complain_of(tmp_path, width):
+def test_report_has_nothing_to_complain_of(found, browser, tmp_path, width):
     for name, text in {"a.png": "figure", "t.html": "table", "diagnosis.html": "diagnosis"}.items():
         (tmp_path / name.replace("html", "rst").replace("png", "rst")).write_text(
             f"**{text}**\n\nWith |E*| and ``code``.\n"
@@ -70,13 +76,13 @@ def test_report_has_nothing_to_complain_of(tmp_path, width):
     )
     assert found(tmp_path / "report.html", width) == []
     assert found(tmp_path / "report.html", width, use) == []
-    with Page(find()) as shown:  # a broad figure keeps its letters and scrolls in its own box
-        show(shown, tmp_path / "report.html", width, "light")
-        assert shown.evaluate("document.querySelector('#a img').getBoundingClientRect().width") > 500
+    # a broad figure keeps its letters and scrolls in its own box
+    show(browser.anew(), tmp_path / "report.html", width, "light")
+    assert browser.evaluate("document.querySelector('#a img').getBoundingClientRect().width") > 500
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_page_of_a_diagnosis_can_be_used(results, tmp_path, width):
+def test_page_of_a_diagnosis_can_be_used(found, results, tmp_path, width):
     made = results.diagnosis() | {"causality": results.causality()}
     for name in ("residuals.csv", "diagnosis.json"):
         assert (tmp_path / name).exists()
@@ -86,7 +92,7 @@ def test_page_of_a_diagnosis_can_be_used(results, tmp_path, width):
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_page_of_few_tests_has_no_empty_chart(results, tmp_path, width):
+def test_page_of_few_tests_has_no_empty_chart(found, results, tmp_path, width):
     """Of isotherms with fewer than four tests, which are not held against causality."""
     paths = results.causality()
     table = pd.read_csv(paths[0]).assign(phase_required_deg=None, std_error_deg=None)
@@ -99,24 +105,21 @@ def test_page_of_few_tests_has_no_empty_chart(results, tmp_path, width):
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_a_wide_table_scrolls_inside_its_own_box(tmp_path, width):
+def test_a_wide_table_scrolls_inside_its_own_box(found, browser, tmp_path, width):
     """A table of its own page, of 40 columns and a cell of many words: the page stays as wide as the window."""
     names = ",".join(["T", *(f"column_{number}" for number in range(39))])
     cells = ",".join(["s1 at rest", *["12345.6"] * 38, "a sentence of many words " * 12])
     (tmp_path / "t.csv").write_text(f"# a note\n#  that goes on\n{names}\n" + f"{cells}\n" * 60)
     (tmp_path / "t.html").write_text(page_of(tmp_path / "t.csv", "A table"))
     assert found(tmp_path / "t.html", width) == []
-    with Page(find()) as page:
-        show(page, tmp_path / "t.html", width, "light")
-        assert page.evaluate("document.querySelector('td.words').getBoundingClientRect().width") > 200
-        lines = (
-            "(r => { r.selectNodeContents(document.querySelector('td')); return r.getClientRects().length; })"
-        )
-        # a short cell is not torn on a telephone
-        assert width > 600 or page.evaluate(f"{lines}(document.createRange())") == 1
-        page.evaluate("document.querySelector('.wide').scrollTop = 500")
-        top = "document.querySelector('SELECT').getBoundingClientRect().top"
-        assert page.evaluate(top.replace("SELECT", "th")) == page.evaluate(top.replace("SELECT", ".wide"))
+    show(browser.anew(), tmp_path / "t.html", width, "light")
+    assert browser.evaluate("document.querySelector('td.words').getBoundingClientRect().width") > 200
+    lines = "(r => { r.selectNodeContents(document.querySelector('td')); return r.getClientRects().length; })"
+    # a short cell is not torn on a telephone
+    assert width > 600 or browser.evaluate(f"{lines}(document.createRange())") == 1
+    browser.evaluate("document.querySelector('.wide').scrollTop = 500")
+    top = "document.querySelector('SELECT').getBoundingClientRect().top"
+    assert browser.evaluate(top.replace("SELECT", "th")) == browser.evaluate(top.replace("SELECT", ".wide"))
 
 
 @pytest.mark.parametrize(
@@ -135,7 +138,7 @@ def test_a_wide_table_scrolls_inside_its_own_box(tmp_path, width):
         ("<details><img alt='a' src='gone.png'></details>", "image 'a' does not load"),
     ],
 )
-def test_what_is_wrong_is_found(tmp_path, body, told):
+def test_what_is_wrong_is_found(found, tmp_path, body, told):
     for name, colour in {"DARK": "black", "LIGHT": "white"}.items():
         body = body.replace(name, b64encode(png(colour)).decode())
     path = tmp_path / "page.html"
@@ -176,7 +179,7 @@ POINTS = "".join(
         ("<div style='height: 4000px'>long</div>", SCRIPT, "prints on"),
     ],
 )  # fmt: skip
-def test_what_fails_in_use_is_found(tmp_path, body, script, told):
+def test_what_fails_in_use_is_found(found, tmp_path, body, script, told):
     path = tmp_path / "page.html"
     path.write_text(
         f"<!DOCTYPE html><html lang='en'><style>{STYLE}</style><script>{script}</script><body>{body}</body></html>"
