@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import shutil
 import subprocess
 import sys
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
+from forks import forked
 
 ROOT = Path(__file__).parents[1]
 
-# Half of a dry run is imports: one process has them, and whoever only asks is a fork of it. No module of ours is
-# among them, for a study may bring its own.
-_FORKS = multiprocessing.get_context("forkserver")
-_FORKS.set_forkserver_preload(
-    ["snakemake.cli", "snakemake.report.html_reporter", "pandas", "jsonschema", "jinja2"]
-)
 ASKED = {"--dry-run", "--summary", "--touch", "--lint"}  # options with which Snakemake starts no job
 
 
@@ -100,23 +93,5 @@ class Workspace:
 
 
 def ask(arguments: list[str], folder: Path, environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
-    """What `python -m snakemake` says in a process of its own; for arguments with which it starts no job."""
-    with tempfile.NamedTemporaryFile("r") as out, tempfile.NamedTemporaryFile("r") as err:
-        process = _FORKS.Process(target=_answer, args=(arguments, folder, environment, out.name, err.name))
-        process.start()
-        process.join()
-        return subprocess.CompletedProcess(arguments, process.exitcode, out.read(), err.read())
-
-
-def _answer(arguments: list[str], folder: Path, environment: dict[str, str], out: str, err: str) -> None:
-    os.chdir(folder)
-    os.environ.clear()
-    os.environ.update(environment)
-    for name, descriptor in ((out, 1), (err, 2)):
-        os.dup2(os.open(name, os.O_WRONLY), descriptor)
-    searched = environment.get("PYTHONPATH", "").split(os.pathsep)
-    sys.path[:0] = [str(folder), *filter(None, searched)]
-    sys.argv = ["snakemake", *arguments]
-    from snakemake.cli import main
-
-    main()
+    """What `python -m snakemake` says; for arguments with which it starts no job."""
+    return forked("snakemake.cli:main", arguments, folder, environment)

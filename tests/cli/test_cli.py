@@ -12,15 +12,15 @@ import time
 import click
 import pytest
 from click.testing import CliRunner
+from forks import forked
 
 from asphalt_nscd import cli
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save
 
 
-def run(*arguments, **options):
-    command = [sys.executable, "-c", "from asphalt_nscd.cli import main; main()", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, **options)
+def run(*arguments, cwd=".", env=os.environ):
+    return forked("asphalt_nscd.cli:main", [*map(str, arguments)], cwd, env)
 
 
 def test_every_step_is_listed_and_explains_itself():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -43,11 +44,13 @@ def campaign(k, offset=0.0, delay=0.0):
     )  # fmt: skip
 
 
+@cache
+def diagnosed(k, offset=0.0, delay=0.0):
+    return diagnose(campaign(k, offset, delay), SCATTER, draws=500)
+
+
 def together(offsets, delay=0.0):
-    found = {
-        f"mix {k}": diagnose(campaign(k, offset, delay), SCATTER, draws=500)
-        for k, offset in enumerate(offsets)
-    }
+    found = {f"mix {k}": diagnosed(k, offset, delay) for k, offset in enumerate(offsets)}
     return found, pooled.pool(found, draws=1000)
 
 
@@ -71,7 +74,7 @@ def test_the_information_is_that_of_all_tests_in_one_model():
     weight = sizes[:, 1] ** -2.0
     assert one.value == pytest.approx(weight @ sizes[:, 0] / weight.sum(), rel=0.02)
     for k, part in enumerate(one.campaigns):
-        rung = diagnose(campaign(k, 1.5), SCATTER, draws=500).ladder.rungs[0]
+        rung = diagnosed(k, 1.5).ladder.rungs[0]
         error = np.sqrt(rung.after.covariance[-1, -1]) * rung.candidate.typical[0]
         assert part.value == pytest.approx(rung.candidate.values[0], abs=0.05)
         assert part.std_error == pytest.approx(error, rel=0.05)
@@ -79,9 +82,7 @@ def test_the_information_is_that_of_all_tests_in_one_model():
 
 def test_what_the_machine_does_is_no_reason_to_believe_a_campaign_less():
     """A mix whose estimates are spread by an offset is believed as the same mix without, once the offset is beside."""
-    sound, off = (
-        pooled._begin("a", diagnose(campaign(4, offset), SCATTER, draws=500)) for offset in (0.0, 0.4)
-    )
+    sound, off = (pooled._begin("a", diagnosed(4, offset)) for offset in (0.0, 0.4))
     assert sound.spread == 1.0 and off.spread > 1.3
     amplitude = np.array([0.4 / OFFSET.parameters[0].typical])
     assert off.judged_beside([OFFSET], amplitude).spread == 1.0
@@ -90,7 +91,7 @@ def test_what_the_machine_does_is_no_reason_to_believe_a_campaign_less():
 @pytest.mark.parametrize(("seed", "size"), [(0, 4.0), (4, 16.0)])
 def test_where_the_discrepancy_starts_does_not_change_the_evidence(seed, size):
     """From sizes far from the likeliest, one descent ends elsewhere: in these tables with a score 0.5 and 0.7 % off."""
-    begun = pooled._begin("a", diagnose(campaign(seed), SCATTER, draws=500))
+    begun = pooled._begin("a", diagnosed(seed))
     state = begun.state
     astray = replace(begun, state=replace(state, variances=np.full_like(state.variances, size)))
     one, other = (pooled._evidence(each, [OFFSET]) for each in (begun, astray))
@@ -130,7 +131,7 @@ def test_a_campaign_of_one_isotherm_is_left_out_and_said():
     part = whole.subset(whole.temperature == 20.0)
     alone = {
         "one": diagnose(replace(part, whole=None), SCATTER, draws=500),
-        "all": diagnose(whole, SCATTER, draws=500),
+        "all": diagnosed(0),
     }
     found = pooled.pool(alone, draws=1000)
     assert found.left_out == ("one",) and "Not used for this: one" in str(found)

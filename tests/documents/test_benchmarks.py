@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -11,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from forks import forked
 
 from asphalt_nscd.files.store import save, write_table
 from asphalt_nscd.rheology.burgers import Burgers
@@ -21,9 +23,18 @@ pytestmark = pytest.mark.slow
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
-def run(folder, script, *arguments, **environment):
+def run(folder, script, *arguments):
+    """As a user starts it: these measure what they take."""
     command = [sys.executable, str(BENCHMARKS / script), *map(str, arguments)]
-    subprocess.run(command, cwd=folder, check=True, env=environment or None)
+    subprocess.run(command, cwd=folder, check=True)
+
+
+def tell(folder, script, *arguments, **environment):
+    """Of a script that measures nothing here."""
+    environment = (environment or {**os.environ}) | {"PYTHONPATH": str(BENCHMARKS)}
+    done = forked(f"{script.removesuffix('.py')}:main", [*map(str, arguments)], folder, environment)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
 
 
 def test_exponents_are_those_of_the_powers(tmp_path):
@@ -43,7 +54,7 @@ def test_exponents_are_those_of_the_powers(tmp_path):
     for k, row in enumerate([*rows, {"topic": "pouring", "case": "yade", "remark": "absent"}]):
         write_table(tmp_path / f"{k}.csv", pd.DataFrame([row], columns=columns))
     files = sorted(tmp_path.glob("*.csv"))
-    run(
+    tell(
         tmp_path,
         "collect.py",
         *files,
@@ -74,10 +85,7 @@ def test_packings_are_compared_by_version_and_size(tmp_path):
             "poured_largest_overlap_moving_m": 2e-4, "weight_balance": 1e-4, "unbalanced_force": 2e-4, "cpu_s": 7.0,
         }  # fmt: skip
         save(tmp_path / f"s{seed}.h5", "deposit", {"radius": np.array([1e-3, 2e-3])}, attributes)
-    command = [sys.executable, str(BENCHMARKS / "packings.py"), "old=s1.h5", "new=s1.h5", "new=s2.h5"]
-    done = subprocess.run(
-        [*command, "--output", "table.csv"], cwd=tmp_path, check=True, capture_output=True, text=True
-    )
+    said = tell(tmp_path, "packings.py", "old=s1.h5", "new=s1.h5", "new=s2.h5", "--output", "table.csv")
     table = pd.read_csv(tmp_path / "table.csv")
     assert table.version.tolist() == ["old", "new", "new"] and table.vibrated_mm.tolist() == [
         62.0,
@@ -89,8 +97,8 @@ def test_packings_are_compared_by_version_and_size(tmp_path):
         0.2,
         0.04,
     ]
-    assert "| 3 | new | 2 | 65 ± 0 | 63 ± 1 | 0.6 ± 0 |" in done.stdout
-    assert "| 3 | old | 1 | 65 | 62 | 0.6 |" in done.stdout
+    assert "| 3 | new | 2 | 65 ± 0 | 63 ± 1 | 0.6 ± 0 |" in said
+    assert "| 3 | old | 1 | 65 | 62 | 0.6 |" in said
 
 
 @pytest.mark.parametrize(
@@ -103,7 +111,7 @@ def test_packings_are_compared_by_version_and_size(tmp_path):
     ],
 )
 def test_what_is_absent_is_said(tmp_path, script, arguments, said):
-    run(tmp_path, script, *arguments, "--output", tmp_path / "row.csv", PATH=str(tmp_path))
+    tell(tmp_path, script, *arguments, "--output", tmp_path / "row.csv", PATH=str(tmp_path))
     row = pd.read_csv(tmp_path / "row.csv").iloc[0]
     assert row.remark == said and pd.isna(row.cpu_s) and pd.notna(row.topic)
 
@@ -148,7 +156,7 @@ def test_a_million_spheres_are_estimated_by_exponents_and_threads(tmp_path):
     threads = pd.DataFrame({"threads": 2, "speed_up": [1.6, 1.9]})
     for name, table in (("layer", layer), ("growth", growth), ("threads", threads)):
         table.to_csv(tmp_path / f"{name}.csv", index=False)
-    run(tmp_path, "million.py", "layer.csv", "growth.csv", "threads.csv", "--output", "million.csv")
+    tell(tmp_path, "million.py", "layer.csv", "growth.csv", "threads.csv", "--output", "million.csv")
     found = pd.read_csv(tmp_path / "million.csv").set_index("stage")
     pouring = found.loc["pour and vibrate"]
     assert pouring.speed_up == pytest.approx(1.0 / (0.25 + 0.75 / 32))

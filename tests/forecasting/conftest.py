@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from asphalt_nscd.forecasting.forecast import Networks
 from asphalt_nscd.forecasting.packing import LARGEST, LevelPacking
 from asphalt_nscd.forecasting.recipe import recipe_of
 
@@ -46,3 +47,9 @@ def packing():
     jitter = 1e-3 * LARGEST * np.random.default_rng(1).standard_normal(at.shape)
     box = np.full(3, 9.0 * LARGEST)
     return LevelPacking(at + jitter, np.full(len(at), radius), box, 1, np.pi / 6.0, 6.0)
+
+
+@pytest.fixture(scope="session")
+def networks(packing):
+    """Of this packing at every level; each map is solved once for all tests."""
+    return Networks(lambda level, seed: packing)

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from asphalt_nscd.forecasting.forecast import Networks
 from asphalt_nscd.forecasting.grade import EXPONENT, compare_paper, softening_point, stiffness
 
 
@@ -26,12 +25,12 @@ def test_outside_the_nomograph_nothing_is_known():
 
 
 @pytest.mark.filterwarnings("error")  # where the nomograph knows no stiffness, nothing is computed
-def test_the_papers_mix(recipe, packing):
+def test_the_papers_mix(recipe, networks):
     found = compare_paper(
         "data/paper/table1_grading.csv",
         "data/paper/table3_burgers.csv",
         recipe,
-        Networks(lambda level, seed: packing),
+        networks,
         lambda *_: None,
     )
     assert set(found["temperature_C"]) == {10.0, 15.0, 20.0, 30.0} and set(found["frequency_Hz"]) == {

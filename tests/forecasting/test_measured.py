@@ -8,15 +8,10 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecasting.forecast import Networks, Settings, forecast, modulus_of
+from asphalt_nscd.forecasting.forecast import Settings, forecast, modulus_of
 from asphalt_nscd.forecasting.mixes import bands, best_map, binder_shift, read_pairs
 from asphalt_nscd.forecasting.recipe import read_recipe
 from asphalt_nscd.forecasting.void_slopes import compare_voids
-
-
-@pytest.fixture(scope="module")
-def networks(packing):
-    return Networks(lambda level, seed: packing)
 
 
 @pytest.fixture(scope="module")

@@ -122,8 +122,8 @@ def test_twice_as_many_ratios_leave_a_tenth_of_the_error():
 
 
 @pytest.fixture(scope="module")
-def found(recipe, packing):
-    return forecast(recipe, Networks(lambda level, seed: packing), seeds=(1,))
+def found(recipe, networks):
+    return forecast(recipe, networks, seeds=(1,))
 
 
 def test_forecast_has_a_band_that_holds_it(found):
@@ -176,12 +176,12 @@ def test_static_motion_that_is_not_found_is_no_motion(contents):
 
 
 @pytest.mark.parametrize("temperatures", [[20], [5, 20], [0, 10, 20]])
-def test_a_shifted_binder_gives_a_law_at_few_temperatures(content, packing, temperatures):
+def test_a_shifted_binder_gives_a_law_at_few_temperatures(content, networks, temperatures):
     from asphalt_nscd.api.laws import Law
 
     content["binder"] |= {"reference_temperature_C": 15, "shift": {"wlf_C1": 20, "wlf_C2_K": 150}}
     asked = recipe_of(content | {"temperatures_C": temperatures, "angular_frequencies_rad_s": [10.0]})
-    made = forecast(asked, Networks(lambda level, seed: packing), seeds=(1,))
+    made = forecast(asked, networks, seeds=(1,))
     law = Law(law_of_mix(made))
     found = law.complex_modulus(asked.frequency, asked.temperature)
     assert np.log(found / made.modulus) == pytest.approx(0.0, abs=0.05)

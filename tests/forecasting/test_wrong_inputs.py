@@ -8,7 +8,6 @@ import pytest
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting import wrong_inputs
-from asphalt_nscd.forecasting.forecast import Networks
 from asphalt_nscd.forecasting.wrong_inputs import (
     along_reference,
     changed,
@@ -21,8 +20,8 @@ from asphalt_nscd.forecasting.wrong_inputs import (
 
 
 @pytest.fixture(scope="module")
-def changes(recipe, packing):
-    return changes_of(recipe, Networks(lambda level, seed: packing))
+def changes(recipe, networks):
+    return changes_of(recipe, networks)
 
 
 def test_densities_by_hand(recipe):
@@ -64,9 +63,9 @@ def other_mix(omega):
 
 
 @pytest.fixture(scope="module")
-def many(recipe, packing):
+def many(recipe, networks):
     points = replace(recipe, frequency=np.geomspace(1e-4, 50, 20), temperature=np.full(20, 15.0))
-    return changes_of(points, Networks(lambda level, seed: packing))
+    return changes_of(points, networks)
 
 
 @pytest.mark.slow

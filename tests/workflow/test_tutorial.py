@@ -6,13 +6,12 @@ import json
 import re
 import runpy
 import shlex
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
+from forks import forked
 
 from asphalt_nscd.diagnosis.quality import exceeded
 from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
@@ -27,9 +26,7 @@ COMMANDS = [line for kind, block in BLOCKS if kind for line in block.splitlines(
 
 
 def new_study(workspace, command):
-    script = "from asphalt_nscd.cli import main; main()"
-    arguments = [sys.executable, "-c", script, *shlex.split(command)[1:]]
-    return subprocess.run(arguments, cwd=workspace.folder, capture_output=True, text=True)
+    return forked("asphalt_nscd.cli:main", shlex.split(command)[1:], workspace.folder)
 
 
 def test_data_are_made_by_the_tool():

@@ -14,7 +14,6 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from snakemake.cli import parse_args
 from workspace import Plan, Workspace, ask
 
 import asphalt_nscd as an
@@ -79,6 +78,8 @@ def fitted(fits, tmp_path):
 
 def test_make_hands_over_what_snakemake_understands():
     """Whole studies are planned below."""
+    from snakemake.cli import parse_args
+
     together = {}
     for recipe in MAKE.values():
         words = shlex.split(recipe.replace("$(CORES)", "all").replace("$(CONFIG)", "config/smoke.yaml"))

@@ -75,15 +75,14 @@ def test_at_rest_a_rigid_clamp_leaves_the_slider_at_rest():
     assert follow_actuator((0.0, 1e5, 30.0, 0.5), DT, 7.0, 10.0, 1e-6, 1e-6, 0.0) == (0.0, 0.0)
 
 
-@pytest.mark.parametrize("method", [reduced, full])
+WITHOUT_CLAMP = replace(ALL, clamp_compliance=0.0)
+
+
 @pytest.mark.parametrize(
-    "devices",
+    ("devices", "method"),
     [
-        CLAMP,
-        HeadDevices(guide_stiffness=1e5),
-        HeadDevices(head_mass=0.5),
-        ALL,
-        replace(ALL, clamp_compliance=0.0),
+        *((one, reduced) for one in (CLAMP, HeadDevices(guide_stiffness=1e5), HeadDevices(head_mass=0.5))),
+        *((one, method) for one in (ALL, WITHOUT_CLAMP) for method in (reduced, full)),
     ],
 )
 def test_apparent_stiffness(beam_system, quick_law, devices, method):
