@@ -104,6 +104,14 @@ class BondLaws:
         Laws that differ.
     kind : ndarray of int (3 b,)
         Place in the table of each component.
+
+    Examples
+    --------
+    Stepped, and the same network in steady oscillation::
+
+        laws = BondLaws.of_bonds((film, stone), normal=places, tangential=other_places)
+        stepper = CondensedStepper(system, laws, dt, CondensedState.at_rest(system, laws))
+        driving_force(system, laws.discrete_modulus(omega, 0.0), omega)
     """
 
     table: tuple[BondLaw, ...]
