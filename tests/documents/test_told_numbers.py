@@ -66,3 +66,9 @@ def test_errors_of_the_law_of_a_film():
     assert f"sliding in a cubic lattice: {least:.0f} to {most:.0f} % too soft" in text
     assert 100 * cells.E_error.abs().max() < 10 < 100 * cells.G_error.abs().max() < 11
     assert "networks: E within 10 %, G just over" in text
+
+
+def test_phases_of_ncat_differ_between_mixes():
+    table = published("attack/machine_measured").set_index("where").value
+    mixes = table[table.index.str.contains("_")]
+    assert len(mixes) == 9 and f"({mixes.min():.1f} to {mixes.max():.1f} degrees)" in page("machine")

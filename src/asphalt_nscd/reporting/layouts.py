@@ -155,21 +155,64 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 )
             },
             shorter={
-                "the same of averages over specimens, which hide what one of them does": (
-                    "the same of averages over specimens"
-                ),
+                "found, at 3 times the limit": "found",
+                "named rightly among the found, at 3 times the limit": "of these, named rightly",
+                "outside the catalogue: unexplained, at 3 times the limit": "outside the catalogue: unexplained",
                 "outside the catalogue: confident wrong name, at 3 times the limit": (
-                    "outside the catalogue: wrong name, at 3 times the limit"
+                    "outside the catalogue: confident wrong name"
+                ),
+                "the same of averages over specimens, which hide what one of them does": (
+                    "error of held-out averages falls where named"
                 ),
                 "causes whose removal leaves their effects unexplained (80 %), not misnamed (10 %)": (
-                    "removed causes whose effects stay unexplained, not misnamed"
+                    "removed causes: unexplained, not misnamed"
                 ),
             },
         )
     ],
-    "blind_real": [Layout(_CRITERIA, where={"met": ("yes", "no")})],
-    "blind_reported": [Layout(_CRITERIA)],
-    "machines": [Layout(_CRITERIA)],
+    "blind_real": [
+        Layout(
+            _CRITERIA,
+            where={"met": ("yes", "no")},
+            shorter={
+                "real tables, offset and delay at 3 and 6 limits: named": "offset and delay, 3 and 6 limits: named",
+                "the same: size grew by what was put in, within its interval": "the same: growth within its interval",
+                "the same, over its size on the same tests": "the same, over its size",
+                "the same: a wrong name instead": "the same: a wrong name",
+                "all causes at 3 times the limit: named": "all causes at 3 limits: named",
+                "false names added, any cause and ratio": "false names added",
+                "tables without a cause: misnamed with confidence": "no cause: misnamed with confidence",
+            },
+        )
+    ],
+    "blind_reported": [
+        Layout(
+            _CRITERIA,
+            shorter={
+                "modulus of the mix at 15 degC, 10 Hz within its 95 % interval": "modulus within its 95 % interval",
+                "phase of the mix at 15 degC, 10 Hz within its 95 % interval": "phase within its 95 % interval",
+                "corrected tests diagnosed again: no new name": "corrected and diagnosed again: no new name",
+            },
+        )
+    ],
+    "machines": [Layout(_CRITERIA, where={"met": ("yes", "no")})],
+    "machine_measured": [
+        Layout(
+            {"where": "where", "value": "value", "std_error": "standard error"},
+            where={
+                "where": (
+                    "all campaigns",
+                    "4 degC",
+                    "20 degC",
+                    "35 degC",
+                    "40 degC",
+                    "0.1 Hz",
+                    "1 Hz",
+                    "10 Hz",
+                )
+            },
+        )
+    ],
     "attack": [Layout(_CRITERIA, where={"met": ("no",)})],
     "mutants": [
         Layout({"room": "folder", "mutants": "tried", "noticed": "noticed"}),
