@@ -1,6 +1,7 @@
 """Effects hidden in drawn measurements are found, named and sized; empty tables stay unnamed."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -54,10 +55,14 @@ EFFECTS = {
 }
 
 
+@cache
+def diagnosed(name):
+    return diagnose(table(3, EFFECTS[name][1]))
+
+
 @pytest.mark.parametrize("name", EFFECTS, ids=lambda name: name[0])
 def test_a_hidden_effect_is_named_alone_with_its_size(name):
-    size, effect = EFFECTS[name]
-    diagnosis = diagnose(table(3, effect))
+    size, diagnosis = EFFECTS[name][0], diagnosed(name)
     assert [rung.candidate.key for rung in diagnosis.ladder.rungs] == [name]
     assert diagnosis.verdict == "explained" and diagnosis.relaxation_spectrum
     rung = diagnosis.ladder.rungs[0]
@@ -67,7 +72,7 @@ def test_a_hidden_effect_is_named_alone_with_its_size(name):
 
 
 def test_a_cause_that_was_named_is_not_said_to_be_untestable():
-    diagnosis = diagnose(table(3, EFFECTS["loose_clamp", "b"][1]))
+    diagnosis = diagnosed(("loose_clamp", "b"))
     named = diagnosis.ladder.rungs[0].candidate
     other = replace(named, place="c")
     unsure = replace(diagnosis, ladder=replace(diagnosis.ladder, unseen=[named, other]))

@@ -31,6 +31,8 @@ pytestmark = pytest.mark.slow
 PUBLISHED = Path(__file__).parents[2] / "results/published/paper"
 EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
 FEW = run.Draws(500)
+# Of the specimens in which no test contradicts its isotherm: such a table is diagnosed twice.
+SOUND = sorted(path for name in ("A", "C") for path in EXPORTS.glob(f"Mix-{name}-*.csv"))
 SCHEMA = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8"))
 
 
@@ -85,7 +87,7 @@ def test_a_specimen_that_lacks_a_temperature_of_the_others_is_named():
 
 
 def test_an_isotherm_off_its_target_is_to_be_checked_and_tested_again_first(tmp_path):
-    for path in EXPORTS.glob("*.csv"):
+    for path in SOUND:
         text = path.read_bytes()
         if path.name == "Mix-A-20C_Sum.csv":
             text = text.replace(b"20.0,20.1,20.0,20.0,20.0,19.9", b"20.7,20.7,20.7,20.7,20.7,20.7")
@@ -101,11 +103,11 @@ def test_an_isotherm_off_its_target_is_to_be_checked_and_tested_again_first(tmp_
 
 
 def test_the_verdict_names_files_without_tests(tmp_path):
-    for path in EXPORTS.glob("*.csv"):
+    for path in SOUND:
         (tmp_path / path.name).write_bytes(path.read_bytes())
     (tmp_path / "Mix-C-50C_Sum.csv").write_text("")
     outcome = run.conclude(read_campaign([tmp_path])[0], PAPER_GEOMETRY, draws=FEW)
-    told = "1 of 12 files gave no test: Mix-C-50C_Sum.csv (the file is empty)."
+    told = "1 of 8 files gave no test: Mix-C-50C_Sum.csv (the file is empty)."
     Draft202012Validator(SCHEMA).validate(outcome.content)
     assert outcome.content["reading"]["files_without_tests"] == [told]
     assert dict(rows(outcome.content))["Note"][0] == told
@@ -227,7 +229,7 @@ def test_faults_of_one_bench_are_looked_for_only_where_the_bench_is_known(stated
 
 def test_the_verdict_tells_what_the_law_that_is_written_misses(tmp_path):
     """Computed again: the law of the file with the delay added, averages over specimens, mean over all."""
-    outcome = run.conclude(read_campaign([EXPORTS])[0], PAPER_GEOMETRY, draws=FEW)
+    outcome = run.conclude(read_campaign(SOUND)[0], PAPER_GEOMETRY, draws=FEW)
     outcome.write(tmp_path)
     observed = outcome.diagnosis.observed
     modulus = read_spectrum(tmp_path / "law.json").complex_modulus(observed.omega, observed.temperature)
@@ -260,7 +262,7 @@ def test_metal_comes_first_where_phases_lie_on_one_side(monkeypatch):
     told = "32 of 54 phases lie above."
     monkeypatch.setattr(run.suspects, "one_sided", lambda *_: told)
     monkeypatch.setattr(run, "diagnose", lambda *_, **__: diagnose(table(4), draws=500))
-    content = run.conclude(read_campaign([EXPORTS])[0], PAPER_GEOMETRY, draws=FEW).content
+    content = run.conclude(read_campaign(SOUND)[0], PAPER_GEOMETRY, draws=FEW).content
     first = content["instructions"]["orders"][0]
     assert first["specimens"] == ["a metal reference specimen"] and first["why"][0].startswith(
         f"{told} Metal has no"

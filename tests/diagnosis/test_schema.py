@@ -126,6 +126,8 @@ PARAMS = [
 def diagnosed(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("diagnosed")
     frame = pd.read_csv(ROOT / "results/published/paper/measured.csv", dtype={"specimen": str})[COLUMNS]
+    if request.param is not one_isotherm_warmer:  # else three tell an odd one from the others
+        frame = frame[frame["specimen"] != "4"]
     request.param(frame).assign(origin="synthetic").to_csv(folder / "measured.csv", index=False)
     run.conclude(folder / "measured.csv", GEOMETRY, draws=run.Draws(500)).write(folder)
     return request.param, folder
