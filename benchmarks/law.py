@@ -10,9 +10,9 @@ import argparse
 import numpy as np
 from rows import Clock, write_rows
 
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
 
 TOPIC = "fit of a law"

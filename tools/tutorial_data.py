@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 PATH = Path(__file__).resolve().parents[1] / "data/tutorial/campaign.csv"
 # A usual mix for surface courses, at 15 degC.

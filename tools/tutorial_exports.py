@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 FOLDER = Path(__file__).resolve().parents[1] / "data/tutorial/exports"
 # A usual mix for binder courses, at 20 degC.

@@ -14,7 +14,8 @@ from forks import forked
 
 ROOT = Path(__file__).parents[1]
 
-ASKED = {"--dry-run", "--summary", "--touch", "--lint", "--list-rules"}  # options with which Snakemake starts no job
+# Options with which Snakemake starts no job
+ASKED = {"--dry-run", "--summary", "--touch", "--lint", "--list-rules"}
 
 
 @dataclass(frozen=True)

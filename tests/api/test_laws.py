@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 
 import asphalt_nscd as an
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 MIX = TwoS2P1D(60e6, 31e9, 0.2, 0.55, 2.1, 0.02, 200.0, WLF(18.0, 150.0, 20.0))
 TABLE3 = {"Em_Pa": 24.3e9, "eta_m_Pa_s": 3.71e9, "Ek_Pa": 48.4e9, "eta_k_Pa_s": 0.773e9}

@@ -13,8 +13,8 @@ from click.testing import CliRunner
 
 import asphalt_nscd as an
 from asphalt_nscd.cli.compare import command
+from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import HuetSayegh
 
 pytestmark = pytest.mark.slow
 

@@ -12,8 +12,8 @@ from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.report import as_json
 from asphalt_nscd.diagnosis.simulated import read_specimen
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 pytestmark = pytest.mark.slow
 

@@ -14,8 +14,8 @@ from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.doubts import find_doubts
 from asphalt_nscd.diagnosis.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import HuetSayegh
 
 pytestmark = pytest.mark.slow
 

@@ -14,8 +14,8 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor
 from asphalt_nscd.rheology.fitting import Fit
 from asphalt_nscd.rheology.laws_io import read_bond_law
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
 LAW = TwoS2P1D(1e6, 42e9, 0.2, 0.6, 1.6, 0.14, 28.0, WLF(11.7, 80.0, 15.0))

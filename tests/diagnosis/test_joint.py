@@ -12,8 +12,8 @@ from asphalt_nscd.diagnosis import scatter, start
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.joint import Candidate, Joint, Noise
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import HuetSayegh
 
 LAW = HuetSayegh(
     static_modulus=80e6, glassy_modulus=32e9, k=0.22, h=0.6, delta=2.3, tau=0.3, shift=WLF(18.0, 140.0, 15.0)

@@ -7,8 +7,8 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances, required_phase
+from asphalt_nscd.rheology.parabolic import HuetSayegh, TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D
 
 SHIFT = WLF(24.0, 160.0, 15.0)
 FREQUENCY = np.array([0.1, 0.5, 1.0, 5.0, 10.0, 25.0])

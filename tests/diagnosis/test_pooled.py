@@ -12,8 +12,8 @@ from asphalt_nscd.diagnosis import pooled
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.diagnose import diagnose
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import HuetSayegh
 
 SCATTER = 0.01, np.radians(0.3)
 OFFSET = next(cause for cause in CATALOGUE if cause.name == "phase_offset")

@@ -10,8 +10,8 @@ import pytest
 
 import asphalt_nscd as an
 from asphalt_nscd.diagnosis.reported import mix_modulus
+from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import HuetSayegh
 
 MIX = HuetSayegh(60e6, 33e9, k=0.21, h=0.6, delta=2.3, tau=0.15, shift=WLF(18.0, 150.0, 15.0))
 DELAY = 2e-3  # s

@@ -13,8 +13,8 @@ from jsonschema import Draft202012Validator
 from asphalt_nscd.diagnosis import gain, report, run
 from asphalt_nscd.diagnosis.summary import summary
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, shown, widening, with_interval
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import Arrhenius
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8"))

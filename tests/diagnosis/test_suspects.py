@@ -9,8 +9,8 @@ import pytest
 
 from asphalt_nscd.diagnosis import suspects, within_isotherm
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 FREQUENCIES = np.array([0.1, 0.5, 1.0, 5.0, 10.0, 25.0])
 TEMPERATURES = np.array([4.0, 21.0, 37.0])

@@ -11,8 +11,8 @@ from asphalt_nscd.diagnosis import discrepancy, scatter, start, with_discrepancy
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import HuetSayegh
 
 pytestmark = pytest.mark.slow
 

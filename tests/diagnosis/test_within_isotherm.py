@@ -11,8 +11,8 @@ from scipy.stats import t as student
 from asphalt_nscd.diagnosis import within_isotherm
 from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances
 from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import HuetSayegh
 
 FREQUENCY = np.array([0.1, 0.5, 1.0, 5.0, 10.0, 25.0])
 TEMPERATURES = (4.0, 15.0, 27.0, 40.0)

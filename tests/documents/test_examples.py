@@ -18,8 +18,8 @@ MODULES = [
     "api.fatigue", "api.forecasting", "api.laws", "api.reading", "api.specimens", "bending.case", "bending.condensing",
     "bending.fatigue", "bending.rig", "diagnosis.run", "files.errors", "files.words", "measurements.signals",
     "bending.hold", "measurements.twopoint",
-    "nscd.contacts.friction", "rheology.burgers", "rheology.chain", "rheology.fitting", "rheology.shift",
-    "rheology.spectrum", "specimen.deposit", "specimen.preparation",
+    "nscd.contacts.friction", "rheology.burgers", "rheology.chain", "rheology.fitting", "rheology.laws_of_modulus",
+    "rheology.parabolic", "rheology.shift", "specimen.deposit", "specimen.preparation",
 ]  # fmt: skip
 
 

@@ -15,9 +15,9 @@ from asphalt_nscd.exports.law import read_law_file
 from asphalt_nscd.exports.mepdg import FREQUENCIES, TEMPERATURES_F
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.laws_io import write_law
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
 

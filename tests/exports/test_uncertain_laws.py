@@ -15,9 +15,10 @@ from asphalt_nscd.exports.law import read_law_file
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.measurements.units import PSI
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.priors import prior_of
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D, parameters
+from asphalt_nscd.rheology.spectrum import parameters
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import Uncertainty, fit_content
 

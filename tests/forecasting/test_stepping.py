@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.forecasting.stepping import fit_bonds, harmonic_stiffness, step_test
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.verification.specimens import jittered_beam
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from asphalt_nscd.rheology.parabolic import HuetSayegh, TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
-from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D
 
 CAMPAIGN = (-10.0, 4.0, 21.0, 37.0, 54.0), (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)
 

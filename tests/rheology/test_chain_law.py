@@ -8,8 +8,8 @@ import pytest
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.chain_law import chain_law
 from asphalt_nscd.rheology.laws_io import read_bond_law
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
 SPECTRUM = TwoS2P1D(80e6, 42.6e9, 0.2, 0.6, 1.64, 0.14, 28.0, WLF(11.7, 79.9, 15.0))

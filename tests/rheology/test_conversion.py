@@ -6,8 +6,8 @@ import pytest
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.conversion import kelvin_chain
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 MIX = TwoS2P1D(80e6, 42.6e9, 0.2, 0.6, 1.64, 0.14, 28.0, WLF(11.7, 79.9, 15.0))
 LOW, HIGH = 2 * np.pi * 3.0, 2 * np.pi * 40.0

@@ -6,9 +6,11 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
+from asphalt_nscd.rheology.laws_of_modulus import CAM, OfModulus, Sigmoid
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.priors import prior_of
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import CAM, LAWS, OfModulus, Sigmoid, TwoS2P1D, parameters
+from asphalt_nscd.rheology.spectrum import LAWS, parameters
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import Uncertainty, fit_content, uncertainty_of
 

@@ -10,8 +10,8 @@ from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import MaxwellSeries, of_chain
 from asphalt_nscd.rheology.maxwell_fitting import REACH, Miss, _merged, _size, _spaced, fit_series, miss
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 BURGERS = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)
 MIX = TwoS2P1D(100e6, 24e9, 0.21, 0.6, 2.3, 0.01, 300.0, WLF(24.0, 160.0, 15.0))

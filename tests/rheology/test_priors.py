@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE, USUAL
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D, parameters
+from asphalt_nscd.rheology.spectrum import parameters
 from asphalt_nscd.rheology.spectrum_coordinates import Coordinates
 
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.parabolic import HuetSayegh, TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
-from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D, parameters
+from asphalt_nscd.rheology.spectrum import parameters
 
 SHIFT = WLF(11.7, 79.9, 15.0)
 LAW = TwoS2P1D(100e6, 42e9, 0.2, 0.6, 1.64, 0.14, 28.0, SHIFT)

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.parabolic import HuetSayegh, TwoS2P1D
 from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE, USUAL
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
-from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D, parameters
+from asphalt_nscd.rheology.spectrum import parameters
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 
 FREQUENCIES = 2 * np.pi * np.array([3.0, 6, 10, 25, 40])

@@ -5,8 +5,8 @@ import json
 import pytest
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.parabolic import HuetSayegh, TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
-from asphalt_nscd.rheology.spectrum import HuetSayegh, TwoS2P1D
 from asphalt_nscd.rheology.spectrum_io import read_spectrum, write_spectrum
 
 SPECTRUM = TwoS2P1D(80e6, 42e9, 0.2, 0.6, 1.64, 0.14, 28.0, WLF(11.7, 79.9, 15.0))

@@ -22,8 +22,8 @@ from asphalt_nscd.forecasting.forecast import LevelResult, Networks, Settings, f
 from asphalt_nscd.forecasting.levels import OTHER_CUTS
 from asphalt_nscd.forecasting.recipe import UNSTATED, Recipe
 from asphalt_nscd.forecasting.rivals import RIVALS
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import Arrhenius
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 CALIBRATED_ON, SHIFTED_ON, SHIFTED = "H0", "W0", "W"  # the shift is that of the warm mixes' binder
 PRESSURES = (0.1e3, 0.3e3, 1e3, 3e3, 10e3)  # Pa

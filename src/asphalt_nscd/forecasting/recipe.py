@@ -17,8 +17,9 @@ from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.forecasting.film import Solid
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
-from asphalt_nscd.rheology.spectrum import Spectrum, TwoS2P1D
+from asphalt_nscd.rheology.spectrum import Spectrum
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 
 DEFAULT_FREQUENCIES = (0.1, 0.3, 1.0, 3.0, 10.0, 25.0)  # Hz

@@ -15,8 +15,8 @@ from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_table
 from asphalt_nscd.reporting.figures import fig10_extended, fig_black, fig_limits, fig_master, fig_residual_map
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
 

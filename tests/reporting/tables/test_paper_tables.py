@@ -10,10 +10,10 @@ import pytest
 
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.reporting.tables import reconstructions, rivals, table1
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.rivals import left_out
 from asphalt_nscd.rheology.rivals import rivals as laws_of
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import TwoS2P1D
 
 PAPER = Path(__file__).parents[3] / "data/paper"
 LAW = TwoS2P1D(30e6, 36e9, k=0.2, h=0.58, delta=2.2, tau=0.06, beta=250.0, shift=WLF(12.0, 90.0, 15.0))
