@@ -196,7 +196,7 @@ def test_the_law_is_free_only_of_what_the_table_does_not_speak_against(exports):
     assert found.established(rung) and found.taken_off(rung) and off() > 0.02
     found.too_few = "two frequencies show no curvature"
     assert not found.established(rung) and found.taken_off(rung)
-    found.doubts = {rung.candidate.key: ["it includes zero"]}
+    found.ladder.doubts = {rung.candidate.key: ["it includes zero"]}
     assert not found.taken_off(rung) and off() < 1e-6
 
 

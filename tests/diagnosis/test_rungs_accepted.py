@@ -29,7 +29,7 @@ def redrawn(joint, fitted, seed, effect=0.0):
 
 def test_estimates_spread_is_that_of_causes_without_a_name():
     offset, delay, bias = (CAUSES[name] for name in ("phase_offset", "channel_delay", "temperature_bias"))
-    named = Rung(Candidate(delay, None, (1e-4,)), 0.001, None, None, (), 0.99, 0.99)
+    named = Rung(Candidate(delay, None, (1e-4,)), 0.001, None, None, (), 0.99)
     estimates = {
         (delay.name, None): (9.0, 1.0),  # named: not counted
         (offset.name, None): (3.0, 2.0),
@@ -50,7 +50,7 @@ def test_the_name_that_is_least_sure_is_the_one_whose_interval_holds_zero_by_mos
         Candidate(CAUSES[n], None, (v,)) for n, v in (("phase_offset", 1.0), ("channel_delay", 1e-4))
     )
     both = joint.linearise(fitted.law, fitted.scales, (offset, delay))
-    rungs = [Rung(one, 0.001, None, both, (), 0.99, 0.99) for one in (offset, delay)]
+    rungs = [Rung(one, 0.001, None, both, (), 0.99) for one in (offset, delay)]
 
     def unsure(of_offset, of_delay, spread=0.0):
         sizes = {

@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
-from asphalt_nscd.diagnosis.doubts import Key, find_doubts
+from asphalt_nscd.diagnosis.doubts import Key
 from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
 from asphalt_nscd.diagnosis.laboratory import Laboratory, with_laboratory
 from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
@@ -48,7 +48,6 @@ class Diagnosis:
     whole: Observations | None = None  # with the tests that are set aside
     suspects: tuple[Suspect, ...] = ()  # rows of whole
     too_few: str = ""  # why these data tell no cause from what the catalogue lacks; empty if they may
-    doubts: dict[Key, list[str]] = field(default_factory=dict)  # of names, see `diagnosis.doubts`
     laboratory: Laboratory | None = None  # None where one isotherm was tested
     common: tuple[Joint, Fitted] | None = None  # the law of all temperatures, if the ladder has none
 
@@ -56,6 +55,11 @@ class Diagnosis:
         """One law for all temperatures and its fit: that of the ladder, or what was fitted in its place."""
         joint, fitted = self.common or (self.ladder.joint, self.ladder.fitted)
         return joint.spectrum, fitted
+
+    @property
+    def doubts(self) -> dict[Key, list[str]]:
+        """Of names, see `diagnosis.doubts`."""
+        return self.ladder.doubts
 
     def established(self, rung: Rung) -> bool:
         """Whether a name is more than the likeliest: no rival, with a name or without, carried by the whole table."""
@@ -143,7 +147,6 @@ def diagnose(
     diagnosis.whole, diagnosis.suspects = whole, tuple(doubtful)
     diagnosis.laboratory = laboratory
     diagnosis.common = common if no_common_law else None
-    diagnosis.doubts = _doubts(ladder, noise)
     diagnosis.verdict = _verdict(diagnosis)
     diagnosis.too_few = too_few = _too_few(diagnosis)
     if ladder.rungs and too_few:
@@ -180,13 +183,6 @@ def _by_scatter(ladder: Ladder, noise: Noise) -> Fitted:
     """The last fit as near to the tests as it comes, its residuals in units of the scatter alone."""
     plain = Joint(ladder.joint.observed, ladder.joint.base, noise)
     return plain.fit(ladder.fitted.law, ladder.fitted.scales, ladder.fitted.active, CLOSE)
-
-
-def _doubts(ladder: Ladder, noise: Noise) -> dict[Key, list[str]]:
-    """Of the names on the ladder, beside its discrepancy."""
-    plain = Joint(ladder.joint.observed, ladder.joint.base, noise)
-    named = [rung.candidate for rung in ladder.rungs]
-    return find_doubts(plain, ladder.fitted, named, tuple(ladder.discrepancy.values()))
 
 
 def _at_bounds(ladder: Ladder) -> list[str]:

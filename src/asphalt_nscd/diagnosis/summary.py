@@ -69,11 +69,7 @@ def _left(content: Content) -> list[str]:
     dropped = [sentences.in_words(name) for name in content["withdrawn"]]
     left = unexplained.left(content)
     left = [unexplained.OF_WHAT_IS_LEFT, *left] if content.get("discrepancy") else left
-    return left + (
-        [f"Considered and dropped, because an effect without a name fits as well: {', '.join(dropped)}."]
-        if dropped
-        else []
-    )
+    return left + ([f"Considered but not named, since too unsure: {', '.join(dropped)}."] if dropped else [])
 
 
 def _orders(content: Content) -> list[str]:

@@ -101,7 +101,7 @@ class Found:
         The states.
     rivals : tuple of Candidate
         Who did as well.
-    probability, shared : float
+    probability : float
         As of `ladder.Rung`.
     """
 
@@ -111,7 +111,6 @@ class Found:
     after: State
     rivals: tuple[Candidate, ...]
     probability: float
-    shared: float
 
 
 @dataclass(frozen=True)
@@ -387,11 +386,10 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     _, k, after = max(as_good, key=lambda refit: odds[refit[1]])
     rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
     share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
-    shared = sum(share[j] for _, j, _ in as_good)
-    if shared < POSSIBLE:
+    if sum(share[j] for _, j, _ in as_good) < POSSIBLE:
         return None
     p_value = chance.tail(by_chance, float(z[k]))
-    return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k], shared)
+    return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k])
 
 
 def _afresh(state: State, active: tuple[Candidate, ...]) -> State:
