@@ -227,7 +227,7 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
 def _unlikely(ladder: Ladder, end: with_discrepancy.State) -> Candidate | None:
     """The name that is least likely, as it is stated; None where each is as likely as not."""
     named = [rung.candidate for rung in ladder.rungs]
-    ladder.doubts = find_doubts(end.plain, end.fitted, named, np.sqrt(end.variances))
+    ladder.doubts = find_doubts(end.plain, end.fitted, named, np.sqrt(end.variances).tolist())
     told = [(stated(one.probability, False, one.candidate.key in ladder.doubts), one) for one in ladder.rungs]
     least, rung = min(told, key=lambda pair: pair[0], default=(1.0, None))
     return rung.candidate if rung is not None and least < POSSIBLE else None
