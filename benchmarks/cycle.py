@@ -19,7 +19,7 @@ from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 from asphalt_nscd.rheology.laws_io import read_bond_law
-from asphalt_nscd.specimen.preparation import read_specimen
+from asphalt_nscd.specimen.cutting import read_specimen
 
 TOPIC = "cycle of 10 Hz"
 FREQUENCY, AMPLITUDE, TIME_STEP = 10.0, 63e-6, 5e-5

@@ -25,7 +25,8 @@ from asphalt_nscd.forecasting.recipe import read_recipe
 from asphalt_nscd.forecasting.static_map import RATIOS, fit_map
 from asphalt_nscd.forecasting.stepping import Stiffness, fit_bonds, harmonic_stiffness, step_test
 from asphalt_nscd.measurements.twopoint import complex_modulus, norm_and_phase
-from asphalt_nscd.specimen.preparation import SPECIMEN, specimen_of
+from asphalt_nscd.specimen.contents import SPECIMEN
+from asphalt_nscd.specimen.cutting import specimen_of
 from asphalt_nscd.specimen.system import bending_system, facet_share
 from asphalt_nscd.specimen.trimming import Specimen
 

@@ -34,8 +34,9 @@ from asphalt_nscd.nscd.bonds.implicit_operator import LARGEST_FACTORED
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.rheology.laws_io import read_bond_law
 from asphalt_nscd.specimen.counts import read_counts
+from asphalt_nscd.specimen.cutting import Cutting, trim_deposit
 from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import Cutting, Pouring, deposit, trim_deposit
+from asphalt_nscd.specimen.preparation import Pouring, deposit
 
 BOX = (0.25, 0.025, 0.64)  # m; the paper's 1.6 m high lattice is mostly empty, and its fall long
 GEOMETRY = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250}

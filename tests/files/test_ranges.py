@@ -12,8 +12,9 @@ from asphalt_nscd.bending.case import Load, Numerics
 from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.cli import _options
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.specimen.cutting import Cutting
 from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import Cutting, Pouring, Surfaces
+from asphalt_nscd.specimen.preparation import Pouring, Surfaces
 
 NAN, INF, BOX = float("nan"), float("inf"), (0.1, 0.1, 0.1)
 

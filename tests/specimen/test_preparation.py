@@ -8,16 +8,9 @@ import pytest
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
 from asphalt_nscd.specimen import preparation
+from asphalt_nscd.specimen.cutting import Cutting, read_specimen, trim_deposit
 from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import (
-    Cutting,
-    Pouring,
-    Surfaces,
-    deposit,
-    layer_statistics,
-    read_specimen,
-    trim_deposit,
-)
+from asphalt_nscd.specimen.preparation import Pouring, Surfaces, deposit, layer_statistics
 from asphalt_nscd.specimen.trimming import layer_height
 
 BOX = (0.06, 0.01, 0.14)

@@ -24,19 +24,11 @@ from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.nscd.core_cache import is_compiled
 from asphalt_nscd.packings.incoming import as_deposit
 from asphalt_nscd.packings.incoming import read_packing as read_spheres
+from asphalt_nscd.specimen.contents import DEPOSIT, SPECIMEN
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
+from asphalt_nscd.specimen.cutting import Cutting, bonded, specimen_of
 from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import (
-    DEPOSIT,
-    SPECIMEN,
-    Cutting,
-    Pouring,
-    Surfaces,
-    bonded,
-    pour_on,
-    specimen_of,
-    unrest,
-)
+from asphalt_nscd.specimen.preparation import Pouring, Surfaces, pour_on, unrest
 from asphalt_nscd.specimen.preparation import pour as pour_spheres
 from asphalt_nscd.specimen.trimming import Specimen as BondedSpheres
 

@@ -14,7 +14,8 @@ from asphalt_nscd.files.store import Record, save
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.stepping.break_modes import BONDS, StandBy
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
-from asphalt_nscd.specimen.preparation import Content, read_specimen
+from asphalt_nscd.specimen.contents import Content
+from asphalt_nscd.specimen.cutting import read_specimen
 from asphalt_nscd.specimen.system import HEADS, bending_system
 from asphalt_nscd.specimen.trimming import Specimen
 

@@ -13,7 +13,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Ranged, within
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.world import Surroundings, World, WorldBonds, WorldEnergies
-from asphalt_nscd.specimen.preparation import Content
+from asphalt_nscd.specimen.contents import Content
 from asphalt_nscd.specimen.system import bond_weight, inertia
 from asphalt_nscd.specimen.trimming import Specimen
 

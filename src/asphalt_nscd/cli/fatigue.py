@@ -56,7 +56,7 @@ def command(
     from asphalt_nscd.files.store import write_table
     from asphalt_nscd.nscd.bonds.fatigue import Jumps
     from asphalt_nscd.rheology.laws_io import read_bond_law
-    from asphalt_nscd.specimen.preparation import read_specimen
+    from asphalt_nscd.specimen.cutting import read_specimen
 
     given, law = read_specimen(specimen), FatigueLaw(**fatigue_law)
     if stepped["law"] is None:

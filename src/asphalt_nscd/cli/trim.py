@@ -7,7 +7,7 @@ import click
 
 from asphalt_nscd.cli import _options
 
-_CUTTING = "specimen.preparation.Cutting"
+_CUTTING = "specimen.cutting.Cutting"
 
 
 @click.command()
@@ -36,7 +36,7 @@ _CUTTING = "specimen.preparation.Cutting"
 def command(deposit: Path, geometry: Any, cutting: dict[str, Any], output: Path) -> None:
     """Cut the specimen from a deposit, turn it upright, shrink its spheres and bond them."""
     from asphalt_nscd.files.words import counted
-    from asphalt_nscd.specimen.preparation import Cutting, trim_deposit
+    from asphalt_nscd.specimen.cutting import Cutting, trim_deposit
 
     said = trim_deposit(deposit, geometry, Cutting(**cutting), output)
     click.echo(

@@ -15,7 +15,8 @@ from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 from asphalt_nscd.packings.spheres import Spheres
 from asphalt_nscd.packings.texts import read_text
 from asphalt_nscd.packings.vtk_files import ENDINGS, read_points
-from asphalt_nscd.specimen.preparation import TOUCHING, Content, layer_statistics
+from asphalt_nscd.specimen.contents import Content
+from asphalt_nscd.specimen.preparation import TOUCHING, layer_statistics
 
 NOTABLE, MOST = 0.01, 0.1  # overlap over the smaller radius: said, refused
 DIGITS = 1e-4  # of the smallest radius: what positions must resolve

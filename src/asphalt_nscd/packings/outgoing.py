@@ -15,7 +15,7 @@ from asphalt_nscd.files.store import Record, kind_of, load, write_table
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.nscd.bonds.strength import utilisations
 from asphalt_nscd.packings.vtk_files import require_vtk, write_poly_data, write_series
-from asphalt_nscd.specimen.preparation import DEPOSIT, SPECIMEN
+from asphalt_nscd.specimen.contents import DEPOSIT, SPECIMEN
 
 TEST, FALL = "test", "fall"
 FRAMES = "frames/"  # what a test keeps of all spheres and bonds, on request

@@ -14,7 +14,7 @@ from asphalt_nscd.files.store import read_json
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.rheology.laws_io import read_law
-from asphalt_nscd.specimen.preparation import read_specimen
+from asphalt_nscd.specimen.cutting import read_specimen
 
 WIRE: dict[str, Any] = {"color": style.INK, "lw": 0.9, "solid_capstyle": "round", "clip_on": False}
 MAXWELL, KELVIN, END = (0.0, 1.4, 2.8), 4.6, 5.0  # places along the element

@@ -16,7 +16,7 @@ from asphalt_nscd.specimen.bond_readings import (
     ratio_without_moments,
     with_mean_radius,
 )
-from asphalt_nscd.specimen.preparation import read_specimen
+from asphalt_nscd.specimen.cutting import read_specimen
 from asphalt_nscd.specimen.prism import static_ratio
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen, trim

@@ -10,7 +10,7 @@ import pandas as pd
 from asphalt_nscd.bending.fatigue import largest_strain_at
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.reporting.tables import fatigue
-from asphalt_nscd.specimen.preparation import read_specimen
+from asphalt_nscd.specimen.cutting import read_specimen
 
 
 def make(course: list[Path], profile: list[Path], check: list[Path], specimen: list[Path]) -> pd.DataFrame:
