@@ -4,19 +4,25 @@ import errno
 import os
 import pickle
 import re
+import resource
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import click
+import numpy as np
+import pandas as pd
 import pytest
 from click.testing import CliRunner
 from forks import forked
+from matplotlib.figure import Figure
 
 from asphalt_nscd import cli
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.store import save
+from asphalt_nscd.files.store import save, write_table
+from asphalt_nscd.reporting.figures.save import save_figure
 
 
 def run(*arguments, cwd=".", env=os.environ):
@@ -144,27 +150,23 @@ def test_table_or_figure_that_does_not_exist_and_data_without_a_kind():
     assert "'a.h5' is not of the form kind=path" in done.stderr
 
 
-def write_large(path, kind):
-    """A step that writes a megabyte where files may have ten kilobytes."""
-    script = (
-        "import resource, sys, numpy, pandas; from asphalt_nscd import cli; from asphalt_nscd.files import store\n"
-        "from asphalt_nscd.reporting.figures.save import save_figure\n"
-        "def drawing():\n"
-        "    from matplotlib.figure import Figure\n"
-        "    (figure := Figure()).subplots().scatter(*numpy.random.default_rng(1).random((2, 5000)))\n"
-        "    return figure\n"
-        "steps = {'h5': lambda p: store.save(p, 'test', {f'x{n}': numpy.arange(300) for n in range(9)}, {}),\n"
-        "         'pdf': lambda p: save_figure(drawing(), p.removesuffix('.pdf')),\n"
-        "         'csv': lambda p: store.write_table(p, pandas.DataFrame({'x': range(100000)}))}\n"
-        "resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))\n"  # matplotlib has kept its fonts by now
-        f"sys.exit(cli._status(lambda: steps[{kind!r}]({str(path)!r})))"
-    )
-    return subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+def write_large():
+    """A step that writes a megabyte where files may have ten kilobytes; in a process of its own."""
+    path = Path(sys.argv[1])
+    random = np.random.default_rng(1).random((2, 5000))
+    (figure := Figure()).subplots().scatter(*random)
+    steps = {
+        ".h5": lambda: save(path, "test", {f"x{n}": np.arange(300) for n in range(9)}, {}),
+        ".pdf": lambda: save_figure(figure, path.with_suffix("")),
+        ".csv": lambda: write_table(path, pd.DataFrame({"x": range(100000)})),
+    }
+    resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))  # matplotlib has kept its fonts by now
+    sys.exit(cli._status(steps[path.suffix]))
 
 
 @pytest.mark.parametrize("kind", ["h5", "csv", "pdf"])
 def test_file_that_cannot_be_written_in_full_is_not_left(tmp_path, kind):
-    done = write_large(tmp_path / f"out.{kind}", kind)
+    done = forked(f"{__name__}:write_large", [str(tmp_path / f"out.{kind}")])
     assert done.returncode == 2, done.stderr
     assert done.stderr.startswith(f"error: {tmp_path}/out.{kind}: ") and done.stderr.count("\n") == 1
     assert "file too large" in done.stderr

@@ -66,7 +66,7 @@ def test_naive_twin(restitution, recovery_speed, allowed_overlap, penetration, l
     position, velocity, impulses, points = pile.position.copy(), pile.velocity.copy(), {}, pile.plane_point
     velocity[radius.size :, :3] = plane_velocity
     touched, most_slabs = 0, 0
-    for _ in range(25):
+    for _ in range(16):
         pile.advance(settings, plane_velocity)
         slabs = slab_numbers(pile)
         most_slabs = max(most_slabs, *slabs.values())
