@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import ladder, scatter, start, with_discrepancy
+from asphalt_nscd.diagnosis import scatter, start
 from asphalt_nscd.diagnosis.bases import BurgersAtEach
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.diagnose import diagnose
@@ -206,17 +206,3 @@ def test_an_error_of_a_known_shape_puts_its_look_alike_in_doubt(name, wrong, rea
 @pytest.mark.parametrize("effect,name", [(late, "channel_delay"), (turned, "phase_offset")])
 def test_the_cause_itself_is_not_taken_for_such_an_error(effect, name):
     assert doubts_of(table(effect), name) == {}
-
-
-def test_a_name_less_likely_than_not_is_withdrawn(monkeypatch):
-    """A doubt halves the odds of a delay that the model gives 0.6: beside it all else is as without a name."""
-    observed = table(late)
-    monkeypatch.setattr(with_discrepancy, "shares", lambda odds: np.full(len(odds), 0.6))
-    named = diagnose(observed, draws=500)
-    assert [rung.probability for rung in named.ladder.rungs] == [0.6]
-    doubt = {named.ladder.rungs[0].candidate.key: ["Why"]}
-    monkeypatch.setattr(ladder, "find_doubts", lambda plain, fitted, named, sizes: doubt if named else {})
-    found = diagnose(observed, draws=500)
-    assert not found.ladder.rungs and not found.doubts and found.verdict == "unexplained_structure"
-    assert [rung.candidate.key for rung in found.ladder.withdrawn] == list(doubt)
-    assert doubt.keys() <= found.ladder.limits.keys()

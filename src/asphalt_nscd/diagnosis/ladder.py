@@ -14,11 +14,10 @@ from asphalt_nscd.diagnosis import chance, confined, with_discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
-from asphalt_nscd.diagnosis.criteria import CONFIDENCE, NOTICED, POSSIBLE
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE, NOTICED
 from asphalt_nscd.diagnosis.discrepancy import Process
 from asphalt_nscd.diagnosis.doubts import Key, find_doubts
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
-from asphalt_nscd.diagnosis.probability import stated
 from asphalt_nscd.diagnosis.written import widening
 
 ONE_SIGN = frozenset(cause.name for cause in CATALOGUE if cause.parameters[0].low >= 0.0)
@@ -76,7 +75,7 @@ class Ladder:
     rungs : list of Rung
         Causes, in the order taken.
     withdrawn : list of Rung
-        Causes whose interval holds zero, or that are not as likely as not.
+        Causes whose interval holds zero.
     remaining : Remaining, optional
         What no cause explains.
     limits : dict of tuple to float
@@ -209,12 +208,14 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
     found, end, survey = with_discrepancy.climb(begun, catalogue, draws, random)
     _take(ladder, begun, found, end)
     ladder.estimates = with_discrepancy.estimates(end, survey)
-    while (one := ladder.unsure or _unlikely(ladder, end)) is not None:
+    while (one := ladder.unsure) is not None:
         ladder.withdrawn += [rung for rung in ladder.rungs if rung.candidate.key == one.key]
         found = [other for other in found if other.candidate.key != one.key]
         found, end, survey = with_discrepancy.again(begun, found, catalogue)
         _take(ladder, begun, found, end)
         ladder.estimates = with_discrepancy.estimates(end, survey)
+    named = [rung.candidate for rung in ladder.rungs]
+    ladder.doubts = find_doubts(end.plain, end.fitted, named, np.sqrt(end.variances).tolist())
     ladder.hangs_on = {c.key: with_discrepancy.hangs_on(end, c) for c in end.fitted.active}
     ladder.limits, ladder.unseen, ladder.alike = with_discrepancy.detection_limits(end, survey, draws, random)
     ladder.odd, ladder.torn = confined.find(end, survey)
@@ -222,15 +223,6 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
     ladder.discrepancy = dict(zip(end.model.processes.described, sizes.tolist(), strict=True))
     ladder.remaining = _remaining(end.plain, end.linear, draws, random)
     return ladder
-
-
-def _unlikely(ladder: Ladder, end: with_discrepancy.State) -> Candidate | None:
-    """The name that is least likely, as it is stated; None where each is as likely as not."""
-    named = [rung.candidate for rung in ladder.rungs]
-    ladder.doubts = find_doubts(end.plain, end.fitted, named, np.sqrt(end.variances).tolist())
-    told = [(stated(one.probability, False, one.candidate.key in ladder.doubts), one) for one in ladder.rungs]
-    least, rung = min(told, key=lambda pair: pair[0], default=(1.0, None))
-    return rung.candidate if rung is not None and least < POSSIBLE else None
 
 
 def _take(
