@@ -88,12 +88,12 @@ def test_options_of_the_tutorial_exist(workspace):
 
 
 def test_the_folder_of_exports_gets_the_answer_of_the_page(workspace):
-    """The output in the tutorial is what the command prints, and its page opens with it."""
+    """The output in the tutorial is how the command begins, and its page opens with it."""
     (command,) = [command for command in COMMANDS if command.startswith("asphalt-nscd diagnose")]
     done = new_study(workspace, command)
     assert done.returncode == 0 and not done.stderr, done.stderr
     said = next(block for kind, block in BLOCKS if not kind and block.startswith("Tests "))
-    assert done.stdout == said
+    assert done.stdout.startswith(said.removesuffix("...\n")) and said.endswith("...\n")
     html = (workspace.folder / "diagnosis/diagnosis.html").read_text(encoding="utf-8")
     assert "71 of 72 tests can be used after correction, 1 cannot." in html
     assert "Channel delay in all tests, 0.788 ± 0.024 ms." in html
