@@ -72,3 +72,10 @@ def test_phases_of_ncat_differ_between_mixes():
     table = published("attack/machine_measured").set_index("where").value
     mixes = table[table.index.str.contains("_")]
     assert len(mixes) == 9 and f"({mixes.min():.1f} to {mixes.max():.1f} degrees)" in page("machine")
+
+
+def test_wrong_recipes_under_the_other_truth():
+    table = published("forecast/wrong_recipes")
+    table = table[(table.limits == 3) & (table.densities == "yes") & (table.truth == "differential")]
+    least, most = 100 * table.named.min(), 100 * table.named.max()
+    assert f"differential scheme as truth {least:.0f} to {most:.0f} % are named" in page("forecast")

@@ -219,7 +219,21 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         Notes(["room"], "alive"),
     ],
     "fatigue_summary": [
-        Layout({"what": "what", "here": "here", "beside": "beside", "beside_is": "which is"}, figures=3)
+        Layout(
+            {"what": "what", "here": "here", "beside": "beside", "beside_is": "which is"},
+            figures=3,
+            shorter={
+                "strain that a bond endures a million times, 1e-6": "`endured` of a bond, 1e-6",
+                "epsilon6 of the samples, 1e-6": "epsilon6, 1e-6",
+                "standard deviation of log N between samples": "standard deviation of log N",
+                "height of most damage over h, lowest sample": "height of most damage over h, lowest",
+                "height of most damage over h, highest sample": "the same, highest",
+                "set on what is published": "set on the published mix",
+                "largest strain of bending theory": "by bending theory",
+                "cycles of a small sample at a large strain": "cycles of a small sample",
+                "the same by jumps ten times as fine": "the same, finer jumps",
+            },
+        )
     ],
     "rigs": [
         Layout(
@@ -257,6 +271,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "cpu_s": "CPU time, s",
             },
             where={"topic": ("pouring", "cycle of 10 Hz")},
+            shorter={"cycle of 10 Hz": "a cycle", "reduced, 8 Kelvin elements": "reduced, 8 Kelvin"},
         ),
     ],
     "bond_readings": [
@@ -320,14 +335,13 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
     "wrong_recipes": [
         Layout(
             {
-                "truth": "truth",
                 "wrong": "input",
                 "size": "off by",
                 "named": "named",
                 "among_several": "in a group",
                 "named_wrongly": "wrong",
             },
-            where={"limits": (3,), "densities": ("yes",)},
+            where={"limits": (3,), "densities": ("yes",), "truth": ("hirsch",)},
         )
     ],
     "film_cells": [
