@@ -19,14 +19,24 @@ def run(program: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, "-c", WITHOUT + program], cwd=ROOT, capture_output=True, text=True)
 
 
-def test_a_table_is_read_fitted_and_diagnosed():
-    done = run(
+@pytest.fixture(scope="module")
+def diagnosed() -> subprocess.CompletedProcess[str]:
+    return run(
         "import asphalt_nscd as an\n"
         "table = an.read('data/ncat/N1-1_RH.csv', measured_in='tension-compression')\n"
         "print(an.fit(table).kind)\n"
-        "print(an.diagnose(table, measured_in='tension-compression', draws=an.Draws(500)))\n"
+        "made = an.diagnose(table, measured_in='tension-compression', draws=an.Draws(500))\n"
+        "print(made)\n"
+        "made.plot_black()\n"
     )
-    assert done.stdout.startswith("2s2p1d\nTests "), done.stderr
+
+
+def test_a_table_is_read_fitted_and_diagnosed(diagnosed):
+    assert diagnosed.stdout.startswith("2s2p1d\nTests "), diagnosed.stderr
+
+
+def test_a_figure_names_its_extra(diagnosed):
+    assert "ModuleNotFoundError" in diagnosed.stderr and "asphalt-nscd[figures]" in diagnosed.stderr
 
 
 def test_a_step_of_the_simulation_names_the_extra():
@@ -57,12 +67,3 @@ def test_mixes_are_compared_without_matplotlib(tmp_path):
     options = "--measured-in", "tension-compression", "--draws", "500", "--output", str(tmp_path)
     done = run(f"from asphalt_nscd.cli import main\nmain(['compare', *{mixes}, *{options}])")
     assert done.returncode == 0, done.stderr
-
-
-def test_a_figure_names_its_extra():
-    done = run(
-        "import asphalt_nscd as an\n"
-        "made = an.diagnose('data/ncat/N1-1_RH.csv', measured_in='tension-compression', draws=an.Draws(500))\n"
-        "made.plot_black()\n"
-    )
-    assert "ModuleNotFoundError" in done.stderr and "asphalt-nscd[figures]" in done.stderr

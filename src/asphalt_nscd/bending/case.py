@@ -137,6 +137,7 @@ class Numerics(Ranged):
         int
             Steps of `time_step`.
         """
+        # infinity cannot be rounded; 1e18 steps are refused in a sentence
         return round(min(case.cycles / case.frequency / self.time_step, 1e18))
 
     def times(self, case: LoadCase) -> Vector:
@@ -170,6 +171,7 @@ class Numerics(Ranged):
             Places in `times`.
         """
         times = self.times(case)
+        # the instant a whole cycle before the end is the end again: left out, however it rounds
         last = np.flatnonzero(times > times[-1] - (1.0 - 1e-9) / case.frequency)
         return np.unique(last[-1] - np.round(np.arange(count) * last.size / max(count, 1)).astype(int))
 

@@ -47,7 +47,9 @@ import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled
 
-RINGS = 24  # of a facet
+RINGS = (
+    24  # of a facet: 1 % of the stiffness at a gap of a thousandth of the radius, a tenth of that at a tenth
+)
 SPOT = 3.3  # depth of grain under a spot over sqrt(r^2 + 3/4 a h) and 1 - nu^2, by finite elements
 
 

@@ -265,6 +265,7 @@ def physics_of(recipe: Recipe, settings: Settings, level: Level, last: bool) -> 
     touching = settings.touching and level.touching
     voids = recipe.voids if settings.voids and last else 0.0
     matrix = 1.0 - level.fraction * (1.0 - recipe.voids)  # and air, of the volume of the mix
+    # loosening is a linear strain: a third of the volume by which air sets the stones apart
     return Physics(
         film=settings.film_factor * film_thickness(recipe) if touching else None,
         loosening=max(0.0, voids - settings.touching_voids) / 3.0 if voids else 0.0,

@@ -293,7 +293,7 @@ def best_map(pairs: list[Pair]) -> np.ndarray:
     relative = basis / np.abs(measured)[:, None]
     unit = measured / np.abs(measured)
     start = nnls(np.vstack([relative.real, relative.imag]), np.concatenate([unit.real, unit.imag]))[0]
-    kept = start > 0.0
+    kept = start > 0.0  # weights that are zero have no logarithm to be refined
 
     def off(logs: np.ndarray) -> np.ndarray:
         found = np.log(basis[:, kept] @ np.exp(logs) / measured)

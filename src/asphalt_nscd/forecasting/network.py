@@ -19,7 +19,7 @@ from asphalt_nscd.specimen.prism import cut_prism, pulled_system, stretched
 from asphalt_nscd.specimen.trimming import Specimen, layer_height
 
 SKIN = 0.6  # largest grains, cut off from each side of the layer
-POINTS = 200_000  # thrown into the prism to find its solid fraction
+POINTS = 200_000  # thrown into the prism to find its solid fraction, to 0.1 % of the volume
 CONTACT = 0.01  # of the smaller radius: a smaller gap in the poured layer is a contact
 THINNEST = 1e-5  # film over the distance of the centres; a sphere cut by a plate has none
 ABSENT = 1e-6  # of its stiffness: a film that is a void

@@ -13,7 +13,7 @@ from scipy.optimize import nnls
 
 RATIOS = np.geomspace(3e-7, 1.0, 12)
 """Modulus of the matrix over that of the grains, at which a network is solved."""
-POLES = np.geomspace(1e-8, 10.0, 73)
+POLES = np.geomspace(1e-8, 10.0, 73)  # eight a decade, beyond the ratios on both sides
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,7 @@ def fit_map(values: np.ndarray, ratios: np.ndarray = RATIOS) -> StaticMap:
     x = ratios[:, None]
     basis = np.hstack([np.ones_like(x), x, x / (1.0 + x / POLES)]) / values[:, None]
     size = np.linalg.norm(basis, axis=0)
+    # weights that are not negative keep F passive at complex moduli, at which nothing was solved
     found = nnls(basis / size, np.ones(ratios.size), maxiter=100 * size.size)[0] / size
     error = float(np.abs(basis @ found - 1.0).max())
     kept = found[2:] > 0.0

@@ -21,7 +21,7 @@ from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.spectrum import parameters
 
 SEED = 20200117  # of the random starts; any value, fixed so that a fit can be repeated
-STARTS = 24
+STARTS = 24  # random ones: of a Burgers law one in five ends in another valley
 
 Law = TypeVar("Law")
 Vector = NDArray[np.float64]
@@ -106,6 +106,7 @@ class Fit(Generic[Law]):
             Lower and upper end, in the unit of the parameter.
         """
         value, error = parameters(self.law)[name], (self.std_error or {})[name]
+        # on the logarithm, in which the law was fitted: the lower end stays above zero
         factor = float(np.exp(stdtrit(self.freedom, 0.5 + 0.5 * level) * error / value))
         return value / factor, value * factor
 

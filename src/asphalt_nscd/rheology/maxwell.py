@@ -191,6 +191,7 @@ def _zero_after(function: Callable[[float], float], start: float, end: float) ->
         while function(low) > 0.0:
             low *= 1e-3
     else:
+        # a zero may lie as close to its pole as two numbers can
         gap = 1e-3 * ((end - start) if np.isfinite(end) else start)
         while gap > 1e-15 * start and function(start + gap) > 0.0:
             gap *= 0.1
@@ -204,4 +205,5 @@ def _zero_after(function: Callable[[float], float], start: float, end: float) ->
         high = 2.0 * low
         while function(high) < 0.0:
             high *= 2.0
+    # rates lie decades apart: only the relative tolerance says anything
     return float(brentq(function, low, high, xtol=1e-300, rtol=1e-14))

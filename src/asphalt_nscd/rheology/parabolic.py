@@ -185,6 +185,7 @@ def _refusal(values: Mapping[str, float]) -> str:
 def _log_slopes(law: HuetSayegh | TwoS2P1D, omega: ArrayLike, temperature: ArrayLike) -> NDArray:
     """Of the law of three terms in series; without a dashpot its term and its column are absent."""
     omega = np.asarray(omega, dtype=float)
+    # powers of i w tau as exponentials: its logarithm is a factor of the derivatives by k and h
     log_reduced = np.log(omega * law.tau * law.shift.factor(temperature)) + 0.5j * np.pi
     slow, fast = law.delta * np.exp(-law.k * log_reduced), np.exp(-law.h * log_reduced)
     flow = np.exp(-log_reduced) / law.beta if isinstance(law, TwoS2P1D) else np.zeros(omega.shape, complex)

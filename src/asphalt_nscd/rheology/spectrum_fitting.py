@@ -16,6 +16,7 @@ from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameter_names, para
 from asphalt_nscd.rheology.spectrum_coordinates import Coordinates
 
 Vector = NDArray[np.float64]
+# Tests show how far isotherms are apart: one distance for each constant of the shift, C1 and C2 or the energy.
 LEAST_TEMPERATURES = {"wlf": 3, "arrhenius": 2}
 NO_EFFECT = 1e-5  # of a parameter on the residuals, relative to that of the strongest one
 LEAST_STARTS = 4
@@ -200,6 +201,7 @@ class _Problem:
         freedom = max(self.freedom(solution), 1.0)
         if known:
             return max(1.0, float(np.sqrt(squares / freedom)))
+        # a short table is followed almost exactly; a scatter of its residuals alone would drown the prior
         guess, worth = SCATTER
         return float(np.sqrt((squares + worth * guess**2) / (freedom + worth)))
 
@@ -224,6 +226,7 @@ class _Problem:
             return self.result(self.solve(self.best(self.starts()).x, PRECISE), known)
         self.scatter = 1.0 if known else COARSE
         starts = self.starts()
+        # how much the prior counts depends on the scatter: starts are compared at one that a fit has shown
         first = self.settle(self.solve(starts[0]), known)
         last = self.settle(self.best([first.x, *starts]), known)
         return self.result(self.solve(last.x, PRECISE), known)

@@ -11,7 +11,7 @@ from asphalt_nscd.files.ranges import Ranged, within
 from asphalt_nscd.specimen.granular_bed import WALL, GranularBed, PouringNumerics
 
 REST_SPEED = 1e-3  # m/s, root mean square of all spheres
-REST_TOLERANCE = 1e-5  # of the sweeps that bring a layer into equilibrium
+REST_TOLERANCE = 1e-5  # of the sweeps that bring a layer into equilibrium, which is judged to UNBALANCED
 REST_SWEEPS = 300
 UNBALANCED = 5e-4  # half of what the table of the preparation asks for
 RECORD = 5e-3  # s, between two points of the curve of the height
@@ -120,6 +120,7 @@ def vibrate(
     The lower half of the stroke would pass through rigid grains once they lie dense. So the wall is a light
     plate between rails: its drive pushes with at most `pressure` [Pa].
     """
+    # only what falls may overlap more for a moment: what the wall presses together stays in the layer
     numerics = replace(
         numerics, falling_sweeps=numerics.most_sweeps, falling_penetration=numerics.penetration
     )
@@ -131,6 +132,7 @@ def vibrate(
     mass = WALL_MASS * bed.weight() / float(np.linalg.norm(bed.gravity))
     bed.hang_wall(bed.top() + vibration.stroke / 2.0, mass)
     for k in range(steps):
+        # 1e-9: the product of a whole period may round to less than a whole number
         if int(k * dt * vibration.frequency + 1e-9) == len(history.touched):  # a period begins
             level = bed.top()
             history.touched.append(0)

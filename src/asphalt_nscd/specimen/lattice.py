@@ -41,6 +41,7 @@ def random_lattice(
     """
     diameters, counts = np.asarray(diameters, float), np.asarray(counts, int)
     size = np.asarray(box, float)
+    # a box as wide as a whole number of grains has room for them, however the quotient rounds
     shape = np.floor(size / diameters.max() + 1e-9).astype(int)
     if (shape < 1).any():
         raise InputError(
@@ -69,6 +70,7 @@ def random_lattice(
         octant = octants[np.arange(grouped.size) % room, np.arange(grouped.size) // room]
         corner = np.stack([octant % 2, octant // 2 % 2, octant // 4], axis=1)
         position[grouped] = _place(home, shape, cell, radii[grouped], 2, corner, rng)
+    # the rain is searched from the ground up (`GranularBed.let_fall`)
     by_height = np.argsort(position[:, 2], kind="stable")
     return position[by_height], radii[by_height]
 

@@ -32,7 +32,7 @@ from asphalt_nscd.specimen.trimming import layer_height
 
 LARGEST_BOX = 10.0  # m
 DENSITY = 2600.0  # kg/m3 while pouring, section 3.2.1
-LONGEST_POURING = 3.0  # s
+LONGEST_POURING = 3.0  # s; the fall from 1.6 m takes 0.6
 LONGEST_REST = 0.3  # s
 OUT_OF_BALANCE = 0.01  # of the weight, and of the mean contact force: a layer at rest has a twentieth of it
 DEEP = 0.05  # of the smallest radius: an overlap that a layer at rest does not have

@@ -110,12 +110,14 @@ def trim(
             f"({1e3 * geometry.width:.1f} mm); pour more spheres."
         )
     across, along = position[:, 2] - height / 2.0, position[:, 1] - geometry.thickness / 2.0
+    # the layer was poured lying: its length is the height of the specimen, its height the width
     upright = np.stack([across, along, position[:, 0]], axis=1)
     normal, offset = geometry.faces()
     inside = (upright @ normal.T <= offset).all(axis=1)
     upright = upright[inside]
     shrunk = radius[inside] * (1.0 - volume_reduction) ** (1.0 / 3.0)
     candidates = shrunk.size
+    # a grain that falls out takes bonds from its neighbours, and in facets gives them its cell: until none does
     while True:
         if not shrunk.size:
             raise InputError(
