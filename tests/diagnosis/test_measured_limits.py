@@ -9,6 +9,7 @@ from test_diagnose import table
 
 from asphalt_nscd.diagnosis import measured_limits
 from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.report import physical_limits
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +19,7 @@ def empty():
 
 def test_both_signs_and_three_sizes_of_each_limit_are_put_in(empty):
     hidden = [one for one in measured_limits.plan(empty) if one.candidate.key == ("channel_delay", None)]
-    limit = empty.ladder.limits["channel_delay", None]
+    limit = physical_limits(empty)["channel_delay", None]
     assert sorted(one.times for one in hidden) == [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]
     for one in hidden:
         assert one.candidate.values[0] == pytest.approx(one.times * limit)
