@@ -79,3 +79,24 @@ def test_wrong_recipes_under_the_other_truth():
     table = table[(table.limits == 3) & (table.densities == "yes") & (table.truth == "differential")]
     least, most = 100 * table.named.min(), 100 * table.named.max()
     assert f"differential scheme as truth {least:.0f} to {most:.0f} % are named" in page("forecast")
+
+
+def test_how_drawn_tables_and_calls_end():
+    wild = published("fuzz/wild").set_index("what")
+    diagnosed, refused, traceback, warned = wild.hits[
+        ["diagnosed", "refused", "traceback", "numerical warning"]
+    ]
+    told = f"{diagnosed:.0f} were diagnosed and {refused:.0f} refused, none ended in a traceback, {warned:.0f} gave a"
+    assert traceback == 0 and diagnosed + refused == wild.n["diagnosed"] and told in page("trust")
+    calls = published("calls/calls").set_index("function").loc["all"]
+    assert calls.traceback == calls.no_end == 0
+    assert (
+        f"Of {calls.calls:.0f} calls {calls.result:.0f} ended in a result, all others in one sentence"
+        in page("core")
+    )
+
+
+def test_no_reading_of_the_paper_is_possible_at_its_friction():
+    table = published("paper/bond_readings")
+    at_it = table[table.friction == 0.2]
+    assert not at_it.possible.any() and table.possible.any() and "None could be one" in page("results")

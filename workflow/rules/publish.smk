@@ -121,9 +121,9 @@ rule publish_fuzz:
         files=["results/fuzz/wild_failures.csv", "results/fuzz/provenance.json"],
         code=code("publish"),
     message:
-        "Copy how wild tables ended, and fill the table into docs"
+        "Copy how wild tables ended"
     shell:
-        "asphalt-nscd publish {input.table} {input.files} --root results/fuzz --output results/published/fuzz --document docs --block wild={input.table}"
+        "asphalt-nscd publish {input.table} {input.files} --root results/fuzz --output results/published/fuzz"
 
 
 rule publish_calls:
@@ -134,9 +134,9 @@ rule publish_calls:
         files=["results/calls/call_failures.csv", "results/calls/calls_provenance.json"],
         code=code("publish"),
     message:
-        "Copy how drawn calls ended, and fill the table into docs"
+        "Copy how drawn calls ended"
     shell:
-        "asphalt-nscd publish {input.table} {input.files} --root results/calls --output results/published/calls --document docs --block calls={input.table}"
+        "asphalt-nscd publish {input.table} {input.files} --root results/calls --output results/published/calls"
 
 
 rule publish_mutants:

@@ -112,26 +112,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         Rungs("E", "Modulus |E\\*|, mean relative error in percent:"),
         Rungs("phase", "Phase angle, mean relative error in percent:"),
     ],
-    "calls": [
-        Layout(
-            {"function": "function"}
-            | {
-                name: name.replace("_", " ")
-                for name in ("calls", "result", "sentence", "traceback", "no_end")
-            },
-            where={"function": ("all",)},
-        )
-    ],
-    "wild": [
-        Layout(
-            {
-                "what": "what",
-                "n": "tables",
-                "hits": "ended so",
-            },
-            where={"what": ("diagnosed", "refused", "traceback", "numerical warning")},
-        )
-    ],
     "samples": [
         Layout(
             {
@@ -278,10 +258,9 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
         Layout(
             {
                 "reading": "reading",
-                "friction": "friction",
                 "expected": "expected",
-                "possible": "possible",
-            }
+            },
+            where={"friction": (0.2,)},
         )
     ],
     "reconstructions": [
