@@ -84,7 +84,6 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
         ("attack", "attack/summary"),
         ("blind", "blind/summary"),
         ("blind_real", "blind/real_summary"),
-        ("voids", "forecast/voids"),
         ("wrong_recipes", "forecast/wrong_recipes"),
         ("benchmark", "benchmark/beside"),
         ("growth", "benchmark/growth"),

@@ -100,3 +100,16 @@ def test_no_reading_of_the_paper_is_possible_at_its_friction():
     table = published("paper/bond_readings")
     at_it = table[table.friction == 0.2]
     assert not at_it.possible.any() and table.possible.any() and "None could be one" in page("results")
+
+
+def test_what_a_percent_of_air_costs():
+    mean = published("forecast/voids").iloc[-1]
+    told = f"costs {-mean.forecast_percent:.1f} % of |E\\*| in the forecast and {-mean.measured_percent:.1f} % in"
+    assert told in page("forecast")
+    assert f"with a standard error of {mean.standard_error_percent:.1f} %" in page("forecast")
+
+
+def test_a_bond_at_mid_gap_is_too_soft():
+    table = published("mapping/mapping")
+    there = table[(table.spheres == 14160) & (table["mapping"] == "facets at mid-gap")].E_over_law
+    assert f"at mid-gap |E\\*| would be {100 * (1 - there.mean()):.0f} % too low" in page("mapping")

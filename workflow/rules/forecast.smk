@@ -198,4 +198,4 @@ rule publish_forecast:
     message:
         "Copy the table of forecasts and its figure, and fill the table of docs/forecast.md"
     shell:
-        "asphalt-nscd publish {input.overall} {input.errors} {input.bands} {input.voids} {input.paper} {input.wrong} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block voids={input.voids} --block wrong_recipes={input.wrong}"
+        "asphalt-nscd publish {input.overall} {input.errors} {input.bands} {input.voids} {input.paper} {input.wrong} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block wrong_recipes={input.wrong}"
