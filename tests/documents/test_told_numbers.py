@@ -113,3 +113,8 @@ def test_a_bond_at_mid_gap_is_too_soft():
     table = published("mapping/mapping")
     there = table[(table.spheres == 14160) & (table["mapping"] == "facets at mid-gap")].E_over_law
     assert f"at mid-gap |E\\*| would be {100 * (1 - there.mean()):.0f} % too low" in page("mapping")
+
+
+def test_no_row_of_the_verification_failed():
+    assert (published("verification/verification").verdict == "passed").all()
+    assert "Rows that passed; none failed:" in page("core")

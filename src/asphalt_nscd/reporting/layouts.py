@@ -107,6 +107,7 @@ _CRITERIA = {
     "met": "met",
 }
 BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
+    "verification": [Layout({name: name for name in ("theme", "passed", "largest_error_over_tolerance")})],
     "faults": [Layout({name: name for name in ("kind", "faults", "passed")})],
     "ladder": [
         Rungs("E", "Modulus |E\\*|, mean relative error in percent:"),
