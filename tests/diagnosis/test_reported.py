@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 import asphalt_nscd as an
-from asphalt_nscd.diagnosis.reported import mix_modulus
+from asphalt_nscd.diagnosis.reported import mix_modulus, standard_errors
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 
@@ -32,6 +32,14 @@ def diagnosis():
     return an.diagnose(
         pd.DataFrame(rows, columns=names), measured_in="tension-compression", draws=an.Draws(500)
     )
+
+
+def test_a_covariance_that_rounding_leaves_indefinite_has_real_errors():
+    stiff, free = np.array([1.0, 1e-9]), np.array([0.0, 1.0])
+    covariance = np.diag([-1e-12, 1e12])  # the first: zero, rounded
+    assert standard_errors(np.stack([stiff, free]), covariance) == pytest.approx([1e-3, 1e6], rel=1e-12)
+    whole = np.array([[4.0, 1.0], [1.0, 9.0]])
+    assert standard_errors(np.array([[1.0, 1.0]]), whole) == pytest.approx([15.0**0.5], rel=1e-14)
 
 
 def test_the_mix_at_15_degrees_and_10_hertz(diagnosis):

@@ -73,7 +73,6 @@ def mix_modulus(
     modulus, slope = base.modulus(law, 2.0 * np.pi * frequency, temperature)
     along = slope / modulus[:, None]
     covariance = fitted.covariance[: law.size, : law.size]
-    variance = [np.einsum("ij,jk,ik->i", part, covariance, part) for part in (along.real, along.imag)]
     within = (temperature >= observed.temperature.min() - NEAR) & (
         temperature <= observed.temperature.max() + NEAR
     )
@@ -84,10 +83,17 @@ def mix_modulus(
         temperature,
         frequency,
         np.log(np.abs(modulus)) + 1j * np.angle(modulus),
-        np.sqrt(variance[0]) + 1j * np.sqrt(variance[1]),
+        standard_errors(along.real, covariance) + 1j * standard_errors(along.imag, covariance),
         within,
         freedom_of(diagnosis),
     )
+
+
+def standard_errors(slope: NDArray[np.float64], covariance: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Standard errors (n,) of quantities with slopes (n, p) along p parameters of a covariance (p, p)."""
+    values, vectors = np.linalg.eigh(covariance)
+    # Where a parameter is all but free, rounding makes the least eigenvalues negative, and would a variance.
+    return np.linalg.norm(slope @ (vectors * np.sqrt(np.maximum(values, 0.0))), axis=1)
 
 
 def freedom_of(diagnosis: Diagnosis) -> tuple[float, float]:
