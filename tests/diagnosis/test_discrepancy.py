@@ -10,7 +10,7 @@ from scipy.optimize import approx_fprime
 
 from asphalt_nscd.diagnosis import discrepancy
 from asphalt_nscd.diagnosis.discrepancy import Direction, Process, Processes, Reduced
-from asphalt_nscd.diagnosis.joint import Noise
+from asphalt_nscd.diagnosis.noise import Noise
 
 SIZE, PARTS, COLUMNS = 20, 4, 12
 

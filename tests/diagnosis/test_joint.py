@@ -10,7 +10,8 @@ from scipy.optimize import minimize
 
 from asphalt_nscd.diagnosis import scatter, start
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.joint import Candidate, Joint, Noise
+from asphalt_nscd.diagnosis.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.noise import Noise
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF

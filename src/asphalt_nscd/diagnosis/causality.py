@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import ndtri
 
-from asphalt_nscd.diagnosis.joint import Fitted, Noise
+from asphalt_nscd.diagnosis.joint import Fitted
+from asphalt_nscd.diagnosis.noise import Noise
 from asphalt_nscd.diagnosis.observations import Observations
 
 SHOWN = 3  # of the others

@@ -27,7 +27,8 @@ from asphalt_nscd.diagnosis.criteria import (
     TORN,
 )
 from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Reduced
-from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Noise
+from asphalt_nscd.diagnosis.joint import Candidate, Fitted
+from asphalt_nscd.diagnosis.noise import Noise
 from asphalt_nscd.diagnosis.probability import log_odds, odds_of, shares
 from asphalt_nscd.diagnosis.with_discrepancy import State, Survey
 from asphalt_nscd.diagnosis.written import interval_95, with_interval

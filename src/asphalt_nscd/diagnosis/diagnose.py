@@ -14,9 +14,10 @@ from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
 from asphalt_nscd.diagnosis.doubts import Key
-from asphalt_nscd.diagnosis.joint import Fitted, Joint, Noise
+from asphalt_nscd.diagnosis.joint import Fitted, Joint
 from asphalt_nscd.diagnosis.laboratory import Laboratory, with_laboratory
 from asphalt_nscd.diagnosis.ladder import Ladder, Rung, climb
+from asphalt_nscd.diagnosis.noise import Noise
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.probability import stated
 from asphalt_nscd.diagnosis.suspects import Suspect

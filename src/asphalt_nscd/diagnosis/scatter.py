@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtrc, fdtrc
 
-from asphalt_nscd.diagnosis.joint import Noise
+from asphalt_nscd.diagnosis.noise import Noise
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from asphalt_nscd.diagnosis.bases import CLEAR, BurgersAtEach, FlexibleSpectrum
-from asphalt_nscd.diagnosis.joint import CONVERGED, Candidate, Fitted, Joint, Noise
+from asphalt_nscd.diagnosis.joint import CONVERGED, Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.noise import Noise
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.information import Tested
-from asphalt_nscd.diagnosis.joint import Noise
+from asphalt_nscd.diagnosis.noise import Noise
 from asphalt_nscd.diagnosis.observations import Observations
 
 NEW, METAL = "a new specimen", "a metal reference specimen"

@@ -1,0 +1,142 @@
+"""Scatter of the tests of a table: replicates, specimens, and any discrepancy beside them; residuals whitened by it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Replicate scatter of ln|E*| and of the phase, the specimens' scale, and any discrepancy beside them.
+
+    Parameters
+    ----------
+    within : ndarray (2, n)
+        Standard deviations of ln|E*| and of the phase [rad], of single tests.
+    shared : ndarray (2, n)
+        The same of what the tests of one block share.
+    block : ndarray of int (n,)
+        Number of the specimen's isotherm a test belongs to.
+    sigma : tuple of float
+        Scatter of one test, mean over the table.
+    scale : float
+        Standard deviation of ln|E*| between specimens.
+    freedom : int
+        Degrees of freedom of the estimate.
+    discrepancy : ndarray (2n, q), optional
+        Factor R of the covariance R R^T of both, added where a table holds more than scatter.
+    """
+
+    within: NDArray
+    shared: NDArray
+    block: NDArray[np.int64]
+    sigma: tuple[float, float]
+    scale: float
+    freedom: int
+    discrepancy: NDArray | None = None
+
+    def beside(self, factor: NDArray) -> Noise:
+        """With another discrepancy beside this one.
+
+        Parameters
+        ----------
+        factor : ndarray (2n, q)
+            Of its covariance.
+
+        Returns
+        -------
+        Noise
+            Of both.
+        """
+        both = factor if self.discrepancy is None else np.hstack([self.discrepancy, factor])
+        return replace(self, discrepancy=both)
+
+    def subset(self, rows: NDArray) -> Noise:
+        """The noise of some of the rows.
+
+        Parameters
+        ----------
+        rows : ndarray
+            Mask or index.
+
+        Returns
+        -------
+        Noise
+            Of these.
+        """
+        both = np.concatenate([np.arange(self.block.size)[rows] + k * self.block.size for k in (0, 1)])
+        beside = None if self.discrepancy is None else self.discrepancy[both]
+        block = np.unique(self.block[rows], return_inverse=True)[1]
+        return replace(
+            self, within=self.within[:, rows], shared=self.shared[:, rows], block=block, discrepancy=beside
+        )
+
+    def whiten(self, values: Complex) -> NDArray[np.float64]:
+        """Values in units of the scatter.
+
+        Parameters
+        ----------
+        values : ndarray of complex (n, ...)
+            Of ln E*.
+
+        Returns
+        -------
+        ndarray (2n, ...)
+            Real, of unit scatter.
+        """
+        white = np.concatenate([self._whitened(0, values.real), self._whitened(1, values.imag)])
+        if self.discrepancy is None:
+            return white
+        taken, _ = self._beside
+        return white - taken @ (taken.T @ white)
+
+    def _whitened(self, part: int, values: NDArray) -> NDArray:
+        """By the symmetric root of a variance and a share common to each block."""
+        scaled = values / self.within[part].reshape(-1, *[1] * (values.ndim - 1))
+        membership, pull = self._pulls[part]
+        return scaled if membership is None else scaled - pull @ (membership.T @ scaled)
+
+    @cached_property
+    def _pulls(self) -> list[tuple[NDArray | None, NDArray]]:
+        """Of modulus and phase: the tests of each block, and what their sum takes off; None where nothing is shared."""
+        out: list[tuple[NDArray | None, NDArray]] = []
+        count = np.bincount(self.block)
+        membership = np.eye(count.size)[self.block]
+        for within, shared in zip(self.within, self.shared, strict=True):
+            # Within a block the two have one ratio, for both follow the scatter of their isotherm.
+            ratio = np.bincount(self.block, (shared / within) ** 2) / count
+            pull = (1.0 - 1.0 / np.sqrt(1.0 + count * ratio)) / count
+            out.append((membership if shared.any() else None, membership * pull))
+        return out
+
+    @cached_property
+    def _beside(self) -> tuple[NDArray, Vector]:
+        """T (2n, q) and s^2 (q,): with F the discrepancy's factor whitened by the scatter alone and s its singular
+        values, 1 - T T^T is the inverse root of 1 + F F^T.
+        """
+        assert self.discrepancy is not None
+        modulus, phase = np.split(self.discrepancy, 2)
+        factor = np.concatenate([self._whitened(0, modulus), self._whitened(1, phase)])
+        square, vector = np.linalg.eigh(factor.T @ factor)
+        # rounding may leave eigenvalues of a Gram matrix below zero
+        square = np.maximum(square, 0.0)
+        root = np.sqrt(1.0 + square)
+        # (1 - 1/root)/square, without the difference of near numbers where the square is small.
+        return factor @ (vector / np.sqrt(root * (1.0 + root))), square
+
+    @cached_property
+    def log_determinant(self) -> float:
+        """Of the covariance with its discrepancy."""
+        own = sum(
+            2.0 * float(np.log(within).sum())
+            + float(np.log1p(np.bincount(self.block, (shared / within) ** 2)).sum())
+            for within, shared in zip(self.within, self.shared, strict=True)
+        )
+        return own + float(np.log1p(self._beside[1]).sum())
