@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from scipy.optimize import approx_fprime
 
-from asphalt_nscd.diagnosis import discrepancy
-from asphalt_nscd.diagnosis.discrepancy import Direction, Process, Processes, Reduced
+from asphalt_nscd.diagnosis import discrepancy, likelihood
+from asphalt_nscd.diagnosis.discrepancy import Process, Processes
+from asphalt_nscd.diagnosis.likelihood import Direction, Reduced
 from asphalt_nscd.diagnosis.noise import Noise
 
 SIZE, PARTS, COLUMNS = 20, 4, 12
@@ -79,10 +80,10 @@ def small(random) -> tuple[Reduced, Direction]:
 def test_curvature_and_slope_are_those_of_finite_differences(random):
     model, cause = small(random)
     variances = np.array([0.4, 0.02, 1.3, 0.1])
-    curvature, along = discrepancy._curvature(model, cause, variances)
+    curvature, along = likelihood._curvature(model, cause, variances)
 
     def objective(log_v):
-        return discrepancy._point(model, cause, log_v).objective
+        return likelihood._point(model, cause, log_v).objective
 
     def slope(log_v):
         step = 1e-4 * np.eye(PARTS)
@@ -91,5 +92,5 @@ def test_curvature_and_slope_are_those_of_finite_differences(random):
     log_v = np.log(variances)
     numeric = np.array([slope(log_v + e) - slope(log_v - e) for e in 1e-3 * np.eye(PARTS)]) / 2e-3
     assert curvature == pytest.approx(numeric, rel=1e-3, abs=1e-4)
-    amplitude = approx_fprime(log_v, lambda x: discrepancy._point(model, cause, x).amplitude, 1e-6)
+    amplitude = approx_fprime(log_v, lambda x: likelihood._point(model, cause, x).amplitude, 1e-6)
     assert along == pytest.approx(amplitude, rel=1e-3, abs=1e-6)

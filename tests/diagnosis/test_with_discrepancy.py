@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import discrepancy, scatter, start, with_discrepancy
+from asphalt_nscd.diagnosis import discrepancy, likelihood, scatter, start, with_discrepancy
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -284,7 +284,7 @@ def test_a_cause_with_shapes_competes_if_all_carry_it_and_no_shape_is_at_a_bound
 ):
     second = next(cause for cause in CATALOGUE if cause.name == "secondary_process")
     monkeypatch.setattr(with_discrepancy, "hangs_on", lambda state, candidate, before: carried)
-    own = discrepancy.Estimate(np.zeros(0), 0.0, amplitude=9.0, std_error=1.0)
+    own = likelihood.Estimate(np.zeros(0), 0.0, amplitude=9.0, std_error=1.0)
     assert with_discrepancy._stands(None, None, Candidate(second, None, values), own) is stands
 
 
@@ -347,13 +347,13 @@ def test_the_reduced_likelihood_is_that_of_the_whole_covariance():
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
     joint, fitted = start.fit_spectrum(observed, noise)
     found = discrepancy.processes(joint, fitted)
-    model = discrepancy.reduce(found, fitted)
+    model = likelihood.reduce(found, fitted)
     j, law = fitted.jacobian, fitted.precision - fitted.jacobian.T @ fitted.jacobian
     u = found.factor
     differences = []
     for v in (np.full(len(found.described), 0.3), np.linspace(0.1, 2.0, len(found.described))):
         s = np.sqrt(v)[found.block]
-        reduced = discrepancy._point(model, None, np.log(v)).misfit - 2.0 * np.log1p(v / found.usual**2).sum()
+        reduced = likelihood._point(model, None, np.log(v)).misfit - 2.0 * np.log1p(v / found.usual**2).sum()
         covariance = np.eye(u.shape[0]) + (u * s) @ (u * s).T
         inverse = np.linalg.inv(covariance)
         precision = j.T @ inverse @ j + law
@@ -369,10 +369,10 @@ def test_the_reduced_likelihood_is_that_of_the_whole_covariance():
 def test_a_size_that_rounding_cannot_bear_ends_the_estimate_and_no_more():
     observed = table()
     joint, fitted = start.fit_spectrum(observed, scatter.stated(observed, 0.01, np.radians(0.3), 0.03))
-    model = discrepancy.reduce(discrepancy.processes(joint, fitted), fitted)
+    model = likelihood.reduce(discrepancy.processes(joint, fitted), fitted)
     absurd = np.full(len(model.processes.described), 1e40)
-    assert not np.isfinite(discrepancy._point(model, None, np.log(absurd)).objective)
-    assert np.isfinite(discrepancy.estimate(model, start=absurd).misfit)
+    assert not np.isfinite(likelihood._point(model, None, np.log(absurd)).objective)
+    assert np.isfinite(likelihood.estimate(model, start=absurd).misfit)
 
 
 def test_the_limit_of_a_cause_in_the_fit_is_its_standard_error_times_what_chance_reaches():

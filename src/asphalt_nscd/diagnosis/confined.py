@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import chance, discrepancy, laboratory
+from asphalt_nscd.diagnosis import chance, discrepancy, laboratory, likelihood
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.criteria import (
     CONFINED,
@@ -26,8 +26,8 @@ from asphalt_nscd.diagnosis.criteria import (
     POSSIBLE,
     TORN,
 )
-from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Reduced
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted
+from asphalt_nscd.diagnosis.likelihood import Direction, Estimate, Reduced
 from asphalt_nscd.diagnosis.noise import Noise
 from asphalt_nscd.diagnosis.probability import log_odds, odds_of, shares
 from asphalt_nscd.diagnosis.with_discrepancy import State, Survey
@@ -102,7 +102,7 @@ class _Beside:
             residual=self.linear.residual - off,
             gradient=self.linear.gradient - self.linear.jacobian.T @ off,
         )
-        return _Beside(linear, discrepancy.reduce(self.model.processes, linear))
+        return _Beside(linear, likelihood.reduce(self.model.processes, linear))
 
 
 def find(state: State, surveyed: Survey) -> tuple[list[Odd], list[float]]:
@@ -147,7 +147,7 @@ def _beside(state: State) -> tuple[_Beside, Noise]:
         return _Beside(state.linear, state.model), state.plain.noise
     joint = laboratory.of_single_tests(state.plain, at)
     linear = joint.linearise(at.law, at.scales, at.active)
-    return _Beside(linear, discrepancy.reduce(laboratory.processes(joint, linear)[0], linear)), joint.noise
+    return _Beside(linear, likelihood.reduce(laboratory.processes(joint, linear)[0], linear)), joint.noise
 
 
 def _effects(state: State) -> tuple[list[Odd], NDArray[np.complex128]]:
@@ -186,13 +186,13 @@ def _effects(state: State) -> tuple[list[Odd], NDArray[np.complex128]]:
 
 def _judged(beside: _Beside, places: list[Odd], whitened: NDArray) -> Iterator[tuple[float, int, Odd, float]]:
     """ln odds, number, fault and amplitude of those that come near."""
-    every, nothing = discrepancy.directions(beside.model, beside.linear, whitened), beside.nothing()
+    every, nothing = likelihood.directions(beside.model, beside.linear, whitened), beside.nothing()
     processes = beside.model.processes
     # what a fault has enlarged: the laboratory's sizes, and the discrepancy of its place
     usual = np.minimum(nothing.variances, processes.usual**2)
     added = np.array([one.kind in LABORATORY for one in processes.described])
     of_one = [one.specimen is not None or one.isotherm is not None for one in processes.described]
-    information, score = discrepancy.weighed(beside.model, every, np.where(of_one, discrepancy.LEAST, usual))
+    information, score = likelihood.weighed(beside.model, every, np.where(of_one, discrepancy.LEAST, usual))
     near = np.abs(score) > NEARLY_SURE * np.sqrt(np.maximum(np.diag(information), 1e-12))
     for k in np.flatnonzero(near):
         place = places[k]
@@ -212,13 +212,13 @@ def _judged(beside: _Beside, places: list[Odd], whitened: NDArray) -> Iterator[t
 
 def _likelier(model: Reduced, cause: Direction | None, start: NDArray) -> Estimate:
     """Of the answers that a start leads to and that the usual sizes do."""
-    tried = [discrepancy.estimate(model, cause, variances) for variances in (start, None)]
+    tried = [likelihood.estimate(model, cause, variances) for variances in (start, None)]
     return min(tried, key=lambda estimate: estimate.misfit)
 
 
 def _of_catalogue(state: State, surveyed: Survey) -> list[float]:
     """ln odds of each cause that is not named, at its best place and shape."""
-    nothing = discrepancy.estimate(state.model, None, state.variances).misfit
+    nothing = likelihood.estimate(state.model, None, state.variances).misfit
     best: dict[tuple, float] = {}
     for candidate, one in zip(surveyed.candidates, surveyed.estimates, strict=True):
         first = candidate.cause.parameters[0]
@@ -238,7 +238,7 @@ def _torn(beside: _Beside, isotherms: NDArray) -> list[float]:
         own = np.array([one.kind == "isotherm" and one.isotherm == t for one in described])
         if not own.any() or np.sqrt(whole.variances[own].max()) < NOTICED:
             continue
-        less = discrepancy.estimate(beside.model.only(~own), None, whole.variances[~own])
+        less = likelihood.estimate(beside.model.only(~own), None, whole.variances[~own])
         if less.misfit - whole.misfit > TORN:
             torn.append(float(t))
     return torn

@@ -15,11 +15,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import discrepancy
+from asphalt_nscd.diagnosis import discrepancy, likelihood
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.criteria import ABSORBED, ENOUGH, MANY_ISOTHERMS, MOST_SPECIMENS, TWENTY_TIMES
-from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Process, Processes, Reduced
+from asphalt_nscd.diagnosis.discrepancy import Process, Processes
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.likelihood import Direction, Estimate, Reduced
 from asphalt_nscd.diagnosis.observations import Observations
 
 Vector = NDArray[np.float64]
@@ -131,13 +132,11 @@ class _Table:
             np.array([*found.usual, *(usual for _ in roots)]),
             np.concatenate([found.spread, np.full(len(roots), np.inf)]),
         )
-        model: Reduced = discrepancy.reduce(every, rest)
-        along: Direction | None = (
-            None if direction is None else discrepancy.directions(model, rest, direction)
-        )
+        model: Reduced = likelihood.reduce(every, rest)
+        along: Direction | None = None if direction is None else likelihood.directions(model, rest, direction)
         begin = np.concatenate([self.variances, np.full(len(roots), FIRST**2)])
         # the likelihood of a variance may have two maxima, one of them at none: from either side
-        tried = [discrepancy.estimate(model, along, start) for start in (begin, None)]
+        tried = [likelihood.estimate(model, along, start) for start in (begin, None)]
         return min(tried, key=lambda one: one.misfit)
 
 

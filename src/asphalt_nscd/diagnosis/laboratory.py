@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import discrepancy, start
+from asphalt_nscd.diagnosis import discrepancy, likelihood, start
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import CHANNEL
@@ -110,7 +110,7 @@ def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
         Sizes.
     """
     found, kinds = processes(joint, fitted)
-    variances = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances[-len(kinds) :]
+    variances = likelihood.estimate(likelihood.reduce(found, fitted)).variances[-len(kinds) :]
     return Laboratory(
         {kind: LABORATORY[kind].size * float(np.sqrt(v)) for kind, v in zip(kinds, variances, strict=True)}
     )

@@ -17,7 +17,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.special import chdtrc
 
-from asphalt_nscd.diagnosis import chance, discrepancy, with_discrepancy
+from asphalt_nscd.diagnosis import chance, likelihood, with_discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause
@@ -315,17 +315,17 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
     if not columns:
         return _Evidence(np.zeros((size, size)), np.zeros(size))
     rest = _without(state.linear, inside)
-    model = discrepancy.reduce(state.model.processes, rest)
-    pointing = discrepancy.directions(model, rest, state.plain.noise.whiten(np.column_stack(columns)))
+    model = likelihood.reduce(state.model.processes, rest)
+    pointing = likelihood.directions(model, rest, state.plain.noise.whiten(np.column_stack(columns)))
     # Those before the last are held at where they stand: their size is common and known far better.
     variances = with_discrepancy.likeliest(model, state.variances, pointing.column(len(shown) - 1)).variances
     if parts is not None:
         apart = columns[-1][:, None] * parts
-        pointing = discrepancy.directions(model, rest, state.plain.noise.whiten(apart))
-        information, score = discrepancy.weighed(model, pointing, variances)
+        pointing = likelihood.directions(model, rest, state.plain.noise.whiten(apart))
+        information, score = likelihood.weighed(model, pointing, variances)
         information, score = information / campaign.spread**2, score / campaign.spread**2
         return _Evidence(information, score + information @ np.full(parts.shape[1], stands[shown[-1]]))
-    information, score = discrepancy.weighed(model, pointing, variances)
+    information, score = likelihood.weighed(model, pointing, variances)
     information, score = information / campaign.spread**2, score / campaign.spread**2
     whole = np.zeros((size, size))
     whole[np.ix_(shown, shown)] = information

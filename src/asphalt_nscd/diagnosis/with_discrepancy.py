@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import logit
 
-from asphalt_nscd.diagnosis import chance, discrepancy, limits
+from asphalt_nscd.diagnosis import chance, discrepancy, likelihood, limits
 from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause
 from asphalt_nscd.diagnosis.chance import Scores
 from asphalt_nscd.diagnosis.criteria import (
@@ -31,8 +31,9 @@ from asphalt_nscd.diagnosis.criteria import (
     USUAL_THRESHOLD,
     Z_95,
 )
-from asphalt_nscd.diagnosis.discrepancy import Direction, Estimate, Processes, Reduced
+from asphalt_nscd.diagnosis.discrepancy import Processes
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.likelihood import Direction, Estimate, Reduced
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.probability import log_odds, shares
 from asphalt_nscd.diagnosis.start import first_laws, of_likeliest_roughness
@@ -139,7 +140,7 @@ def begin(plain: Joint, fitted: Fitted) -> State:
         The first state.
     """
     found = discrepancy.processes(plain, fitted)
-    start = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances
+    start = likelihood.estimate(likelihood.reduce(found, fitted)).variances
     return _smoothed(_settle(plain, found, fitted, fitted.active, start))
 
 
@@ -242,7 +243,7 @@ def _settle(
         fitted = wide.fit(law, scales, active, CONVERGED)
         law, scales, active = fitted.law, fitted.scales, fitted.active
         linear = plain.linearise(law, scales, active)
-        model = discrepancy.reduce(found, linear)
+        model = likelihood.reduce(found, linear)
         variances = likeliest(model, variances).variances
     return State(plain, wide, fitted, linear, model, variances)
 
@@ -256,7 +257,7 @@ def likeliest(model: Reduced, variances: Vector, cause: Direction | None = None)
     Parameters
     ----------
     model : Reduced
-        Of `discrepancy.reduce`.
+        Of `likelihood.reduce`.
     variances : ndarray (m,)
         Where to start, among other places.
     cause : Direction, optional
@@ -270,7 +271,7 @@ def likeliest(model: Reduced, variances: Vector, cause: Direction | None = None)
     uncommon = np.where(
         [one.kind == "all" for one in model.processes.described], discrepancy.LEAST, variances
     )
-    tried = [discrepancy.estimate(model, cause, start) for start in (variances, None, uncommon)]
+    tried = [likelihood.estimate(model, cause, start) for start in (variances, None, uncommon)]
     return min(tried, key=lambda estimate: estimate.misfit)
 
 
@@ -306,7 +307,7 @@ def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
         if candidate.shaped and k not in promising
         else likeliest(state.model, state.variances, pointing.column(k))
         if several and not candidate.shaped
-        else discrepancy.estimate(state.model, pointing.column(k), state.variances)
+        else likelihood.estimate(state.model, pointing.column(k), state.variances)
         for k, candidate in enumerate(candidates)
     ]
     one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
@@ -315,7 +316,7 @@ def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
 
 def _scored(state: State, pointing: Direction) -> list[Estimate]:
     """Each candidate beside a discrepancy of the sizes that it has without, which no gain is told of."""
-    information, score = discrepancy.weighed(state.model, pointing, state.variances)
+    information, score = likelihood.weighed(state.model, pointing, state.variances)
     least = np.maximum(np.diag(information), 1e-12)
     return [
         Estimate(state.variances, np.inf, float(amplitude), float(error))
@@ -398,7 +399,7 @@ def _afresh(state: State, active: tuple[Candidate, ...]) -> State:
     fits = [state.plain.fit(law, state.fitted.scales, active, CONVERGED) for law in laws]
     fitted = min(fits, key=lambda one: one.objective)
     found = discrepancy.processes(state.plain, fitted)
-    start = discrepancy.estimate(discrepancy.reduce(found, fitted)).variances
+    start = likelihood.estimate(likelihood.reduce(found, fitted)).variances
     return _settle(state.plain, found, fitted, fitted.active, start)
 
 
@@ -422,7 +423,7 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
     if not candidates:
         return [], Direction(np.zeros((state.model.along.size, 0)), np.zeros((0, 0)), np.zeros(0))
     d = state.plain.noise.whiten(chance.candidate_directions(state.plain, state.fitted, candidates))
-    pointing = discrepancy.directions(state.model, state.linear, d)
+    pointing = likelihood.directions(state.model, state.linear, d)
     # A law that was fitted without a spring has followed it and leaves little of its direction: a fit with the spring
     # decides. It may follow all of most others, as a shift may of an error of temperature.
     fitted = [isinstance(c.place, str) or c.cause.name == "guide_stiffness" for c in candidates]
@@ -434,7 +435,7 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
 
 
 def _by_chance(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Vector:
-    correlation, _ = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
+    correlation, _ = likelihood.correlation(state.model, surveyed.pointing, state.variances)
     k = surveyed.one_sided.size
     scores = Scores(np.zeros(k), np.ones(k), np.ones(k, bool), correlation)
     return chance.largest_by_chance(scores, surveyed.one_sided, state.plain.noise.freedom, draws, random)
@@ -466,11 +467,11 @@ def of_taken(
     found, start = model.processes, state.variances
     if rows is not None:
         found, start = _of_rows(found, plain, rows, start)
-    model = discrepancy.reduce(found, rest)
-    pointing = discrepancy.directions(model, rest, d)
-    found_value = discrepancy.estimate(model, pointing, start)
+    model = likelihood.reduce(found, rest)
+    pointing = likelihood.directions(model, rest, d)
+    found_value = likelihood.estimate(model, pointing, start)
     if sizes_too:
-        found_value = discrepancy.with_uncertain_sizes(model, pointing, found_value)
+        found_value = likelihood.with_uncertain_sizes(model, pointing, found_value)
     stands = active.values[0] / active.typical[0]
     return replace(found_value, amplitude=found_value.amplitude + stands)
 
@@ -558,7 +559,7 @@ def _misfit_of(state: State, rows: NDArray) -> float:
         linear.objective
         - float(linear.gradient @ np.linalg.solve(linear.precision, linear.gradient))
         + float(np.linalg.slogdet(linear.precision[:law, :law])[1])
-        + discrepancy.estimate(discrepancy.reduce(found, linear), start=start).misfit
+        + likelihood.estimate(likelihood.reduce(found, linear), start=start).misfit
     )
 
 
@@ -604,7 +605,7 @@ def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]
             best[candidate.key] = k
     for key, k in best.items():
         typical, direction = surveyed.candidates[k].typical[0], surveyed.pointing.column(k)
-        one = discrepancy.with_uncertain_sizes(state.model, direction, surveyed.estimates[k])
+        one = likelihood.with_uncertain_sizes(state.model, direction, surveyed.estimates[k])
         out[key] = (one.amplitude * typical, one.std_error * typical)
     return out
 
@@ -620,9 +621,9 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
     amplitude = (threshold + Z_95) * one.std_error
     for _ in range(LARGER):
         seen = amplitude - Z_95 * one.std_error
-        model, pointing = discrepancy.moved(state.model, direction, seen - one.amplitude)
+        model, pointing = likelihood.moved(state.model, direction, seen - one.amplitude)
         without = likeliest(model, state.variances).misfit
-        gain = without - discrepancy.estimate(model, pointing, one.variances).misfit
+        gain = without - likelihood.estimate(model, pointing, one.variances).misfit
         gain -= _shapes_at(state, candidate, amplitude)
         # A name asks for both: a gain over the discrepancy, and odds over none that hold what is usual of the cause.
         present = candidate.with_values(np.array([amplitude * typical, *candidate.values[1:]]))
@@ -676,7 +677,7 @@ def detection_limits(
     threshold = USUAL_THRESHOLD
     if surveyed.candidates:
         threshold = float(np.quantile(_by_chance(state, surveyed, draws, random), 1.0 - ALPHA_PER_STEP))
-        correlation, errors = discrepancy.correlation(state.model, surveyed.pointing, state.variances)
+        correlation, errors = likelihood.correlation(state.model, surveyed.pointing, state.variances)
         # A cause with shapes of its own must be carried by the whole table: no size says that beside a discrepancy.
         alone = bool((state.variances < HIDES**2).all())
         simple = np.array([alone or len(candidate.values) == 1 for candidate in surveyed.candidates])
