@@ -7,7 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import discrepancy, likelihood, scatter, start, with_discrepancy
+from asphalt_nscd.diagnosis import (
+    discrepancy,
+    fit_beside,
+    likelihood,
+    limits_beside,
+    scatter,
+    start,
+    with_discrepancy,
+)
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observations import Observations
@@ -52,9 +60,9 @@ def table(
     )
 
 
-def climbed(observed: Observations) -> tuple[list, with_discrepancy.State, with_discrepancy.Survey]:
+def climbed(observed: Observations) -> tuple[list, fit_beside.State, with_discrepancy.Survey]:
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
     return with_discrepancy.climb(begun, CATALOGUE, 1000, np.random.default_rng(0))
 
 
@@ -67,9 +75,9 @@ def test_an_effect_of_all_tests_is_found_beside_broken_isotherms(hidden):
     found = [one.candidate.cause.name for one in taken]
     assert name in found
     candidate = next(c for c in state.fitted.active if c.cause.name == name)
-    value, error = with_discrepancy.estimates(state, survey)[candidate.key]
+    value, error = limits_beside.estimates(state, survey)[candidate.key]
     assert abs(value - size) < 3.0 * error and error < 0.1 * abs(size)
-    sizes_known = with_discrepancy.of_taken(state, candidate).std_error * candidate.typical[0]
+    sizes_known = fit_beside.of_taken(state, candidate).std_error * candidate.typical[0]
     assert sizes_known < error < 2.0 * sizes_known
     assert with_discrepancy.hangs_on(state, candidate) == []
 
@@ -91,7 +99,7 @@ def test_a_second_process_is_found_by_what_it_gains_however_uncertain_its_size()
     candidate = state.fitted.active[0]
     assert with_discrepancy.hangs_on(state, candidate) == []
     rows = np.flatnonzero(observed.isotherm != 20.0)
-    assert with_discrepancy.of_taken(state, candidate, rows).z < with_discrepancy.SURVIVES
+    assert fit_beside.of_taken(state, candidate, rows).z < with_discrepancy.SURVIVES
     # What is judged in its place is no more than a step from the fit: it is the fit's own, and that of one anew.
     before = taken[0].before
     everything = np.arange(observed.size)
@@ -107,15 +115,15 @@ def test_a_second_process_that_one_isotherm_alone_asks_for_hangs_on_it():
     here = observed.isotherm == 20.0
     odd = replace(observed, modulus=np.where(here, with_second, observed.modulus))
     noise = scatter.stated(odd, 0.01, np.radians(0.3), 0.03)
-    begun = with_discrepancy.begin(*start.fit_spectrum(odd, noise))
-    state = with_discrepancy.with_causes(begun, (Candidate(second, None, (2e9, -2.0, 60.0, 0.6)),))
+    begun = fit_beside.begin(*start.fit_spectrum(odd, noise))
+    state = fit_beside.with_causes(begun, (Candidate(second, None, (2e9, -2.0, 60.0, 0.6)),))
     assert "20 degC" in with_discrepancy.hangs_on(state, state.fitted.active[0])
 
 
 def test_shapes_cost_the_share_of_their_prior_that_the_tests_leave_them(monkeypatch):
     observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
     misfits, gains, fits = {}, {}, {}
 
     def stands(before, state, taken, own):
@@ -131,7 +139,7 @@ def test_shapes_cost_the_share_of_their_prior_that_the_tests_leave_them(monkeypa
     monkeypatch.setattr(with_discrepancy, "log_odds", log_odds)
     with_discrepancy._next(begun, with_discrepancy.survey(begun, CATALOGUE), 500, np.random.default_rng(0))
     assert gains["channel_delay"] == pytest.approx(begun.misfit - misfits["channel_delay"])
-    cost = with_discrepancy.of_shapes(*fits["secondary_process"], observed)
+    cost = fit_beside.of_shapes(*fits["secondary_process"], observed)
     assert cost > 6.0
     assert gains["secondary_process"] == pytest.approx(begun.misfit - misfits["secondary_process"] - cost)
 
@@ -153,24 +161,22 @@ def test_the_cost_of_shapes_is_that_of_an_integral_over_them():
     for error, span in zip(errors[1:], spans, strict=True):
         even = 1.0 / (span + np.sqrt(2.0 * np.pi))  # density at the fit of a prior about each of even starts
         share *= np.trapezoid(even * np.exp(-0.5 * (u / error) ** 2), u)
-    assert with_discrepancy.of_shapes(fitted, candidate, observed) == pytest.approx(
-        -2.0 * np.log(share), rel=1e-3
-    )
+    assert fit_beside.of_shapes(fitted, candidate, observed) == pytest.approx(-2.0 * np.log(share), rel=1e-3)
     single = Candidate(next(c for c in CATALOGUE if c.name == "channel_delay"), None, (1e-4,))
-    assert with_discrepancy.of_shapes(fitted, single, observed) == 0.0
+    assert fit_beside.of_shapes(fitted, single, observed) == 0.0
 
 
 def test_the_limit_of_a_second_process_pays_for_its_shapes(monkeypatch):
     observed = table(broken=0.0, design=TRAPEZOIDS)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
     surveyed = with_discrepancy.survey(begun, CATALOGUE)
 
     def limits():
-        return with_discrepancy.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
+        return limits_beside.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
 
     priced = limits()
-    monkeypatch.setattr(with_discrepancy, "_shapes_at", lambda state, candidate, amplitude: 0.0)
+    monkeypatch.setattr(limits_beside, "_shapes_at", lambda state, candidate, amplitude: 0.0)
     free = limits()
     assert priced["secondary_process", None] > 1.1 * free["secondary_process", None]
     assert priced["channel_delay", None] == free["channel_delay", None]
@@ -179,13 +185,13 @@ def test_the_limit_of_a_second_process_pays_for_its_shapes(monkeypatch):
 def test_what_competes_for_a_name_has_a_size_and_shapes_of_its_own():
     observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
     by_name = {cause.name: cause for cause in CATALOGUE}
 
     def stands(name: str, *values: float) -> tuple[bool, bool]:
-        state = with_discrepancy.with_causes(begun, (Candidate(by_name[name], None, values),))
+        state = fit_beside.with_causes(begun, (Candidate(by_name[name], None, values),))
         taken = state.fitted.active[-1]
-        return with_discrepancy._stands(begun, state, taken, with_discrepancy.of_taken(state, taken)), bool(
+        return with_discrepancy._stands(begun, state, taken, fit_beside.of_taken(state, taken)), bool(
             taken.at_bounds
         )
 
@@ -202,7 +208,7 @@ def test_a_second_process_that_shifts_as_fast_as_half_the_mix_is_found(strength)
     taken, state, survey = climbed(replace(observed, modulus=with_second))
     assert [one.candidate.cause.name for one in taken] == ["secondary_process"]
     candidate = state.fitted.active[0]
-    value, error = with_discrepancy.estimates(state, survey)[candidate.key]
+    value, error = limits_beside.estimates(state, survey)[candidate.key]
     assert abs(value - strength) < 2.0 * error and error < 0.5 * strength
     assert candidate.values[1:] == pytest.approx((-1.2, 82.0, 0.8), rel=0.1)
 
@@ -210,7 +216,7 @@ def test_a_second_process_that_shifts_as_fast_as_half_the_mix_is_found(strength)
 def _next_name(monkeypatch, observed: Observations, stands, odds: dict[str, float]) -> with_discrepancy.Found:
     """The name taken where `stands(candidate)` says who competes, and odds are these."""
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
     monkeypatch.setattr(
         with_discrepancy, "_stands", lambda before, state, taken, own: stands(begun, taken, state)
     )
@@ -252,7 +258,7 @@ def test_the_limit_of_a_second_process_counts_wide_ones(monkeypatch):
     """With an exponent of 0.5 it takes more than twice the strength of one of 0.8."""
     observed = table(broken=0.0, design=TRAPEZOIDS)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
     second = next(cause for cause in CATALOGUE if cause.name == "secondary_process")
     every = second.shapes(observed)
 
@@ -260,7 +266,7 @@ def test_the_limit_of_a_second_process_counts_wide_ones(monkeypatch):
         shapes = tuple(shape for shape in every if shape[-1] in exponents)
         monkeypatch.setattr(type(second), "shapes", lambda self, observed: shapes)
         surveyed = with_discrepancy.survey(begun, CATALOGUE)
-        limits = with_discrepancy.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
+        limits = limits_beside.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
         return limits["secondary_process", None]
 
     narrow, medium, wide, of_all = (
@@ -292,20 +298,18 @@ def test_a_cause_of_an_isotherm_is_no_hindrance_where_that_isotherm_is_left_out(
     """Its parameter is then spoken of by no test: the sizes of the other causes stay finite."""
     observed = table(offset=3.0)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
     by_name = {cause.name: cause for cause in CATALOGUE}
     active = (
         Candidate(by_name["phase_offset"], None, (2.0,)),
         Candidate(by_name["temperature_bias"], 21.0, (0.5,)),
     )
-    state = with_discrepancy._settle(
-        begun.plain, begun.model.processes, begun.fitted, active, begun.variances
-    )
+    state = fit_beside.settle(begun.plain, begun.model.processes, begun.fitted, active, begun.variances)
     rows = np.flatnonzero(observed.isotherm != 21.0)
     part = Joint(observed.subset(rows), state.plain.base, state.plain.noise.subset(rows))
     linear = part.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
     assert np.linalg.eigvalsh(linear.precision).min() > 1e-6
-    found = with_discrepancy.of_taken(state, state.fitted.active[0], rows)
+    found = fit_beside.of_taken(state, state.fitted.active[0], rows)
     size, error = (x * active[0].typical[0] for x in (found.amplitude, found.std_error))
     assert error < 0.2 and abs(size - 3.0) < 4.0 * error
 
@@ -320,7 +324,7 @@ def test_broken_isotherms_alone_get_no_established_name():
 def test_what_breaks_the_hot_isotherms_is_sized_there_and_nowhere_else():
     observed = table()
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    state = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    state = fit_beside.begin(*start.fit_spectrum(observed, noise))
     sizes = dict(zip(state.model.processes.described, np.sqrt(state.variances), strict=True))
 
     def size(part, isotherm):
@@ -334,9 +338,9 @@ def test_limits_grow_with_the_discrepancy():
     limits = []
     for observed in (table(broken=0.0), table()):
         noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-        state = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+        state = fit_beside.begin(*start.fit_spectrum(observed, noise))
         survey = with_discrepancy.survey(state, CATALOGUE)
-        found, _, _ = with_discrepancy.detection_limits(state, survey, 500, np.random.default_rng(0))
+        found, _, _ = limits_beside.detection_limits(state, survey, 500, np.random.default_rng(0))
         limits.append(found["phase_offset", None])
     assert limits[0] < limits[1]
 
@@ -378,8 +382,8 @@ def test_a_size_that_rounding_cannot_bear_ends_the_estimate_and_no_more():
 def test_the_limit_of_a_cause_in_the_fit_is_its_standard_error_times_what_chance_reaches():
     _, state, survey = climbed(table(delay=6e-4))
     (candidate,) = (c for c in state.fitted.active if c.cause.name == "channel_delay")
-    found, _, _ = with_discrepancy.detection_limits(state, survey, 500, np.random.default_rng(0))
-    own = with_discrepancy.of_taken(state, candidate).std_error * candidate.typical[0]
+    found, _, _ = limits_beside.detection_limits(state, survey, 500, np.random.default_rng(0))
+    own = fit_beside.of_taken(state, candidate).std_error * candidate.typical[0]
     assert 4.0 < found[candidate.key] / own < 7.0
 
 
@@ -388,9 +392,9 @@ def test_a_discrepancy_that_may_take_a_cause_up_raises_its_limit(broken):
     """Where it takes up as much as an error of temperature can be, the table shows none."""
     observed = table(broken=broken)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    state = with_discrepancy.begin(*start.fit_spectrum(observed, noise))
+    state = fit_beside.begin(*start.fit_spectrum(observed, noise))
     survey = with_discrepancy.survey(state, CATALOGUE)
-    found, unseen, _ = with_discrepancy.detection_limits(state, survey, 500, np.random.default_rng(0))
+    found, unseen, _ = limits_beside.detection_limits(state, survey, 500, np.random.default_rng(0))
     ratio = {
         one.key: found.get(one.key, np.inf) / (estimate.std_error * one.typical[0])
         for one, estimate in zip(survey.candidates, survey.estimates, strict=True)
@@ -412,5 +416,5 @@ def test_a_spring_that_the_law_has_followed_gets_its_name():
     taken, state, _ = climbed(observed)
     (one,) = taken
     assert one.candidate.cause.name == "guide_stiffness"
-    error = with_discrepancy.of_taken(state, state.fitted.active[0]).std_error * 2e7
+    error = fit_beside.of_taken(state, state.fitted.active[0]).std_error * 2e7
     assert abs(state.fitted.active[0].values[0] - spring) < 3.0 * error and error < 0.1 * spring

@@ -26,11 +26,12 @@ from asphalt_nscd.diagnosis.criteria import (
     POSSIBLE,
     TORN,
 )
+from asphalt_nscd.diagnosis.fit_beside import State
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted
 from asphalt_nscd.diagnosis.likelihood import Direction, Estimate, Reduced
 from asphalt_nscd.diagnosis.noise import Noise
 from asphalt_nscd.diagnosis.probability import log_odds, odds_of, shares
-from asphalt_nscd.diagnosis.with_discrepancy import State, Survey
+from asphalt_nscd.diagnosis.with_discrepancy import Survey
 from asphalt_nscd.diagnosis.written import interval_95, with_interval
 
 OFFSET, DELAY, ISOTHERM, SWEEP = CONFINED  # in the order of criteria

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from asphalt_nscd.diagnosis import chance, confined, with_discrepancy
+from asphalt_nscd.diagnosis import chance, confined, fit_beside, limits_beside, with_discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
@@ -204,20 +204,20 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
     if not isinstance(joint.base, FlexibleSpectrum):
         ladder.remaining = _remaining(joint, start, draws, random)
         return ladder
-    begun = with_discrepancy.begin(joint, start)
+    begun = fit_beside.begin(joint, start)
     found, end, survey = with_discrepancy.climb(begun, catalogue, draws, random)
     _take(ladder, begun, found, end)
-    ladder.estimates = with_discrepancy.estimates(end, survey)
+    ladder.estimates = limits_beside.estimates(end, survey)
     while (one := ladder.unsure) is not None:
         ladder.withdrawn += [rung for rung in ladder.rungs if rung.candidate.key == one.key]
         found = [other for other in found if other.candidate.key != one.key]
         found, end, survey = with_discrepancy.again(begun, found, catalogue)
         _take(ladder, begun, found, end)
-        ladder.estimates = with_discrepancy.estimates(end, survey)
+        ladder.estimates = limits_beside.estimates(end, survey)
     named = [rung.candidate for rung in ladder.rungs]
     ladder.doubts = find_doubts(end.plain, end.fitted, named, np.sqrt(end.variances).tolist())
     ladder.hangs_on = {c.key: with_discrepancy.hangs_on(end, c) for c in end.fitted.active}
-    ladder.limits, ladder.unseen, ladder.alike = with_discrepancy.detection_limits(end, survey, draws, random)
+    ladder.limits, ladder.unseen, ladder.alike = limits_beside.detection_limits(end, survey, draws, random)
     ladder.odd, ladder.torn = confined.find(end, survey)
     sizes = np.sqrt(end.variances)
     ladder.discrepancy = dict(zip(end.model.processes.described, sizes.tolist(), strict=True))
@@ -227,9 +227,9 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
 
 def _take(
     ladder: Ladder,
-    begun: with_discrepancy.State,
+    begun: fit_beside.State,
     found: Sequence[with_discrepancy.Found],
-    end: with_discrepancy.State,
+    end: fit_beside.State,
 ) -> None:
     """Rungs and fits of an ascent beside a discrepancy."""
     ladder.joint, ladder.start = end.wide, begun.fitted

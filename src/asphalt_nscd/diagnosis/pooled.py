@@ -17,7 +17,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.special import chdtrc
 
-from asphalt_nscd.diagnosis import chance, likelihood, with_discrepancy
+from asphalt_nscd.diagnosis import chance, fit_beside, likelihood, limits_beside, with_discrepancy
 from asphalt_nscd.diagnosis.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause
@@ -175,7 +175,7 @@ def _sentence(one: Common) -> str:
 @dataclass(frozen=True)
 class _Campaign:
     name: str
-    state: with_discrepancy.State
+    state: fit_beside.State
     spread: float  # factor on its errors, as its own diagnosis tells them
 
     def with_causes(self, causes: Sequence[Cause], amplitudes: Vector) -> _Campaign:
@@ -186,14 +186,14 @@ class _Campaign:
             for cause, amplitude in zip(causes, amplitudes, strict=True)
             if cause.places(self.state.plain.observed)
         )
-        return replace(self, state=with_discrepancy.with_causes(self.state, (*own, *added)))
+        return replace(self, state=fit_beside.with_causes(self.state, (*own, *added)))
 
     def judged_beside(self, causes: Sequence[Cause], amplitudes: Vector) -> _Campaign:
         """The same with the spread that is left beside causes of the machine: what is common to all is no reason to
         believe each of them less.
         """
         state = self.with_causes(causes, amplitudes).state
-        estimates = with_discrepancy.estimates(state, with_discrepancy.survey(state, CATALOGUE))
+        estimates = limits_beside.estimates(state, with_discrepancy.survey(state, CATALOGUE))
         named = {one.cause.name for one in state.fitted.active} | MACHINE
         return replace(self, spread=widening(spread_of(estimates, named)))
 
@@ -298,7 +298,7 @@ def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
     own = tuple(one for one in ladder.fitted.active if not of_machine(one.cause))
     fitted = plain.fit(ladder.fitted.law, ladder.fitted.scales, own)
     spread = spread_of(ladder.estimates, MACHINE | {rung.candidate.cause.name for rung in ladder.rungs})
-    return _Campaign(name, with_discrepancy.begin(plain, fitted), widening(spread))
+    return _Campaign(name, fit_beside.begin(plain, fitted), widening(spread))
 
 
 def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | None = None) -> _Evidence:
@@ -318,7 +318,7 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
     model = likelihood.reduce(state.model.processes, rest)
     pointing = likelihood.directions(model, rest, state.plain.noise.whiten(np.column_stack(columns)))
     # Those before the last are held at where they stand: their size is common and known far better.
-    variances = with_discrepancy.likeliest(model, state.variances, pointing.column(len(shown) - 1)).variances
+    variances = fit_beside.likeliest(model, state.variances, pointing.column(len(shown) - 1)).variances
     if parts is not None:
         apart = columns[-1][:, None] * parts
         pointing = likelihood.directions(model, rest, state.plain.noise.whiten(apart))
@@ -334,7 +334,7 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
     return _Evidence(whole, out + whole @ stands)
 
 
-def _direction(state: with_discrepancy.State, cause: Cause) -> tuple[NDArray, float, int | None]:
+def _direction(state: fit_beside.State, cause: Cause) -> tuple[NDArray, float, int | None]:
     """Derivative (n,) of ln E* along a cause, its value in the fit [typical units] and its place in the Jacobian."""
     fitted, joint = state.fitted, state.plain
     first = fitted.law.size + fitted.scales.size
