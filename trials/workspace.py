@@ -14,9 +14,6 @@ from forks import forked
 
 ROOT = Path(__file__).parents[1]
 
-# Options with which Snakemake starts no job
-ASKED = {"--dry-run", "--summary", "--touch", "--lint", "--list-rules"}
-
 
 @dataclass(frozen=True)
 class Plan:
@@ -57,11 +54,8 @@ class Workspace:
         return [*snakemake, *arguments, "--configfile", "study.yaml"]
 
     def run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        if ASKED & {*arguments}:
-            return ask(self.command(*arguments)[3:], self.folder, self.environment)
-        return subprocess.run(
-            self.command(*arguments), cwd=self.folder, capture_output=True, text=True, env=self.environment
-        )
+        """What `python -m snakemake` does and says, in a fork; `start` really starts it."""
+        return forked("snakemake.cli:main", self.command(*arguments)[3:], self.folder, self.environment)
 
     def start(self, *arguments: str) -> subprocess.Popen[str]:
         return subprocess.Popen(
@@ -91,8 +85,3 @@ class Workspace:
     @property
     def environment(self) -> dict[str, str]:
         return {name: value for name, value in os.environ.items() if not name.startswith("SNAKEMAKE")}
-
-
-def ask(arguments: list[str], folder: Path, environment: dict[str, str]) -> subprocess.CompletedProcess[str]:
-    """What `python -m snakemake` says; for arguments with which it starts no job."""
-    return forked("snakemake.cli:main", arguments, folder, environment)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from workspace import ASKED, ask
+from forks import forked
 
 pytestmark = pytest.mark.slow
 
@@ -54,8 +54,8 @@ ACCEPTED = {
 
 
 def snakemake(*arguments: str, folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:
-    if ASKED & {*arguments}:
-        return ask([*arguments], folder, ENVIRONMENT | environment)
+    if {"--dry-run", "--lint"} & {*arguments}:
+        return forked("snakemake.cli:main", [*arguments], folder, ENVIRONMENT | environment)
     command = [*SNAKEMAKE, *arguments]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, env=ENVIRONMENT | environment)
 

@@ -32,7 +32,6 @@ class Finished(Workspace):
             path.touch()
         done = self.run("--touch", "--cores", "1")
         assert done.returncode == 0, done.stderr
-        assert self.planned() == {}
 
     def edit(self, name: str, old: str, new: str) -> None:
         path = self.folder / name
@@ -110,5 +109,6 @@ def test_each_stage_is_a_target(restored):
         assert f"`{name}`" in (ROOT / "docs/workflow.md").read_text()
     # Snakemake makes what is asked for by the name of its own rule
     assert restored.planned(*stages) in ({}, {"audit": 1, "tables": 1})
-    assert restored.planned("deposits", "--forceall") == {"compile": 1, "deposit": 4, "deposits": 1}
-    assert restored.planned("tests", "--forceall")["simulate"] == 120
+    jobs = restored.planned("deposits", "tests", "--forceall")
+    assert (jobs["deposits"], jobs["deposit"], jobs["tests"], jobs["simulate"]) == (1, 4, 1, 120)
+    assert not {"diagnose", "audit", "report"} & set(jobs)

@@ -14,7 +14,8 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from workspace import Plan, Workspace, ask
+from forks import forked
+from workspace import Plan, Workspace
 
 import asphalt_nscd as an
 
@@ -25,6 +26,7 @@ FITS = ["results/smoke/laws/fitted/T0.json", "results/smoke/laws/fitted/T20.json
 
 
 ROOT = Path(__file__).parents[2]
+SNAKEMAKE = "snakemake.cli:main"
 MAKE = dict(
     re.findall(r"^(\w+): \$\(READY\)\n\t@\.venv/bin/snakemake (.*)", (ROOT / "Makefile").read_text(), re.M)
 )
@@ -101,7 +103,7 @@ def test_make_hands_over_what_snakemake_understands():
         recipes.sort(key=lambda recipe: -len(recipe[0]))
         (words, _), *others = recipes
         words = [*(name for _, names in others for name in names), *words]
-        done = ask([*words, "--dry-run", "--quiet", "all", "--nolock"], ROOT, {**os.environ})
+        done = forked(SNAKEMAKE, [*words, "--dry-run", "--quiet", "all", "--nolock"], ROOT)
         assert done.returncode == 0, done.stderr
 
 
@@ -128,7 +130,9 @@ def test_a_forgotten_caption_is_one_sentence(workspace):
     shutil.copy(ROOT / "Snakefile", workspace.folder)
     (workspace.folder / "workflow/report/fig07.rst").unlink()
     workspace.configure()
-    done = ask(["--dry-run", "--configfile", "study.yaml"], workspace.folder, workspace.environment)
+    done = forked(
+        SNAKEMAKE, ["--dry-run", "--configfile", "study.yaml"], workspace.folder, workspace.environment
+    )
     assert done.returncode != 0 and "Traceback" not in done.stderr
     sentence = (
         "error: workflow/report/fig07.rst: no caption of fig07; write it, its title in ** on the first line."
