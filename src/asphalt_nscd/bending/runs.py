@@ -135,6 +135,7 @@ def reduced(
     """
     if numerics.scheme == "euler" and not (options.energy or options.frames) and options.checkpoint is None:
         return by_path(model, law, case.rig, numerics.time_step, numerics.driven(case), options)
+    # a two-step scheme is an implicit Euler step of length dt / a from an extrapolated state
     stepper = _reduced_stepper(model.whole, law, numerics.time_step / _scheme(case, numerics).a, case.rig)
     return _certified(stepper, model, _one_by_one(stepper, model.whole, law, (case, numerics), options))
 

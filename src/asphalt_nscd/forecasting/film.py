@@ -276,6 +276,7 @@ def _pairs(rows, given, slopes, grain, grain_shear, spot, n, found):
         length = r1 + r2 + gap[b]
         start = 2.0 * gap[b] * (r1 * r2 / (r1 + r2) if r2 > 0.0 else r1)
         section = area[b] / np.pi
+        # rings grow with the gap there: most of the force is where the grains are nearest
         span = np.log1p(section / start) / n
         inner = 0.0
         for i in range(n):

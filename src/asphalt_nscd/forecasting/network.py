@@ -151,6 +151,7 @@ def level_map(
     for statics, group in zip(
         _statics(contents), np.arange(RATIOS.size).reshape(-1, NEIGHBOURS), strict=True
     ):
+        # the middle one first: its factors serve the ratios on both sides
         for k in np.roll(group, -(NEIGHBOURS // 2)):
             system = replace(statics.system, weight=stiffness[k])
             found[k] = stretched(contents.prism, system, statics.motion(stiffness[k]))[0]
@@ -188,6 +189,7 @@ def bond_stiffness(
 
 def _voids(area: np.ndarray, share: float) -> np.ndarray:
     """Facets drawn at random until they make up a share of the area."""
+    # the same facets at every share: between two mixes only the mix differs
     order = np.random.default_rng(0).permutation(area.size)
     return order[np.cumsum(area[order]) < share * area.sum()]
 

@@ -121,5 +121,6 @@ def ordered(level: Level) -> tuple[np.ndarray, np.ndarray, float]:
 
 
 def _key(diameter: np.ndarray, count: np.ndarray) -> str:
+    # to a nanometre: rounding of the same grading pours no other packing
     said = np.round(diameter, 9).tobytes() + count.tobytes() + np.array([HEIGHT, VIBRATION]).tobytes()
     return hashlib.sha256(said).hexdigest()[:8]

@@ -99,6 +99,7 @@ def _chain(omega: np.ndarray, logarithm: np.ndarray) -> KelvinChain:
 
 def _classes(shape: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
     """(centres (c, 2 f), class of each (n,)) of shapes (n, 2 f); the same in each run."""
+    # of fewer shapes than classes k-means would leave some classes empty
     distinct = np.unique(shape[:: max(1, len(shape) // 1000)].round(6), axis=0)
     centres, kind = kmeans2(shape, min(most, len(distinct)), minit="++", rng=0)
     used, kind = np.unique(kind, return_inverse=True)
@@ -116,6 +117,7 @@ def step_test(
     bonds: FittedBonds, frequency: float, amplitude: float, cycles: int = 5, steps_per_cycle: int = 32
 ) -> SteppedTest:
     """Drive the head by amplitude [m] at frequency [Hz] from rest, by the fitted scheme (nscd/stepping/scheme.py)."""
+    # the fitted scheme has no error of the time step in steady oscillation: a few steps a cycle are enough
     time_step = 1.0 / (frequency * steps_per_cycle)
     scheme = Scheme.named("fitted", 2.0 * np.pi / steps_per_cycle)
     state = CondensedState.at_rest(bonds.system, bonds.laws)

@@ -233,6 +233,7 @@ def along_reference(changes: Changes, reference: np.ndarray) -> Changes:
     """
     decades, name = np.log10(changes.omega), "binder stiffness"
     degree = min(DEGREE, decades.size // 3)
+    # powers of a coordinate of order one: those of decades themselves are nearly the same column
     middle, span = 0.5 * (decades.min() + decades.max()), max(float(np.ptp(decades)), 1e-9)
 
     def curve(at: np.ndarray) -> np.ndarray:

@@ -123,6 +123,7 @@ def _diagram(
     centre = np.concatenate([position, position[sphere] + 2.0 * least[:, None] * region.normal[face]])
     weight = np.concatenate([radius, radius[sphere]]) ** 2
     middle, size = position.mean(axis=0), float(distance.max())
+    # about the middle and of order one: the squares of centres far from zero would lose digits
     vertex, corners = _vertices((centre - middle) / size, weight / size**2)
     vertex = vertex * size + middle
 
@@ -218,6 +219,7 @@ def frames(normal: np.ndarray) -> np.ndarray:
     ndarray
         (b, 3, 3) Whose first rows are the normals.
     """
+    # the axis least along the normal: their cross product is never small
     axis = np.eye(3)[np.argmin(np.abs(normal), axis=1)]
     tangent = np.cross(normal, axis)
     tangent /= np.linalg.norm(tangent, axis=1)[:, None]
