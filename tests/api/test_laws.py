@@ -81,8 +81,18 @@ def test_bonds_follow_a_law_of_all_temperatures_by_a_chain(tmp_path):
             "holds at 15 degC only",
         ),
         (lambda: an.fit(table()).complex_modulus(10.0), "give temperature_C"),
-        (lambda: an.Law.burgers(**(TABLE3 | {"Em_Pa": -1.0}), temperature_C=15), "must be positive"),
+        (lambda: an.Law.burgers(**(TABLE3 | {"Em_Pa": -1.0}), temperature_C=15), "must be at least 0.001"),
+        (
+            lambda: an.Law.burgers(**(TABLE3 | {"eta_k_Pa_s": 1e30}), temperature_C=15),
+            "at most 1e.20; give Pa",
+        ),
         (lambda: an.Law({"law": "spring"}), "holds law 'spring'"),
+        (
+            lambda: an.Law.burgers(**TABLE3, temperature_C=15).of_bonds(10.0, np.nan),
+            "15 degC only, not at nan",
+        ),
+        (lambda: an.fit(table()).of_bonds(10.0, np.nan), "nan degC: the law says nothing finite"),
+        (lambda: an.fit(table()).of_bonds(1e300, 15.0), "the law says nothing finite there; give another"),
     ],
 )
 def test_what_cannot_be_is_refused_in_a_sentence(ask, sentence):

@@ -34,6 +34,10 @@ def test_it_starts_at_rest_over_the_floor_in_two_pieces(small):
     clamped = jittered_beam(shape=(2, 2, 12), area="facets", test=Beam.test)
     with pytest.raises(an.InputError, match="plates within it hold its parts together"):
         released(clamped, QUICK_LAW, Fall(), Bonds())
+    with pytest.raises(an.InputError, match="sawn = 0.001 meets no bond"):
+        released(small, QUICK_LAW, Fall(sawn=0.001), Bonds())
+    with pytest.raises(an.InputError, match="it takes at most 1e.06: raise the time step"):
+        Fall(duration=100.0, time_step=1e-7)
 
 
 @pytest.mark.slow

@@ -81,6 +81,12 @@ def test_life_falls_by_the_power_of_strain_and_bonds_of_plates_do_not_tire(beam)
     assert profile_of(beam, one)["damage"].idxmax() < 10  # below the middle
 
 
+@pytest.mark.parametrize("strain", [0.0, -1e-4, np.nan, 1e-320, 1.0])
+def test_a_strain_out_of_range_is_refused(beam, strain):
+    with pytest.raises(InputError, match="give an amplitude as 100e-6, at least 1e-08 and at most 0.1"):
+        fatigue(beam, strain, LAW)
+
+
 def strain_for(cycles, specimen):
     """Largest strain that the specimen endures so many cycles."""
     return 1e-3 * (fatigue(specimen, 1e-3, LAW).life() / cycles) ** (1.0 / LAW.exponent)

@@ -76,6 +76,13 @@ def test_a_commanded_force_gives_the_modulus_of_a_commanded_motion(prism):
         assert not any(name.startswith("energy") for name in record.details)
 
 
+def test_a_whole_number_is_held_as_any_other(prism):
+    named = [hold(prism, QUICK, Hold(1e-3, 10, force_N=force))["force_N"] for force in (1, 1.0)]
+    assert named[0].equals(named[1])
+    with pytest.raises(InputError, match="hold less, or for a shorter time"):
+        hold(prism, QUICK, Hold(1e-3, 10, displacement_m=1))
+
+
 def test_nonsense_is_refused():
     for wrong, sentence in (
         (
@@ -83,7 +90,7 @@ def test_nonsense_is_refused():
             "give force_N for creep or displacement_m for relaxation, not both",
         ),
         ({"force_N": 0.0}, "nothing is held"),
-        ({"duration_s": 0.0}, "duration_s = 0; give a number greater than 0"),
+        ({"duration_s": 0.0}, "duration_s = 0; give a number at least 1e-06"),
         ({"steps": 5}, "steps = 5; give a number at least 10"),
     ):
         with pytest.raises(InputError, match=sentence):

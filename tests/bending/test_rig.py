@@ -40,6 +40,11 @@ def test_the_channel_records_the_displacement_late_and_behind_in_phase():
     np.testing.assert_allclose(case.recorded(np.array([3e-3, 0.02])), expected, rtol=1e-12)
 
 
+def test_a_device_beyond_any_rig_is_refused():
+    with pytest.raises(InputError, match=r"guide_friction_N = 1e\+300 must be at least 0 and at most 1e\+15"):
+        Rig(guide_friction=1e300)
+
+
 @pytest.mark.parametrize(
     ("content", "words"),
     [
@@ -51,7 +56,7 @@ def test_the_channel_records_the_displacement_late_and_behind_in_phase():
             '{"head_mass_kg": -0.1, "clamp_compliance_m_N": 1e-7}',
             "head_mass_kg = -0.1 is negative, which a compliant clamp does not allow",
         ),
-        ('{"channel_delay_s": NaN}', "channel_delay_s = nan must be finite"),
+        ('{"channel_delay_s": NaN}', "channel_delay_s = nan must be at least -1e.15"),
     ],
 )
 def test_bad_files_are_refused_by_name(tmp_path, content, words):

@@ -10,6 +10,8 @@ import pytest
 
 from asphalt_nscd.bending.case import Load, Numerics
 from asphalt_nscd.bending.condensing import Bonds
+from asphalt_nscd.bending.fatigue import FatigueLaw
+from asphalt_nscd.bending.hold import Hold
 from asphalt_nscd.cli import _options
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.specimen.cutting import Cutting
@@ -22,8 +24,9 @@ NAN, INF, BOX = float("nan"), float("inf"), (0.1, 0.1, 0.1)
 @pytest.mark.parametrize(
     ("make", "sentence"),
     [
-        (lambda: Bonds(yield_Pa=0.0), "bonds: yield_Pa = 0; give a number greater than 0."),
-        (lambda: Bonds(yield_Pa=NAN), "bonds: yield_Pa = nan; give a number greater than 0."),
+        (lambda: Bonds(yield_Pa=0.0), "bonds: yield_Pa = 0; give a number at least 1."),
+        (lambda: Bonds(yield_Pa=NAN), "bonds: yield_Pa = nan; give a number at least 1."),
+        (lambda: Bonds(yield_Pa=1e-320), "bonds: yield_Pa ="),  # times an area: zero
         (lambda: Bonds(yield_Pa=-1.0), "bonds: yield_Pa = -1;"),
         (lambda: Bonds(friction=-1.0), "bonds: friction = -1; give a number at least 0 and at most 100."),
         (lambda: Bonds(friction=INF), "bonds: friction = inf;"),
@@ -32,6 +35,7 @@ NAN, INF, BOX = float("nan"), float("inf"), (0.1, 0.1, 0.1)
             "bonds: poisson = 0.51; give a number greater than -1 and at most 0.5.",
         ),
         (lambda: Bonds(kt_over_kn=0.0), "bonds: kt_over_kn = 0;"),
+        (lambda: Bonds(kt_over_kn=1e-7), "bonds: kt_over_kn = 1e-07;"),  # statics are not solved
         (lambda: Bonds(head="loose"), "bonds: head = 'loose' is not known; give one of free, blocked."),
         (lambda: Pouring(BOX, time_step=-1e-4), "pouring: time_step_s = -0.0001; give a number at least"),
         (lambda: Pouring(BOX, time_step=0.1), "pouring: time_step_s = 0.1;"),
@@ -42,10 +46,19 @@ NAN, INF, BOX = float("nan"), float("inf"), (0.1, 0.1, 0.1)
         (lambda: Vibration(duration=1e9), "vibration: duration_s = 1e+09;"),
         (lambda: Cutting(volume_reduction=1.0), "cutting: volume_reduction = 1;"),
         (lambda: Cutting(gap_max_mm=-2.0), "cutting: gap_max_mm = -2;"),
+        (lambda: Cutting(gap_max_mm=1e300), "cutting: gap_max_mm = 1e+300;"),
         (lambda: Numerics(time_step=0.0), "numerics: time_step_s = 0;"),
         (lambda: Numerics(method="guess"), "numerics: method = 'guess' is not known; give one of reduced,"),
         (lambda: Numerics(rest_steps=-1), "numerics: rest_steps = -1;"),
         (lambda: Load(amplitude_m=NAN), "load: amplitude_m = nan;"),
+        (lambda: Load(amplitude_m=1e-320), "load: amplitude_m ="),  # a modulus that is not finite
+        (lambda: Load(amplitude_m=1e300), "load: amplitude_m = 1e+300;"),
+        (lambda: Load(amplitude_N=1e300), "load: amplitude_N = 1e+300;"),
+        (lambda: Load(frames=10**9), "load: frames = 1e+09;"),
+        (lambda: Hold(duration_s=1e300), "hold: duration_s = 1e+300;"),
+        (lambda: Hold(duration_s=1e-300), "hold: duration_s = 1e-300;"),
+        (lambda: Hold(force_N=-1e300), "hold: force_N = -1e+300;"),
+        (lambda: FatigueLaw(endured=1e-320), "fatiguelaw: endured ="),
         (lambda: Load(cycles=0.5), "load: cycles = 0.5;"),
         (lambda: Load(frames=-1), "load: frames = -1;"),
     ],

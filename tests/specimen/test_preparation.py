@@ -187,8 +187,14 @@ def test_a_layer_at_rest_that_is_poured_on_stays_where_it_is(folder, poured):
     moved = np.linalg.norm(again.arrays["position"] - poured.arrays["position"], axis=1)
     assert np.median(moved) < 1e-5  # a loose grain may roll
     assert again.attributes["layer_height_m"] == pytest.approx(poured.attributes["layer_height_m"], rel=1e-3)
+    position, radius = poured.arrays["position"], poured.arrays["radius"]
+    within = (float(position[:, 0].max()) + 1e-6, *BOX[1:])  # of all centres, but not of the spheres
+    for box in ((0.03, 0.01, 0.14), within, (*BOX[:2], float(position[:, 2].max()))):
+        with pytest.raises(InputError, match="spheres of the packing lie outside"):
+            deposit(folder / "deposit.h5", Pouring(box), folder / "again.h5")
+    position = np.where(np.arange(radius.size)[:, None] == 3, np.nan, position)
     with pytest.raises(InputError, match="spheres of the packing lie outside"):
-        deposit(folder / "deposit.h5", Pouring((0.03, 0.01, 0.14)), folder / "again.h5")
+        preparation.pour_on(position, radius, still)
 
 
 def test_a_sphere_that_rebounds_rests_later_by_what_theory_says():

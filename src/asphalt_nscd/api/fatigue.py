@@ -9,8 +9,6 @@ from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending import fatigue as test
 from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.bending.fatigue import FatigueLaw
-from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.ranges import Range
 from asphalt_nscd.nscd.bonds.fatigue import FatigueHistory
 
 
@@ -56,7 +54,5 @@ def fatigue(
     >>> round(lives[0] / lives[1], 1)  # twice the strain: a life by 2^5 shorter
     32.0
     """
-    if not Range(above=0.0, high=0.1).holds(strain):
-        raise InputError(f"strain = {strain:g}; give an amplitude as 100e-6, greater than 0 and at most 0.1.")
     given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
     return test.fatigue(given.bonded, strain, law, bonds)

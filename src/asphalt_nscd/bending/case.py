@@ -122,7 +122,7 @@ class Numerics(Ranged):
     method: str = one_of("reduced", METHODS)
     scheme: str = one_of("euler", SCHEMES)
     tolerance: float = within(1e-4, low=0.0)
-    most_sweeps: int = within(50, low=1)
+    most_sweeps: int = within(50, low=1, high=100_000)
 
     def steps(self, case: LoadCase) -> int:
         """Number of steps while the head moves.
@@ -240,11 +240,11 @@ class Load(Ranged):
     6.3e-05 m
     """
 
-    amplitude_m: float | None = within(None, above=0.0)
+    amplitude_m: float | None = within(None, low=1e-15, high=1.0)
     cycles: float = within(5.0, low=1.0)
     rig: Rig = Rig()
-    frames: int = within(0, low=0)
-    amplitude_N: float | None = within(None, above=0.0)
+    frames: int = within(0, low=0, high=10_000)
+    amplitude_N: float | None = within(None, low=1e-9, high=1e9)
 
     def at(self, frequency_Hz: float, shape: Shape) -> LoadCase:
         """The case of one frequency on specimens of a geometry.

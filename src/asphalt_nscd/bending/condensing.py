@@ -47,8 +47,8 @@ class Bonds(Ranged):
 
     head: str = one_of("free", HEADS)
     poisson: float = within(0.35, above=-1.0, high=0.5)
-    kt_over_kn: float = within(1.0, above=0.0, high=10.0)
-    yield_Pa: float = within(2.7e6, above=0.0)
+    kt_over_kn: float = within(1.0, low=1e-4, high=10.0)
+    yield_Pa: float = within(2.7e6, low=1.0)
     friction: float = within(0.7, low=0.0, high=100.0)
 
 

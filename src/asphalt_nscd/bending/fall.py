@@ -17,6 +17,8 @@ from asphalt_nscd.specimen.contents import Content
 from asphalt_nscd.specimen.system import bond_weight, inertia
 from asphalt_nscd.specimen.trimming import Specimen
 
+MOST_STEPS = 1_000_000  # of some milliseconds each
+
 
 @dataclass(frozen=True)
 class Fall(Ranged):
@@ -49,6 +51,14 @@ class Fall(Ranged):
     duration: float = within(0.5, "duration_s", above=0.0, high=100.0)
     time_step: float = within(2e-4, "time_step_s", low=1e-7, high=1e-2)
     frames: int = within(50, low=2, high=10_000)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.steps > MOST_STEPS:
+            raise InputError(
+                f"fall: {self.steps:.3g} steps of {self.time_step:g} s; it takes at most {MOST_STEPS:g}: raise the "
+                "time step, or follow it for less long."
+            )
 
     @property
     def steps(self) -> int:
@@ -98,7 +108,12 @@ def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> Worl
             "specimen: plates within it hold its parts together; let one fall that has plates at its ends alone."
         )
     below = specimen.position[:, 2] < fall.sawn * specimen.geometry.h
-    made.cut(below[between.first] != below[between.second])
+    across = below[between.first] != below[between.second]
+    if fall.sawn > 0.0 and not across.any():
+        raise InputError(
+            f"fall: sawn = {fall.sawn:g} meets no bond of spheres; give a share nearer to the middle."
+        )
+    made.cut(across)
     turn = Rotation.from_euler("y", fall.tilt, degrees=True)
     made.position, made.rotation = turn.apply(specimen.position), turn * made.rotation
     # the lowest surface, not the lowest centre, hangs at this height

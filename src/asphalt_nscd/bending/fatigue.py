@@ -9,7 +9,7 @@ import pandas as pd
 
 from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.ranges import Ranged, within
+from asphalt_nscd.files.ranges import Range, Ranged, within
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.fatigue import FatigueHistory, Jumps, remaining_stiffness, strain, tire
 from asphalt_nscd.nscd.bonds.law import BondLaw
@@ -25,6 +25,7 @@ MILLION = 1e6  # cycles, to which epsilon6 refers
 STEPS_PER_CYCLE = 32
 LAYERS = 20
 MOST_CYCLES = 10_000  # one by one
+STRAINS = Range(low=1e-8, high=0.1)
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class FatigueLaw(Ranged):
     3.2e-05
     """
 
-    endured: float = within(100e-6, above=0.0, high=0.1)
+    endured: float = within(100e-6, low=1e-8, high=0.1)
     exponent: float = within(5.0, low=1.0, high=20.0)
 
     def rate(self, amplitude: np.ndarray) -> np.ndarray:
@@ -142,8 +143,10 @@ def fatigue(
     Raises
     ------
     InputError
-        For a specimen that is no trapezoid.
+        For a strain out of range, or a specimen that is no trapezoid.
     """
+    if not STRAINS.holds(strain_amplitude):
+        raise InputError(f"strain = {strain_amplitude:g}; give an amplitude as 100e-6, {STRAINS}.")
     amplitude = strain_amplitude / largest_strain(_trapezoid(specimen))
     return tire(_system(specimen, bonds), specimen.network.length, law.rate, amplitude, FAILURE, jumps)
 

@@ -47,10 +47,10 @@ class Hold(Ranged):
     0.02
     """
 
-    duration_s: float = within(10.0, above=0.0)
+    duration_s: float = within(10.0, low=1e-6, high=1e9)
     steps: int = within(1000, low=10, high=MOST_STEPS)
-    force_N: float | None = within(None)
-    displacement_m: float | None = within(None)
+    force_N: float | None = within(None, low=-1e9, high=1e9)
+    displacement_m: float | None = within(None, low=-1.0, high=1.0)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -115,10 +115,10 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
         # soft against the stiffest the specimen ever is, its modulus after the first step; later it only
         # creeps
         clamp = soft_clamp(model, 1.0 / float(chain.creep_compliance(dt)))
-        path = np.full(held.steps, clamp * held.force_N)
+        path = np.full(held.steps, clamp * held.force_N, float)
     else:
         # held from the first step on, as in the closed forms: no ramp
-        path = np.full(held.steps, held.displacement_m or geometry.usual_amplitude())
+        path = np.full(held.steps, held.displacement_m or geometry.usual_amplitude(), float)
     try:
         run = runs.by_path(tared(model), bond_law(chain), HeadDevices(clamp), dt, path, RunOptions())
     except ArithmeticError as error:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.ranges import Range
 from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.nscd.bonds.head import HeadDevices
 
@@ -19,6 +19,7 @@ KEYS = {
     "phase_offset": "phase_offset_rad",
 }
 SIGNED = ("channel_delay", "phase_offset", "head_mass")
+LARGEST = 1e15  # in SI units: far beyond any rig, and squares are finite
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class Rig(HeadDevices):
     Raises
     ------
     InputError
-        For a value that is not finite or may not be negative.
+        For a value that is too large or may not be negative.
 
     Examples
     --------
@@ -61,9 +62,9 @@ class Rig(HeadDevices):
     def __post_init__(self) -> None:
         for name in KEYS:
             value = getattr(self, name)
-            if not math.isfinite(value) or (value < 0.0 and name not in SIGNED):
-                wanted = "finite" if name in SIGNED else "zero or positive"
-                raise InputError(f"rig: {KEYS[name]} = {value:g} must be {wanted}.")
+            allowed = Range(low=-LARGEST if name in SIGNED else 0.0, high=LARGEST)
+            if not allowed.holds(value):
+                raise InputError(f"rig: {KEYS[name]} = {value:g} must be {allowed}.")
         if self.head_mass < 0.0 < self.clamp_compliance:
             raise InputError(
                 f"rig: head_mass_kg = {self.head_mass:g} is negative, which a compliant clamp does not allow; give one "

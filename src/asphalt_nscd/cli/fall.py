@@ -53,6 +53,7 @@ def command(specimen: Path, law: Path, bonds: dict[str, Any], how: dict[str, Any
     from asphalt_nscd.bending.condensing import Bonds
     from asphalt_nscd.bending.fall import Fall, fell
     from asphalt_nscd.files.store import save
+    from asphalt_nscd.files.words import counted
     from asphalt_nscd.rheology.laws_io import read_bond_law
     from asphalt_nscd.specimen.cutting import read_specimen
 
@@ -60,6 +61,6 @@ def command(specimen: Path, law: Path, bonds: dict[str, Any], how: dict[str, Any
     arrays, columns = fell(read_specimen(specimen), bond_law(read_bond_law(law)), Fall(**how), Bonds(**bonds))
     save(output, "fall", arrays, columns)
     click.echo(
-        f"{output}: {columns['fragments']} pieces, the fastest sphere moves at {columns['speed_m_s']:.2g} m/s; of "
-        f"{columns['energy_J']:.3g} J the account misses {columns['error_percent']:.1g} %"
+        f"{output}: {counted(columns['fragments'], 'piece')}, the fastest sphere moves at {columns['speed_m_s']:.2g} "
+        f"m/s; of {columns['energy_J']:.3g} J the account misses {columns['error_percent']:.1g} %"
     )

@@ -13,7 +13,10 @@ _LAW = "bending.fatigue.FatigueLaw"
 @click.command()
 @click.argument("specimen", type=_options.File)
 @click.option(
-    "--strain", required=True, type=_options.POSITIVE, help="Largest amplitude of strain, as 100e-6."
+    "--strain",
+    required=True,
+    type=_options.Number(low=1e-8, high=0.1),
+    help="Largest amplitude of strain, as 100e-6.",
 )
 @click.option(
     "--endured",
@@ -34,7 +37,10 @@ _LAW = "bending.fatigue.FatigueLaw"
     help="Law of the bonds, JSON: step through every cycle with it, instead of jumps. For a few dozen cycles.",
 )
 @click.option(
-    "--finer", default=1.0, type=_options.POSITIVE, help="How many times shorter jumps are than usual."
+    "--finer",
+    default=1.0,
+    type=_options.Number(low=0.1, high=1e4),
+    help="How many times shorter jumps are than usual.",
 )
 @click.option("--frequency-hz", default=25.0, type=_options.POSITIVE, help="Frequency, with --every-cycle.")
 @click.option("--profile", default=None, type=_options.File, help="File for the damage over the height.")

@@ -8,7 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.ranges import Range
 from asphalt_nscd.rheology.chain import KelvinChain
+
+# Pa and Pa s: beyond, rates of relaxation leave the digits of a double
+PARAMETERS = Range(low=1e-3, high=1e20)
 
 
 @dataclass(frozen=True)
@@ -42,8 +46,10 @@ class Burgers:
     def __post_init__(self) -> None:
         for field in fields(self):
             value = getattr(self, field.name)
-            if not np.isfinite(value) or value <= 0:
-                raise InputError(f"Burgers law: {field.name} = {value:g} must be positive; give Pa or Pa s.")
+            if not PARAMETERS.holds(value):
+                raise InputError(
+                    f"Burgers law: {field.name} = {value:g} must be {PARAMETERS}; give Pa or Pa s."
+                )
 
     def as_chain(self) -> KelvinChain:
         """The same law as a Kelvin chain of one element.

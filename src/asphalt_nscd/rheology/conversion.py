@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.ranges import Range
 from asphalt_nscd.rheology.chain import KelvinChain
 
 Modulus = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
@@ -17,6 +18,7 @@ MOST_ELEMENTS = (
     60  # a mix takes 11 over four decades to 0.1 %, 14 over six: more is a law that bends too sharply
 )
 REACH = np.geomspace(0.3, 10.0, 12)  # of the retardation times beyond the band, tried in turn
+OMEGA = Range(low=1e-100, high=1e100)  # rad/s: their products are finite
 FITTED, TESTED = 30, 300  # frequencies in a decade for the fit, and between them for the error
 
 
@@ -48,13 +50,18 @@ def kelvin_chain(
     Raises
     ------
     InputError
-        For a band that is none, or where more elements than `MOST_ELEMENTS` were needed.
+        For a band that is none, a law that is not finite in it, or where more elements than `MOST_ELEMENTS` were
+        needed.
     """
     if not 0.0 < lowest_omega <= highest_omega < np.inf:
         raise InputError(
             f"band from {lowest_omega:g} to {highest_omega:g} rad/s: give a lowest frequency that is "
             "positive and not above the highest."
         )
+    with np.errstate(invalid="ignore"):
+        ends = modulus(np.array([lowest_omega, highest_omega]))
+    if not (np.isfinite(ends).all() and OMEGA.low <= lowest_omega and highest_omega <= OMEGA.high):
+        raise InputError("the law says nothing finite there; give another temperature or frequency.")
     best = np.inf
     for elements in range(1, MOST_ELEMENTS + 1):
         # times beyond the band shape the law within it; how far beyond is best differs from law to law

@@ -225,7 +225,7 @@ def require_holds(
         Where the law does not hold.
     """
     own = numbers_of(path, content, {"temperature": "temperature_C"})["temperature"]
-    if temperature is not None and abs(temperature - own) > SAME_TEMPERATURE:
+    if temperature is not None and not abs(temperature - own) <= SAME_TEMPERATURE:  # NaN is no temperature
         raise InputError(
             f"{path}: holds at {own:g} degC only, not at {temperature:g}; ask for {own:g} degC, or give a law of all "
             "temperatures."

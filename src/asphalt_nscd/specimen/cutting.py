@@ -37,7 +37,7 @@ class Cutting(Ranged):
     """
 
     volume_reduction: float = within(0.1, low=0.0, below=1.0)
-    gap_max_mm: float = within(2.0, above=0.0)
+    gap_max_mm: float = within(2.0, above=0.0, high=100.0)
     area: str = one_of("paper", AREAS)
 
 

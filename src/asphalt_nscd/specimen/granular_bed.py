@@ -478,6 +478,8 @@ class GranularBed:
         n = self.radius.size
         weight = self.gravity / self.inverse_mass[:n, None] * time_step  # as impulses
         first, second, impulse = self._pushed()
+        if not first.size:
+            return 1.0, 1.0  # all in flight
         force = np.zeros_like(self.velocity[:, :3])
         np.add.at(force, first, -impulse)
         np.add.at(force, second, impulse)

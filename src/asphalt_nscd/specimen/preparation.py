@@ -219,7 +219,10 @@ def pour_on(
     InputError
         Where spheres lie outside the box.
     """
-    if (position < 0.0).any() or (position > pouring.box).any():
+    slack = DEEP * radius.min()
+    low, high = position - radius[:, None], position + radius[:, None]
+    # so asked that NaN is outside
+    if not ((low >= -slack).all() and (high <= np.asarray(pouring.box) + slack).all()):
         raise InputError(
             f"box_m = {pouring.box}: spheres of the packing lie outside; give a box that holds them."
         )
@@ -315,7 +318,8 @@ def unrest(attributes: Mapping[str, Any]) -> str:
         return ""
     return (
         f"the layer is not at rest: the force on the walls differs by {carried:.1%} from its weight, and grains bear "
-        f"{unbalanced:.1%} of a contact force too much; pour with more friction, or into a wider box."
+        f"{unbalanced:.1%} of a contact force too much; pour with more friction or less restitution, or into a wider "
+        "box."
     )
 
 
