@@ -207,6 +207,30 @@ def bend(rng: Random) -> Call:
     )
 
 
+def hold(rng: Random) -> Call:
+    """A force or a displacement of any size, held for any time in few steps."""
+    given, parameters = specimens()[rng.integers(5)], burgers(rng)
+    how: dict[str, Any] = {
+        "duration_s": number(rng, Range(above=0.0), 1.0),
+        "steps": int(rng.integers(10, 60)),
+    }
+    if rng.random() < 0.8:
+        kind, usual = [("force_N", 100.0), ("displacement_m", 1e-5)][rng.integers(2)]
+        how[kind] = rng.choice([1.0, -1.0]) * number(rng, Range(above=0.0), usual)
+    bonds = of_ranges(an.Bonds, rng, poisson=0.3, kt_over_kn=1.0, yield_Pa=2.7e6, friction=0.7)
+    return lambda: an.hold(
+        given, an.Law.burgers(**parameters), 15.0, held=an.Hold(**how), bonds=an.Bonds(**bonds)
+    )
+
+
+def fatigue(rng: Random) -> Call:
+    """A specimen of any test, at any strain."""
+    given, strain = specimens()[rng.integers(5)], number(rng, Range(above=0.0), 1e-4)
+    law = of_ranges(an.FatigueLaw, rng, endured=1e-4, exponent=5.0)
+    bonds = of_ranges(an.Bonds, rng, poisson=0.3, kt_over_kn=1.0, yield_Pa=2.7e6, friction=0.7)
+    return lambda: an.fatigue(given, strain, law=an.FatigueLaw(**law), bonds=an.Bonds(**bonds))
+
+
 def solve_contacts(rng: Random) -> Call:
     """Bodies of masses over decades that touch at few or many points, with as many contacts as they need or more."""
     contacts = round(np.exp(rng.uniform(0.0, np.log(60.0))))
@@ -304,10 +328,12 @@ def diagnose(rng: Random) -> Call:
 
 
 SHARES = {
-    solve_contacts: 0.3,
-    law: 0.16,
+    solve_contacts: 0.26,
+    law: 0.14,
     specimen: 0.14,
-    bend: 0.14,
+    bend: 0.12,
+    hold: 0.05,
+    fatigue: 0.03,
     export: 0.08,
     read: 0.06,
     read_packing: 0.05,
