@@ -6,6 +6,7 @@ among them, for a test may bring its own.
 
 from __future__ import annotations
 
+import atexit
 import multiprocessing
 import os
 import subprocess
@@ -27,6 +28,7 @@ _FORKS.set_forkserver_preload(
         "click",
     ]
 )
+LONGEST = 1800.0  # s; a run that hangs is then killed, ends as -9, and its test shows what it said
 
 
 def forked(
@@ -37,7 +39,10 @@ def forked(
         told = (program, arguments, str(folder), dict(environment), (out.name, err.name))
         process = _FORKS.Process(target=_run, args=told)
         process.start()
-        process.join()
+        process.join(LONGEST)
+        if process.exitcode is None:
+            process.kill()
+            process.join()
         return subprocess.CompletedProcess(arguments, process.exitcode, out.read(), err.read())
 
 
@@ -53,4 +58,7 @@ def _run(
     sys.path[:0] = [os.getcwd(), *filter(None, searched)]
     module, function = program.split(":")
     sys.argv = [module, *arguments]
-    getattr(import_module(module), function)()
+    try:
+        getattr(import_module(module), function)()
+    finally:
+        atexit._run_exitfuncs()  # a fork leaves them out: what a program keeps at its end, as the sources it has parsed
