@@ -2,11 +2,26 @@
 
 from __future__ import annotations
 
+import ast
+import builtins
+
 import pytest
 from mutants import MUTANTS, PACKAGE, ROOT
 
 
+def unbound(text: str) -> set[str]:
+    """Names that a module uses and neither imports nor defines: with one of these every test would fail."""
+    nodes = list(ast.walk(ast.parse(text)))
+    names = [node for node in nodes if isinstance(node, ast.Name)]
+    bound = {*dir(builtins), "__file__"} | {one.id for one in names if not isinstance(one.ctx, ast.Load)}
+    bound |= {node.arg for node in nodes if isinstance(node, ast.arg)}
+    bound |= {getattr(node, "name", None) for node in nodes if not isinstance(node, ast.alias)}
+    bound |= {(node.asname or node.name).split(".")[0] for node in nodes if isinstance(node, ast.alias)}
+    return {one.id for one in names} - bound
+
+
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: mutant.what)
 def test_each_mutant_changes_its_file_once_and_has_its_tests(mutant):
-    assert (ROOT / PACKAGE / mutant.file).read_text(encoding="utf-8").count(mutant.right) == 1
+    text = (ROOT / PACKAGE / mutant.file).read_text(encoding="utf-8")
+    assert text.count(mutant.right) == 1 and not unbound(text.replace(mutant.right, mutant.wrong))
     assert mutant.right != mutant.wrong and (ROOT / "tests" / mutant.tests).is_file()
