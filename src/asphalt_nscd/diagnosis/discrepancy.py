@@ -23,11 +23,8 @@ from asphalt_nscd.diagnosis.observations import Observations
 Vector = NDArray[np.float64]
 Kernel = Callable[[NDArray], NDArray]
 LENGTH = 1.5  # of ln f, over which the discrepancy of an isotherm changes
-LEVEL, SMOOTH, ROUGH = (
-    0.25,
-    0.6,
-    0.15,
-)  # shares of its variance: all frequencies, smooth over ln f, one condition
+# shares of its variance: the same at all frequencies, smooth over ln f, of one condition
+LEVEL, SMOOTH, ROUGH = 0.25, 0.6, 0.15
 SPECIMEN_LENGTH = 3.0  # of ln f, over which the discrepancy of a specimen changes
 ACROSS = 0.5  # of the tested range of temperature, over which it changes
 LEFT_OUT = {"isotherm": 1e-3, "all": 1e-3, "specimen": 0.05}  # share of the variance of dropped eigenvectors

@@ -96,21 +96,14 @@ class _Table:
 
     def without(self, candidate: Candidate) -> tuple[Fitted, NDArray, NDArray[np.complex128]]:
         """The fit with a cause taken out, its whitened direction (2n, 1), and what it does to ln E* (n,)."""
-        linear, active = self.linear, list(self.linear.active)
-        number = [one.key for one in active].index(candidate.key)
-        first = linear.law.size + linear.scales.size + sum(len(one.values) for one in active[:number])
+        linear = self.linear
+        number = [one.key for one in linear.active].index(candidate.key)
+        first = linear.place_of(candidate.key)
         columns = range(first, first + len(candidate.values))
         direction = linear.jacobian[:, [first]]
         size = candidate.values[0] / candidate.typical[0]
-        rest = np.delete(linear.jacobian, columns, axis=1)
-        back = direction[:, 0] * size
-        out = replace(
-            linear,
-            jacobian=rest,
-            residual=linear.residual + back,
-            precision=np.delete(np.delete(linear.precision, columns, 0), columns, 1),
-            gradient=np.delete(linear.gradient, columns) + rest.T @ back,
-        )
+        rest, back = linear.fixed(columns), direction[:, 0] * size
+        out = replace(rest, residual=linear.residual + back, gradient=rest.gradient + rest.jacobian.T @ back)
         effect = size * self.plain.direction(linear.law, linear.scales, linear.active, number, 0)
         return out, direction, effect
 

@@ -202,26 +202,31 @@ def afresh(state: State, active: tuple[Candidate, ...]) -> State:
 def of_taken(
     state: State, candidate: Candidate, rows: NDArray | None = None, sizes_too: bool = False
 ) -> Estimate:
-    """Amplitude of a cause that is in the fit, in typical units, from all rows or from some.
+    """Amplitude of a cause that is in the fit, in typical units.
 
-    sizes_too: whether its standard error holds what is not known of the discrepancy's sizes.
+    Parameters
+    ----------
+    state : State
+        The fit.
+    candidate : Candidate
+        The cause.
+    rows : ndarray of int (r,), optional
+        Tests that alone are counted; all if None.
+    sizes_too : bool
+        Whether its standard error holds what is not known of the discrepancy's sizes.
+
+    Returns
+    -------
+    Estimate
+        Of the cause.
     """
-    first = state.fitted.law.size + state.fitted.scales.size
-    for active in state.fitted.active:
-        if active.key == candidate.key:
-            break
-        first += len(active.values)
+    first = state.fitted.place_of(candidate.key)
     plain, model, linear = state.plain, state.model, state.linear
     if rows is not None:
         plain = Joint(plain.observed.subset(rows), plain.base, plain.noise.subset(rows))
         linear = plain.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
     d = linear.jacobian[:, [first]]
-    rest = replace(
-        linear,
-        jacobian=np.delete(linear.jacobian, first, axis=1),
-        precision=np.delete(np.delete(linear.precision, first, axis=0), first, axis=1),
-        gradient=np.delete(linear.gradient, first),
-    )
+    rest = linear.fixed(first)
     found, start = model.processes, state.variances
     if rows is not None:
         found, start = of_rows(found, plain, rows, start)
@@ -230,6 +235,7 @@ def of_taken(
     found_value = likelihood.estimate(model, pointing, start)
     if sizes_too:
         found_value = likelihood.with_uncertain_sizes(model, pointing, found_value)
+    active = next(one for one in state.fitted.active if one.key == candidate.key)
     stands = active.values[0] / active.typical[0]
     return replace(found_value, amplitude=found_value.amplitude + stands)
 
@@ -271,14 +277,24 @@ def of_shapes(fitted: Fitted, candidate: Candidate, observed: Observations) -> f
 
     The prior is about as wide as the fit's about each start. The share is that given the amplitude, whose own error is
     counted with its own prior.
+
+    Parameters
+    ----------
+    fitted : Fitted
+        A fit with the cause.
+    candidate : Candidate
+        The cause.
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    float
+        In units of -2 ln likelihood; zero for a cause without shapes of its own.
     """
     if not candidate.shaped:
         return 0.0
-    first = fitted.law.size + fitted.scales.size
-    for active in fitted.active:
-        if active.key == candidate.key:
-            break
-        first += len(active.values)
+    first = fitted.place_of(candidate.key)
     at = slice(first, first + len(candidate.values))
     own = fitted.covariance[at, at]
     left = float(np.linalg.slogdet(own)[1] - np.log(own[0, 0]))

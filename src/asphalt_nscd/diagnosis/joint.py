@@ -6,6 +6,7 @@ it; so every candidate is refitted jointly. All residuals are whitened by the re
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -124,6 +125,42 @@ class Fitted:
     def covariance(self) -> NDArray:
         """Covariance (q, q) of the parameters."""
         return np.linalg.inv(self.precision)
+
+    def place_of(self, key: tuple[str, Place]) -> int:
+        """Where the parameters of a cause begin among all.
+
+        Parameters
+        ----------
+        key : tuple
+            Of a cause that is in the fit.
+
+        Returns
+        -------
+        int
+            Column of the Jacobian.
+        """
+        number = [one.key for one in self.active].index(key)
+        return self.law.size + self.scales.size + sum(len(one.values) for one in self.active[:number])
+
+    def fixed(self, places: int | Sequence[int]) -> Fitted:
+        """The same with some parameters fixed where they stand.
+
+        Parameters
+        ----------
+        places : int or sequence of int
+            Columns of the Jacobian.
+
+        Returns
+        -------
+        Fitted
+            Without them in its derivatives.
+        """
+        return replace(
+            self,
+            jacobian=np.delete(self.jacobian, places, axis=1),
+            precision=np.delete(np.delete(self.precision, places, axis=0), places, axis=1),
+            gradient=np.delete(self.gradient, places),
+        )
 
 
 class Joint:

@@ -20,7 +20,7 @@ from asphalt_nscd.diagnosis.doubts import Key, find_doubts
 from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.written import widening
 
-ONE_SIGN = frozenset(cause.name for cause in CATALOGUE if cause.parameters[0].low >= 0.0)
+ONE_SIGN = frozenset(cause.name for cause in CATALOGUE if cause.one_sided)
 
 
 @dataclass(frozen=True)
@@ -138,11 +138,7 @@ class Ladder:
             Of each parameter, in its unit.
         """
         fitted = self.fitted
-        first = fitted.jacobian.shape[1] - sum(len(one.values) for one in fitted.active)
-        for active in fitted.active:
-            if active.key == candidate.key:
-                break
-            first += len(active.values)
+        first = fitted.place_of(candidate.key)
         at = slice(first, first + len(candidate.values))
         errors = np.sqrt(np.diag(fitted.covariance))[at] * candidate.typical
         errors[0] = max(errors[0], self.estimates.get(candidate.key, (0.0, 0.0))[1])

@@ -348,7 +348,6 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
 
 def _factor(model: Reduced, s: Vector) -> tuple[NDArray, bool]:
     """Lower factor of 1 + S G S, and whether there is none: rounding, where a size is absurd."""
-    # I + S G S, whose eigenvalues are 1 at least: its factor exists even where variances vanish
     whole = s[:, None] * model.gram * s
     whole[np.diag_indices(s.size)] += 1.0
     lower, failed = dpotrf(whole, lower=1)

@@ -105,7 +105,7 @@ def plan(diagnosis: Diagnosis) -> Iterator[Hidden]:
             )
             first = cause.parameters[0]
             for times in TIMES:
-                for sign in (1.0,) if first.low >= 0.0 else (1.0, -1.0):
+                for sign in (1.0,) if cause.one_sided else (1.0, -1.0):
                     amplitude = own + sign * times * limit
                     if first.low <= amplitude <= first.high:
                         yield Hidden(Candidate(cause, place, (amplitude, *shape)), own, sign * times)

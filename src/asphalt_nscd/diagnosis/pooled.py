@@ -31,7 +31,7 @@ from asphalt_nscd.diagnosis.criteria import (
     Z_95,
 )
 from asphalt_nscd.diagnosis.diagnose import Diagnosis
-from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.ladder import spread_of
 from asphalt_nscd.diagnosis.observations import Observations
 from asphalt_nscd.diagnosis.written import widening
@@ -191,7 +191,7 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
     size = len(causes)
     if not columns:
         return _Evidence(np.zeros((size, size)), np.zeros(size))
-    rest = _without(state.linear, inside)
+    rest = state.linear.fixed(inside)
     model = likelihood.reduce(state.model.processes, rest)
     pointing = likelihood.directions(model, rest, state.plain.noise.whiten(np.column_stack(columns)))
     # Those before the last are held at where they stand: their size is common and known far better.
@@ -214,24 +214,12 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
 def _direction(state: fit_beside.State, cause: Cause) -> tuple[NDArray, float, int | None]:
     """Derivative (n,) of ln E* along a cause, its value in the fit [typical units] and its place in the Jacobian."""
     fitted, joint = state.fitted, state.plain
-    first = fitted.law.size + fitted.scales.size
     for k, one in enumerate(fitted.active):
         if one.key == (cause.name, None):
             column = joint.direction(fitted.law, fitted.scales, fitted.active, k, 0)
-            return column, one.values[0] / cause.parameters[0].typical, first
-        first += len(one.values)
+            return column, one.values[0] / cause.parameters[0].typical, fitted.place_of(one.key)
     absent = (*fitted.active, Candidate(cause, None, (0.0,)))
     return joint.direction(fitted.law, fitted.scales, absent, len(absent) - 1, 0), 0.0, None
-
-
-def _without(linear: Fitted, places: Sequence[int]) -> Fitted:
-    """A fit of which some parameters are none of its own."""
-    return replace(
-        linear,
-        jacobian=np.delete(linear.jacobian, places, axis=1),
-        precision=np.delete(np.delete(linear.precision, places, axis=0), places, axis=1),
-        gradient=np.delete(linear.gradient, places),
-    )
 
 
 def _all_together(each: Sequence[_Evidence], start: Vector) -> Vector:
@@ -326,7 +314,7 @@ def _gain(each: Sequence[_Evidence], taken: Vector) -> float:
 
 def _z(cause: Cause, found: _Whole) -> float:
     """Standard errors, with the sign that a one-sided cause cannot have counted as nothing."""
-    return max(found.z, 0.0) if cause.parameters[0].low >= 0.0 else abs(found.z)
+    return max(found.z, 0.0) if cause.one_sided else abs(found.z)
 
 
 def _by_chance(
@@ -343,7 +331,7 @@ def _by_chance(
         cross = information[taken:, :taken]
         own = own - cross @ np.linalg.solve(information[:taken, :taken], cross.T)
     size = np.sqrt(np.maximum(np.diag(own), 1e-300))
-    one_sided = np.array([cause.parameters[0].low >= 0.0 for cause in causes[taken:]])
+    one_sided = np.array([cause.one_sided for cause in causes[taken:]])
     scores = chance.Scores(np.zeros(size.size), size**2, np.ones(size.size, bool), own / size[:, None] / size)
     freedom = sum(one.state.plain.noise.freedom for one in states)
     return chance.largest_by_chance(scores, one_sided, freedom, draws, random)

@@ -40,9 +40,9 @@ def log_odds(candidate: Candidate, observed: Observations, gain: float, std_erro
     float
         Natural logarithm.
     """
-    expected, first = EXPECTED[candidate.cause.name], candidate.cause.parameters[0]
+    expected = EXPECTED[candidate.cause.name]
     places = len(candidate.cause.places(observed))
-    return odds_of(expected, places, candidate.values[0], std_error, gain, first.low >= 0.0)
+    return odds_of(expected, places, candidate.values[0], std_error, gain, candidate.cause.one_sided)
 
 
 def odds_of(

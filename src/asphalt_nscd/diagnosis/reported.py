@@ -90,7 +90,20 @@ def mix_modulus(
 
 
 def standard_errors(slope: NDArray[np.float64], covariance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Standard errors (n,) of quantities with slopes (n, p) along p parameters of a covariance (p, p)."""
+    """Standard errors of quantities that are linear in parameters.
+
+    Parameters
+    ----------
+    slope : ndarray (n, p)
+        Of n quantities along p parameters.
+    covariance : ndarray (p, p)
+        Of the parameters.
+
+    Returns
+    -------
+    ndarray (n,)
+        Of the quantities.
+    """
     values, vectors = np.linalg.eigh(covariance)
     # Where a parameter is all but free, rounding makes the least eigenvalues negative, and would a variance.
     return np.linalg.norm(slope @ (vectors * np.sqrt(np.maximum(values, 0.0))), axis=1)

@@ -154,7 +154,18 @@ def _spectrum(observed: Observations, c1: float, c2: float) -> FlexibleSpectrum:
 
 
 def first_laws(joint: Joint) -> Iterator[Vector]:
-    """Where fits of a base may begin."""
+    """Where fits of a law may begin: at each of WLF_STARTS.
+
+    Parameters
+    ----------
+    joint : Joint
+        Model of the table.
+
+    Returns
+    -------
+    iterator of ndarray (p,)
+        Parameters of the law.
+    """
     for c1, c2 in WLF_STARTS:
         yield _first_law(joint.observed, joint.spectrum, c1, c2)
 

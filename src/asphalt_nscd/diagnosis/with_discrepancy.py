@@ -186,7 +186,7 @@ def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
         else likelihood.estimate(state.model, pointing.column(k), state.variances)
         for k, candidate in enumerate(candidates)
     ]
-    one_sided = np.array([c.cause.parameters[0].low >= 0.0 for c in candidates], bool)
+    one_sided = np.array([c.cause.one_sided for c in candidates], bool)
     return Survey(candidates, pointing, estimates, one_sided)
 
 

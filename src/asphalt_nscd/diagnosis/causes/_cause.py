@@ -65,6 +65,11 @@ class Cause(ABC):
     confined_to: ClassVar[str] = ""
     benches: ClassVar[tuple[str, ...]] = tuple(TEST_TYPES)
 
+    @property
+    def one_sided(self) -> bool:
+        """Whether its amplitude cannot be below zero."""
+        return self.parameters[0].low >= 0.0
+
     def places(self, observed: Observations) -> Sequence[Place]:
         """Where the cause may sit.
 
