@@ -24,7 +24,6 @@ def _bode(points: int = 32, reach: float = 30.0) -> tuple[NDArray[np.float64], N
 
     u = reach t^4 takes the logarithm at 0 out of reach of Gauss and Legendre; beyond `reach` the weight is e^-30.
     """
-    # u = reach t^4 crowds points about u = 0, where ln coth(|u|/2) is singular but integrable
     t, w = np.polynomial.legendre.leggauss(points)
     t, w = 0.5 * (t + 1.0), 0.5 * w
     u = reach * t**4

@@ -14,12 +14,8 @@ from asphalt_nscd.specimen.contents import DEPOSIT, SPECIMEN, Content
 from asphalt_nscd.specimen.network import AREAS, Network
 from asphalt_nscd.specimen.trimming import Specimen, trim
 
-KEPT = (
-    "seed",
-    "source",
-    "layer_height_m",
-    "solid_fraction",
-)  # of a deposit, in the specimen; source: of an import
+# of a deposit, in the specimen; source: of an import
+KEPT = ("seed", "source", "layer_height_m", "solid_fraction")
 
 
 @dataclass(frozen=True)

@@ -19,9 +19,8 @@ WALL = 5
 WALL_REACH = 3e-3  # m, further than for spheres: a moving plane alone calls for no search
 SEARCH_EVERY = 25  # steps, for which the motion of each sphere is allowed for
 FALLING = 0.01  # m/s, mean speed
-FALLING_SWEEPS = (
-    9  # beside thorough ones, layers of twelve seeds are alike, and a quarter of the time is saved
-)
+# beside thorough ones, layers of twelve seeds are alike, and a quarter of the time is saved
+FALLING_SWEEPS = 9
 MOST_SWEEPS = 300
 TOLERANCE = 2e-3
 PENETRATION, FALLING_PENETRATION = 0.02, 0.1  # of the smallest radius

@@ -17,9 +17,8 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection
 FILLED = (
     1e-9  # cells that miss the volume of the region by less, relatively, were cut by every image they need
 )
-ON_A_FACE = (
-    1e-9  # of the size of the region: a sphere closer to a face is mirrored from here, not onto itself
-)
+# of the size of the region: a sphere closer to a face is mirrored from here, not onto itself
+ON_A_FACE = 1e-9
 NEGLIGIBLE = 1e-6  # of the section of the smaller sphere: a smaller facet is left out
 
 _EDGES = np.array([(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)])
