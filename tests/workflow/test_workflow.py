@@ -9,6 +9,7 @@ import re
 import shlex
 import shutil
 import signal
+import sys
 import time
 from functools import cache
 from pathlib import Path
@@ -339,6 +340,13 @@ def test_a_run_is_a_line_for_each_step_and_its_commands_are_kept(fits):
     assert len(steps) == 4 and len(lines) <= len(steps) + 2 and max(map(len, lines)) < 120, lines
     (log,) = workspace.folder.glob(".snakemake/log/*.log")
     assert "asphalt-nscd reduce" in log.read_text()
+
+
+def test_no_timer_renews_the_look_at_jobs_on_this_machine(fitted):
+    """Snakemake starts them where it limits jobs a second, as it does by default."""
+    done = fitted.run("--cores", "1", "--verbose", "--force", FITS[0])
+    counts = re.findall(r"Resources after job selection: .*'_job_count': (\d+)", done.stderr)
+    assert counts and set(counts) == {str(sys.maxsize)}, done.stderr
 
 
 def test_killed_run_is_finished_by_the_same_command(fitted):
