@@ -158,7 +158,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             shorter={
                 "real tables, offset and delay at 3 and 6 limits: named": "offset and delay, 3 and 6 limits: named",
                 "the same: size grew by what was put in, within its interval": "the same: growth within its interval",
-                "the same, over its size on the same tests": "the same, over its size",
                 "the same, over its size with the same tests and causes": "the same, over its size",
                 "the same: a wrong name instead": "the same: a wrong name",
                 "all causes at 3 times the limit: named": "all causes at 3 limits: named",
