@@ -29,7 +29,7 @@ CONFIG ?=
 READY := .venv/.ready
 TOOLS := .venv/.tools
 
-# The bytecode of packages is made once, at their first import, not in every job.
+# Packages compile their bytecode once, at installation, not in every job.
 unexport PYTHONDONTWRITEBYTECODE
 
 # An environment that was moved, or that does not start any more, is made again.

@@ -160,6 +160,7 @@ def write_large():
         ".pdf": lambda: save_figure(figure, path.with_suffix("")),
         ".csv": lambda: write_table(path, pd.DataFrame({"x": range(100000)})),
     }
+    sys.dont_write_bytecode = True  # Python would keep what it wrote of it, torn, for all later runs
     resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))  # matplotlib has kept its fonts by now
     sys.exit(cli._status(steps[path.suffix]))
 
