@@ -107,7 +107,7 @@ _CRITERIA = {
     "met": "met",
 }
 BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
-    "verification": [Layout({name: name for name in ("theme", "passed", "largest_error_over_tolerance")})],
+    "verification": [Layout({name: name for name in ("theme", "passed")})],
     "faults": [Layout({name: name for name in ("kind", "faults", "passed")})],
     "ladder": [
         Rungs("E", "Modulus |E\\*|, mean relative error in percent:"),
@@ -270,8 +270,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "temperature_C": "T, °C",
                 "published_phase_percent": "published",
                 "smooth_law_phase_percent": "smooth law",
-                "lowest_phase_percent": "draws, lowest",
-                "highest_phase_percent": "highest",
                 "above_phase_percent": "above published",
             },
             "Phase angle, mean relative error of Table 3's laws in percent:",
