@@ -53,7 +53,7 @@ def test_the_law_is_found_again_at_all_times(prism, law, what):
 
 
 def test_what_breaks_is_told(prism):
-    table = hold(prism, QUICK, Hold(1e-3, 20, displacement_m=1.5e-5))
+    table = hold(prism, QUICK, Hold(1e-3, 20, displacement_m=1e-5))
     assert table.attrs["broken_bonds"] > 0 and "broke" in told(table)
     whole = hold(prism, QUICK, Hold(1e-3, 20, displacement_m=1.5e-8))
     assert table["E_MPa"].iloc[-1] < 0.9 * whole["E_MPa"].iloc[-1]
@@ -79,8 +79,18 @@ def test_a_commanded_force_gives_the_modulus_of_a_commanded_motion(prism):
 def test_a_whole_number_is_held_as_any_other(prism):
     named = [hold(prism, QUICK, Hold(1e-3, 10, force_N=force))["force_N"] for force in (1, 1.0)]
     assert named[0].equals(named[1])
-    with pytest.raises(InputError, match="hold less, or for a shorter time"):
+    with pytest.raises(InputError, match="the specimen fails"):
         hold(prism, QUICK, Hold(1e-3, 10, displacement_m=1))
+
+
+@pytest.mark.parametrize("held", [{"force_N": 100.0}, {"force_N": -1e4}, {"displacement_m": 1e-4}])
+def test_a_load_beyond_the_strength_ends_in_a_sentence_long_before_each_bond_broke(prism, held):
+    with pytest.raises(
+        InputError, match=r"prism: the specimen fails, \d+ of 338 bonds broke; lower the load"
+    ) as told:
+        hold(prism, QUICK, Hold(10e-3, 40, **held))
+    broken = int(str(told.value).split("fails, ")[1].split()[0])
+    assert 0.02 * 338 < broken < 0.1 * 338
 
 
 def test_nonsense_is_refused():

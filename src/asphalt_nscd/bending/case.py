@@ -206,12 +206,15 @@ class RunOptions:
     frames : int
         How many instants of the last cycle to keep with the motion of all spheres and the force of all bonds;
         the run then makes its steps one by one.
+    most_broken : float
+        Share of the bonds that may break before the run ends in a sentence.
     """
 
     progress: Progress = lambda done, total: None
     energy: bool = False
     checkpoint: Checkpoint | None = None
     frames: int = 0
+    most_broken: float = 1.0
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,8 @@ from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import of_chain
 
+MOST_BROKEN = 0.02  # of the bonds; beyond, the specimen no longer follows its law
+
 
 @dataclass(frozen=True)
 class Hold(Ranged):
@@ -105,7 +107,8 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     Raises
     ------
     InputError
-        Where the specimen breaks in two.
+        Where the specimen breaks in two, or so many bonds break that the full equations go on, and more than
+        `MOST_BROKEN` of them.
     """
     chain = law.as_chain() if isinstance(law, Burgers) else law
     dt, geometry = held.time_step, model.geometry
@@ -119,8 +122,9 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     else:
         # held from the first step on, as in the closed forms: no ramp
         path = np.full(held.steps, held.displacement_m or geometry.usual_amplitude(), float)
+    options = RunOptions(most_broken=MOST_BROKEN)
     try:
-        run = runs.by_path(tared(model), bond_law(chain), HeadDevices(clamp), dt, path, RunOptions())
+        run = runs.by_path(tared(model), bond_law(chain), HeadDevices(clamp), dt, path, options)
     except ArithmeticError as error:
         raise InputError(f"{model.name}: {error}; hold less, or for a shorter time.") from None
     table = pd.DataFrame({"time_s": times, "displacement_m": path - clamp * run.force, "force_N": run.force})

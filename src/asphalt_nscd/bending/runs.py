@@ -5,7 +5,7 @@ Sparse matrices are imported where a run needs them: importing them takes as lon
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 
@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
 from asphalt_nscd.bending.layers import Layers
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import counted
 from asphalt_nscd.nscd.bonds.head import HeadDevices
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, ReducedStepper
@@ -273,12 +275,21 @@ def _full_stepper(
     state: CondensedState,
     devices: HeadDevices,
     actuator: float = 0.0,
+    most_broken: float = 1.0,
 ) -> CondensedStepper:
-    """Steps the full system until the specimen is in two pieces."""
+    """Steps the full system until the specimen is in two pieces, or more than a share of its bonds broke."""
     from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
 
+    def on_break(broken: Sequence[int]) -> None:
+        model.require_whole(broken)
+        if len(broken) > most_broken * model.bonds:
+            raise InputError(
+                f"{model.name}: the specimen fails, {len(broken)} of {counted(model.bonds, 'bond')} broke; lower the "
+                "load or raise the strength of the bonds."
+            )
+
     stepper = CondensedStepper(model.system, law, dt, state, devices, actuator)
-    stepper.on_break = model.require_whole
+    stepper.on_break = on_break
     return stepper
 
 
@@ -294,7 +305,7 @@ def _in_one_call(
         state = stepper.full_state()
         # the full system goes on from where the last accepted step ended
         path = np.concatenate([[0.0], driven])[done:]
-        full = _full_stepper(whole, law, stepper.dt, state, stepper.devices, path[0])
+        full = _full_stepper(whole, law, stepper.dt, state, stepper.devices, path[0], options.most_broken)
         rest = _follow(full, path, whole.layers, options, lambda: stepper.certify(full))
         force = np.concatenate([accepted.force, rest.force])
         velocity = np.concatenate([accepted.velocity @ layers, rest.velocity])
