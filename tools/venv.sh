@@ -51,11 +51,8 @@ choose_pip() {
     fi
 }
 
-# Bytecode is made now, on all cores: one that a job makes on a full disk stays torn. Some packages ship files for other
-# versions of Python, which cannot be compiled.
 add() {
-    $pip install --quiet --disable-pip-version-check --no-compile --require-hashes --requirement "$1"
-    "$VENV/bin/python" -m compileall -qq -j 0 "$VENV"/lib/python*/site-packages || true
+    $pip install --quiet --disable-pip-version-check --compile --require-hashes --requirement "$1"
 }
 
 cd "$(dirname "$0")/.."
