@@ -20,6 +20,7 @@ from asphalt_nscd.files.errors import InputError
 
 P = ParamSpec("P")
 R = TypeVar("R")
+# By abstract classes: beartype and typeguard refuse numpy.float32 where a float is asked for.
 _PLAIN: dict[str, tuple[type | tuple[type, ...], str]] = {
     "float": (Real, "a number"),
     "int": (Integral, "a whole number"),
@@ -63,6 +64,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
         for name, value in signature.bind(*arguments, **options).arguments.items():
             said = signature.parameters[name].annotation
             _require(f"{function.__name__}: {name}", value, said, inspect.unwrap(function).__globals__)
+        # BLAS has no other switch at run time; one thread also gives the same digits on any number of cores.
         with threadpool_limits(1, user_api="blas"):
             return function(*arguments, **options)
 
@@ -104,6 +106,7 @@ def _kind(kind: str, names: Mapping[str, Any]) -> tuple[Any, str] | None:
 
 def _fits(value: Any, kind: str, names: Mapping[str, Any]) -> bool:
     found = _kind(kind, names)
+    # True is a number to Python, and never meant as one.
     if found is None or isinstance(value, bool) or not isinstance(value, found[0]):
         return False
     if found[0] is not _ROWS:

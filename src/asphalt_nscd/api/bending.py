@@ -236,6 +236,7 @@ def bend(
         *outcome(_model(_Once(given), bonds), followed, temperature_C, case, numerics, options), given.name
     )
     if test.broken_bonds:
+        # 3: past `checked`, so that the warning shows the user's own line.
         warnings.warn(damage(test.attributes), stacklevel=3)
     return test
 
@@ -298,6 +299,7 @@ class _Once:
         self.specimen = specimen
 
     def __hash__(self) -> int:
+        # Its arrays have no hash; the same object has the same bonds.
         return id(self.specimen)
 
     def __eq__(self, other: object) -> bool:

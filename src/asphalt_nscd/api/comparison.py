@@ -115,8 +115,10 @@ class Comparison:
 def _ranks(table: pd.DataFrame) -> tuple[list[int], list[int]]:
     """95 % interval of the rank of each row, 1 for the stiffest."""
     size = np.log(table["E_high_MPa"] / table["E_low_MPa"]).to_numpy() / (2.0 * CONFIDENCE)
+    # The same ranks at each call.
     random = np.random.default_rng(0)
     drawn = np.log(table["E_MPa"].to_numpy()) + size * random.standard_normal((DRAWS, len(table)))
+    # Twice: the first gives the order, the second the place of each in it.
     ranks = 1 + np.argsort(np.argsort(-drawn, axis=1), axis=1)
     low, high = np.quantile(ranks, [0.025, 0.975], axis=0, method="nearest")
     return low.astype(int).tolist(), high.astype(int).tolist()

@@ -84,6 +84,7 @@ def solve_contacts(
         solved = solve_normal_first(matrix, free[place], mu, tolerance)
     except (TypeError, ValueError) as error:
         raise InputError(f"contacts: {error}.") from None
+    # The order that undoes a permutation.
     back = np.argsort(place)
     return replace(solved, reactions=solved.reactions[back], velocities=solved.velocities[back])
 
@@ -111,6 +112,7 @@ def _doubt(free: np.ndarray, order: str) -> None:
             warnings.warn(
                 f"q: no contact closes along the normals of order {order!r}, and all would in order {other!r}; check "
                 "the order. Reactions are zero as it stands.",
+                # Past this function and `checked`, to the user's own line.
                 stacklevel=4,
             )
             return

@@ -83,7 +83,9 @@ class Diagnosis:
                 raise InputError(
                     f"{folder / name}: no such file; it belongs to diagnosis.json, diagnose again."
                 )
+            # A specimen called 01 is not 1.
             tables.append(pd.read_csv(folder / name, dtype={"specimen": str}))
+        # An empty cell of a CSV is a NaN to pandas, and a NaN is true: each test would be suspect.
         tables[1]["reasons"] = tables[1]["reasons"].fillna("")
         law = read_json(folder / "law.json") if is_file(folder / "law.json") else None
         return cls(Outcome(content, tables[0], tables[1], law))
@@ -133,6 +135,7 @@ class Diagnosis:
             specimen is left out; else it is the likeliest, `hangs_on` names what must not be left out,
             `as_good` what fits as well, and `doubts` says why an unknown effect may stand behind it.
         """
+        # Named columns, which a ladder without a rung has too.
         return pd.DataFrame([_rung(rung) for rung in self.content["ladder"]], columns=_LADDER)
 
     @property
@@ -307,6 +310,7 @@ class Diagnosis:
         # By name: a step of the workflow that imports this module must not run again after a change to a figure.
         with drawing():
             draw = import_module(f"asphalt_nscd.reporting.figures.{name}").draw
+        # Figures are made from files, as in a study.
         with TemporaryDirectory() as folder:
             self.outcome.write(folder)
             files = [Path(folder) / "residuals.csv"], [Path(folder) / "diagnosis.json"]
@@ -332,6 +336,7 @@ class Diagnosis:
             f"{row.cause}{f' ({row.where})' if row.where else ''} {row.value:.3g} {row.unit} "
             f"({'established' if row.established else 'likely'})"
             for row in self.ladder.itertuples()
+            # It stands for the law of the mix, and is no fault of a test.
             if row.cause != "relaxation_spectrum"
         ]
         aside = int((~self.suspects["used"].astype(bool)).sum())

@@ -97,6 +97,7 @@ class Forecast:
             A Matplotlib figure.
         """
         with drawing():
+            # Within `drawing`: a laboratory may lack Matplotlib, 95 MB, and is then told the extra that has it.
             from asphalt_nscd.reporting.figures.forecast_panels import curves
 
         return shown_in_notebooks(curves(self.found, self.table, self.rivals))
@@ -172,6 +173,7 @@ def forecast(
     asphalt_nscd.files.errors.InputError: recipe: 'binder' is a required property; see data/forecast/recipe.yaml.
     """
     asked = recipe_of(recipe) if isinstance(recipe, Mapping) else read_recipe(recipe)
+    # Kept for later forecasts: a packing depends on the grading alone.
     folder = Path(cache_base()) / "packings" if packings is None else Path(packings)
     networks = Networks(kept_in(folder, progress))
     return Forecast(forecast_of(asked, networks, seeds=tuple(range(1, seeds + 1)), progress=progress))

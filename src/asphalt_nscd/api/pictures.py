@@ -68,5 +68,6 @@ def shown_in_notebooks(figure: Figure) -> Figure:
         figure.savefig(content, format="png", dpi=SCREEN_DPI)
         return content.getvalue()
 
+    # Jupyter draws pyplot's figures by itself, but pyplot keeps each in memory until it is closed.
     figure._repr_png_ = png  # type: ignore[attr-defined]
     return figure

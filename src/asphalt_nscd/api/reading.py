@@ -84,6 +84,7 @@ def read(
             return kinds[kind].read(path)
         if path.suffix.lower() == ".json":
             content: Any = read_json(path)
+            # Only a diagnosis has one; everything else in JSON is taken for a law, and refused if it is none.
             if isinstance(content, dict) and "schema_version" in content:
                 return Diagnosis.read(path.parent)
             return Law(content, path)

@@ -328,6 +328,7 @@ def pour(
     """
     pouring = Pouring(box_m, seed, surfaces, vibration, time_step_s, threads)
     if not is_compiled("granular.step"):
+        # To stderr, since a script may print its results; half a minute of silence looks like a hang.
         print("pour: compiling the core, once for this version: half a minute", file=sys.stderr)
     if isinstance(counts, Packing):
         arrays, attributes = pour_on(counts.position_m, counts.radius_m, pouring)
@@ -393,6 +394,7 @@ def _counts(counts: Any) -> tuple[np.ndarray, np.ndarray]:
             )
         if not 0.01 <= diameter <= 100.0:
             raise InputError(f"counts: a diameter of {diameter:g} mm; give diameters in mm, 0.01 to 100.")
+        # pandas makes floats of a column with an empty cell: 12.0 is a number of spheres too.
         if float(count) % 1.0 or not 0 <= count <= MOST_SPHERES:
             raise InputError(
                 f"counts: {count:g} spheres of {diameter:g} mm; give whole numbers, zero or more."

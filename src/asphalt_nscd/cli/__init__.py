@@ -101,6 +101,7 @@ def _say_version(context: click.Context) -> None:
 def main(arguments: list[str] | None = None) -> None:
     """Run one step. Exit status 2 with one sentence if input or files cannot be used."""
     if os.environ.get(WITHIN_WORKFLOW) and sys.platform == "linux":
+        # PR_SET_PDEATHSIG: the kernel ends this step when Snakemake dies, however it dies.
         prctl_set_death_signal = 1
         ctypes.CDLL(None).prctl(prctl_set_death_signal, signal.SIGTERM)
     # Modules that are being loaded hold no garbage, and most steps load little else.
@@ -109,6 +110,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def _run(arguments: list[str]) -> None:
+    # Here for all steps: what a rule hands to one is checked before it is read.
     digests.require_unchanged(arguments)
     group.main(arguments, prog_name="asphalt-nscd", standalone_mode=False)
 

@@ -37,10 +37,13 @@ def bars(unit: str, on_terminal: bool = False) -> Iterator[Callable[[str, float,
                 total=total,
                 desc=stage,
                 unit=unit,
+                # In a log each refresh is a line: one in five seconds.
                 mininterval=0.1 if on_terminal else 5.0,
+                # None: tqdm is silent by itself where there is no terminal.
                 disable=None if on_terminal else False,
                 bar_format="{desc}: {percentage:3.0f}% |{bar:20}| {elapsed} elapsed, {remaining} left",
             )
+            # The stage began before its bar, which opens after SHORT.
             bar.start_t = began
         bar.update(done - bar.n)
 

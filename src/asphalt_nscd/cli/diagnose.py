@@ -132,6 +132,7 @@ def command(
     names = diagnosis.outcome.write(output)
     if written["page"]:
         names.append(_data.part("exports", "workbook").corrected_workbook(output).name)
+        # An extra: the page draws its plots without it.
         if find_spec("matplotlib"):
             names.append(_data.part("reporting.pages", "handout").write_handout(output, title).name)
         names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)

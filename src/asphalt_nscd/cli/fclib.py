@@ -31,6 +31,7 @@ def command(files: tuple[Path, ...], tolerance: float, output: Path | None) -> N
         click.echo(outcome)
     if output is not None:
         store.write_table(output, fclib.table(outcomes))
+    # Last, so that the table is written either way.
     unsolved = [outcome.file for outcome in outcomes if not outcome.converged]
     if unsolved:
         raise click.ClickException(f"not converged to {tolerance:g}: {', '.join(unsolved)}")

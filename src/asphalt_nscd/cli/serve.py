@@ -28,6 +28,7 @@ def command(port: int, browser: bool) -> None:
             pass
 
     app = create_app()
+    # 127.0.0.1: no other machine can reach it.
     server = make_server("127.0.0.1", port, app, threaded=True, request_handler=Quiet)
     address = f"http://127.0.0.1:{server.server_port}/{app.config['TOKEN']}/"
     click.echo(f"Drop measurements on {address}\nCtrl-C ends it and removes what was dropped.")
@@ -36,4 +37,5 @@ def command(port: int, browser: bool) -> None:
     try:
         server.serve_forever()
     finally:
+        # However it ended, nothing of a laboratory's stays behind.
         app.config["DESK"].close()

@@ -12,7 +12,7 @@ import re
 from asphalt_nscd.exports.card import Card, number
 from asphalt_nscd.files.errors import InputError
 
-LONGEST_NAME = 80
+LONGEST_NAME = 80  # characters of a label
 
 
 def text(card: Card) -> str:
@@ -34,6 +34,7 @@ def text(card: Card) -> str:
         For a name that Abaqus does not take.
     """
     name, series = card.settings.name, card.series
+    # A comma in a keyword line begins the next parameter, and the name comes from the user.
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name) or len(name) > LONGEST_NAME:
         raise InputError(
             f"material name {name!r}: give at most {LONGEST_NAME} characters, first a letter, then letters, digits, "
@@ -42,10 +43,12 @@ def text(card: Card) -> str:
     lines = [
         *card.comment("**"),
         f"*MATERIAL, NAME={name}",
+        # Said, because the default is the long-term modulus, and the weights are shares of the instantaneous one.
         "*ELASTIC, MODULI=INSTANTANEOUS",
         f"{number(card.settings.units.of(series.instantaneous))}, {number(card.poisson)}",
         "*VISCOELASTIC, TIME=PRONY",
         *(
+            # Shear and bulk relax alike, so that Poisson's ratio stays what was stated.
             f"{number(weight)}, {number(weight)}, {number(time)}"
             for weight, time in zip(series.weights, series.times, strict=True)
         ),

@@ -42,10 +42,12 @@ def text(card: Card) -> str:
     lines = [
         *card.comment("!"),
         "! Read within /PREP7 by /INPUT. In a command snippet of Mechanical write matid for the number:",
+        # One place to change, where the model has a material 1 already.
         f"{MATERIAL} = 1",
         f"MP,EX,{MATERIAL},{number(card.settings.units.of(series.instantaneous))}",
         f"MP,PRXY,{MATERIAL},{number(card.poisson)}",
     ]
+    # Bulk too: left elastic, it would let Poisson's ratio change with time.
     for part in ("SHEAR", "BULK"):
         lines.append(f"TB,PRONY,{MATERIAL},1,{len(terms)},{part}")
         for first in range(0, len(terms), ON_A_LINE):

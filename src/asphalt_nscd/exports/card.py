@@ -122,6 +122,7 @@ class Card:
 
     def solid(self) -> Card:
         """The card with a long-term modulus above zero, as programs for solids want it."""
+        # With its own error: a law that flows is missed where the least modulus takes over.
         series = self.series.solid(LEAST_LONG_TERM)
         if series == self.series:
             return self
@@ -205,6 +206,7 @@ class Card:
             In ASCII.
         """
         return [
+            # ASCII: none of these programs was run, and a name may hold any letter.
             f"{sign} {line}".encode("ascii", "replace").decode()
             for statement in self.statements()
             for line in textwrap.wrap(statement, WIDTH, subsequent_indent="  ")
@@ -325,6 +327,7 @@ def number(value: float) -> str:
     str
         Ten digits.
     """
+    # Ten digits: the long-term share of a law that flows, 1e-6, is what the weights leave of one.
     return f"{value:.9E}"
 
 

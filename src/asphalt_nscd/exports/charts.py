@@ -83,8 +83,10 @@ def draw(book: Workbook, plots: Sequence[Plot]) -> None:
         chart = ScatterChart()
         chart.title, chart.style, chart.width, chart.height = plot.title, 2, WIDE, HIGH
         for axis, title, log in ((chart.x_axis, plot.x, plot.log_x), (chart.y_axis, plot.y, plot.log_y)):
+            # Said, because openpyxl 3.1 leaves it open and Excel then draws no axis.
             axis.title, axis.delete = title, False
             axis.number_format = "General"
+            # Else the axes cross at 1 of a logarithmic scale, in the middle of the curves.
             axis.crosses = "min"
             if log:
                 axis.scaling.logBase = 10
@@ -112,6 +114,7 @@ def fit_to_page(sheet: Worksheet, landscape: bool = False) -> None:
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     sheet.page_setup.paperSize = sheet.PAPERSIZE_A4
     sheet.page_setup.orientation = "landscape" if landscape else "portrait"
+    # A height of 0 pages: as many as the rows take.
     sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
 
 
@@ -130,6 +133,7 @@ def _series(book: Workbook, line: Line, drawn: dict[str, str]) -> Series | None:
     series = Series(y, x, title=line.name)
     owner = line.name.split(",")[0]
     colour = drawn.setdefault(owner, COLOURS[len(drawn) % len(COLOURS)])
+    # Said, because openpyxl leaves it open, and a smoothed line overshoots the data.
     series.smooth = False
     again = (list(drawn).index(owner) // len(COLOURS)) % 2 == 1  # a colour that comes a second time
     look = series.graphicalProperties.line

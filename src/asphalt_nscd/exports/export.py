@@ -40,6 +40,7 @@ def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Pa
     """
     output = Path(output)
     require_form(form, output)
+    # By name: only a workbook loads openpyxl.
     module = import_module(f"asphalt_nscd.exports.{FORMATS[form][0]}")
     if form == "mepdg":
         table = module.make_table(law)

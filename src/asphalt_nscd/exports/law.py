@@ -219,6 +219,7 @@ def as_wlf(shift: Arrhenius) -> WLF:
     >>> (as_wlf(arrhenius).factor([-20, 40]) / arrhenius.factor([-20, 40])).round(12).tolist()
     [1.0, 1.0]
     """
+    # WLF with C2 = T0 in kelvin is Arrhenius: C2 + T - T0 is then T, and the same fraction remains.
     reference = shift.reference_temperature + ZERO_CELSIUS
     c1 = shift.activation_energy / (GAS_CONSTANT * reference * math.log(10.0))
     return WLF(c1, reference, shift.reference_temperature)
@@ -334,6 +335,7 @@ def _numbers(content: Any) -> dict[str, float]:
     """What is a number in a part of the file, but for what is said elsewhere."""
     if not isinstance(content, dict):
         return {}
+    # A flag is no parameter, although Python's bool is an int.
     return {
         key: float(value)
         for key, value in content.items()
@@ -350,6 +352,7 @@ def _band(
     one = content["law"] in ONE_TEMPERATURE
     residuals = path.with_name("residuals.csv")
     origin = "as stated"
+    # What the user states goes first; what he leaves open is that of the tests beside the law.
     if not one and None in (temperatures, frequencies) and is_file(residuals):
         tests = read_residuals([residuals])
         tested = tests["temperature_C"].to_numpy(float), tests["frequency_Hz"].to_numpy(float)

@@ -21,7 +21,7 @@ from asphalt_nscd.measurements.units import PSI, celsius_of_fahrenheit
 
 TEMPERATURES_F = (14.0, 40.0, 70.0, 100.0, 130.0)
 FREQUENCIES = (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)  # Hz
-REFERENCE_F = 70.0
+REFERENCE_F = 70.0  # of the shift in the sigmoid, by NCHRP 1-37A
 ROUNDING = 1e-6  # relative, of the ends of the tested band
 FIRST = (4.0, 2.5, -1.0, 0.5)  # delta, alpha, beta, gamma
 
@@ -120,7 +120,9 @@ def make_table(law: ExportedLaw) -> Table:
         omega = np.tile(2.0 * np.pi * frequency, int(defined.sum()))
         half = law.uncertainty.half(law.law, omega, at)  # type: ignore[arg-type]
         spread[defined] = np.exp(half.real).reshape(-1, frequency.size)
+    # From 70 degF, wherever the law has its own reference.
     log_shift = np.log10(factor / factor[TEMPERATURES_F.index(REFERENCE_F)])
+    # t_r = 1 / (f a_T), so both count against it.
     log_time = -(np.log10(frequency) + log_shift[:, None])
 
     def off(x: Vector) -> Vector:
@@ -148,6 +150,7 @@ def _outside(reduced: float, low: float, high: float) -> str:
 
 def _outside_temperature(celsius: float, coldest: float, warmest: float) -> str:
     """`T` where the shift itself is extrapolated, by more than half a kelvin."""
+    # 130 degF are 54.4 degC, which laboratories test as 54.
     return "" if coldest - 0.5 <= celsius <= warmest + 0.5 else "T"
 
 
@@ -199,6 +202,7 @@ def text(table: Table) -> str:
         f"{_extrapolated(table)} {law.loose()}",
     ]
     lines = [
+        # ASCII: AASHTOWare was not run, and a source may hold any letter.
         f"# {line}".encode("ascii", "replace").decode()
         for statement in statements
         for line in textwrap.wrap(statement, WIDTH, subsequent_indent="  ")

@@ -61,6 +61,7 @@ def write(card: Card, path: Path) -> None:
         File to write.
     """
     book = Workbook()
+    # openpyxl begins with an empty sheet of its own.
     book.remove(book.worksheets[0])
     _fill(book, "Read me", pd.DataFrame({"what this is": card.statements()}))
     _fill(book, "Law", _law(card))
@@ -132,6 +133,7 @@ def corrected_workbook(folder: Path) -> Path:
     path
         The file.
     """
+    # A specimen called 01 is not 1.
     tests = pd.read_csv(folder / "corrected.csv", dtype={"specimen": str})
     used = tests["status"] == "used"
     sheets = {
@@ -162,6 +164,7 @@ def corrected_workbook(folder: Path) -> Path:
 
 def _plots_of_mix(tests: pd.DataFrame) -> list[charts.Plot]:
     """The mix and its law with their bands and the corrected tests over frequency, and the Black diagram."""
+    # Rows of a sheet count from 1, and the first one holds the headings.
     places = [number for number, _ in enumerate(tests["specimen"], start=2)]
     rows = pd.Series(places).groupby(tests["specimen"].to_numpy(), sort=False).agg(["min", "max"])
     plots = []
@@ -332,6 +335,7 @@ def _save(book: Workbook, path: Path) -> None:
             part = timed.read(name)
             if name == "docProps/core.xml":
                 part = re.sub(rb"(<dcterms:(created|modified)[^>]*>)[^<]*", rb"\g<1>" + DATE, part)
+            # A new entry is dated 1980; the one that was read has the time of day.
             timeless.writestr(ZipInfo(name), part, ZIP_DEFLATED)
 
 

@@ -18,6 +18,7 @@ def commit() -> str:
     if PACKAGE.parent.name != "src" or not (root / "pyproject.toml").is_file():
         return "unknown"  # an environment may lie within another repository
     described = _git(root, "describe", "--always", "--abbrev=40")
+    # What is untracked, as results beside the code, changes no code.
     changed = _git(root, "status", "--porcelain", "--untracked-files=no") if described else ""
     return (f"{described}-dirty" if changed else described) or "unknown"
 

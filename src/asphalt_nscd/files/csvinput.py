@@ -273,6 +273,7 @@ def read_csv(path: str | Path) -> Table:
     path = Path(path)
     require_readable(path, "check the path")
     try:
+        # Excel begins UTF-8 with a mark, which would become part of the first name.
         with path.open(newline="", encoding="utf-8-sig") as file:
             # A comment line becomes a blank one, so that line numbers stay those of the file.
             reader = csv.reader(("\n" if line.startswith("#") else line for line in file), strict=True)

@@ -46,6 +46,7 @@ def keep(path: Path, standing: bool) -> None:
     standing : bool
         Whether one stood.
     """
+    # HDF5 files hold their digest inside.
     if standing or (is_result(path) and path.suffix != ".h5"):
         _beside(path).write_text(_digest(path) + "\n")
 

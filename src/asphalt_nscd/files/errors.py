@@ -34,6 +34,7 @@ class InputError(Exception):
 
     def __init__(self, message: str) -> None:
         line = " ".join(str(message).split())
+        # The end stays, for it says how to mend it.
         super().__init__(line if len(line) <= LONGEST else f"{line[: LONGEST - 200]} ... {line[-200:]}")
 
 

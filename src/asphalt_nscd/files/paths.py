@@ -83,6 +83,7 @@ def inside(folder: Path, name: str) -> Path:
     """
     path = folder / name
     try:
+        # Resolved, so that neither `..` nor a link leads out of the folder.
         if path.resolve().is_relative_to(folder.resolve()):
             return path
     except (OSError, ValueError):

@@ -52,12 +52,15 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
     if path.exists() and not path.is_file():
         raise InputError(f"{path}: not a regular file, so it is not replaced; choose another path.")
     path.parent.mkdir(parents=True, exist_ok=True)
+    # In the same folder, for a rename is atomic only within one file system.
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
     os.close(handle)
     temporary = Path(name)
     try:
         yield temporary
+        # mkstemp makes a file that nobody else can read; results are shared.
         temporary.chmod(0o644)
+        # Its bytes first: after a power cut the name must not stand for an empty file.
         with temporary.open("rb") as written:
             os.fsync(written.fileno())
         standing = digests.forget(path)  # a kill between leaves no digest, never that of another content
@@ -84,6 +87,7 @@ def write_table(path: str | Path, frame: pd.DataFrame) -> None:
         The table.
     """
     with atomic_path(path) as temporary:
+        # Line ends of one kind, so that equal tables have equal checksums on any system.
         frame.to_csv(temporary, index=False, float_format="%.10g", lineterminator="\n")
 
 
@@ -235,6 +239,7 @@ def load(path: str | Path, kind: str) -> Record:
         raise DamagedFile(path, f"damaged or not HDF5 ({_first_line(error)})") from None
     found, format_version = attributes.pop("kind", None), attributes.pop("format_version", None)
     digest = attributes.pop("digest", None)
+    # Not in the digest: another version of a package that gives the same numbers gives the same digest.
     attributes.pop("provenance", None)
     if found != kind:
         raise unreadable(
@@ -305,8 +310,10 @@ def _digest(kind: str, arrays: Mapping[str, np.ndarray], attributes: Mapping[str
     import numpy as np
 
     digest = hashlib.sha256(kind.encode())
+    # Sorted, because HDF5 gives names in another order than they were written in.
     for name in sorted(arrays, key=str):  # of a damaged file, some may be bytes
         value = np.ascontiguousarray(arrays[name])
+        # Type and shape too: (2, 3) and (3, 2) have the same bytes.
         digest.update(f"{name}{value.dtype.str}{value.shape}".encode())
         digest.update(value.tobytes())
     for name in sorted(attributes, key=str):

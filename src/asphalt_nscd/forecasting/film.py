@@ -302,6 +302,7 @@ def _pairs(rows, given, slopes, grain, grain_shear, spot, n, found):
             # film strain e = own - shed p - back s of the line's pressure p and the facet's mean stress s
             before = 0.0 * g
             sheared, shear_back = 0.0 * g, 0.0 * g
+            # Matrix flows between neighbouring rings alone: a tridiagonal system, eliminated outwards, solved inwards.
             for i in range(n):
                 own = 1.0 / (film[i] + d * near[i] / grain)
                 shed = near[i] / grain * own

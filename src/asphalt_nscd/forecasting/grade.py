@@ -19,6 +19,7 @@ from asphalt_nscd.forecasting.forecast import Networks, Settings, modulus_of
 from asphalt_nscd.forecasting.recipe import Grading, Recipe
 from asphalt_nscd.rheology.published_laws import read_published
 
+# S = 1.157e-7 t^-0.368 exp(-index) (softening point - T)^5 [MPa], with t = 1 / omega.
 EXPONENT = 0.368
 TIMES, BELOW = (0.01, 0.1), (20.0, 60.0)  # s; K under the softening point
 PENETRATIONS = {"soft": 50.0, "middle": 42.0, "hard": 35.0}  # 0.1 mm, of a 35/50
@@ -27,6 +28,7 @@ FREQUENCIES = (3.0, 6.0, 10.0)  # Hz of the paper, of a time of loading 1 / omeg
 
 def softening_point(penetration: float) -> float:
     """Ring and ball [degC] of the binder in the mix, from its penetration [0.1 mm] before mixing."""
+    # Mixing hardens a binder: 0.65 of its penetration is left.
     return 98.4 - 26.4 * float(np.log10(0.65 * penetration))
 
 

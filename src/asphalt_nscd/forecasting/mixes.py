@@ -292,6 +292,7 @@ def best_map(pairs: list[Pair]) -> np.ndarray:
     measured = np.concatenate([pair.measured for pair in pairs])
     relative = basis / np.abs(measured)[:, None]
     unit = measured / np.abs(measured)
+    # Relative errors first, which are linear in the weights: a start for errors of ln E*, which are not.
     start = nnls(np.vstack([relative.real, relative.imag]), np.concatenate([unit.real, unit.imag]))[0]
     kept = start > 0.0  # weights that are zero have no logarithm to be refined
 

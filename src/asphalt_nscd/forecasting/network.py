@@ -92,6 +92,7 @@ def contents_of(packing: LevelPacking) -> Contents:
     corner = np.full(3, margin)
     prism = cut_prism(position, radius, corner, geometry, lambda at, r: facet_network(at, r, geometry))
     size = np.array([geometry.h, geometry.e, geometry.b])
+    # One seed: the same packing has the same solid fraction in each run.
     point = corner + np.random.default_rng(0).random((POINTS, 3)) * size
     inside = np.zeros(POINTS, bool)
     for held in cKDTree(point).query_ball_point(position, radius):

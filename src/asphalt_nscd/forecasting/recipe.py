@@ -256,6 +256,7 @@ def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
     sizes = [_number(sieve) for sieve in content]
     if not all(isinstance(size, float) and np.isfinite(size) for size in sizes):
         raise InputError(f"{path}: grading: a sieve is no number; give it in mm, as 0.063.")
+    # A mapping of YAML has the order in which it was typed.
     sieve, passing = np.array(sorted(zip(sizes, content.values(), strict=True)), float).T * [[1e-3], [1e-2]]
     if sieve[0] < 1e-6 or not COARSE <= sieve[-1] <= 0.1:
         raise InputError(
@@ -316,6 +317,7 @@ def _from_rheometer(path: Path, poisson: float) -> Spectrum:
     frequency = table.numbers("frequency_Hz", Limits(1e-8, 1e6, "give it in Hz, above zero"))
     shear = table.numbers("G_MPa", Limits(1e-9, 5e3, "give |G*| in MPa, above zero"))
     phase = table.numbers("phase_deg", Limits(0.0, 90.0, "give it in degrees"))
+    # In radians a phase is 1.57 at most, and no binder stays below 2 degrees in all of a table.
     if phase.max() < 2.0:
         raise InputError(f"{path}: phase_deg is {phase.max():.3g} at most; give it in degrees.")
     modulus = 2.0 * (1.0 + poisson) * 1e6 * shear * np.exp(1j * np.radians(phase))

@@ -62,6 +62,7 @@ def hirsch(recipe: Recipe) -> np.ndarray:
     shear = np.abs(recipe.binder_modulus()) / 3.0 / PSI
     vma, vfa = _volumetrics(recipe)
     filled = vfa * 3.0 * shear / vma
+    # In psi: 4.2e6 is the modulus that the regression gives all aggregates.
     contact = (20.0 + filled) ** 0.58 / (650.0 + filled**0.58)
     parallel = 4.2e6 * (1.0 - vma / 100.0) + 3.0 * shear * vfa * vma / 1e4
     series = (1.0 - vma / 100.0) / 4.2e6 + vma / (3.0 * vfa * shear)

@@ -80,6 +80,7 @@ def compare_voids(
     progress("air voids", len(sections), len(sections))
     condition = ["mix", "temperature_C", "frequency_Hz"]
     tests["log"] = np.log(tests["E_MPa"])
+    # Less the means of its mix, whose unknown binder is then gone.
     for name in ("log", "Va_pct"):
         tests[name] -= tests.groupby(condition)[name].transform("mean")
     rows = [
@@ -93,6 +94,7 @@ def compare_voids(
 def _row(condition: dict[str, float], group: pd.DataFrame, names: list[str]) -> dict[str, Any]:
     """Regression of `log` on the air, both less the means of their mix."""
     log, air = group["log"], group["Va_pct"]
+    # A degree of freedom goes for the mean of each mix, and one for the slope.
     square, freedom = float((air**2).sum()), len(group) - group["mix"].nunique() - 1
     slope = float((log * air).sum()) / square
     error = float(np.sqrt(((log - slope * air) ** 2).sum() / freedom / square))

@@ -81,6 +81,7 @@ def rival_points(found: Forecast) -> pd.DataFrame:
     for name, rival in RIVALS.items():
         modulus = rival(found.recipe)
         frame[f"{name}_E_MPa"] = 1e-6 * np.abs(modulus)
+        # Witczak's regression is of |E*| alone; a phase of zero would be read as elastic.
         if np.iscomplexobj(modulus) and np.any(modulus.imag):
             frame[f"{name}_phase_deg"] = np.degrees(np.angle(modulus))
     return frame

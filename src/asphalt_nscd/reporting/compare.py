@@ -29,6 +29,7 @@ def first_difference(published: Path, redone: Path, tolerance: float) -> str | N
 def _same(old: Any, new: Any, tolerance: float) -> bool:
     if isinstance(old, float) and isinstance(new, float):
         both_empty = math.isnan(old) and math.isnan(new)
+        # Absolute too: a zero may come out as 1e-17 on another processor.
         return both_empty or math.isclose(old, new, rel_tol=tolerance, abs_tol=1e-12)
     return bool(old == new)
 
@@ -51,6 +52,7 @@ def _leaves(content: Any, place: str) -> Iterator[tuple[str, Any]]:
             if key not in VOLATILE:
                 yield from _leaves(item, f"{place}.{key}".lstrip("."))
     else:
+        # 1 and 1.0 are one number, whichever of the two JSON has.
         yield place, float(content) if isinstance(content, int) else content
 
 

@@ -240,6 +240,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "in tension": "in tension",
                 "Poisson's ratio": "ν",
             },
+            # The paper's number; other sizes are in mapping.csv.
             where={"spheres": (14160,), "mapping": ("facets", "paper")},
         )
     ],
@@ -261,6 +262,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "reading": "reading",
                 "expected": "expected",
             },
+            # The paper's own coefficient; other ones are in bond_readings.csv.
             where={"friction": (0.2,)},
         )
     ],
@@ -290,6 +292,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "phase_all_deg": "phase, °",
             },
             but={
+                # What the forecast loses without each part is in overall.csv.
                 "forecast": [
                     f"without {part}" for part in ("squeezed films", "grains that touch", "dry skeleton")
                 ]
@@ -306,12 +309,14 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "among_several": "in a group",
                 "named_wrongly": "wrong",
             },
+            # What the differential scheme says is a sentence of docs/forecast.md.
             where={"limits": (3,), "densities": ("yes",), "truth": ("hirsch",)},
         )
     ],
     "film_cells": [
         Layout(
             {name: name for name in ("spheres", "fraction", "E, %", "G, %")},
+            # A binder that flows; what a stiffer one makes is a sentence of docs/film.md.
             where={"M / Ea": (0.0001,)},
         )
     ],

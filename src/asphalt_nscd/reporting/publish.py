@@ -106,6 +106,7 @@ def fill_blocks(documents: Sequence[Path], blocks: Mapping[str, Path]) -> None:
             )
         head, tail = texts[page].split(begin)[0], texts[page].split(end)[1]
         texts[page] = head + begin + _markdown(name, source) + end + tail
+    # Only now: a block that is missing leaves every page as it was.
     for page, text in texts.items():
         if text != before[page]:
             with atomic_path(page) as temporary:

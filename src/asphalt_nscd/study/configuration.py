@@ -67,6 +67,7 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
     """
     rules = yaml.safe_load(Path(schema).read_text(encoding="utf-8"))
     study = _numbers(copy.deepcopy(dict(config)))
+    # `test: tension-compression` is short for its type.
     if isinstance(study.get("test"), str):
         study["test"] = {"type": study["test"]}
     if not study:
@@ -77,6 +78,7 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
         for part in (_of_mapping(error) if isinstance(error.instance, dict) else ()) or (error,)
     ]
     if errors:
+        # First, for most often it is a key misspelt, which is then missing as well.
         unknown = [error for error in errors if error.validator == "additionalProperties"]
         raise InputError(f"{source}: {_sentence((unknown or [best_match(errors)])[0])}")
     if study["study"] in RESERVED:
@@ -99,6 +101,7 @@ def refuse_repeated_keys(path: str | Path) -> None:
 
     class Strict(yaml.SafeLoader):
         def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+            # Nested anchors may stand for more than memory holds; fuzzing found them.
             if self.check_event(yaml.AliasEvent):
                 line = self.peek_event().start_mark.line + 1
                 raise InputError(f"{path}, line {line}: refers to an anchor; write out what it stands for.")
@@ -244,6 +247,7 @@ def _settle_origin(study: dict[str, Any], source: str) -> None:
 def _check(study: dict[str, Any], source: str) -> None:
     """What a schema cannot say: values against each other, and files."""
     for path, value in _leaves(study):
+        # YAML writes .nan and .inf, and a schema takes both for numbers.
         if isinstance(value, float) and not math.isfinite(value):
             raise InputError(f"{source}: {_path(path)} is {value}, but must be a finite number.")
     _check_geometry(study, source)

@@ -52,6 +52,7 @@ def require_feasible(study: Mapping[str, Any], source: str) -> None:
     if "published" in study:
         paths = {key: [Path(path)] for key, path in study["published"].items()}
         poured = [Path(study["specimens"]["counts_table"])]
+        # For its refusals alone: the report would meet them after all pouring and testing.
         table2.make(paths["grading_table"], paths["counts_table"], poured)
         table4.read_errors(study["published"]["errors_table"])
 

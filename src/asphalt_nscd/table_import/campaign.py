@@ -83,6 +83,7 @@ def read_campaign(
         else:
             found = _file(path, notes, sheet, chosen)
         parts += found
+    # Exports first: a table that was made from them is then the copy, and their quality columns stay.
     parts = without_copies(sorted(parts, key=lambda part: not part.exported), notes)
     parts = with_one_spelling(parts, notes)
     refuse_mislabelled(parts)
@@ -122,6 +123,7 @@ def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: l
         notes.append(f"taken as {kind}, for the file names such a test; else say --measured-in")
         return kind
     notes.append("which test gave the moduli is not said; say --measured-in bending or tension-compression")
+    # No guess: taken for bending, an AMPT's cylinder was told of guide friction and of a loose clamp.
     return UNKNOWN
 
 
@@ -132,6 +134,7 @@ def _require_named_specimens(paths: Sequence[Path], parts: Sequence[Part]) -> No
     specimens = {part.read.table.columns["specimen"][0] for part in parts}
     files = {part.path for part in parts}
     at = [list(map(float, _isotherm(part.read.table))) for part in parts]
+    # At one temperature files 1, 2, 3 may be specimens; each at its own they are isotherms of one.
     several = max(map(max, at)) - min(map(min, at)) > FAR
     if len(specimens) == len(parts) == len(files) and several and all(max(t) - min(t) < FAR for t in at):
         raise InputError(
@@ -186,6 +189,7 @@ def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, 
         try:
             parts += _sheet(place, one, chosen, alone=False)
         except InputError as error:
+            # It was meant to hold tests: passed over with a note, a test was lost and nobody saw it.
             if not isinstance(error, NotTests) and _names_tests(one.rows):
                 raise
             skipped.append(refused(f"sheet {one.name} of {path.name}", error, place))
@@ -246,8 +250,9 @@ def _folder(
     folder: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, str] | None
 ) -> tuple[list[Part], str]:
     """Tests of the files in a folder, and a sentence on those that hold none, which the notes name too."""
-    # By stem, so that an original is read before its copy, `K10.csv` before `K10 - Copy.csv`.
+    # `~$NAME` is what Excel keeps beside an open workbook.
     inside = [path for path in folder.iterdir() if not path.name.startswith((".", "~$"))]
+    # By stem, so that an original is read before its copy, `K10.csv` before `K10 - Copy.csv`.
     inside.sort(key=lambda path: (path.stem, path.suffix))
     if len(inside) > MOST_FILES:
         raise InputError(f"{folder}: more than {MOST_FILES} files; give the folder of one campaign.")
@@ -325,6 +330,7 @@ def _joined(paths: Sequence[Path], parts: list[Part], notes: list[str]) -> Table
 
 def _missing(name: str, table: Table) -> list[str]:
     if name == "origin":
+        # Only what is not measured needs to say so.
         return ["measured"] * len(table.lines)
     return [""] * len(table.lines)
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from asphalt_nscd.files.errors import InputError
 
 MOST_BYTES = 20_000_000
+# Known from the archive's list before anything is unpacked: 20 MB may unpack to gigabytes.
 MOST_UNPACKED = 50_000_000  # bytes of XML in an XLSX file
 MOST_ROWS, MOST_COLUMNS = 20_000, 300
 MOST_REMARKS = 1000  # lines of a text file beside its rows
@@ -136,6 +137,7 @@ def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
     start = path.read_bytes()[:8]
     if start.startswith(b"PK"):
         sheets = _workbook(path, sheet)
+    # The container of Excel before 2007, in which later ones wrap a workbook with a password.
     elif start.startswith(b"\xd0\xcf\x11\xe0"):
         raise InputError(
             f"{path}: an old or encrypted Excel file; save it as XLSX or CSV without a password."
@@ -197,6 +199,7 @@ def as_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
 def _without_remarks_beside(rows: list[Row], size: int, notes: list[str]) -> list[Row]:
     """Rows without what stands beside the table, behind a column left empty, and begins with a word in each row."""
     beside = [cells[size:] for _, cells in rows if len(cells) > size]
+    # A number beside the table may be a result whose name is missing: it is refused further on.
     if not beside or any(cells[0] or re.match(r"[-+]?[.,]?\d", _first(cells)) for cells in beside):
         return rows
     notes.append(f"beside the table, passed over: {', '.join(repr(_first(cells)) for cells in beside[:3])}")
@@ -205,6 +208,7 @@ def _without_remarks_beside(rows: list[Row], size: int, notes: list[str]) -> lis
 
 def _trimmed(cells: list[str]) -> list[str]:
     """Cells without needless blanks, up to the last that holds something, and with one kind of minus."""
+    # Word processors write a minus sign or a dash for a hyphen; `float` takes neither.
     cells = [re.sub(r"^[−–](?=[\d.,])", "-", " ".join(cell.split())) for cell in cells]
     filled = [place for place, cell in enumerate(cells) if cell]
     return cells[: filled[-1] + 1] if filled else []
@@ -220,6 +224,7 @@ def _fitted(path: Path, header: list[str], rows: list[Row]) -> list[Row]:
         if len(cells) > len(header):
             mend = (
                 f"write a name above {cells[len(header)]!r}, or clear what is no result"
+                # No commas part the cells of a workbook, so no word of them. A sheet is called `a.xlsx, sheet B`.
                 if ".xls" in path.name.casefold()
                 else "if decimals are written with a comma, separate the columns with semicolons"
             )
@@ -232,10 +237,12 @@ def _fitted(path: Path, header: list[str], rows: list[Row]) -> list[Row]:
 def _text(path: Path) -> tuple[list[Row], list[str]]:
     text, notes = _decoded(path)
     lines = io.StringIO(text, newline="").readlines()
+    # Before it is parsed, so that the page of `serve` refuses a long text at once.
     if sum(not line.isspace() for line in lines) > MOST_ROWS + MOST_REMARKS:
         raise InputError(f"{path}: {TOO_MANY}")
     # Comments and Excel's `sep=;` become blank lines, so that line numbers stay those of the file.
     lines = ["\n" if _REMARK.match(line) or re.match(r"sep=.\s*$", line, re.I) else line for line in lines]
+    # Within quotes a comma is of a decimal or of running text, and parts no columns.
     unquoted = [re.sub(r'"[^"]*"', "", line) for line in lines if line.strip()]
     # Above the names there may be a title, in which anything stands.
     # A machine's export begins with lines that hold no separator; its line of frequencies shows it.
@@ -244,6 +251,7 @@ def _text(path: Path) -> tuple[list[Row], list[str]]:
     separator, name = next(
         (
             (mark, name)
+            # Before the comma: where one of these parts the columns, commas are decimal.
             for mark, name in (("\t", "tabs"), (";", "semicolons"))
             if unquoted
             and (
@@ -255,6 +263,7 @@ def _text(path: Path) -> tuple[list[Row], list[str]]:
         ),
         (",", "commas"),
     )
+    # Strict: else a quote that nobody closed swallows the rest of the file into one cell.
     reader = csv.reader(lines, delimiter=separator, strict=True)
     try:
         rows = [(reader.line_num, row) for row in reader]
@@ -265,8 +274,10 @@ def _text(path: Path) -> tuple[list[Row], list[str]]:
 
 def _decoded(path: Path) -> tuple[str, list[str]]:
     data = path.read_bytes()
+    # Excel's "Unicode text" is UTF-16. Its UTF-8 begins with a mark too, which `utf-8-sig` drops.
     codec = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
     not_text = InputError(f"{path}: not text; give CSV, TSV or XLSX.")
+    # A null stands in nearly every binary file, and in text only as UTF-16.
     if data.startswith(b"%PDF-") or (codec != "utf-16" and b"\0" in data):
         raise not_text
     notes = ["read as UTF-16"] if codec == "utf-16" else []
@@ -298,6 +309,7 @@ def _workbook(path: Path, sheet: str | None) -> list[Sheet]:
             raise InputError(f"{path}: unpacks to {unpacked // 10**6} MB; give the table of results alone.")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of drop-down lists and the like, which openpyxl passes over
+            # Values as the spreadsheet stored them: nothing is evaluated, no link to another workbook followed.
             book = openpyxl.load_workbook(path, read_only=True, data_only=True, keep_links=False)
             found = {name: _sheet_rows(book[name]) for name in book.sheetnames if sheet in (None, name)}
             names = list(book.sheetnames)
@@ -335,6 +347,7 @@ def _is_other_workbook(path: Path) -> bool:
 def _sheet_rows(sheet: object) -> list[Row]:
     if not hasattr(sheet, "iter_rows"):  # a sheet that is only a chart
         return []
+    # A format in a cell far away makes a sheet a million rows long; one row too many is enough to refuse it.
     rows: Iterable[tuple[object, ...]] = sheet.iter_rows(
         max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1, values_only=True
     )

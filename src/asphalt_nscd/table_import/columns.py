@@ -171,6 +171,7 @@ def _agreeing(cells: Cells, name: str, places: list[Place]) -> Place:
                 continue
             if MEASURED[name][1] and (best[1].unit is None) == (other[1].unit is None):
                 (a, half_a), (b, half_b) = _value(row[best[0]], best[1]), _value(row[other[0]], other[1])
+                # 4.0 degC and 39 degF are one temperature, each rounded by half of its last digit.
                 rounding = half_a + half_b if best[1].unit != other[1].unit else 0.0
                 if abs(a - b) <= rounding + 1e-9 * abs(a):
                     continue
@@ -185,6 +186,7 @@ def _value(text: str, column: Column) -> tuple[float, float]:
     if value is None:
         return float("nan"), 0.0
     mantissa, _, exponent = plain.casefold().partition("e")
+    # Clipped, because 10.0 ** 999999 overflows, and a cell may hold 1e-999999.
     digits = len(mantissa.partition(".")[2]) - int(np.clip(int(exponent or 0), -200, 200))
     return value * column.factor + column.offset, 0.5 * 10.0**-digits * column.factor
 

@@ -68,4 +68,5 @@ def _apart(part: Part, others: Sequence[Part], at: float) -> float | None:
             if abs(t - at) <= FAR:
                 known.setdefault(f, []).append(log(modulus))
     apart = [log(modulus) - median(known[f]) for _, f, modulus in _tests(part) if f in known]
+    # The median: one odd frequency decides nothing.
     return median(apart) if apart else None

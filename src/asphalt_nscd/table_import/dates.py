@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 from datetime import date, time
 
+# `dateutil` refuses `7. Dez. 2019` and `7 déc 2019`, and never says that day and month may be exchanged.
 _MONTHS = {
     name: number
     for number, names in enumerate(
@@ -66,6 +67,7 @@ def later(first: str, second: str) -> bool | None:
             said.add(b.clock > a.clock)
         else:
             said.add(None)
+    # 03/04/2019 may be read in two ways: an order counts only if both give it.
     return said.pop() if len(said) == 1 else None
 
 
@@ -85,6 +87,7 @@ def _moment(text: str) -> _Moment | None:
         return _Moment(day, day, at) if day else None
     if found := re.search(r"\b(\d{1,2})([-/.])(\d{1,2})\2(\d{4}|\d{2})\b", text):
         day_first = _date(found[4], found[3], found[1])
+        # Between points, as in German, the day comes first.
         month_first = _date(found[4], found[1], found[3]) if found[2] != "." else day_first
         if day_first or month_first:
             return _Moment(month_first, day_first, at)
@@ -101,6 +104,7 @@ def _date(year: str, month: str, day: str) -> date | None:
 def _time(found: re.Match[str]) -> time | None:
     hour = int(found[1])
     if found[4]:
+        # 12 am is midnight, 12 pm noon.
         hour = hour % 12 + (12 if found[4] == "p" else 0)
     try:
         return time(hour, int(found[2]), int(found[3] or 0))

@@ -13,6 +13,7 @@ _POINT = re.compile(r"[-+]?\d*\.\d*([eE][-+]?\d+)?")
 _ENGLISH = re.compile(
     r"[-+]?\d{1,3}(?:,\d{3})+\.\d+"
 )  # which groups its digits, and cannot be read otherwise
+# Groups are parted by comma, point, apostrophe, and blanks that do not break (U+00A0, U+202F).
 _GROUPED = re.compile(r"[-+]?\d{1,3}(?:[., '\u00a0\u202f]\d{3})+(?:[.,]\d+)?")
 
 
@@ -36,11 +37,13 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
     InputError
         For both, or for groups of thousands.
     """
+    # The first line of each mark, for the refusal names both.
     first: dict[str, tuple[int, str]] = {}
     for line, text in numbers:
         if _ENGLISH.fullmatch(text):
             first.setdefault(".", (line, text))
             continue
+        # One mark before three digits, `9,100`, may be decimal: only the other numbers of the table tell.
         marks = sum(text.count(mark) for mark in "., '\u00a0\u202f")
         if (marks > 1 or re.search(r"[ '\u00a0\u202f]", text)) and _GROUPED.fullmatch(text):
             raise InputError(
@@ -51,6 +54,7 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
                 first.setdefault(mark, (line, text))
     if len(first) == 2:
         (comma_line, comma), (point_line, point) = first[","], first["."]
+        # A workbook keeps numbers without a mark; what has one was typed as text.
         if ".xls" in where.casefold():
             raise InputError(f"{where}, line {comma_line}: {comma!r} is text; enter it as a number.")
         raise InputError(

@@ -40,6 +40,7 @@ def duration(
     str
         `about 20 minutes`.
     """
+    # Each temperature twice: with the laws measured, and with the law that the diagnosis names.
     isotherms = 2 * temperatures + CHANGED_LAWS
     steps = sum(CYCLES / (frequency * time_step) + REST_STEPS for frequency in frequencies)
     testing = steps * SECONDS_PER_STEP + SECONDS_PER_TEST * len(frequencies)

@@ -249,6 +249,7 @@ def _stack(rows: list[Row]) -> _Stack | None:
         # A name that goes over both lines stands in the upper one.
         filled = [name or (above[n] if n < len(above) else "") for n, name in enumerate(filled)]
         for n, more in enumerate(conditions[: len(filled)]):
+            # The line nearer to the numbers wins.
             said[n] = more | said[n]
         first -= 1
     return _Stack(first, last, filled, [_alone(one, said) for one in said])
@@ -366,6 +367,7 @@ def _with_line_of_units(cells: Cells) -> Cells:
     line, units = cells.rows[0]
     told = [place for place, unit in enumerate(units) if unit not in _NO_UNIT and is_unit(unit)]
     other = [unit for unit in units if unit not in _NO_UNIT and not is_unit(unit)]
+    # C, F, K and N are names of specimens too: beside other words it takes three units to make a line of units.
     if not told or (other and len(told) < 3) or any(re.search(r"\d", unit) for unit in other):
         return cells
     header = list(cells.header)

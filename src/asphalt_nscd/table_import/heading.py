@@ -108,6 +108,7 @@ def read_heading(text: str) -> Heading:
     Heading
         Name and conditions.
     """
+    # A name known as it stands holds no condition: `E2` is the loss modulus, and no second specimen.
     if len(text) > LONGEST_NAME or known(text) is not None:
         return Heading(text)
     if _SPREAD.search(text):

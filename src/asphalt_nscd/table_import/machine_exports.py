@@ -14,6 +14,7 @@ from asphalt_nscd.table_import.names import celsius, of_file, specimen_of
 from asphalt_nscd.table_import.quantities import ABSENT, Column, recognise, unit_in
 from asphalt_nscd.table_import.targets import FAR, Header, decided, median_reading
 
+# A bare number is a frequency only where the label in front says so: `Frequency (Hz), 25, 10`.
 _HERTZ = re.compile(r"(\d+(?:[.,]\d+)?)\s*(Hz|rad/s)?", re.IGNORECASE)
 _IDENTIFICATION = (
     "identification",
@@ -81,6 +82,7 @@ class _Header:
         name = (match[1] if match else label).strip(" :").casefold()
         if not rest or not rest[0]:
             return
+        # `Sat, Dec 7, 2019, 10:25 AM` is three cells where commas part the columns.
         self.values[name] = ", ".join(rest) if name in (*_COMMENTS, *_DATE) else rest[0]
         if match:
             self.units[name] = match[2]
@@ -140,6 +142,7 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
             at += 1
     if not found and header.first(_IDENTIFICATION) and header.first(_TARGET):
         for line, cells in rows:
+            # `0,1 Hz` between commas has become two cells, one of which is no frequency.
             if sum("hz" in cell.casefold() for cell in cells) > 1:
                 wrong = next((cell for cell in cells[1:] if not _frequencies(["", cell])), "")
                 raise InputError(
@@ -207,6 +210,7 @@ def _results(path: Path, rows: list[Row], count: int) -> list[Row]:
     """Lines of results below the frequencies: a label, and as many values as there are frequencies."""
     taken: list[Row] = []
     for line, cells in rows:
+        # A label and two values are a row, if need be one cut off; `label, value` is a line of the next header.
         short = len(cells) - 1 < count and len(cells) < 3
         if not cells[0] or short or _frequencies(cells):
             break
@@ -223,6 +227,7 @@ def _results(path: Path, rows: list[Row], count: int) -> list[Row]:
 
 def _require_whole(path: Path, frequencies: list[str], taken: list[Row], rest: list[Row]) -> None:
     """Refuse the results with which a file ends if they lack a row, or a part of the last one: it was cut off."""
+    # Something follows the results, so the file does not end within them.
     if len(rest) > 1 or (rest and len(rest[0][1]) > len(frequencies)):
         return
     named = {column.quantity for _, cells in taken if (column := _recognised(cells[0]))}
@@ -247,6 +252,7 @@ def _turned(path: Path, line: int, frequencies: list[str], rows: list[Row], note
     """The results with one line for each frequency, which stands above two columns only if these are equal."""
     header = [_frequency_name(path, line, frequencies), *(cells[0] for _, cells in rows)]
     unit = "rad/s" if "rad/s" in header[0] else "Hz"
+    # A turned row has no line of its own in the file: messages name that of the modulus.
     modulus = next((n for n, cells in rows if _holds(cells[0], "E_MPa")), line)
     turned: dict[float, Row] = {}
     below = [(n, cell) for n, cells in rows if _recognised(cells[0]) for cell in cells[1:]]
@@ -313,6 +319,7 @@ def _as_block(
     unit = "" if target is None else target.column.rstrip(")")[-1:]
     name = specimen_of(text, None if target is None else celsius(target.text, unit))
     comments = header.first(_COMMENTS)
+    # The tutorial's exports are invented and say so here; without it they would be reported as measured.
     synthetic = comments is not None and comments[1].casefold().startswith("synthetic")
     constants = {"specimen": name.specimen}
     if target is not None:
@@ -326,6 +333,7 @@ def _as_block(
         [(line, [*constants.values(), *row]) for line, row in rows],
         notes,
     )
+    # A time of day without its date puts no two tests in order.
     day, time = header.first(_DATE), header.first(("test time", "time"))
     when = " ".join(said[1] for said in (day, time) if said) if day else ""
     unnamed = known is None and name.temperature is None
@@ -334,6 +342,7 @@ def _as_block(
 
 def _target(path: Path, header: _Header, reading: Column | None) -> Header | None:
     """Target temperature as the header has it; without a unit it is in that of the measured one, or else in degC."""
+    # The set value before a reading: an isotherm has one set value, and readings wander about it.
     found = header.first(_TARGET) or header.first(_CONSTANT)
     match = re.fullmatch(r"([-−]?\d+(?:[.,]\d+)?)\s*[°º]?\s*([CFK])?", found[1]) if found else None
     if found is None or match is None:

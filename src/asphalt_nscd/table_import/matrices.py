@@ -174,6 +174,7 @@ def _height(rows: list[Row], at: int) -> int:
     values = head[place:]
     if place == 0 or sum(map(bool, values)) < 2 or not all(_is_value(cell) for cell in values if cell):
         return 0
+    # Rows of single tests hold numbers below numbers too; a matrix has an axis above them, in order.
     if not _repeats_one_order(values) or any(_names_each_test(row) for _, row in rows[:at]):
         return 0
     down: list[float] = []
@@ -186,6 +187,7 @@ def _height(rows: list[Row], at: int) -> int:
         if not body or not all(NUMBER.fullmatch(cell) or cell.casefold() in _ABSENT for cell in body):
             break
         down.append(_number(_bare(row[place - 1])))
+    # An axis repeats no value, unless specimens stand in front of it.
     return len(down) if len(down) > 1 and (place == 2 or len(set(down)) == len(down)) else 0
 
 
@@ -264,6 +266,7 @@ def _axes(
         across = _named(across, over[-1])
     for one, other in ((across, down), (down, across)):
         if one.quantity and not other.quantity:
+            # With one axis named the other is known, but not whether a temperature is in degC or degF.
             name = "f (Hz)" if one.quantity in ("temperature_C", "nominal_temperature_C") else "Temperature"
             across, down = (
                 (one, _Axis(name, other.texts)) if one is across else (_Axis(name, other.texts), one)

@@ -195,6 +195,7 @@ def recognise(header: str, known: dict = MEASURED) -> Column | None:
             return Column(quantity, unit, *units[unit])
         if units and not unit:
             return Column(quantity, None)
+        # Refused only after all ways to read the name: another may give a unit that the quantity has.
         foreign = foreign or (quantity, unit)
     if foreign:
         quantity, unit = foreign
@@ -278,6 +279,7 @@ def _splits(header: str) -> Iterator[tuple[str, str]]:
     """Ways to read a name as quantity and unit, the likeliest first."""
     bracketed = re.fullmatch(r"(.*?)[\s_]*[(\[{]([^)\]}]*)[)\]}]", header)
     if bracketed:
+        # What stands in brackets is meant as a unit, known or not; any other ending must be a unit that we know.
         yield bracketed[1], _spelled(bracketed[2])
         return
     parted = re.fullmatch(r"(.*\S)\s*/\s*(\S+)", header)
@@ -297,6 +299,7 @@ def _splits(header: str) -> Iterator[tuple[str, str]]:
 
 def _spelled(unit: str) -> str:
     """A unit in one of the spellings that stand in the tables above."""
+    # The micro sign and the Greek mu look alike, and both are in use.
     unit = re.sub(r"\s+", "", unit).replace("µ", "u").replace("μ", "u").replace("²", "2").replace("^", "")
     unit = unit.rstrip(".")
     unit = re.sub(

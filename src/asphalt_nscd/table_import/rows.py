@@ -63,10 +63,12 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
     kept: list[Row] = []
     left: dict[str, list[Row]] = {}
     for (line, row), of_other in zip(cells.rows, of_others, strict=True):
+        # Tables that were pasted below each other bring their names again.
         why = _NAMES if row == cells.header else _no_test(row, keys, results)
         why = why or (_MEAN if means and of_other else None)
         (kept if why is None else left.setdefault(why, [])).append((line, row))
     if not kept:
+        # A program that writes formulas stores no values, and openpyxl gives empty cells.
         names = " and ".join(repr(cells.header[place]) for place in results)
         raise InputError(
             f"{cells.path}: no line has a number in {names} (formulas that were not computed?); save the table with "

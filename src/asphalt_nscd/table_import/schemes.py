@@ -9,6 +9,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import read_sheets
 
 MOST_LINES = 15  # from the top, in which a title stands
+# 2PB-TR, 2PB-PR, DTC-CY and DT-CY are the names of EN 12697-26; T, TP and R with a number are AASHTO's.
 _SCHEMES = {
     "bending": r"2\s?PB\b|2PB-?(?:TR|PR)|two[- ]point bending|flexion (?:deux|2)[- ]points|zwei-?punkt-?biege|"
     r"trap[eéè]z",
@@ -32,6 +33,7 @@ def schemes_in(path: Path) -> set[str]:
     """
     try:
         sheets = read_sheets(path)
+    # Why it cannot be read is said where it is read.
     except InputError:
         return set()
     text = " ".join(cell for sheet in sheets for _, cells in sheet.rows[:MOST_LINES] for cell in cells)

@@ -81,6 +81,7 @@ def without_copies(parts: list[Part], notes: list[str]) -> list[Part]:
     """
     kept: list[Part] = []
     for part in parts:
+        # Blocks of one file may hold equal numbers; only another file or sheet is a copy.
         others = [one for one in kept if one.source != part.source or one.path != part.path]
         holders = [one for one in others if part.values & one.values]
         if holders and part.values <= set().union(*(one.values for one in holders)):
@@ -153,6 +154,7 @@ def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
     list of Part
         Those kept.
     """
+    # First of all: a file three times softer replaced the right one, because its date was later.
     _require_specimens_of_names(parts)
     _require_alike(parts)
     taken: dict[tuple[str, ...], int] = {}
@@ -257,6 +259,7 @@ def _ratio(modulus: str, other: str) -> float:
 
 def _is_later(first: Part, second: Part, test: tuple[str, ...]) -> bool:
     """Whether of two parts with one test the second is to be used: by its date, else by the operator's mark."""
+    # The machine's date before the operator's mark, which the older file may bear.
     after = later(first.tested, second.tested)
     if after is not None:
         return after
@@ -292,6 +295,7 @@ def _only(read: ParsedTable, rows: list[int]) -> ParsedTable:
 
 def _tests(part: Part) -> list[tuple[str, ...]]:
     columns = part.read.table.columns
+    # A retest has the same target; its readings are a few tenths off.
     temperature = "nominal_temperature_C" if "nominal_temperature_C" in columns else "temperature_C"
     names = ["specimen", temperature, "frequency_Hz", "replicate", "amplitude_m", "order", "cycles"]
     present = [name for name in names if name in columns]

@@ -49,6 +49,7 @@ def refused(name: str, error: InputError, path: Path) -> SkippedFile:
     """
     said = str(error).removeprefix(f"{path}: ").removeprefix(f"{path}, ")
     reason, _, mend = said.partition("; ")
+    # The names found differ between files; without them one reason is said once, for nine files of a folder.
     return SkippedFile(name, reason.partition(" (found:")[0], mend)
 
 

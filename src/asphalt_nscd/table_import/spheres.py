@@ -17,7 +17,7 @@ from asphalt_nscd.table_import.cells import read_cells
 from asphalt_nscd.table_import.decimals import decimal_mark, number
 from asphalt_nscd.table_import.quantities import SIEVES, recognise
 
-PAPER_COUNTS = pd.Series({2.0: 11798, 4.0: 1588, 6.3: 492, 8.0: 211, 10.0: 71})
+PAPER_COUNTS = pd.Series({2.0: 11798, 4.0: 1588, 6.3: 492, 8.0: 211, 10.0: 71})  # Table 2, by mm
 SMALLEST_MM = 2.0  # of the paper's spheres; what is finer belongs to the mastic
 COARSER = (
     2.0  # spheres of a cylinder, so that one of 100 x 150 mm takes about as many as the paper's trapezoid
@@ -73,6 +73,7 @@ def spheres_for(shape: Shape, grading: pd.Series | None = None) -> Spheres:
         counts.index = counts.index * coarser
     else:
         curve = np.array(grading.index, np.float64), np.array(grading, np.float64)
+        # A million, so that rounding to whole spheres does not show in their mean volume.
         shares = counts_of_grading(*curve, smallest, 1_000_000)
         mean = float((shares * shares.index**3).sum()) / 1e6
         total = round(room * float((PAPER_COUNTS * PAPER_COUNTS.index**3).sum()) / mean)
@@ -97,7 +98,9 @@ def _box(geometry: Shape, counts: pd.Series) -> tuple[float, float, float]:
             f"spheres of {1e3 * diameter.max():g} mm do not fit into a specimen {1e3 * geometry.thickness:g} mm thick; "
             "give a thicker one or a finer grading."
         )
+    # 0.29 / 0.01 comes out as 28.999...; rounding must not cost a row of cells.
     across = [int(np.floor(size / diameter.max() + 1e-9)) for size in (geometry.h, geometry.thickness)]
+    # The eight octants of a cell hold a sphere each, where these are half as large as the largest.
     shared = 2.0 * diameter <= diameter.max()
     number_of = counts.to_numpy()
     cells = number_of[~shared].sum() + np.ceil(number_of[shared].sum() / 8)

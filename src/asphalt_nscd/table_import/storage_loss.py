@@ -54,6 +54,7 @@ def with_whole_modulus(values: dict[str, list[str]]) -> list[str]:
 def _whole(test: dict[str, float]) -> tuple[float, float]:
     """|E*| and phase [deg] of one test."""
     if {"E1_MPa", "E2_MPa"} <= test.keys():
+        # As a complex number: E'' / E' has no value where E' is zero.
         star = complex(test["E1_MPa"], test["E2_MPa"])
         return abs(star), math.degrees(cmath.phase(star))
     phase = math.radians(test["phase_deg"]) if "phase_deg" in test else math.atan(test["tan_delta"])
@@ -62,6 +63,7 @@ def _whole(test: dict[str, float]) -> tuple[float, float]:
         for value in (
             test.get("E_MPa"),
             test["E1_MPa"] / math.cos(phase) if "E1_MPa" in test else None,
+            # At phase zero E'' says nothing of |E*|; the NaN is refused with its line, as no finite number.
             test["E2_MPa"] / (math.sin(phase) or math.nan) if "E2_MPa" in test else None,
         )
         if value is not None

@@ -88,6 +88,7 @@ def median_reading(rows: Sequence[Row], place: int | None, unit: str | None) -> 
     if not texts or not all(_NUMBER.fullmatch(text) for text in texts):
         return None  # refused further on
     measured = sorted(celsius(text.replace("−", "-"), unit) for text in texts)
+    # A median, which one wrong reading does not move.
     return measured[len(measured) // 2]
 
 
@@ -134,6 +135,7 @@ def decided(
         return Target(header.text, header.column)
     text, said = other
     both = f"the name {text!r} says {said} degC and the header {header.text} {_unit(header)}"
+    # Read by its header with a note alone, a K10_21C whose header said 4 gave a phase offset that was not there.
     if measured is None and abs(float(said) - header.value) > FAR:
         raise InputError(
             f"{path}: {both}, and no measured temperature decides between them; rename the file and its specimen, or "
@@ -198,6 +200,7 @@ def _contradicting(path: Path, header: Header, names: Sequence[str]) -> tuple[st
             continue
         # A zero says nothing of its unit.
         fahrenheit = header.unit == "C" and float(header.text.replace(",", ".")) != 0.0
+        # A machine set to degF may leave out the unit: `70` in the header, `21C` in the name.
         if fahrenheit and not specimen_of(text, celsius(header.text, "F")).contradicts:
             raise InputError(
                 f"{path}: the name {text!r} says {name.temperature} degC and the header {header.text}, which is the "

@@ -283,6 +283,7 @@ def _all_known(cells: Cells, columns: Mapping[str, list[Place]]) -> bool:
 def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[str, list[str]], str]:
     """Columns as text in our units, and the decimal mark of the table."""
     numeric = [place for name, (place, _) in columns.items() if name not in (*TEXTS, "mix")]
+    # Over all columns: 1,234 alone can be read in two ways, and another column settles it.
     mark = decimal_mark(
         str(cells.path),
         chain.from_iterable(((line, row[place]) for place in numeric) for line, row in cells.rows),
@@ -313,6 +314,7 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
                     f"material has; if the numbers are degrees, write deg for rad into {cells.header[place]!r}."
                 )
             converted = f"{round(in_ours, 2) if column.offset else in_ours:.10g}"  # 0.01 K of degF
+            # What needs no conversion keeps the digits that the user wrote.
             values[name].append(converted if _converts(column) else with_point(row[place], mark))
     return values, mark
 
@@ -340,6 +342,7 @@ def _specimens(cells: Cells, values: dict[str, list[str]]) -> str:
     distinguishing = [values[name] for name in (*KEYS, "amplitude_m", "order", "cycles") if name in values]
     first: dict[tuple[str, ...], int] = {}
     for (line, _), *test in zip(cells.rows, *distinguishing, strict=True):
+        # Nothing tells whether it is another specimen or the same again, which scatter differently.
         earlier = first.setdefault(tuple(test), line)
         if earlier != line:
             raise InputError(

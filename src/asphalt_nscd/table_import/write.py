@@ -126,10 +126,12 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
     table, counts = folder / "measurements.csv", folder / "counts.csv"
     text = _render(
         name=name,
+        # A string of JSON is one of YAML: no file name can add a key.
         source=json.dumps(source, ensure_ascii=False),
         config=config,
         table=table.as_posix(),
         counts_table=counts.as_posix(),
+        # Notes become comments, which a line break would end.
         notes=[" ".join(note.split()) for note in notes],
         form=form,
         direct=direct,
@@ -155,10 +157,12 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
     try:
         write_table(table, pd.DataFrame(read.columns))
         write_table(counts, spheres.counts.rename_axis("diameter_mm").rename("count").reset_index())
+        # What was written is read and checked as the workflow will do, before the configuration stands.
         study = complete_study(yaml.safe_load(text), str(config), SCHEMA)
         require_feasible(study, str(config))
         with atomic_path(config) as temporary:
             temporary.write_text(text, encoding="utf-8")
+    # Ctrl-C too: half a study would refuse the same NAME the next time.
     except BaseException:
         shutil.rmtree(folder, ignore_errors=True)
         raise
@@ -172,6 +176,7 @@ def _require_free(name: str, config: Path, folder: Path) -> None:
             "the command there."
         )
     pattern = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))["properties"]["study"]["pattern"]
+    # NAME is written bare, and bare `on` or `null` is no text in YAML.
     if not re.fullmatch(pattern.strip("^$"), name) or name in TAKEN or yaml.safe_load(name) != name:
         raise InputError(
             f"NAME {name!r}: give letters, digits, - and _, the first a letter, and none of "
@@ -281,6 +286,7 @@ def _amplitude(measured: list[str] | None, simulated: Shape, small: bool) -> tup
 
 def _flow(value: Any) -> str:
     return (
+        # So wide that it never breaks the line, of whose indentation the template knows nothing.
         yaml.safe_dump(value, default_flow_style=True, sort_keys=False, width=10**6)
         .removesuffix("...\n")
         .strip()

@@ -21,6 +21,7 @@ from asphalt_nscd.web.work import SECONDS_TO_DIAGNOSE, SECONDS_TO_READ, Choices,
 MOST_BYTES = 40_000_000  # of all files of one drop
 MOST_FILES = 100
 # What a page may load: nothing from elsewhere.
+# Inline, because each of our pages is one file with its own style and script.
 POLICY = (
     "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
     "connect-src 'self'; frame-src 'self'; form-action 'none'; base-uri 'none'"
@@ -48,6 +49,7 @@ class Desk:
     def clear(self) -> None:
         """Forget files and job."""
         shutil.rmtree(self.folder, ignore_errors=True)
+        # As mkdtemp made it: other users of the machine cannot look in.
         self.folder.mkdir(mode=0o700)
         self.files, self.job = [], None
 
@@ -68,12 +70,15 @@ def create_app(token: str | None = None) -> Flask:
     @app.before_request
     def only_the_user() -> None:
         """No other machine, no other page in the browser, and nobody without the token."""
+        # A name of a stranger's may be pointed at 127.0.0.1 (DNS rebinding); the Host header then holds that name.
         host = request.host.rpartition(":")[0] or request.host
         if host not in ("127.0.0.1", "localhost"):
             abort(403, "ask for 127.0.0.1")
         given = (request.view_args or {}).get("token", "")
+        # In a time that does not tell how much of the token was right.
         if not secrets.compare_digest(str(given).encode(), token.encode()):
             abort(403, "the address lacks its token; take the address that the terminal shows")
+        # Another page in the same browser can post here too, but cannot hide its origin.
         origin = request.headers.get("Origin")
         if request.method != "GET" and origin is not None and origin != f"http://{request.host}":
             abort(403, "another page asked")
@@ -93,6 +98,7 @@ def create_app(token: str | None = None) -> Flask:
     @app.errorhandler(HTTPException)
     def in_one_sentence(error: HTTPException) -> tuple[Response, int]:
         said = str(error.description)
+        # Too many parts of a form have the same code as too many bytes.
         if error.code == 413 and (request.content_length or 0) <= app.config["MAX_CONTENT_LENGTH"]:
             said = f"more than {MOST_FILES} files; give those of one campaign"
         elif error.code == 413:
@@ -142,6 +148,7 @@ def create_app(token: str | None = None) -> Flask:
         if desk.busy():
             abort(409, "a diagnosis is under way; wait for it or cancel it")
         desk.choices = _choices(request.get_json(silent=True))
+        # An older result would stand beside the new one, or for it after a failure.
         shutil.rmtree(desk.output, ignore_errors=True)
         desk.output.mkdir()
         desk.job = Job("diagnose", desk.files, desk.choices, desk.output, SECONDS_TO_DIAGNOSE)
@@ -162,6 +169,7 @@ def create_app(token: str | None = None) -> Flask:
 
     @app.get("/<token>/results/<name>")
     def result(token: str, name: str) -> Response:
+        # Only names that the job has listed, so that no name leads out of the folder.
         if desk.job is None or desk.job.state != "done" or name not in desk.job.result["files"]:
             abort(404, "no such file")
         return send_from_directory(desk.output, name, as_attachment="download" in request.args)
@@ -191,5 +199,6 @@ def _choices(content: Any) -> Choices:
 def safe_name(name: str) -> str:
     """The last part of a file's name, with letters, digits and harmless marks alone."""
     last = re.split(r"[\\/]", name)[-1]
+    # The end of it, which has the ending that tells the format.
     last = re.sub(r"[^\w .()+-]", "_", last).lstrip(". ")[-120:]
     return last or "file"

@@ -52,6 +52,7 @@ class Job:
     def __init__(
         self, task: str, paths: Sequence[Path], choices: Choices, output: Path | None, seconds: float
     ) -> None:
+        # Spawned: the server has threads, and a fork would copy their locks as they stand.
         here, there = multiprocessing.get_context("spawn").Pipe(duplex=False)
         self._pipe = here
         self._process = multiprocessing.get_context("spawn").Process(
@@ -61,6 +62,7 @@ class Job:
         self.state, self.stage, self.share = "running", "start", 0.0
         self.result: dict[str, Any] = {}
         self._process.start()
+        # While we hold this end too, the pipe would not end when the process does.
         there.close()
 
     def look(self, wait: float = 0.0) -> str:
@@ -70,6 +72,7 @@ class Job:
                 self.stop("failed", TOO_LONG)
                 break
             if not self._pipe.poll(wait):
+                # Its last word may lie in the pipe when it has ended.
                 if not self._process.is_alive() and not self._pipe.poll(0.0):
                     self.stop("failed", "the process ended without a word, perhaps for want of memory.")
                 break
@@ -100,11 +103,13 @@ class Job:
 
 def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, output: Path | None) -> None:
     """In the new process: the task, and its result or one sentence through the pipe."""
+    # Before numpy is loaded, which looks at them once.
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ[name] = "1"
     if sys.platform == "linux":
         import resource
 
+        # Of addresses, for Linux does not heed a limit on resident memory.
         resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     try:
         if output is None:

@@ -16,6 +16,7 @@ def mistrust_future(folder: str | Path) -> int:
     Snakemake takes a result that is newer than its inputs for up to date, so that an input edited since
     would go unnoticed. Of one older than its inputs it compares their content with what was used.
     """
+    # Snakemake compares dates: what looks newer than its inputs would never be made again.
     latest = time.time() + TOLERANCE
     ahead = [path for path in Path(folder).rglob("*") if path.is_file() and path.stat().st_mtime > latest]
     for path in ahead:

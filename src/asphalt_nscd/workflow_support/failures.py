@@ -22,6 +22,7 @@ def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
     for path in map(Path, dict.fromkeys(_FAILED.findall(run))):
         text = _text(path).rstrip()
         last = text.rpartition("\n")[2]
+        # A job that was killed leaves no last word of its own.
         if not last.startswith("error: ") and "Traceback" not in text:
             last = KILLED
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -29,6 +30,7 @@ def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
                 file.write(f"\n{KILLED}\n")
         said.append(f"{last} ({path})")
     aside = {found[1] for sentence in said if (found := _SET_ASIDE.match(sentence))}
+    # Jobs that wait for a file set aside fail too, and say nothing new.
     missing = tuple(f"error: {path}: no such file" for path in aside)
     return [sentence for sentence in said if not sentence.startswith(missing)]
 

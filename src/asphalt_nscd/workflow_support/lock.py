@@ -24,6 +24,7 @@ def release_stale_locks(directory: str | Path) -> bool:
     if alone:
         for path in (directory / "locks").glob("*.lock"):
             path.unlink(missing_ok=True)
+    # Shared by all that live, which refuses the next one its exclusive lock.
     fcntl.flock(handle, fcntl.LOCK_SH)
     return alone
 

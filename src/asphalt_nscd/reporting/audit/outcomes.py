@@ -221,6 +221,7 @@ def waveform(test: Record) -> Judgement:
     """Fig. 7, from its test: the last cycle of the force less offset, drift and harmonic."""
     time, _, force = last_cycle(test)
     angle = 2.0 * np.pi * test.attributes["frequency_Hz"] * time
+    # With drift, for five cycles from rest still carry the start.
     basis = np.column_stack([np.ones_like(angle), angle, np.cos(angle), np.sin(angle)])
     solution, *_ = np.linalg.lstsq(basis, force, rcond=None)
     left = force - basis @ solution
@@ -292,6 +293,7 @@ def _effects(tests: pd.DataFrame, base: pd.DataFrame) -> dict[str, pd.Series]:
 def numerics(tests: pd.DataFrame, table: pd.DataFrame, stopped: pd.DataFrame) -> Iterator[Judgement]:
     """Time step and cost. table: time_steps.csv; stopped: collected tests by Gauss-Seidel."""
     steps = tests.groupby("frequency_Hz")["steps"].first()
+    # The paper's numbers, which are those of five cycles.
     printed = {3.0: 3.33e4, 40.0: 2.5e3}
     apart = [abs(steps[f] / value - 1.0) for f, value in printed.items() if f in steps.index]
     yield Judgement(

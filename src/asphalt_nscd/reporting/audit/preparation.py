@@ -41,6 +41,7 @@ TOP = 0.9  # share of what grains move that the upper half must have, where vibr
 
 def lattice(count: np.ndarray) -> Judgement:
     """count (s,): Table 2."""
+    # 1e-9: a side of whole cells must not lose one to rounding.
     cells = int(np.prod(np.floor(np.array(BOX) / CELL + 1e-9)))
     return Judgement(
         "lattice",
@@ -78,6 +79,7 @@ def samples(
 
     moved: share of the squared displacements by vibration that the upper half of each layer has.
     """
+    # The paper's layer has this many; what fewer spheres do says nothing of it.
     full = all(deposit["spheres"] == SPHERES for deposit in deposits)
     for row in _of_layers(deposits, moved), _of_specimens(specimens):
         for one in row:

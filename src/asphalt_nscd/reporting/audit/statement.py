@@ -153,6 +153,7 @@ def told(statements: str | Path, judgements: Iterable[Judgement]) -> pd.DataFram
     made = list(judgements)
     found, names = {one.id: one for one in made}, set(listed["id"])
     often = Counter(one.id for one in made)
+    # The list and the judgements are kept by hand in two places, and drift apart.
     wrong = {
         "stands twice": listed["id"][listed["id"].duplicated()],
         "is judged twice": [name for name, times in often.items() if times > 1],

@@ -39,6 +39,7 @@ def draw(solved: list[Path], part: list[Path], stopped: list[Path]) -> Figure:
     tolerances = sorted({_tolerance(one) for one in swept}, reverse=True)
     figure, (left, middle, right) = style.new_figure(style.WIDE, 62.0, columns=3)
     whole = sorted((load(path, "test") for path in solved), key=_step, reverse=True)
+    # The last has the shortest step, against which the others are held.
     _forces(left, whole, whole[-1])
     finest = sorted((one for one in swept if _tolerance(one) == tolerances[-1]), key=_step, reverse=True)
     _forces(middle, finest, true)
@@ -74,6 +75,7 @@ def _forces(axes: Axes, records: Sequence[Record], reference: Record) -> None:
     axes.axhline(0.0, color=style.PALE, lw=0.5, zorder=0)
     largest = max(np.abs(last_cycle(record)[2]).max() for record in records) / scale
     axes.set(xlabel="time in the last cycle (ms)", ylabel="force over solved amplitude")
+    # Room for the legend below the curves, which fill the rest.
     axes.set_ylim(-2.4 * largest, 1.15 * largest)
     axes.legend(title="$dt$", loc="lower left", title_fontsize=7.0, borderpad=0.1, handlelength=1.5)
 

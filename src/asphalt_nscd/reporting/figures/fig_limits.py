@@ -80,7 +80,7 @@ def _panel(axes: Axes, cause: str, rows: dict[str, float], unit: str, found: dic
                 zorder=3,
             )
     axes.set_yticks(range(len(rows)), list(rows))
-    axes.set_ylim(len(rows) - 0.4, -0.6)
+    axes.set_ylim(len(rows) - 0.4, -0.6)  # the first place on top
     axes.set_xlim(left=0.0)
     axes.margins(x=0.12)
     axes.xaxis.set_major_locator(MaxNLocator(5))

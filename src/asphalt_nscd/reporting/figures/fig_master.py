@@ -73,7 +73,7 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     ):
         axes.axhspan(-NOTABLE * sigma, NOTABLE * sigma, color=style.PALE, lw=0.0, alpha=0.6, zorder=0)
         axes.set_ylabel(words)
-    reference = min(shift, key=lambda t: abs(shift[t]))
+    reference = min(shift, key=lambda t: abs(shift[t]))  # where a_T is one
     for axes in panels[:4]:
         axes.set_xscale("log")
         axes.sharex(norm)

@@ -97,8 +97,10 @@ def _map(axes: Axes, conditioned: pd.DataFrame, column: str, norm: BoundaryNorm)
     for (i, k), value in np.ndenumerate(table.to_numpy()):
         if np.isfinite(value) and table.shape[1] <= MOST_NUMBERED:
             red, green, blue, _ = image.cmap(norm(value))
+            # By the brightness of the cell, to which green adds most.
             colour = "white" if 0.3 * red + 0.6 * green + 0.1 * blue < 0.5 else style.INK
             digits = 0 if abs(value) >= 9.95 else 1
+            # + 0.0 makes a 0 of what is rounded to -0.
             number = numbers.minus(f"{round(value, digits) + 0.0:.{digits}f}")
             axes.text(k + 0.5, i + 0.5, number, ha="center", va="center", fontsize=5.5, color=colour)
     for axis, values in ((axes.xaxis, table.columns), (axes.yaxis, table.index)):

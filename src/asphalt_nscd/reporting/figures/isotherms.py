@@ -64,6 +64,7 @@ def figure_of(column: str) -> Callable[..., Figure]:
             axes.set_yscale("log")
             style.plain_log_axis(axes.yaxis)
         else:
+            # From zero, unless a phase is below it.
             axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
         figure.legend(
             handles=keys(shown, tests, bool(burgers)),

@@ -94,6 +94,7 @@ def picture(
     image = image.mean(axis=(1, 3))
     image[..., :3] /= np.maximum(image[..., 3:], 1e-9)  # colours were weighted with their opacity
     left, bottom = low - 1.0 / resolution
+    # imshow draws the first row on top.
     return image[::-1], (left, left + size[0] / scale, bottom, bottom + size[1] / scale)
 
 
@@ -139,5 +140,6 @@ def _shade(
 
 def _blurred(image: NDArray[np.float64], width: float) -> NDArray[np.float64]:
     """Two box filters: about a Gaussian of standard deviation `width` [pixels], but as fast for any width."""
+    # Two boxes of n pixels have a variance of n^2 / 6.
     size = max(1, round(width * np.sqrt(6.0)))
     return uniform_filter(uniform_filter(image, size, mode="constant"), size, mode="constant")

@@ -47,7 +47,9 @@ RC: dict[Any, Any] = {
     "legend.frameon": False,
     "legend.handlelength": 2.2,
     "axes.unicode_minus": True,
+    # TrueType: many journals refuse the Type 3 fonts that Matplotlib embeds otherwise.
     "pdf.fonttype": 42,
+    # Outlines, so that a viewer without the font shows the same.
     "svg.fonttype": "path",
 }
 INK, GREY, PALE = "#1a1a1a", "#7a7a7a", "#c8c8c8"
@@ -153,6 +155,7 @@ def series(count: int) -> list[tuple[Any, str]]:
     list of tuple
         Colour and marker of each.
     """
+    # Not to its end, where it is a yellow that white paper swallows.
     shades = colormaps["plasma"](np.linspace(0.0, 0.76, max(count, 2)))[:count]
     return [(tuple(shade), MARKERS[n % len(MARKERS)]) for n, shade in enumerate(shades)]
 

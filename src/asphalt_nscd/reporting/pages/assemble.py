@@ -95,12 +95,14 @@ def _shown(entry: Entry, caption: Path, folder: Path) -> dict[str, Any]:
         width = int.from_bytes(picture[16:20], "big")  # of the header of a PNG
         return content | {"png": b64encode(picture).decode(), "broad": width > COLUMN}
     whole = entry.path.read_text(encoding="utf-8")
+    # A page of our own, with one body and its style apart.
     body = whole.partition("<body>")[2].partition("</body>")[0]
     # Below the heading of its part.
     return content | {"body": re.sub(r"(</?h)([12])\b", lambda tag: f"{tag[1]}{int(tag[2]) + 2}", body)}
 
 
 def _html(text: str) -> str:
+    # Captions may not read files or pass HTML through, and docutils may not print its complaints into the page.
     settings = {"file_insertion_enabled": False, "raw_enabled": False, "report_level": 5}
     return publish_parts(text, writer="html5", settings_overrides=settings)["body"]
 

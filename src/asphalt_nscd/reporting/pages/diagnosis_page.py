@@ -53,6 +53,7 @@ TABLE4 = (
 CELSIUS, DEGREES, MINUS = (
     re.compile(r"\bdegC\b"),
     re.compile(r"(?<=\d) deg\b"),
+    # Not behind a letter, digit or bracket, where a hyphen is one: EN 12697-26.
     re.compile(r"(?<![\w.)])-(?=\d)"),
 )
 

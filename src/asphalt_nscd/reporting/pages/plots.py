@@ -50,6 +50,7 @@ def charts(residuals: Sequence[Path], diagnosis: Sequence[Path]) -> list[Chart]:
     tests[ISOTHERM] = _isotherms(
         tests["temperature_C"], shift or content.get("reading", {}).get("isotherms_C")
     )
+    # The arrow keys step through the tests in this order, along an isotherm.
     tests = tests.sort_values([ISOTHERM, "frequency_Hz", "specimen"])
     means = conditions(tests.assign(temperature_C=tests[ISOTHERM]), content["scatter"])
     means[ISOTHERM] = means["temperature_C"]

@@ -52,6 +52,7 @@ def page(table: str | Path, title: str) -> str:
             notes = [
                 line[1:].strip("\n").removeprefix(" ") for line in takewhile(lambda x: x[0] == "#", file)
             ]
+        # A specimen called 01 is not 1.
         frame = pd.read_csv(table, dtype={"specimen": str}, skiprows=len(notes))
     except FileNotFoundError:
         raise InputError(f"{table}: no such file; check the path.") from None
@@ -64,6 +65,7 @@ def page(table: str | Path, title: str) -> str:
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
         f'<meta name="viewport" content="width=device-width, initial-scale=1"><style>{STYLE}{_ALONE}</style>'
         f"<script>{SCRIPT}</script></head>\n<body>{said}"
+        # What scrolls must be reached by the keyboard, and have a name that a screen reader can say.
         f'<div class="wide" tabindex="0" role="region" aria-label="{escape(title)}"><table>'
         f"<caption>{escape(title)}</caption>\n"
         f"<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table></div></body></html>\n"

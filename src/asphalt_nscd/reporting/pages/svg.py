@@ -17,6 +17,7 @@ from asphalt_nscd.reporting.figures.numbers import celsius, minus
 WIDTH, HEIGHT = 360, 250  # of one plot, in units of about a pixel on a telephone
 LEFT, RIGHT, TOP, BOTTOM = 52, 8, 22, 40  # margins for labels
 MOST_TICKS = 7
+# Nine stops of Matplotlib's map, so that the page has the figures' colours without Matplotlib.
 PLASMA = ("#0d0887", "#4c02a1", "#7e03a8", "#aa2395", "#cc4778", "#e66c5c", "#f89540", "#fdc527", "#f0f921")
 MOST_NUMBERED = 8  # columns of a map whose cells have room for a number
 STRONGEST = 0.85  # opacity of the largest value of a map
@@ -89,6 +90,7 @@ class _Range:
     def about(cls, places: np.ndarray) -> _Range:
         """All places, and a twentieth more at either end."""
         low, high = float(np.nanmin(places)), float(np.nanmax(places))
+        # One value alone has no span to be drawn over.
         room = 0.05 * (high - low) or 0.5
         return cls(low - room, high + room)
 
@@ -109,6 +111,7 @@ class Frame:
         for place, label in x.ticks(self.across.low, self.across.high):
             at = float(self.across.on(place, LEFT, WIDTH - RIGHT))
             self.parts.append(f'<path class="grid" d="M{at:.1f} {TOP}V{HEIGHT - BOTTOM}"/>')
+            # Centred, the last label would be cut off.
             at_edge = at > WIDTH - RIGHT - 3.0 * len(label)
             self.parts.append(text(at, HEIGHT - BOTTOM + 15, label, "end" if at_edge else "middle"))
         for place, label in y.ticks(self.up.low, self.up.high):

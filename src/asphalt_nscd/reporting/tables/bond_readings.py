@@ -81,6 +81,7 @@ def make(
         "l0 to the middle of plates of 10 mm": _ratio(farther_plates(first, PLATE / 2.0)),
         BARYCENTRES: ratio_without_moments(first, POISSON),
         MEAN_RADIUS: _ratio(with_mean_radius(first)),
+        # An area goes with the square of rmin.
         "rmin before the reduction of volume": known[0] * (1.0 - reduction) ** (-2.0 / 3.0),
         "head that cannot turn": _of_test(the_only(blocked, "blocked")),
     }
@@ -90,6 +91,7 @@ def make(
     table["expected"] = table["E_over_law"].where(
         table["samples"] > 1, table["E_over_law"] * known.mean() / known[0]
     )
+    # sqrt(2): the authors' mean of as many samples scatters as ours does.
     table["possible"] = (table["expected"] - 1.0).abs() <= PRINTED + 2.0 * np.sqrt(2.0) * error
     return table
 

@@ -31,6 +31,7 @@ def make(laws: list[Path], errors: list[Path]) -> pd.DataFrame:
     smooth = fit_published(table3)[1].law
     start = np.log(np.array([smooth.complex_modulus(omega, t) for t in temperature]))
     law, distance = nearest_law(known, temperature, start, REFERENCE)
+    # The first is the nearest law itself, at no distance from it.
     data = np.concatenate([draws(known, law, 0.0, 1, SEED), draws(known, law, distance, DRAWS, SEED)])
     each, every = np.tile(omega, temperature.size), np.repeat(temperature, omega.size)
     found = pd.DataFrame(

@@ -81,6 +81,7 @@ def _held_out(content: dict) -> dict[str, float]:
             held = rung["gain"]["held_out"].get("leave_one_isotherm_out")
             if held is not None:
                 by_temperature = held["averages_by_temperature"]
+                # The ends are predicted from one side alone, which is another question.
                 inner = sorted(by_temperature, key=float)[1:-1]
                 return {e: float(np.mean([by_temperature[t][e]["after"] for t in inner])) for e in ERRORS}
     return {}

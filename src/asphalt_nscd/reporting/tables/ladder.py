@@ -70,9 +70,11 @@ def make(
     table["scatter_phase_percent"] = table["temperature_C"].map(of_phase)
     if published:
         printed = named(read_errors(the_only(published, "published")), "published")
+        # A temperature that the paper lacks stays, with empty cells.
         table = table.merge(printed, on="temperature_C", how="left")
     table.insert(2, "compared_with", [origin_of(at_temperature(data, t)) for t in table["temperature_C"]])
     kinds = [name for name in table if name not in ("rung", "temperature_C", "compared_with")]
+    # A stable sort: |E*| first, and within each the kinds as they were made.
     return table[["rung", "temperature_C", "compared_with", *sorted(kinds, key=lambda name: "phase" in name)]]
 
 

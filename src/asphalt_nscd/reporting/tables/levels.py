@@ -31,6 +31,7 @@ def make(simulations: list[Path], likely: list[Path], errors: list[Path]) -> pd.
     by_sample = ours.groupby("specimen")["ratio"].mean()
     several = len(by_sample) > 1
     error = 100.0 * by_sample.std() / np.sqrt(len(by_sample)) if several else 0.0
+    # The other reading was tested in one sample: its ratio is taken to differ from the mean as ours does there.
     others = by_sample.mean() / by_sample[str(theirs["specimen"].iloc[0]).partition("-")[0]]
     rows = []
     for reading, tests, scale in ((OURS, ours, 1.0), (LIKELIEST, theirs, others)):
@@ -48,6 +49,7 @@ def make(simulations: list[Path], likely: list[Path], errors: list[Path]) -> pd.
                     "E_over_law": ratio,
                     "expected": scale * ratio,
                     "published_E_percent": printed[temperature],
+                    # sqrt(2): their mean of as many samples scatters as ours does.
                     "allowed": bool(far <= printed[temperature] + 2.0 * np.sqrt(2.0) * error),
                 }
             )

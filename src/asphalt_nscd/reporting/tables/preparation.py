@@ -38,6 +38,7 @@ def make(deposits: list[Path]) -> pd.DataFrame:
             row: dict[str, Any] = {"sample": path.stem, "stage": stage}
             row["height_mm"] = 1e3 * found[f"{prefix}layer_height_m"]
             row |= {name: found[f"{prefix}{name}"] for name in OF_A_STAGE}
+            # Over the smallest radius, as the rule of pouring says how much may stay.
             row["largest_overlap"] = row.pop("largest_overlap_m") / radius
             row["largest_overlap_moving"] = row.pop("largest_overlap_moving_m") / radius
             rows.append(row)

@@ -57,6 +57,7 @@ def counts_of_grading(
     exact = retained[kept] / sieve[kept] ** 3
     exact *= total / exact.sum()
     counts = np.floor(exact).astype(int)
+    # The largest remainders get what rounding down has left, so that the numbers add up to the total.
     counts[np.argsort(counts - exact, kind="stable")[: total - counts.sum()]] += 1
     return pd.Series(counts, index=sieve[kept])
 

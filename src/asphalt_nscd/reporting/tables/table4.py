@@ -35,6 +35,7 @@ def make(simulations: list[Path], measured: list[Path], published: Sequence[Path
     table = simulated.merge(named(mean_relative_error(data, law), "law"), on="temperature_C")
     if published:
         printed = read_errors(the_only(published, "published"))
+        # A temperature that the paper lacks stays, with an empty cell.
         table = table.merge(named(printed, "published"), on="temperature_C", how="left")
     kinds = ["published", "simulated", "law"] if published else ["simulated", "law"]
     table["compared_with"] = [origin_of(at_temperature(data, t)) for t in table["temperature_C"]]

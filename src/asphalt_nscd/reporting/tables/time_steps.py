@@ -75,6 +75,7 @@ def longest_step(law: BondLaw, omega: float) -> float:
 
 def explicit_step(system: BondedSystem, modulus: float) -> float:
     """Step [s] beyond which central differences diverge, 2 over the highest frequency; bonds of one modulus [Pa]."""
+    # The head is driven, so it swings with no frequency of its own.
     free = np.delete(np.arange(system.mass.size), system.driven)
     scaled = system.operator[:, free] @ sparse.diags_array(system.mass[free] ** -0.5)
     weight = modulus * system.weight
@@ -83,6 +84,7 @@ def explicit_step(system: BondedSystem, modulus: float) -> float:
     for _ in range(ITERATIONS):
         vector /= np.linalg.norm(vector)
         image = scaled.T @ (weight * (scaled @ vector))
+        # Rayleigh's quotient, whose error is the square of the vector's.
         highest = float(vector @ image)
         vector = image
     return float(2.0 / np.sqrt(highest))
