@@ -23,6 +23,7 @@ from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedSteppe
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import write_law
+from asphalt_nscd.specimen.prism import static_ratio
 from asphalt_nscd.specimen.system import bending_system
 
 # 15 degC with viscosities lowered until transients die within two cycles at 40 Hz
@@ -60,6 +61,16 @@ def small(cycles=1.0, amplitude=1e-6):
 
 def files(folder, output, **others):
     return TestFiles(folder / "free.h5", folder / "law.json", folder / output, **others)
+
+
+def test_condensing_tells_the_static_modulus(folder, beam, tmp_path, capsys):
+    """From the basis, what a solution of the static equations gives."""
+    group.main(
+        ["condense", f"{folder / 'beam.h5'}", "--output", f"{tmp_path / 'm.h5'}"], standalone_mode=False
+    )
+    expected = static_ratio(bending_system(beam, 0.35, 2.7e6, 0.7), beam.geometry)
+    assert f"static |E*| is {expected:.4g} of the modulus of the bonds" in capsys.readouterr().out
+    assert condense(folder / "beam.h5", Bonds(), tmp_path / "m.h5")[1] == pytest.approx(expected, rel=1e-9)
 
 
 def test_a_specimen_too_large_for_factors(folder, model, monkeypatch, tmp_path):

@@ -18,6 +18,7 @@ from asphalt_nscd.cli import simulate as simulate_command
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, load, save
 from asphalt_nscd.measurements.fourpoint import Beam
+from asphalt_nscd.measurements.twopoint import PAPER
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.laws_io import write_law
@@ -116,10 +117,15 @@ def test_a_commanded_force_has_no_rig(prism):
             run_test(prism, bond_law(QUICK), LoadCase(10.0, 1.0, rig=rig, by_force=True), numerics)
 
 
-def test_commands_hold_and_command_a_force(tmp_path, prism):
+@pytest.fixture
+def common(tmp_path) -> list[str]:
+    """What commands on the prism begin with."""
     save(tmp_path / "model.h5", "model", *CONTENT)
     write_law(tmp_path / "law.json", QUICK, source="stated", temperature=15.0)
-    common = [str(tmp_path / "model.h5"), "--law", str(tmp_path / "law.json"), "--temperature-c", "15"]
+    return [str(tmp_path / "model.h5"), "--law", str(tmp_path / "law.json"), "--temperature-c", "15"]
+
+
+def test_commands_hold_and_command_a_force(tmp_path, common, prism):
     creep = [
         *common,
         "--force-n",
@@ -146,3 +152,20 @@ def test_commands_hold_and_command_a_force(tmp_path, prism):
     )
     assert said["phase_deg"] == pytest.approx(said["phase_law_deg"], abs=0.1)
     assert said["time_step_s"] == pytest.approx(1e-4) and said["scheme"] == "fitted"
+
+
+def test_other_tests_than_the_papers_are_stepped_by_the_fitted_scheme_unless_told(prism, common, tmp_path):
+    assert Numerics.usual(50.0, PAPER) == Numerics()
+    assert Numerics.usual(50.0, prism.geometry) == Numerics(1e-4, scheme="fitted")
+    for options, step, scheme in (
+        ([], 1e-4, "fitted"),
+        (["--time-step-s", "2e-4"], 2e-4, "euler"),
+        (["--scheme", "euler"], 5e-5, "euler"),
+        (["--method", "harmonic"], 5e-5, "euler"),
+    ):
+        test = [*common, "--frequency-hz", "50", "--cycles", "2", "--rest-steps", "10", *options]
+        CliRunner().invoke(
+            simulate_command.command, [*test, "--output", str(tmp_path / "test.h5")], catch_exceptions=False
+        )
+        said = load(tmp_path / "test.h5", "test").attributes
+        assert (said["time_step_s"], said.get("scheme", "euler")) == (pytest.approx(step), scheme), options

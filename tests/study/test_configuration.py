@@ -240,11 +240,15 @@ def test_the_test_says_what_is_simulated(config):
     said = complete(config | {"test": "tension-compression"})
     assert said["specimens"]["geometry"] == {"d_mm": 100, "h_mm": 150, "mass_kg": 2.83, "mobile_mass_kg": 0}
     assert said["test"]["type"] == "tension-compression" and said["test"]["amplitude_m"] == 7.5e-6
-    assert complete(said) == said
+    assert said["test"]["steps_per_cycle"] == 200 and complete(said) == said
+    for key, value in (("time_step_s", 1e-4), ("steps_per_cycle", 50)):
+        own = complete(config | {"test": {"type": "tension-compression", key: value}})["test"]
+        assert own[key] == value and own.get("steps_per_cycle", 50) == 50
     four = complete(config | {"test": {"type": "four-point bending", "amplitude_m": 1e-5}})
     assert four["specimens"]["geometry"]["L_mm"] == 357 and four["test"]["amplitude_m"] == 1e-5
     bent = complete(config)
     assert bent["test"]["type"] == "bending" and bent["test"]["amplitude_m"] == 63e-6
+    assert "steps_per_cycle" not in bent["test"]
 
 
 def test_the_specimen_says_what_is_simulated(config):

@@ -179,9 +179,9 @@ def bend(
     frequency_Hz: float,
     temperature_C: float,
     *,
-    load: Load = Load(),  # noqa: B008  frozen, and the next two
+    load: Load = Load(),  # noqa: B008  frozen, and the next
     bonds: Bonds = Bonds(),  # noqa: B008
-    numerics: Numerics = Numerics(),  # noqa: B008
+    numerics: Numerics | None = None,
 ) -> Test:
     """Test a specimen at one frequency [Hz] and temperature [degC]: a trapezoid in two-point bending, Eqs. (1)-(5).
 
@@ -200,8 +200,8 @@ def bend(
         ParaView.
     bonds : Bonds
         Poisson's ratio, strength and friction of bonds, and how the head is held.
-    numerics : Numerics
-        Time step [s], method and scheme.
+    numerics : Numerics, optional
+        Time step [s], method and scheme. Without it `Numerics.usual`.
 
     Returns
     -------
@@ -231,6 +231,7 @@ def bend(
     given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
     law = law if isinstance(law, Law) else Law.read(law)
     case, options = load.at(frequency_Hz, given.geometry), RunOptions(frames=load.frames)
+    numerics = numerics or Numerics.usual(frequency_Hz, given.geometry)
     followed = law.of_bonds(frequency_Hz, temperature_C).bonds
     test = Test(
         *outcome(_model(_Once(given), bonds), followed, temperature_C, case, numerics, options), given.name

@@ -12,6 +12,7 @@ from asphalt_nscd.bending.checkpoint import Checkpoint
 from asphalt_nscd.bending.rig import Rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range, Ranged, one_of, within
+from asphalt_nscd.measurements.kinds import BENDING, FITTED_STEPS
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.twopoint import PAPER_AMPLITUDE
 from asphalt_nscd.nscd.stepping.scheme import SCHEMES
@@ -123,6 +124,26 @@ class Numerics(Ranged):
     scheme: str = one_of("euler", SCHEMES)
     tolerance: float = within(1e-4, low=0.0)
     most_sweeps: int = within(50, low=1, high=100_000)
+
+    @classmethod
+    def usual(cls, frequency_Hz: float, shape: Shape) -> Numerics:
+        """The paper's steps for the paper's test; for others FITTED_STEPS in a cycle, by the scheme fitted to it.
+
+        Parameters
+        ----------
+        frequency_Hz : float
+            Of the actuator [Hz].
+        shape : Shape
+            Geometry, which says the test.
+
+        Returns
+        -------
+        Numerics
+            Of the method "reduced".
+        """
+        if shape.test == BENDING:
+            return cls()
+        return cls(1.0 / (frequency_Hz * FITTED_STEPS), scheme="fitted")
 
     def steps(self, case: LoadCase) -> int:
         """Number of steps while the head moves.

@@ -16,6 +16,7 @@ from asphalt_nscd.nscd.stepping.break_modes import BONDS, StandBy
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
 from asphalt_nscd.specimen.contents import Content
 from asphalt_nscd.specimen.cutting import read_specimen
+from asphalt_nscd.specimen.prism import stiffness
 from asphalt_nscd.specimen.system import HEADS, bending_system
 from asphalt_nscd.specimen.trimming import Specimen
 
@@ -58,7 +59,7 @@ def condense(
     output: str | Path,
     excerpt_output: str | Path | None = None,
     stand_by: int | None = None,
-) -> int:
+) -> tuple[int, float]:
     """Assemble the system of a specimen, find its basis and directions for breaks, and save all.
 
     Parameters
@@ -78,12 +79,18 @@ def condense(
     -------
     int
         Number of unknowns.
+    float
+        Static |E*| over the modulus of the bonds.
     """
-    arrays, attributes = condensed(read_specimen(specimen_file), Path(specimen_file).stem, bonds, stand_by)
+    specimen = read_specimen(specimen_file)
+    arrays, attributes = condensed(specimen, Path(specimen_file).stem, bonds, stand_by)
     digest = save(output, "model", arrays, attributes)
+    model = model_of(Record(arrays, attributes, digest))
     if excerpt_output is not None:
-        write_excerpt(excerpt_output, model_of(Record(arrays, attributes, digest)), digest)
-    return int(arrays["mass"].size)
+        write_excerpt(excerpt_output, model, digest)
+    # column 0 of the basis is the static motion of the head
+    static = specimen.geometry.form_factor() * stiffness(model.system, arrays["basis"][:, 0])
+    return int(arrays["mass"].size), static
 
 
 def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None = None) -> Content:

@@ -48,7 +48,7 @@ class FatigueLaw(Ranged):
     3.2e-05
     """
 
-    endured: float = within(100e-6, low=1e-8, high=0.1)
+    endured: float = within(100e-6, low=STRAINS.low, high=STRAINS.high)
     exponent: float = within(5.0, low=1.0, high=20.0)
 
     def rate(self, amplitude: np.ndarray) -> np.ndarray:

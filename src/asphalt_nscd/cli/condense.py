@@ -59,5 +59,5 @@ def command(
     """Assemble the bonded system of a specimen and its reduced form. Every test on the specimen uses them."""
     from asphalt_nscd.bending.condensing import Bonds, condense
 
-    unknowns = condense(specimen, Bonds(**bonds), output, excerpt_output, stand_by)
-    click.echo(f"{output}: {unknowns} unknowns")
+    unknowns, static = condense(specimen, Bonds(**bonds), output, excerpt_output, stand_by)
+    click.echo(f"{output}: {unknowns} unknowns; static |E*| is {static:.4g} of the modulus of the bonds")

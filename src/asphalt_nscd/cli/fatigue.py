@@ -15,7 +15,7 @@ _LAW = "bending.fatigue.FatigueLaw"
 @click.option(
     "--strain",
     required=True,
-    type=_options.Number(low=1e-8, high=0.1),
+    type=_options.Of(f"{_LAW}.endured"),  # a strain as well
     help="Largest amplitude of strain, as 100e-6.",
 )
 @click.option(

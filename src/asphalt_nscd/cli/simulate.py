@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -54,7 +55,12 @@ _NUMERICS = "bending.case.Numerics"
     help="Amplitude of the force, N: it is commanded, the displacement measured, and the weight tared.",
 )
 @click.option("--cycles", default=5.0, type=_options.Of("bending.case.Load.cycles"), help="Number of cycles.")
-@click.option("--time-step-s", default=5e-5, type=_options.Of(f"{_NUMERICS}.time_step"), help="Time step, s.")
+@click.option(
+    "--time-step-s",
+    default=None,
+    type=_options.Of(f"{_NUMERICS}.time_step"),
+    help="Time step, s; else 5e-5 in two-point bending, and 200 --steps-per-cycle in other tests.",
+)
 @click.option(
     "--steps-per-cycle",
     default=None,
@@ -90,9 +96,10 @@ _NUMERICS = "bending.case.Numerics"
 )
 @click.option(
     "--scheme",
-    default="euler",
+    default=None,
     type=click.Choice(["euler", "fitted"]),
-    help="Implicit Euler, or BDF2 fitted to the frequency: exact in steady oscillation, 100 steps a cycle do.",
+    help="Implicit Euler, or BDF2 fitted to the frequency: exact in steady oscillation, 100 steps a cycle do; else "
+    "euler, but for --steps-per-cycle.",
 )
 @click.option(
     "--energy", is_flag=True, help="Keep the energy balance of a reduced run; condensed runs always keep it."
@@ -162,9 +169,12 @@ def command(
     # Read once for all frequencies: 400 jobs of a study became 80.
     specimen, load = read_subject(files["model"], excerpt), Load(**case)
     steps = tests["steps_per_cycle"]
+    given = {name: value for name, value in numerics.items() if value is not None}
+    stepping = numerics["method"] in ("reduced", "condensed") and not {"time_step", "scheme"} & set(given)
     for law, frequency, output in zip(laws * (count // len(laws)), frequencies, outputs, strict=True):
+        usual = Numerics.usual(frequency, specimen.geometry) if stepping else Numerics()
         if steps:
-            numerics |= {"time_step": 1.0 / (frequency * steps), "scheme": "fitted"}
+            given |= {"time_step": 1.0 / (frequency * steps), "scheme": "fitted"}
         with _progress.bars("steps") as report:
             options = RunOptions(
                 lambda done, total: report(f"testing at {frequency:g} Hz", done, total),  # noqa: B023
@@ -175,7 +185,7 @@ def command(
                 TestFiles(law=law, output=output, **files),
                 temperature_c,
                 load.at(frequency, specimen.geometry),
-                Numerics(**numerics),
+                replace(usual, **given),
                 options,
                 specimen,
             )

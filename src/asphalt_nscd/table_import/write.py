@@ -20,6 +20,7 @@ from asphalt_nscd.files.store import atomic_path, write_table
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes, nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry, read_shape
+from asphalt_nscd.measurements.kinds import FITTED_STEPS
 from asphalt_nscd.measurements.limits import LIMITS
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, reduced_frame, require_enough
 from asphalt_nscd.measurements.shape import Shape
@@ -36,9 +37,6 @@ SCHEMA = Path(__file__).resolve().parents[3] / "workflow/schemas/study.schema.ya
 TAKEN = (*RESERVED, "blind")
 
 STEPS_PER_CYCLE = 500  # of the paper's highest frequency, 40 Hz
-FITTED_STEPS = (
-    200  # per cycle of each frequency, of cylinders: less than 0.01 degrees, where implicit Euler takes 0.1
-)
 COARSEST_STEP = 2e-4  # s, of those in Fig. 6
 
 # The smoke study's specimen, and a cylinder of as many spheres: some hundred.
