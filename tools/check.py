@@ -76,7 +76,7 @@ def _made_again(published: Path, folder: Path) -> list[str]:
         shutil.copy(published / name, results / name)
     specimen = results / "diagnosis/specimens/s1.h5"
     specimen.parent.mkdir(parents=True)
-    shutil.copy(ROOT / "src/asphalt_nscd/diagnosis/specimen.h5", specimen)
+    shutil.copy(ROOT / "src/asphalt_nscd/diagnosis/simulation/specimen.h5", specimen)
     targets = [f"results/paper/{name}" for name in REDONE]
     command = [
         sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--cores", "all",

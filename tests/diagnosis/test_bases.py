@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis.bases import LN10, FlexibleSpectrum
-from asphalt_nscd.diagnosis.rungs import _shift_constants
+from asphalt_nscd.diagnosis.model.bases import LN10, FlexibleSpectrum
+from asphalt_nscd.diagnosis.record.rungs import _shift_constants
 
 TIMES = np.geomspace(1e-6, 1e6, 12)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.diagnosis.bond_mapping import bond_mapping, over_law, simulated, void
+from asphalt_nscd.diagnosis.simulation.bond_mapping import bond_mapping, over_law, simulated, void
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
 import pytest
 from test_sentences import content, part_left
 
-from asphalt_nscd.diagnosis.brief import MOST, WIDTH, rows, text
+from asphalt_nscd.diagnosis.words.brief import MOST, WIDTH, rows, text
 
 CHECKED = " It was fitted to all tests, doubtful ones too."
 

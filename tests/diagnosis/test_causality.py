@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis.causality import contradictions
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.screening.causality import contradictions
 
 FREQUENCIES = np.array([1.0, 3.0, 10.0, 25.0])
 NOISE = SimpleNamespace(sigma=(0.01, np.radians(0.3)))

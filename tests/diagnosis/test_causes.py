@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.bending.rig import KEYS
-from asphalt_nscd.diagnosis import criteria, sentences
-from asphalt_nscd.diagnosis.bases import BurgersAtEach, FlexibleSpectrum
+from asphalt_nscd.diagnosis import criteria
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.model.bases import BurgersAtEach, FlexibleSpectrum
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.words import sentences
 from asphalt_nscd.measurements.twopoint import Geometry, complex_modulus, form_factor, mass_factor
 
 GEOMETRY = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from asphalt_nscd.diagnosis import chance, ladder
-from asphalt_nscd.diagnosis.chance import Scores
+from asphalt_nscd.diagnosis.model import chance
+from asphalt_nscd.diagnosis.model.chance import Scores
+from asphalt_nscd.diagnosis.search import ladder
 
 N, P, K = 15, 6, 4  # tests, parameters of the law, directions
 

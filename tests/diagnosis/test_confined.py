@@ -6,9 +6,10 @@ import yaml
 from jsonschema import Draft202012Validator
 from test_diagnose import EFFECTS, LAW, table
 
-from asphalt_nscd.diagnosis import brief, levels
-from asphalt_nscd.diagnosis.confined import DELAY, ISOTHERM, OFFSET, SWEEP, Odd
-from asphalt_nscd.diagnosis.diagnose import diagnose
+from asphalt_nscd.diagnosis.screening import levels
+from asphalt_nscd.diagnosis.search.confined import DELAY, ISOTHERM, OFFSET, SWEEP, Odd
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
+from asphalt_nscd.diagnosis.words import brief
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA
 
 FEW = 500  # draws: what is tested here does not hang on the third digit of a chance

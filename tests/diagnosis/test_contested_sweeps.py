@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from test_suspects import LAW, altered, out, row_of
 
-from asphalt_nscd.diagnosis import contested, suspects
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.screening import contested, suspects
 
 FREQUENCIES = np.array([3.0, 10.0, 25.0, 40.0])
 TEMPERATURES = np.array([4.0, 21.0, 37.0])

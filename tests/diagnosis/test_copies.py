@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from test_suspects import campaign, out
 
-from asphalt_nscd.diagnosis import copies, suspects
+from asphalt_nscd.diagnosis.observed import copies
+from asphalt_nscd.diagnosis.screening import suspects
 from asphalt_nscd.files.errors import InputError
 
 

@@ -6,11 +6,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import scatter, suspects
-from asphalt_nscd.diagnosis.diagnose import diagnose
-from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.report import as_json
-from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.diagnosis.observed import scatter
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.record.report import as_json
+from asphalt_nscd.diagnosis.screening import suspects
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
+from asphalt_nscd.diagnosis.simulation.simulated import read_specimen
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from scipy.optimize import approx_fprime
 
-from asphalt_nscd.diagnosis import discrepancy, likelihood
-from asphalt_nscd.diagnosis.discrepancy import Process, Processes
-from asphalt_nscd.diagnosis.likelihood import Direction, Reduced
-from asphalt_nscd.diagnosis.noise import Noise
+from asphalt_nscd.diagnosis.model import discrepancy, likelihood
+from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
+from asphalt_nscd.diagnosis.model.likelihood import Direction, Reduced
+from asphalt_nscd.diagnosis.observed.noise import Noise
 
 SIZE, PARTS, COLUMNS = 20, 4, 12
 

@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import scatter, start
-from asphalt_nscd.diagnosis.bases import BurgersAtEach
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.diagnose import diagnose
-from asphalt_nscd.diagnosis.doubts import find_doubts
-from asphalt_nscd.diagnosis.joint import Candidate, Joint
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.model import start
+from asphalt_nscd.diagnosis.model.bases import BurgersAtEach
+from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.observed import scatter
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
+from asphalt_nscd.diagnosis.search.doubts import find_doubts
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 
@@ -161,7 +162,7 @@ def test_a_name_in_doubt_explains_nothing(monkeypatch):
     assert rung.candidate.cause.name == "channel_delay"
     assert named.verdict == "explained" and named.established(rung) and named.doubts == {}
     monkeypatch.setattr(
-        "asphalt_nscd.diagnosis.ladder.find_doubts", lambda *of: {rung.candidate.key: ["Why"]}
+        "asphalt_nscd.diagnosis.search.ladder.find_doubts", lambda *of: {rung.candidate.key: ["Why"]}
     )
     doubted = diagnose(observed, draws=500)
     assert doubted.verdict == "unexplained_structure" and not doubted.established(doubted.ladder.rungs[0])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from test_suspects import FREQUENCIES, altered, campaign, delayed, out, row_of
 
-from asphalt_nscd.diagnosis import exchanged, suspects, within_isotherm
+from asphalt_nscd.diagnosis.screening import exchanged, suspects, within_isotherm
 
 KINDS = {"phase": (1,), "modulus": (0,), "both": (0, 1)}
 

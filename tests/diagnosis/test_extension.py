@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.bending.rig import read_rig
-from asphalt_nscd.diagnosis.extension import Sample, extend, prior_notes
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY
+from asphalt_nscd.diagnosis.simulation.extension import Sample, extend, prior_notes
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor
 from asphalt_nscd.rheology.fitting import Fit

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import gain
+from asphalt_nscd.diagnosis.simulation import gain
 
 TEMPERATURE = np.array([0.0, 0.0, 20.0, 20.0, 40.0, 40.0])
 MEASURED = np.array([20e9, 18e9, 8e9, 7e9, 1e9, 0.8e9]) * np.exp(

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from test_joint import fit, table  # noqa: F401  fixtures
 
-from asphalt_nscd.diagnosis.heldout import FOLDS, HeldOut
-from asphalt_nscd.diagnosis.joint import Joint
+from asphalt_nscd.diagnosis.model.heldout import FOLDS, HeldOut
+from asphalt_nscd.diagnosis.model.joint import Joint
 
 
 @pytest.mark.parametrize("part", ["isotherm", "frequency"])

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import doubts
-from asphalt_nscd.diagnosis.chance import ABSORBED
-from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.model.chance import ABSORBED
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.search import doubts
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
 from asphalt_nscd.table_import.campaign import read_campaign
 
 pytestmark = pytest.mark.slow

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from asphalt_nscd.diagnosis.information import Asked, Inquiry, Knowledge, Linear, Question
-from asphalt_nscd.diagnosis.information import Tested as Sweep
+from asphalt_nscd.diagnosis.next_tests.information import Asked, Inquiry, Knowledge, Linear, Question
+from asphalt_nscd.diagnosis.next_tests.information import Tested as Sweep
 
 SIGMA = 0.01
 FREQUENCIES = 5

@@ -9,16 +9,18 @@ import pytest
 from test_diagnose import SCATTER
 from test_diagnose import table as of_four
 
-from asphalt_nscd.diagnosis import fixed_orders, instructions, order_words
 from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
-from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.discrepancy import Process
-from asphalt_nscd.diagnosis.further_tests import Departure, possible
-from asphalt_nscd.diagnosis.information import Knowledge, Question
-from asphalt_nscd.diagnosis.joint import Candidate
-from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.sentences import in_words
-from asphalt_nscd.diagnosis.sweeps import METAL, NEW, Costs, Sweep
+from asphalt_nscd.diagnosis.model.discrepancy import Process
+from asphalt_nscd.diagnosis.model.joint import Candidate
+from asphalt_nscd.diagnosis.next_tests import fixed_orders
+from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, possible
+from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Question
+from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, NEW, Costs, Sweep
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.record import instructions
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
+from asphalt_nscd.diagnosis.words import order_words
+from asphalt_nscd.diagnosis.words.sentences import in_words
 
 pytestmark = pytest.mark.slow
 

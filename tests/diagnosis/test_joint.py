@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from asphalt_nscd.diagnosis import scatter, start
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.joint import Candidate, Joint
-from asphalt_nscd.diagnosis.noise import Noise
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.model import start
+from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.observed import scatter
+from asphalt_nscd.diagnosis.observed.noise import Noise
+from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 

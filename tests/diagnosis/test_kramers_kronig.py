@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
-from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances, required_phase
+from asphalt_nscd.diagnosis.screening.kramers_kronig import WEIGHTS, covariances, required_phase
 from asphalt_nscd.rheology.parabolic import HuetSayegh, TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
 

@@ -13,7 +13,7 @@ from openpyxl import load_workbook
 
 import asphalt_nscd as an
 from asphalt_nscd.cli.diagnose import command
-from asphalt_nscd.diagnosis.sentences import causes, law_of_the_mix
+from asphalt_nscd.diagnosis.words.sentences import causes, law_of_the_mix
 from asphalt_nscd.diagnosis.written import three_digits
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.reporting.pages.diagnosis_page import PARAMETERS

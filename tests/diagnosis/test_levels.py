@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from test_diagnose import table
 
-from asphalt_nscd.diagnosis import levels
-from asphalt_nscd.diagnosis.diagnose import diagnose
-from asphalt_nscd.diagnosis.extension import law_notes, material_law
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.diagnosis.suspects import Suspect
-from asphalt_nscd.diagnosis.trust import trust
-from asphalt_nscd.diagnosis.unexplained import left
-from asphalt_nscd.diagnosis.verdict import on_simulation
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.record.trust import trust
+from asphalt_nscd.diagnosis.screening import levels
+from asphalt_nscd.diagnosis.screening.suspects import Suspect
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
+from asphalt_nscd.diagnosis.simulation.extension import law_notes, material_law
+from asphalt_nscd.diagnosis.words.unexplained import left
+from asphalt_nscd.diagnosis.words.verdict import on_simulation
 from asphalt_nscd.table_import.campaign import read_campaign
 
 FEW = 500  # draws: what is tested here does not hang on the third digit of a chance

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from test_joint import ACTIVE, CAUSES, fit, table  # noqa: F401  fixtures
 
-from asphalt_nscd.diagnosis import chance, limits
-from asphalt_nscd.diagnosis.chance import Scores
 from asphalt_nscd.diagnosis.criteria import Z_95
-from asphalt_nscd.diagnosis.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.model import chance
+from asphalt_nscd.diagnosis.model.chance import Scores
+from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.search import limits
 
 CHANCE_LEVEL = 3.5
 THRESHOLD = CHANCE_LEVEL + Z_95

@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 from test_diagnose import table
 
-from asphalt_nscd.diagnosis import measured_limits
-from asphalt_nscd.diagnosis.diagnose import diagnose
-from asphalt_nscd.diagnosis.report import physical_limits
+from asphalt_nscd.diagnosis.record import measured_limits
+from asphalt_nscd.diagnosis.record.report import physical_limits
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.diagnosis.numerics import of_campaign
+from asphalt_nscd.diagnosis.simulation.numerics import of_campaign
 from asphalt_nscd.files.errors import InputError
 
 

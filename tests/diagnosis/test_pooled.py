@@ -8,10 +8,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import pooled
+from asphalt_nscd.diagnosis.campaigns import pooled
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.diagnose import diagnose
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 

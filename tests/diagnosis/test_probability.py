@@ -11,11 +11,11 @@ from test_diagnose import EFFECTS, table
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.criteria import EXPECTED, HALF_FROM, NAMED, SUREST
-from asphalt_nscd.diagnosis.diagnose import diagnose
-from asphalt_nscd.diagnosis.joint import Candidate
-from asphalt_nscd.diagnosis.probability import log_odds, shares, stated
-from asphalt_nscd.diagnosis.report import as_json
-from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.diagnosis.model.joint import Candidate
+from asphalt_nscd.diagnosis.model.probability import log_odds, shares, stated
+from asphalt_nscd.diagnosis.record.report import as_json
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
+from asphalt_nscd.diagnosis.simulation.simulated import read_specimen
 
 CAUSES = {cause.name: cause for cause in CATALOGUE}
 

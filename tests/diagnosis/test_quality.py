@@ -1,7 +1,7 @@
 import numpy as np
 
-from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.quality import COLUMNS, LIMITS, Exceeded, exceeded
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.observed.quality import COLUMNS, LIMITS, Exceeded, exceeded
 from asphalt_nscd.table_import.quantities import QUALITY
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.repeatability import coefficients
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.observed.repeatability import coefficients
 
 BETWEEN, WITHIN = (0.06, np.radians(0.8)), (0.02, np.radians(0.3))
 

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 import asphalt_nscd as an
-from asphalt_nscd.diagnosis.reported import mix_modulus, standard_errors
+from asphalt_nscd.diagnosis.record.reported import mix_modulus, standard_errors
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 

@@ -14,13 +14,13 @@ from jsonschema import Draft202012Validator
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis import run
-from asphalt_nscd.diagnosis.brief import rows
-from asphalt_nscd.diagnosis.diagnose import diagnose
-from asphalt_nscd.diagnosis.ladder import Ladder
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.diagnosis.report import physical_limits
-from asphalt_nscd.diagnosis.suspects import Suspect
-from asphalt_nscd.diagnosis.trust import reading
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.record.report import physical_limits
+from asphalt_nscd.diagnosis.record.trust import reading
+from asphalt_nscd.diagnosis.screening.suspects import Suspect
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
+from asphalt_nscd.diagnosis.search.ladder import Ladder
+from asphalt_nscd.diagnosis.words.brief import rows
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.rheology.spectrum_io import read_spectrum

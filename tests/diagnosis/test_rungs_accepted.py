@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from test_joint import CAUSES, LAW, fit, table  # noqa: F401  fixtures
 
-from asphalt_nscd.diagnosis import ladder
-from asphalt_nscd.diagnosis.joint import Candidate, Joint
-from asphalt_nscd.diagnosis.ladder import Ladder, Rung
+from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.search import ladder
+from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung
 
 DRAWS = 500
 

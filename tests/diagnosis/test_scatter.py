@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import scatter
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed import scatter
+from asphalt_nscd.diagnosis.observed.observations import Observations
 
 TEMPERATURES, FREQUENCIES = (-10.0, 4.0, 21.0, 37.0, 54.0), (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)
 

@@ -10,8 +10,10 @@ import pytest
 import yaml
 from jsonschema import Draft202012Validator
 
-from asphalt_nscd.diagnosis import gain, report, run
-from asphalt_nscd.diagnosis.summary import summary
+from asphalt_nscd.diagnosis import run
+from asphalt_nscd.diagnosis.record import report
+from asphalt_nscd.diagnosis.simulation import gain
+from asphalt_nscd.diagnosis.words.summary import summary
 from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, shown, widening, with_interval
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import Arrhenius

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import sentences, unexplained
-from asphalt_nscd.diagnosis.fixed_orders import named
-from asphalt_nscd.diagnosis.sentences import (
+from asphalt_nscd.diagnosis.next_tests.fixed_orders import named
+from asphalt_nscd.diagnosis.words import sentences, unexplained
+from asphalt_nscd.diagnosis.words.sentences import (
     cause_words,
     causes,
     estimate,
@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.sentences import (
     with_suspects,
     without_doubtful,
 )
-from asphalt_nscd.diagnosis.unexplained import left
+from asphalt_nscd.diagnosis.words.unexplained import left
 from asphalt_nscd.diagnosis.written import interval_95
 
 

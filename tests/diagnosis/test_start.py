@@ -5,8 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import scatter, start
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.model import start
+from asphalt_nscd.diagnosis.observed import scatter
+from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.rheology.fitting import fit_burgers
 
 

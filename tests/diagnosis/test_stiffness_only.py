@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.cli import main
-from asphalt_nscd.diagnosis.stiffness_only import USUAL, _log10_modulus, fit_stiffness
+from asphalt_nscd.diagnosis.record.stiffness_only import USUAL, _log10_modulus, fit_stiffness
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.campaign import read_campaign
 

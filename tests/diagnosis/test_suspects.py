@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import suspects, within_isotherm
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.screening import suspects, within_isotherm
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import approx_fprime
 from test_discrepancy import small
 
-from asphalt_nscd.diagnosis import likelihood
+from asphalt_nscd.diagnosis.model import likelihood
 
 
 def test_the_variance_added_is_slope_times_covariance_times_slope():

@@ -3,9 +3,9 @@
 import pytest
 from test_sentences import content, part_left
 
-from asphalt_nscd.diagnosis import verdict
-from asphalt_nscd.diagnosis.unexplained import left
-from asphalt_nscd.diagnosis.verdict import on_simulation
+from asphalt_nscd.diagnosis.words import verdict
+from asphalt_nscd.diagnosis.words.unexplained import left
+from asphalt_nscd.diagnosis.words.verdict import on_simulation
 
 
 def structure_left():

@@ -7,18 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis import (
-    discrepancy,
-    fit_beside,
-    likelihood,
-    limits_beside,
-    scatter,
-    start,
-    with_discrepancy,
-)
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.joint import Candidate, Fitted, Joint
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.model import discrepancy, fit_beside, likelihood, start
+from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.observed import scatter
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.search import limits_beside, with_discrepancy
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 

@@ -8,9 +8,9 @@ from scipy.special import logsumexp
 from scipy.stats import multivariate_normal
 from scipy.stats import t as student
 
-from asphalt_nscd.diagnosis import within_isotherm
-from asphalt_nscd.diagnosis.kramers_kronig import WEIGHTS, covariances
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.screening import within_isotherm
+from asphalt_nscd.diagnosis.screening.kramers_kronig import WEIGHTS, covariances
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 

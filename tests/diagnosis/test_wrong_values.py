@@ -9,7 +9,7 @@ import pytest
 from scipy.special import logsumexp
 from test_suspects import FREQUENCIES, altered, campaign, out, row_of
 
-from asphalt_nscd.diagnosis import suspects, within_isotherm, wrong_values
+from asphalt_nscd.diagnosis.screening import suspects, within_isotherm, wrong_values
 
 
 @pytest.mark.parametrize("factor", [10.0, 0.1, 0.145])

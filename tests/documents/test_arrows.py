@@ -42,24 +42,37 @@ ARROWS = {
         "study", "table_import", "verification", "nscd", "api", "contact_problems", "forecasting", "web",
     ],
 }  # fmt: skip
+# The rooms of the diagnosis likewise. All may import `criteria` and `written`; `run` imports from all.
+ROOMS = {
+    "observed": [],
+    "causes": ["observed"],
+    "model": ["observed", "causes"],
+    "screening": ["observed", "model"],
+    "search": ["observed", "causes", "model", "screening"],
+    "simulation": ["observed", "causes", "model", "search"],
+    "next_tests": ["observed", "causes", "model", "screening", "search"],
+    "words": ["observed", "causes", "model", "screening", "simulation", "next_tests"],
+    "campaigns": ["observed", "causes", "model", "search", "words"],
+    "record": ["observed", "causes", "model", "screening", "search", "simulation", "next_tests", "words"],
+}
 
 
-def folders() -> list[str]:
-    return sorted(path.name for path in PACKAGE.iterdir() if path.is_dir() and path.name != "__pycache__")
+def folders(inside: Path = PACKAGE) -> list[str]:
+    return sorted(path.name for path in inside.iterdir() if path.is_dir() and path.name != "__pycache__")
 
 
-def imported(file: Path) -> set[str]:
-    """Folders of the package that a file imports from, imports inside functions included."""
+def imported(file: Path, package: str = "asphalt_nscd") -> set[str]:
+    """Folders and modules of a package that a file imports from, imports inside functions included."""
     found = set()
     for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("asphalt_nscd"):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(package):
             names = [f"{node.module}.{alias.name}" for alias in node.names]
         elif isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names if alias.name.startswith("asphalt_nscd")]
+            names = [alias.name for alias in node.names if alias.name.startswith(package)]
         else:
             continue
-        found |= {name.split(".")[1] for name in names}
-    return found & set(folders())
+        found |= {name.removeprefix(f"{package}.").split(".")[0] for name in names}
+    return found
 
 
 def test_every_folder_has_its_arrows():
@@ -71,12 +84,28 @@ def test_arrows_run_one_way(folder):
     earlier = list(ARROWS)[: list(ARROWS).index(folder)]
     assert set(ARROWS[folder]) <= set(earlier), f"{folder} may only import from folders listed before it"
     for file in sorted((PACKAGE / folder).rglob("*.py")):
-        beyond = imported(file) - {folder, *ARROWS[folder]}
+        beyond = imported(file) & set(folders()) - {folder, *ARROWS[folder]}
+        assert not beyond, f"{file.relative_to(PACKAGE)} imports from {', '.join(sorted(beyond))}"
+
+
+def test_every_room_of_the_diagnosis_has_its_arrows():
+    assert folders(PACKAGE / "diagnosis") == sorted(ROOMS)
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_arrows_within_the_diagnosis_run_one_way(room):
+    earlier = list(ROOMS)[: list(ROOMS).index(room)]
+    assert set(ROOMS[room]) <= set(earlier), f"{room} may only import from rooms listed before it"
+    for file in sorted((PACKAGE / "diagnosis" / room).glob("*.py")):
+        found = imported(file, "asphalt_nscd.diagnosis")
+        beyond = found - {room, "criteria", "written", *ROOMS[room]}
         assert not beyond, f"{file.relative_to(PACKAGE)} imports from {', '.join(sorted(beyond))}"
 
 
 def test_few_modules_lie_loose():
     assert [path.name for path in PACKAGE.glob("*.py")] == ["__init__.py"]
+    loose = sorted(path.name for path in (PACKAGE / "diagnosis").glob("*.py"))
+    assert loose == ["__init__.py", "criteria.py", "run.py", "written.py"]
 
 
 def test_no_modules_import_each_other():

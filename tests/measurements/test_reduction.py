@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.diagnosis.reading import read_observations
+from asphalt_nscd.diagnosis.observed.reading import read_observations
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements import reduction
 from asphalt_nscd.measurements.geometry import read_geometry

@@ -13,8 +13,8 @@ import pytest
 import yaml
 from forks import forked
 
-from asphalt_nscd.diagnosis.quality import exceeded
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.observed.quality import exceeded
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.table_import.campaign import read_campaign
 
 pytestmark = pytest.mark.slow

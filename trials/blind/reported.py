@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.reading import read_observations
-from asphalt_nscd.diagnosis.reported import EN_12697_26, corrected, mix_modulus
+from asphalt_nscd.diagnosis.observed.reading import read_observations
+from asphalt_nscd.diagnosis.record.reported import EN_12697_26, corrected, mix_modulus
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
 from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.table_import.campaign import read_campaign
 

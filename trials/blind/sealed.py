@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.diagnosis import reading, report
 from asphalt_nscd.diagnosis.causes import CATALOGUE as NAMEABLE
-from asphalt_nscd.diagnosis.diagnose import diagnose
-from asphalt_nscd.diagnosis.simulated import read_specimen
+from asphalt_nscd.diagnosis.observed import reading
+from asphalt_nscd.diagnosis.record import report
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
+from asphalt_nscd.diagnosis.simulation.simulated import read_specimen
 from asphalt_nscd.files.errors import InputError
 
 from . import generator, score

@@ -24,7 +24,7 @@ import click
 import pandas as pd
 from blind.score import rate
 
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.run import conclude
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.files.errors import InputError

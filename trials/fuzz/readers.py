@@ -17,7 +17,7 @@ from reporting.figures.tiny_results import Results
 
 from asphalt_nscd.bending.rig import Rig, read_rig, write_rig
 from asphalt_nscd.contact_problems import fclib
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError

@@ -38,7 +38,7 @@ if STUDY["study"] == "paper":
         message:
             "Put the reduced specimen into the package"
         shell:
-            "cp {input} src/asphalt_nscd/diagnosis/specimen.h5"
+            "cp {input} src/asphalt_nscd/diagnosis/simulation/specimen.h5"
 
 
 rule simulate_frames:

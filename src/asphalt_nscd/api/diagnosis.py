@@ -18,11 +18,11 @@ from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
 from asphalt_nscd.api.pictures import drawing, shown_in_notebooks
 from asphalt_nscd.api.tables import Measurements, campaign_in
-from asphalt_nscd.diagnosis.brief import rows
-from asphalt_nscd.diagnosis.measured_limits import Progress, Trials, verify
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY
+from asphalt_nscd.diagnosis.record.measured_limits import Progress, Trials, verify
 from asphalt_nscd.diagnosis.run import Draws, Outcome, Simulated, Stated, conclude
-from asphalt_nscd.diagnosis.summary import answer, summary
+from asphalt_nscd.diagnosis.words.brief import rows
+from asphalt_nscd.diagnosis.words.summary import answer, summary
 from asphalt_nscd.diagnosis.written import mean_averages, read_diagnosis
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file

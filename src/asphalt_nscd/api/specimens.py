@@ -16,7 +16,7 @@ import pandas as pd
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.pictures import sheet
 from asphalt_nscd.api.results import Result
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.geometry import read_shape

@@ -9,8 +9,8 @@ from typing import Any, TypeAlias
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis.observations import Observations
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.measurements.kinds import TEST_TYPES

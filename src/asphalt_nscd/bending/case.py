@@ -12,7 +12,7 @@ from asphalt_nscd.bending.checkpoint import Checkpoint
 from asphalt_nscd.bending.rig import Rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range, Ranged, one_of, within
-from asphalt_nscd.measurements.kinds import BENDING, FITTED_STEPS
+from asphalt_nscd.measurements.kinds import usual_steps_per_cycle
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.twopoint import PAPER_AMPLITUDE
 from asphalt_nscd.nscd.stepping.scheme import SCHEMES
@@ -127,7 +127,7 @@ class Numerics(Ranged):
 
     @classmethod
     def usual(cls, frequency_Hz: float, shape: Shape) -> Numerics:
-        """The paper's steps for the paper's test; for others FITTED_STEPS in a cycle, by the scheme fitted to it.
+        """The paper's steps for the paper's test; for others `usual_steps_per_cycle` by the scheme fitted to it.
 
         Parameters
         ----------
@@ -141,9 +141,8 @@ class Numerics(Ranged):
         Numerics
             Of the method "reduced".
         """
-        if shape.test == BENDING:
-            return cls()
-        return cls(1.0 / (frequency_Hz * FITTED_STEPS), scheme="fitted")
+        steps = usual_steps_per_cycle(shape.test)
+        return cls(1.0 / (frequency_Hz * steps), scheme="fitted") if steps else cls()
 
     def steps(self, case: LoadCase) -> int:
         """Number of steps while the head moves.

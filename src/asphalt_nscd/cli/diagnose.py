@@ -99,7 +99,7 @@ def command(
         )
     from asphalt_nscd.api.diagnosis import Draws, Known, Simulated, diagnose
     from asphalt_nscd.api.tables import campaign_in
-    from asphalt_nscd.diagnosis.stiffness_only import fit_stiffness, has_no_phase
+    from asphalt_nscd.diagnosis.record.stiffness_only import fit_stiffness, has_no_phase
 
     output, measurements = written["output"], table["measurements"]
     campaign = campaign_in(measurements, table["sheet"], dict(table["columns"]), table["measured_in"])

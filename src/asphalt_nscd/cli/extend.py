@@ -38,6 +38,6 @@ def command(
     diagnosis: Path, law: Path, measured: Path, geometry: Any, sample: dict[str, Any], rig_output: Path
 ) -> None:
     """Extend the simulation of one sample by what a diagnosis named: bond laws of its tests, and a rig."""
-    from asphalt_nscd.diagnosis.extension import Sample, extend
+    from asphalt_nscd.diagnosis.simulation.extension import Sample, extend
 
     extend(diagnosis, law, measured, geometry, Sample(**sample), rig_output)

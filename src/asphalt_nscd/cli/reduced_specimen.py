@@ -12,7 +12,7 @@ from asphalt_nscd.cli import _options
 @_options.output
 def command(model: Path, output: Path) -> None:
     """Extract from a condensed model the two small matrices that `diagnose --specimen` needs."""
-    from asphalt_nscd.diagnosis.simulated import reduce_model
+    from asphalt_nscd.diagnosis.simulation.simulated import reduce_model
 
     reduce_model(model, output)
     click.echo(f"{output}: for diagnose --specimen {output}")

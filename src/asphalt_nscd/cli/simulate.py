@@ -1,10 +1,10 @@
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from asphalt_nscd.cli import _options, _progress
 
@@ -57,9 +57,9 @@ _NUMERICS = "bending.case.Numerics"
 @click.option("--cycles", default=5.0, type=_options.Of("bending.case.Load.cycles"), help="Number of cycles.")
 @click.option(
     "--time-step-s",
-    default=None,
+    default=5e-5,
     type=_options.Of(f"{_NUMERICS}.time_step"),
-    help="Time step, s; else 5e-5 in two-point bending, and 200 --steps-per-cycle in other tests.",
+    help="Time step, s. Other tests than two-point bending take 200 --steps-per-cycle unless it is given.",
 )
 @click.option(
     "--steps-per-cycle",
@@ -96,10 +96,9 @@ _NUMERICS = "bending.case.Numerics"
 )
 @click.option(
     "--scheme",
-    default=None,
+    default="euler",
     type=click.Choice(["euler", "fitted"]),
-    help="Implicit Euler, or BDF2 fitted to the frequency: exact in steady oscillation, 100 steps a cycle do; else "
-    "euler, but for --steps-per-cycle.",
+    help="Implicit Euler, or BDF2 fitted to the frequency: exact in steady oscillation, 100 steps a cycle do.",
 )
 @click.option(
     "--energy", is_flag=True, help="Keep the energy balance of a reduced run; condensed runs always keep it."
@@ -165,16 +164,18 @@ def command(
         raise click.UsageError("--checkpoint keeps one test; give one --frequency-hz.")
     from asphalt_nscd.bending.bending_test import TestFiles, damage, read_subject, simulate, told
     from asphalt_nscd.bending.case import Load, Numerics, RunOptions
+    from asphalt_nscd.measurements.kinds import usual_steps_per_cycle
 
     # Read once for all frequencies: 400 jobs of a study became 80.
     specimen, load = read_subject(files["model"], excerpt), Load(**case)
     steps = tests["steps_per_cycle"]
-    given = {name: value for name, value in numerics.items() if value is not None}
-    stepping = numerics["method"] in ("reduced", "condensed") and not {"time_step", "scheme"} & set(given)
+    source = click.get_current_context().get_parameter_source
+    stepping = any(source(name) is not ParameterSource.DEFAULT for name in ("time_step_s", "scheme"))
+    if not steps and not stepping and numerics["method"] in ("reduced", "condensed"):
+        steps = usual_steps_per_cycle(specimen.geometry.test)
     for law, frequency, output in zip(laws * (count // len(laws)), frequencies, outputs, strict=True):
-        usual = Numerics.usual(frequency, specimen.geometry) if stepping else Numerics()
         if steps:
-            given |= {"time_step": 1.0 / (frequency * steps), "scheme": "fitted"}
+            numerics |= {"time_step": 1.0 / (frequency * steps), "scheme": "fitted"}
         with _progress.bars("steps") as report:
             options = RunOptions(
                 lambda done, total: report(f"testing at {frequency:g} Hz", done, total),  # noqa: B023
@@ -185,7 +186,7 @@ def command(
                 TestFiles(law=law, output=output, **files),
                 temperature_c,
                 load.at(frequency, specimen.geometry),
-                replace(usual, **given),
+                Numerics(**numerics),
                 options,
                 specimen,
             )

@@ -79,7 +79,7 @@ EXPECTED = {
     "secondary_process": Expected(0.02, 2e9),  # Pa
     "solver": Expected(0.5, 1.0),  # of a simulated campaign
 }
-# Faults of one place (`diagnosis.confined`), which are told and not named; the chance is that of all places.
+# Faults of one place (`diagnosis.search.confined`), which are told and not named; the chance is that of all places.
 CONFINED = {
     "offset of one specimen": Expected(0.1, 1.2),  # deg; each has gauges of its own
     "delay of one specimen": Expected(0.03, 2.5e-4),  # s

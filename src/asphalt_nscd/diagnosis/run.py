@@ -13,20 +13,18 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis import (
-    bond_mapping,
-    fixed_orders,
-    gain,
-    levels,
-    measured_limits,
-    repeatability,
-    report,
-    reported,
-    suspects,
-    within_isotherm,
-)
-from asphalt_nscd.diagnosis.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.extension import (
+from asphalt_nscd.diagnosis.next_tests import fixed_orders
+from asphalt_nscd.diagnosis.next_tests.sweeps import Costs
+from asphalt_nscd.diagnosis.observed import repeatability
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.record import measured_limits, report, reported
+from asphalt_nscd.diagnosis.record.instructions import instructions
+from asphalt_nscd.diagnosis.record.measured_limits import Progress
+from asphalt_nscd.diagnosis.record.trust import reading, trust
+from asphalt_nscd.diagnosis.screening import levels, suspects, within_isotherm
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
+from asphalt_nscd.diagnosis.simulation import bond_mapping, gain
+from asphalt_nscd.diagnosis.simulation.extension import (
     compared,
     law_misses,
     law_notes,
@@ -34,14 +32,9 @@ from asphalt_nscd.diagnosis.extension import (
     misfit_of_form,
     prior_notes,
 )
-from asphalt_nscd.diagnosis.instructions import instructions
-from asphalt_nscd.diagnosis.measured_limits import Progress
-from asphalt_nscd.diagnosis.numerics import of_campaign
-from asphalt_nscd.diagnosis.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
-from asphalt_nscd.diagnosis.summary import answer
-from asphalt_nscd.diagnosis.sweeps import Costs
-from asphalt_nscd.diagnosis.trust import reading, trust
+from asphalt_nscd.diagnosis.simulation.numerics import of_campaign
+from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen, read_specimen
+from asphalt_nscd.diagnosis.words.summary import answer
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign

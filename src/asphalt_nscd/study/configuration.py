@@ -16,7 +16,7 @@ from jsonschema.exceptions import ValidationError, best_match
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file, require_readable
-from asphalt_nscd.measurements.kinds import BENDING, FITTED_STEPS, PAPER_AMPLITUDE
+from asphalt_nscd.measurements.kinds import BENDING, PAPER_AMPLITUDE, usual_steps_per_cycle
 
 # YAML 1.1 reads 5e-5 as text, because it has no decimal point; the author meant a number.
 _SCIENTIFIC = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
@@ -91,8 +91,9 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
     if "packings" in study["specimens"]:
         del study["specimens"]["deposit"]
     _check(study, source)
-    if study["test"]["type"] != BENDING and not steps_given:
-        study["test"]["steps_per_cycle"] = FITTED_STEPS
+    usual = usual_steps_per_cycle(study["test"]["type"])
+    if usual and not steps_given:
+        study["test"]["steps_per_cycle"] = usual
     return study
 
 

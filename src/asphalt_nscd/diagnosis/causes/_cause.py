@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
 Vector = NDArray[np.float64]

@@ -1,7 +1,7 @@
 import numpy as np
 
 from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Complex, Parameter, Vector
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
 class PhaseOffset(Cause):

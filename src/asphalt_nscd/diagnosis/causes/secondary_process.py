@@ -4,7 +4,7 @@ from itertools import product
 import numpy as np
 
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.rheology.shift import GAS_CONSTANT, ZERO_CELSIUS
 
 

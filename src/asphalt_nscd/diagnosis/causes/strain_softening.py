@@ -3,7 +3,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
 class StrainSoftening(Cause):

@@ -1,7 +1,7 @@
 from collections.abc import Sequence
 
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
-from asphalt_nscd.diagnosis.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
 class TemperatureBias(Cause):

@@ -9,8 +9,8 @@ from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis import brief, sentences, table_rows, unexplained, verdict
-from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
+from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
+from asphalt_nscd.diagnosis.words import brief, sentences, table_rows, unexplained, verdict
 from asphalt_nscd.diagnosis.written import (
     WIDE_SPREAD,
     limits_by_place,

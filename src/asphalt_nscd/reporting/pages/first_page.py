@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis import sentences
+from asphalt_nscd.diagnosis.words import sentences
 from asphalt_nscd.diagnosis.written import read_diagnosis, three_digits
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import counted, joined

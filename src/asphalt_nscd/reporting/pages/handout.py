@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.diagnosis.brief import rows
+from asphalt_nscd.diagnosis.words.brief import rows
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.files.store import atomic_path
 from asphalt_nscd.reporting.figures.style import journal

@@ -1,4 +1,4 @@
-"""The page of a diagnosis beside its files; the sentences of its answer stand in `diagnosis/brief.py`."""
+"""The page of a diagnosis beside its files; the sentences of its answer stand in `diagnosis/words/brief.py`."""
 
 from __future__ import annotations
 

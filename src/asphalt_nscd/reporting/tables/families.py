@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.diagnosis.bond_mapping import NAME as BOND_MAPPING
-from asphalt_nscd.diagnosis.simulated import NumericalSpecimen, read_specimen
+from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
+from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.measurements.tables import KEYS, read_measured, the_only

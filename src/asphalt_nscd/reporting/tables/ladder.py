@@ -8,7 +8,7 @@ from typing import Any
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis.extension import causes_taken_off
+from asphalt_nscd.diagnosis.simulation.extension import causes_taken_off
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.measurements.tables import (

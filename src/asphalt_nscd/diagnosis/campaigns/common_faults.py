@@ -1,0 +1,136 @@
+"""What campaigns of one machine have in common, as a table and in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import pandas as pd
+
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import Cause
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE
+from asphalt_nscd.diagnosis.words.sentences import an
+from asphalt_nscd.diagnosis.written import shown, three_digits, with_interval
+from asphalt_nscd.files.words import joined
+
+UNITS = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
+SHOWS = 5.0  # times the error of the whole, up to which a part is told
+
+
+@dataclass(frozen=True)
+class Part:
+    """An amplitude in one campaign, isotherm or frequency, in the unit of its cause.
+
+    Parameters
+    ----------
+    where : str
+        Which.
+    value : float
+        NaN where nothing shows it.
+    std_error : float
+        Of the value.
+    """
+
+    where: str
+    value: float
+    std_error: float
+
+
+@dataclass(frozen=True)
+class Common:
+    """A cause that all campaigns share. value, std_error, between: in the unit of its amplitude.
+
+    between: standard deviation of what campaigns differ by beyond their errors; p_value: of the largest of all causes;
+    campaigns, isotherms, frequencies: the same amplitude from each alone; differs: what it differs between by more than
+    chance, of "campaigns", "isotherms" and "frequencies"; as_good: causes that fit as well.
+    """
+
+    cause: Cause
+    value: float
+    std_error: float
+    between: float
+    p_value: float
+    campaigns: tuple[Part, ...]
+    isotherms: tuple[Part, ...]
+    frequencies: tuple[Part, ...]
+    as_good: tuple[str, ...] = ()
+    differs: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def named(self) -> bool:
+        """Whether one size fits all; else it is common, but not known to be this cause."""
+        return not self.differs
+
+
+@dataclass(frozen=True)
+class Pooled:
+    """What the campaigns of a machine have in common.
+
+    Parameters
+    ----------
+    found : tuple of Common
+        Causes, common ones first.
+    limits : mapping of str to float
+        Amplitude of each cause that they would show together.
+    left_out : tuple of str
+        Campaigns that one law does not describe.
+    """
+
+    found: tuple[Common, ...]
+    limits: Mapping[str, float]
+    left_out: tuple[str, ...]
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """A row for each cause that is common, and for the same from each campaign, isotherm and frequency alone."""
+        rows = []
+        for one in self.found:
+            whole = Part("all campaigns", one.value, one.std_error)
+            for part in (whole, *one.campaigns, *one.isotherms, *one.frequencies):
+                value, unit = shown(part.value, one.cause.parameters[0].unit)
+                error, _ = shown(part.std_error, one.cause.parameters[0].unit)
+                rows.append((one.cause.name, one.named, part.where, value, error, unit))
+        return pd.DataFrame(rows, columns=["cause", "named", "where", "value", "std_error", "unit"])
+
+    def __str__(self) -> str:
+        """What the campaigns have in common, for a reader: sentences, one a line."""
+        said = [_sentence(one) for one in self.found]
+        if not self.found:
+            said.append("Nothing common to the campaigns stands out.")
+        rest = [
+            f"{name.replace('_', ' ')} of {three_digits(value)} {unit}"
+            for name, size in self.limits.items()
+            if name not in {one.cause.name for one in self.found}
+            for value, unit in [shown(size, UNITS[name])]
+        ]
+        if rest:
+            said.append(f"Together they would mostly show a common {joined(rest, 'or')}.")
+        if self.left_out:
+            said.append(
+                f"Not used for this: {joined(self.left_out)}; one isotherm, or no law common to its isotherms."
+            )
+        return "\n".join(said)
+
+
+def _sentence(one: Common) -> str:
+    """A cause with its 95 % interval; or how its size differs, and that it is then not this cause alone."""
+    unit = one.cause.parameters[0].unit
+    value, name = shown(one.value, unit)
+    half = CONFIDENCE * shown(one.std_error, unit)[0]
+    size, words = f"{with_interval(value, half)} {name}", one.cause.name.replace("_", " ")
+    if one.named:
+        others = joined([an(other.replace("_", " ")) for other in one.as_good], "or")
+        or_else = f"; {others} would fit as well" if others else ""
+        return f"Machine: {words} in all campaigns, {size} (95 % interval){or_else}."
+    parts = {"campaigns": one.campaigns, "isotherms": one.isotherms, "frequencies": one.frequencies}
+    differ = []
+    for group in one.differs:
+        known = [part for part in parts[group] if part.std_error < SHOWS * one.std_error]
+        low, high = min(known, key=lambda part: part.value), max(known, key=lambda part: part.value)
+        ends = [f"{three_digits(shown(part.value, unit)[0])} {name} ({part.where})" for part in (low, high)]
+        differ.append(f"between {group} from {ends[0]} to {ends[1]}")
+    return (
+        f"Common to the campaigns, without a name: they look as with {an(words)} of {size}, but its size differs "
+        f"{joined(differ)}. So it is no {words} of the machine alone."
+    )

@@ -1,0 +1,1 @@
+"""What measurements follow: a law, causes, a discrepancy and scatter, fitted together."""

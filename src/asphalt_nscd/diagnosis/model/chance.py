@@ -1,0 +1,278 @@
+"""What chance alone would give: score tests of directions against a fit, and the maximum over many.
+
+With the law, the scales and the causes found so far fitted, a further effect of amplitude a moves the
+whitened data along a direction d. Its gain in the objective is z^2, z = d.r / sqrt(d.A d), where
+A = 1 - J P^-1 J^T takes out whatever the fitted model can follow (priors included). Under the fit all
+z are jointly normal with known correlations, so the maximum over the catalogue is drawn at once:
+a parametric bootstrap of the linearised model, studentised as the scatter itself is estimated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtr
+
+from asphalt_nscd.diagnosis.causes._cause import Cause
+from asphalt_nscd.diagnosis.criteria import ABSORBED
+from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.files.words import specimen_named
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Structure:
+    """A nameless pattern: what an effect outside the catalogue might look like.
+
+    Parameters
+    ----------
+    name : str
+        In words.
+    direction : ndarray of complex (n,)
+        Of ln E*.
+    """
+
+    name: str
+    direction: NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Scores:
+    """Score tests of k directions.
+
+    Parameters
+    ----------
+    z : ndarray (k,)
+        Of each.
+    information : ndarray (k,)
+        d.A d.
+    seen : ndarray of bool (k,)
+        Whether the law leaves enough of a direction.
+    correlation : ndarray (k, k)
+        Of the z where nothing is hidden.
+    """
+
+    z: Vector
+    information: Vector
+    seen: NDArray[np.bool_]
+    correlation: NDArray
+
+
+def scores(
+    joint: Joint, fitted: Fitted, directions: NDArray[np.complex128], confined: NDArray[np.bool_]
+) -> Scores:
+    """Score tests of directions.
+
+    Parameters
+    ----------
+    joint : Joint
+        Model of the table.
+    fitted : Fitted
+        Where it stands.
+    directions : ndarray of complex (n, k)
+        Of ln E*.
+    confined : ndarray of bool (k,)
+        To a specimen, so no law takes them.
+
+    Returns
+    -------
+    Scores
+        Of each direction.
+    """
+    d = joint.noise.whiten(directions)
+    taken = fitted.jacobian.T @ d
+    gram = d.T @ d - taken.T @ np.linalg.solve(fitted.precision, taken)
+    information = np.diag(gram)
+    least = np.where(confined, 1e-9, ABSORBED)
+    seen = information > least * np.maximum((d**2).sum(axis=0), 1e-300)
+    norm = np.sqrt(np.where(seen, information, 1.0))
+    to_best = np.linalg.solve(fitted.precision, fitted.gradient)
+    z = np.where(seen, d.T @ (fitted.residual - fitted.jacobian @ to_best) / norm, 0.0)
+    correlation = gram / norm[:, None] / norm * (seen[:, None] & seen)
+    return Scores(z, information, seen, 0.5 * (correlation + correlation.T))
+
+
+def largest_by_chance(
+    found: Scores, one_sided: NDArray[np.bool_], freedom: int, draws: int, random: np.random.Generator
+) -> Vector:
+    """Largest of the z that chance alone gives.
+
+    Parameters
+    ----------
+    found : Scores
+        Scores.
+    one_sided : ndarray of bool (k,)
+        Directions that count upwards only.
+    freedom : int
+        Degrees of freedom of the scatter.
+    draws : int
+        How many.
+    random : Generator
+        Whence.
+
+    Returns
+    -------
+    ndarray (draws,)
+        In absolute value, or upwards only.
+    """
+    value, vector = np.linalg.eigh(found.correlation)
+    root = vector * np.sqrt(np.maximum(value, 0.0))
+    normal = random.standard_normal((draws, value.size)) @ root.T
+    normal = np.where(one_sided, normal, np.abs(normal))
+    student = np.sqrt(freedom / random.chisquare(freedom, draws))
+    return np.maximum(normal.max(axis=1, initial=0.0), 0.0) * student
+
+
+def tail(by_chance: Vector, z: float) -> float:
+    """Chance of z or more: the share of draws, and beyond them the normal tail scaled to meet them.
+
+    Parameters
+    ----------
+    by_chance : ndarray (draws,)
+        Of `largest_by_chance`.
+    z : float
+        Found.
+
+    Returns
+    -------
+    float
+        Above zero.
+    """
+    share = float(np.mean(by_chance >= z))
+    if share * by_chance.size >= 10:
+        return share
+    edge = float(np.quantile(by_chance, 0.99))
+    return float(min(0.01, 0.01 * float(ndtr(-z)) / float(ndtr(-edge))))
+
+
+def effective(found: Scores, one_sided: NDArray[np.bool_]) -> Vector:
+    """z (k,) with the wrong sign of a one-sided effect counted as nothing."""
+    return np.where(one_sided, np.maximum(found.z, 0.0), np.abs(found.z))
+
+
+def catalogue_candidates(observed: Observations, catalogue: Sequence[Cause]) -> list[Candidate]:
+    """Every cause at every place with every starting shape, absent (amplitude zero).
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    catalogue : sequence of Cause
+        Causes.
+
+    Returns
+    -------
+    list of Candidate
+        One for each cause, place and shape.
+    """
+    return [
+        Candidate(cause, place, (0.0, *shape))
+        for cause in catalogue
+        for place in cause.places(observed)
+        for shape in cause.shapes(observed)
+    ]
+
+
+def candidate_directions(joint: Joint, fitted: Fitted, candidates: list[Candidate]) -> NDArray:
+    """Derivatives of ln E* with respect to the amplitudes.
+
+    Parameters
+    ----------
+    joint : Joint
+        Model of the table.
+    fitted : Fitted
+        Where it stands.
+    candidates : list of Candidate (k,)
+        Causes at their places.
+
+    Returns
+    -------
+    ndarray of complex (n, k)
+        In typical units.
+    """
+    active = fitted.active
+    return (
+        np.column_stack(
+            [joint.direction(fitted.law, fitted.scales, (*active, c), len(active), 0) for c in candidates]
+        )
+        if candidates
+        else np.zeros((joint.observed.size, 0), complex)
+    )
+
+
+def structures(observed: Observations) -> list[Structure]:
+    """Nameless patterns by frequency, isotherm, specimen, condition and single test.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of Structure
+        Of modulus and of phase.
+    """
+    log_f = np.log(observed.frequency) - np.log(observed.frequency).mean()
+    above = observed.temperature - observed.temperature.mean()
+    patterns = {
+        "slope over frequency": log_f,
+        "slope over temperature": above,
+        "bend over frequency": log_f**2,
+        "bend over temperature": above**2,
+        "slope over frequency growing with temperature": log_f * above,
+        "slope over frequency in warm tests": log_f * np.maximum(above, 0.0),
+        "warm tests": np.maximum(above, 0.0),
+    }
+    for f in observed.frequencies:
+        patterns[f"{f:g} Hz"] = observed.frequency == f
+        patterns[f"above {f:g} Hz"] = observed.frequency > f
+    for t in observed.isotherms:
+        patterns[f"{t:g} degC"] = observed.isotherm == t
+        patterns[f"{t:g} degC, slope over frequency"] = (observed.isotherm == t) * log_f
+    for cell in range(observed.cell.max() + 1):
+        at = observed.cell == cell
+        row = int(np.flatnonzero(at)[0])
+        patterns[f"{observed.isotherm[row]:g} degC, {observed.frequency[row]:g} Hz"] = at
+    return _both(patterns) + specimen_structures(observed)
+
+
+def specimen_structures(observed: Observations) -> list[Structure]:
+    """Nameless patterns of one specimen against the others.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of Structure
+        Of modulus and of phase.
+    """
+    if len(observed.names) < 2:
+        return []
+    log_f = np.log(observed.frequency) - np.log(observed.frequency).mean()
+    above = observed.temperature - observed.temperature.mean()
+    patterns = {}
+    for k, name in enumerate(observed.names):
+        at = observed.specimen == k
+        patterns[specimen_named(name)] = at
+        patterns[f"{specimen_named(name)}, slope over frequency"] = at * log_f
+        patterns[f"{specimen_named(name)}, slope over temperature"] = at * above
+    return _both(patterns)
+
+
+def _both(patterns: dict[str, NDArray]) -> list[Structure]:
+    """Each pattern in the modulus and in the phase."""
+    return [
+        Structure(f"{name}, {part}", np.asarray(unit * pattern, complex))
+        for name, pattern in patterns.items()
+        if np.any(pattern)
+        for part, unit in (("modulus", 1.0), ("phase", 1j))
+    ]

@@ -1,0 +1,231 @@
+"""What a table holds beside its law, its causes and its scatter: a discrepancy with a size of its own.
+
+A real table never obeys one law to within its scatter: a hot isotherm is not linear, a machine resonates,
+one specimen is odd. Such structure has no name, but it must widen what is said of the causes (Kennedy &
+O'Hagan 2001). It enters as Gaussian processes over ln f, for the modulus and for the phase apart: one for
+each isotherm, one for each specimen, one common to all tests. Besides, each specimen has a spectrum of its
+own, which changes modulus and phase together as causality asks. Their variances are estimated by restricted
+likelihood (`likelihood`), with the cause that is tested in the model: without it they would absorb it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.criteria import DISCREPANCY
+from asphalt_nscd.diagnosis.model.joint import Fitted, Joint
+from asphalt_nscd.diagnosis.observed.observations import Observations
+
+Vector = NDArray[np.float64]
+Kernel = Callable[[NDArray], NDArray]
+LENGTH = 1.5  # of ln f, over which the discrepancy of an isotherm changes
+# shares of its variance: the same at all frequencies, smooth over ln f, of one condition
+LEVEL, SMOOTH, ROUGH = 0.25, 0.6, 0.15
+SPECIMEN_LENGTH = 3.0  # of ln f, over which the discrepancy of a specimen changes
+ACROSS = 0.5  # of the tested range of temperature, over which it changes
+LEFT_OUT = {"isotherm": 1e-3, "all": 1e-3, "specimen": 0.05}  # share of the variance of dropped eigenvectors
+OF_TIMES = 4.0  # of ln(relaxation time), over which the spectrum of a specimen departs from that of the mix
+LEAST, MOST = 1e-4, 1e7  # variance that is as good as none, and that no table has, in units of the scatter
+
+
+@dataclass(frozen=True)
+class Process:
+    """What a process of the discrepancy describes.
+
+    Parameters
+    ----------
+    kind : str
+        Of DISCREPANCY.
+    part : str
+        "modulus", "phase", or "both" where causality ties them.
+    isotherm : float, optional
+        What alone it reaches [degC]; None where it reaches all.
+    specimen : str, optional
+        What alone it reaches; None where it reaches all.
+    """
+
+    kind: str
+    part: str
+    isotherm: float | None = None
+    specimen: str | None = None
+
+
+@dataclass(frozen=True)
+class Processes:
+    """The m processes of a table, of unit variance in units of the scatter of one test.
+
+    Parameters
+    ----------
+    described : tuple of Process (m,)
+        What each is about.
+    roots : tuple of ndarray of complex (n, rank)
+        Factors of ln E* of each process, real for the modulus and imaginary for the phase.
+    factor : ndarray (2n, q)
+        All of them whitened.
+    block : ndarray of int (q,)
+        Process of each column.
+    usual : ndarray (m,)
+        Usual sizes.
+    spread : ndarray (m,)
+        Standard deviation of the logarithm of a size that is about the usual one, infinite of one that is
+        mostly zero (half-Cauchy).
+    """
+
+    described: tuple[Process, ...]
+    roots: tuple[NDArray[np.complex128], ...]
+    factor: NDArray
+    block: NDArray[np.int64]
+    usual: Vector
+    spread: Vector
+
+    def prior(self, variances: Vector) -> tuple[float, Vector, Vector]:
+        """-2 ln of the prior of the sizes.
+
+        Parameters
+        ----------
+        variances : ndarray (m,)
+            Of the processes.
+
+        Returns
+        -------
+        float
+            Its value.
+        ndarray (m,)
+            First derivatives along the variances.
+        ndarray (m,)
+            Second derivatives.
+        """
+        away = np.log(variances / self.usual**2)
+        about = np.isfinite(self.spread)
+        s = np.where(about, 2.0 * self.spread, 1.0) ** 2
+        value = np.where(about, away**2 / s, 2.0 * np.log1p(variances / self.usual**2))
+        rare = 2.0 / (self.usual**2 + variances)
+        slope = np.where(about, 2.0 * away / s / variances, rare)
+        bend = np.where(about, (2.0 / s / variances - slope) / variances, -0.5 * rare**2)
+        return float(value.sum()), slope, bend
+
+    def beside(self, variances: Vector) -> NDArray:
+        """What the processes add to the scatter.
+
+        Parameters
+        ----------
+        variances : ndarray (m,)
+            Of the processes.
+
+        Returns
+        -------
+        ndarray (2n, r)
+            Factor of the covariance of ln|E*| and of the phase.
+        """
+        kept = [
+            np.sqrt(variance) * root
+            for root, variance in zip(self.roots, variances, strict=True)
+            if variance > LEAST
+        ]
+        stacked = np.hstack(kept) if kept else np.zeros((self.roots[0].shape[0], 0), complex)
+        return np.concatenate([stacked.real, stacked.imag])
+
+
+def processes(joint: Joint, fitted: Fitted) -> Processes:
+    """The processes that a table may hold; what a specimen's own spectrum does is linearised at the fit.
+
+    Parameters
+    ----------
+    joint : Joint
+        Model of the table.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    Processes
+        Of unit variance.
+    """
+    observed, noise = joint.observed, joint.noise
+    described, roots = list[Process](), []
+    if len(observed.names) > 1:
+        spectra = noise.sigma[0] * _of_spectrum(joint, fitted)
+        for k, name in enumerate(observed.names):
+            described.append(Process("spectrum", "both", specimen=name))
+            roots.append(spectra * (observed.specimen == k)[:, None])
+    for process, points, kernel in _kernels(observed):
+        root = factor_of(points, kernel, LEFT_OUT[process.kind])
+        for part, unit in (("modulus", noise.sigma[0]), ("phase", 1j * noise.sigma[1])):
+            described.append(replace(process, part=part))
+            roots.append(unit * root)
+    usual = [DISCREPANCY[process.kind] for process in described]
+    factor = np.hstack([noise.whiten(root) for root in roots])
+    block = np.repeat(np.arange(len(roots)), [root.shape[1] for root in roots])
+    rare = np.full(len(usual), np.inf)
+    return Processes(tuple(described), tuple(roots), factor, block, np.array(usual), rare)
+
+
+def _of_spectrum(joint: Joint, fitted: Fitted) -> NDArray[np.complex128]:
+    """What a smooth relative change of the spectrum by one does to ln E*, a factor (n, rank)."""
+    log_times = np.log(joint.spectrum.times)[:, None]
+    modulus, slope = joint.base.modulus(fitted.law, joint.observed.omega, joint.observed.temperature)
+    return (slope[:, : log_times.size] / modulus[:, None]) @ factor_of(
+        log_times, lambda apart: np.exp(-0.5 * (apart[0] / OF_TIMES) ** 2), 1e-2
+    )
+
+
+def _kernels(observed: Observations) -> Iterator[tuple[Process, NDArray, Kernel]]:
+    """Each process, of either part, with points (n, d) of the tests that it reaches (else NaN) and its correlation."""
+    log_f = np.log(observed.frequency)[:, None]
+
+    def along(apart: NDArray) -> NDArray:
+        return SMOOTH * np.exp(-0.5 * (apart[0] / LENGTH) ** 2) + ROUGH * (np.abs(apart[0]) < 1e-9)
+
+    # What one isotherm alone has of its own is not told from what is common to all.
+    several = observed.isotherms.size > 1 or len(observed.names) == 1
+    for t in observed.held_isotherms if several else ():
+        at = np.where(observed.isotherm == t, 0.0, np.nan)[:, None]
+        yield Process("isotherm", "either", isotherm=float(t)), log_f + at, lambda apart: LEVEL + along(apart)
+    if observed.isotherms.size > 1:
+        yield Process("all", "either"), log_f, along
+    if len(observed.names) > 1:
+        span = ACROSS * max(float(np.ptp(observed.isotherms)), 1.0)
+        both = np.hstack([log_f / SPECIMEN_LENGTH, observed.temperature[:, None] / span])
+        for k, name in enumerate(observed.names):
+            at = np.where(observed.specimen == k, 0.0, np.nan)[:, None]
+            yield Process("specimen", "either", specimen=name), both + at, _of_specimen
+
+
+def _of_specimen(apart: NDArray) -> NDArray:
+    return 0.5 + 0.5 * np.exp(-0.5 * (apart**2).sum(axis=0))
+
+
+def factor_of(points: NDArray, kernel: Kernel, left_out: float) -> NDArray:
+    """Factor of the correlation between points.
+
+    Tests at one point share a row, so that only distinct points are solved for.
+
+    Parameters
+    ----------
+    points : ndarray (n, d)
+        NaN where a process does not reach.
+    kernel : callable
+        Of the differences (d, m, m).
+    left_out : float
+        Share of the variance of dropped eigenvectors.
+
+    Returns
+    -------
+    ndarray (n, rank)
+        Zero where a point is NaN.
+    """
+    rows = np.flatnonzero(np.isfinite(points).all(axis=1))
+    distinct, place, count = np.unique(points[rows], axis=0, return_inverse=True, return_counts=True)
+    apart = distinct.T[:, :, None] - distinct.T[:, None, :]
+    weight = np.sqrt(count)
+    # weighed by the number of tests at a point, so that what is dropped is little in the table's own norm
+    value, vector = np.linalg.eigh(weight[:, None] * kernel(apart) * weight)
+    value, vector = np.maximum(value[::-1], 0.0), vector[:, ::-1] / weight[:, None]
+    rank = int(np.searchsorted(np.cumsum(value), (1.0 - left_out) * value.sum())) + 1
+    root = np.zeros((points.shape[0], min(rank, value.size)))
+    root[rows] = (vector[:, :rank] * np.sqrt(value[:rank]))[place.ravel()]
+    return root

@@ -1,0 +1,302 @@
+"""Law, causes and discrepancy of a table fitted together, and the size of a cause in such a fit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.model import discrepancy, likelihood
+from asphalt_nscd.diagnosis.model.discrepancy import Processes
+from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate, Reduced
+from asphalt_nscd.diagnosis.model.start import first_laws, of_likeliest_roughness
+from asphalt_nscd.diagnosis.observed.observations import Observations
+
+Vector = NDArray[np.float64]
+SETTLED = 2  # rounds of fitting law and discrepancy in turn
+CONVERGED = 0.01  # change of the objective at which a fit beside a discrepancy ends
+
+
+@dataclass(frozen=True)
+class State:
+    """A fit of law and causes beside the discrepancy, and the model linearised there.
+
+    Parameters
+    ----------
+    plain : Joint
+        The joint model whose noise is the scatter alone.
+    wide : Joint
+        With the discrepancy.
+    fitted : Fitted
+        Under wide.
+    linear : Fitted
+        Under plain, at the same parameters.
+    model : Reduced
+        Reduced to the processes.
+    variances : ndarray (m,)
+        Of the processes.
+    """
+
+    plain: Joint
+    wide: Joint
+    fitted: Fitted
+    linear: Fitted
+    model: Reduced
+    variances: Vector
+
+    @property
+    def misfit(self) -> float:
+        """-2 ln of the likelihood with the law integrated out (Laplace), the causes at their best."""
+        law = self.fitted.law.size + self.fitted.scales.size
+        return (
+            self.fitted.objective
+            + float(np.linalg.slogdet(self.fitted.precision[:law, :law])[1])
+            + self.wide.noise.log_determinant
+            + self.model.processes.prior(self.variances)[0]
+        )
+
+
+def begin(plain: Joint, fitted: Fitted) -> State:
+    """Law and discrepancy with the causes of the fit, mostly none.
+
+    Parameters
+    ----------
+    plain : Joint
+        The joint model whose noise is the scatter alone.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    State
+        The first state.
+    """
+    found = discrepancy.processes(plain, fitted)
+    start = likelihood.estimate(likelihood.reduce(found, fitted)).variances
+    return smoothed(settle(plain, found, fitted, fitted.active, start))
+
+
+def with_causes(state: State, active: tuple[Candidate, ...]) -> State:
+    """Fitted anew with other causes.
+
+    Parameters
+    ----------
+    state : State
+        To start from.
+    active : tuple of Candidate
+        The causes.
+
+    Returns
+    -------
+    State
+        With them.
+    """
+    return settle(state.plain, state.model.processes, state.fitted, active, state.variances)
+
+
+def settle(
+    plain: Joint, found: Processes, at: Fitted, active: tuple[Candidate, ...], variances: Vector
+) -> State:
+    """Law, causes and discrepancy fitted in turn from where they stand.
+
+    Parameters
+    ----------
+    plain : Joint
+        The joint model whose noise is the scatter alone.
+    found : Processes
+        Of the discrepancy.
+    at : Fitted
+        Law and scales to start from.
+    active : tuple of Candidate
+        The causes.
+    variances : ndarray (m,)
+        Of the processes, to start from.
+
+    Returns
+    -------
+    State
+        Fitted.
+    """
+    law, scales = at.law, at.scales
+    for _ in range(SETTLED):
+        noise = plain.noise.beside(found.beside(variances))
+        wide = Joint(plain.observed, plain.base, noise)
+        fitted = wide.fit(law, scales, active, CONVERGED)
+        law, scales, active = fitted.law, fitted.scales, fitted.active
+        linear = plain.linearise(law, scales, active)
+        model = likelihood.reduce(found, linear)
+        variances = likeliest(model, variances).variances
+    return State(plain, wide, fitted, linear, model, variances)
+
+
+def likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
+    """The likeliest of several answers.
+
+    Which of three specimens is odd, or a phase that is off at every frequency for a modulus that is, may be told in two
+    ways, and one start finds one of them.
+
+    Parameters
+    ----------
+    model : Reduced
+        Of `likelihood.reduce`.
+    variances : ndarray (m,)
+        Where to start, among other places.
+    cause : Direction, optional
+        One direction that is in the model, or none.
+
+    Returns
+    -------
+    Estimate
+        Of the least misfit.
+    """
+    uncommon = np.where(
+        [one.kind == "all" for one in model.processes.described], discrepancy.LEAST, variances
+    )
+    tried = [likelihood.estimate(model, cause, start) for start in (variances, None, uncommon)]
+    return min(tried, key=lambda estimate: estimate.misfit)
+
+
+def smoothed(state: State) -> State:
+    """The same with the roughness of the law that is likeliest beside the discrepancy.
+
+    Parameters
+    ----------
+    state : State
+        To start from.
+
+    Returns
+    -------
+    State
+        Fitted anew.
+    """
+    wide, fitted = of_likeliest_roughness(state.wide, state.fitted, CONVERGED)
+    plain = Joint(state.plain.observed, wide.base, state.plain.noise)
+    return settle(plain, state.model.processes, fitted, fitted.active, state.variances)
+
+
+def afresh(state: State, active: tuple[Candidate, ...]) -> State:
+    """Law and causes fitted before there is a discrepancy, which else keeps what it took up without them.
+
+    Parameters
+    ----------
+    state : State
+        Whose table and scales.
+    active : tuple of Candidate
+        The causes.
+
+    Returns
+    -------
+    State
+        Fitted anew.
+    """
+    laws = [state.fitted.law, *first_laws(state.plain)]
+    fits = [state.plain.fit(law, state.fitted.scales, active, CONVERGED) for law in laws]
+    fitted = min(fits, key=lambda one: one.objective)
+    found = discrepancy.processes(state.plain, fitted)
+    start = likelihood.estimate(likelihood.reduce(found, fitted)).variances
+    return settle(state.plain, found, fitted, fitted.active, start)
+
+
+def of_taken(
+    state: State, candidate: Candidate, rows: NDArray | None = None, sizes_too: bool = False
+) -> Estimate:
+    """Amplitude of a cause that is in the fit, in typical units.
+
+    Parameters
+    ----------
+    state : State
+        The fit.
+    candidate : Candidate
+        The cause.
+    rows : ndarray of int (r,), optional
+        Tests that alone are counted; all if None.
+    sizes_too : bool
+        Whether its standard error holds what is not known of the discrepancy's sizes.
+
+    Returns
+    -------
+    Estimate
+        Of the cause.
+    """
+    first = state.fitted.place_of(candidate.key)
+    plain, model, linear = state.plain, state.model, state.linear
+    if rows is not None:
+        plain = Joint(plain.observed.subset(rows), plain.base, plain.noise.subset(rows))
+        linear = plain.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
+    d = linear.jacobian[:, [first]]
+    rest = linear.fixed(first)
+    found, start = model.processes, state.variances
+    if rows is not None:
+        found, start = of_rows(found, plain, rows, start)
+    model = likelihood.reduce(found, rest)
+    pointing = likelihood.directions(model, rest, d)
+    found_value = likelihood.estimate(model, pointing, start)
+    if sizes_too:
+        found_value = likelihood.with_uncertain_sizes(model, pointing, found_value)
+    active = next(one for one in state.fitted.active if one.key == candidate.key)
+    stands = active.values[0] / active.typical[0]
+    return replace(found_value, amplitude=found_value.amplitude + stands)
+
+
+def of_rows(found: Processes, plain: Joint, rows: NDArray, variances: Vector) -> tuple[Processes, Vector]:
+    """The processes of some rows, those that reach none of them left out.
+
+    Parameters
+    ----------
+    found : Processes
+        Of all rows.
+    plain : Joint
+        Of the rows.
+    rows : ndarray of int (r,)
+        Which.
+    variances : ndarray (m,)
+        Of all processes.
+
+    Returns
+    -------
+    Processes
+        That are left.
+    ndarray
+        Their variances.
+    """
+    kept = [k for k, root in enumerate(found.roots) if np.abs(root[rows]).max() > 0.0]
+    roots = tuple(found.roots[k][rows] for k in kept)
+    factor = np.hstack([plain.noise.whiten(root) for root in roots])
+    block = np.repeat(np.arange(len(kept)), [root.shape[1] for root in roots])
+    described = tuple(found.described[k] for k in kept)
+    return (
+        Processes(described, roots, factor, block, found.usual[kept], found.spread[kept]),
+        variances[kept],
+    )
+
+
+def of_shapes(fitted: Fitted, candidate: Candidate, observed: Observations) -> float:
+    """What the freedom of a cause's shapes costs: -2 ln of the share of their prior that tests leave them (Laplace).
+
+    The prior is about as wide as the fit's about each start. The share is that given the amplitude, whose own error is
+    counted with its own prior.
+
+    Parameters
+    ----------
+    fitted : Fitted
+        A fit with the cause.
+    candidate : Candidate
+        The cause.
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    float
+        In units of -2 ln likelihood; zero for a cause without shapes of its own.
+    """
+    if not candidate.shaped:
+        return 0.0
+    first = fitted.place_of(candidate.key)
+    at = slice(first, first + len(candidate.values))
+    own = fitted.covariance[at, at]
+    left = float(np.linalg.slogdet(own)[1] - np.log(own[0, 0]))
+    starts = np.ptp(np.array(candidate.cause.shapes(observed)), axis=0) / candidate.typical[1:]
+    return float((2.0 * np.log1p(starts / np.sqrt(2.0 * np.pi))).sum()) - left

@@ -1,0 +1,1 @@
+"""Which further tests would answer most of what is open."""

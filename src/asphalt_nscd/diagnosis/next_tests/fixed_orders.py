@@ -1,0 +1,244 @@
+"""Orders to the laboratory that need no computed gain: what a table lacks, whatever else it says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS
+from asphalt_nscd.diagnosis.next_tests.sweeps import BEYOND, COLDEST, METAL, NEW, WARMEST, Costs, temperatures
+from asphalt_nscd.diagnosis.observed import quality
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.files.words import counted, joined, specimen_named
+from asphalt_nscd.measurements.campaign import OFF_TARGET
+
+Orders = list[dict[str, Any]]
+
+
+def gauges(done: Observations, costs: Costs) -> Orders:
+    """Tests again after a check, of specimens beyond a quality limit that half of all tests exceed or more.
+
+    Parameters
+    ----------
+    done : Observations
+        The tests there are.
+    costs : Costs
+        Machine hours.
+
+    Returns
+    -------
+    Orders
+        None where none is.
+    """
+    above = quality.exceeded(done)
+    orders: Orders = []
+    for name, limit in quality.LIMITS.items():
+        rows = np.array([one.row for one in above if one.column == name], np.int64)
+        if 2 * rows.size < done.size:
+            continue
+        share = np.bincount(done.specimen[rows], minlength=len(done.names)) / np.bincount(done.specimen)
+        names = [done.names[k] for k in np.flatnonzero(share >= 0.5)]
+        room = float(np.mean(costs.room))
+        at = float(min(done.isotherms, key=lambda t: abs(t - room)))
+        why = (
+            f"{rows.size} of {done.size} tests exceed the limit of {limit.label}. If the new ones stay below it, the "
+            "mounting was at fault: repeat the other temperatures too. If not, it is the machine or the specimens."
+        )
+        act = f"check {limit.check}, mount {named(names)} anew and test"
+        orders.append(
+            _order(act, names, [at], done, costs, (f"to see whether {limit.label} gets better", why), "again")
+        )
+    return orders
+
+
+def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
+    """Metal, where the phases lie on one side of what |E*| requires, and no cause explains it.
+
+    Parameters
+    ----------
+    done : Observations
+        The tests there are.
+    costs : Costs
+        Machine hours.
+    one_sided : str
+        On which side, in words.
+
+    Returns
+    -------
+    Orders
+        One order.
+    """
+    ends = [float(done.frequencies[0]), float(done.frequencies[-1])]
+    hours = costs.hours(METAL, float(np.mean(costs.room)), ends)
+    why = (
+        f"{one_sided} Metal has no phase of its own: what it shows is the machine's. If it shows none, the "
+        "cause is in the mix or in the mounting."
+    )
+    purpose = "to see whether the machine adds to the phase"
+    return [_content(f"test {METAL}, {band(ends)}", (purpose, why), hours, [METAL], [], ends)]
+
+
+def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, Any]]) -> Orders:
+    """Tests again of specimens measured off their target at one isotherm: a slip there makes false biases.
+
+    Parameters
+    ----------
+    done : Observations
+        The tests there are.
+    costs : Costs
+        Machine hours.
+    found : sequence of mapping
+        Tests off their target.
+
+    Returns
+    -------
+    Orders
+        One for each specimen and isotherm.
+    """
+    orders: Orders = []
+    for t in sorted({one["temperature_C"] for one in found}):
+        here = [one for one in found if one["temperature_C"] == t]
+        names = [one["specimen"] for one in here]
+        most = max(abs(one["measured_C"] - t) for one in here)
+        many = len(here) > 1
+        purpose = (
+            f"because {'they were' if many else 'it was'} measured {'up to ' * many}{most:.2g} K off "
+            f"{'their' if many else 'its'} target"
+        )
+        why = (
+            f"AASHTO T 378 allows {OFF_TARGET:g} K. Look into the record first. If the temperature there is a slip, "
+            "correct it and run this again. If not, use the new tests."
+        )
+        orders.append(_order(f"test {named(names)}", names, [t], done, costs, (purpose, why), "again"))
+    return orders
+
+
+def second_specimen(done: Observations, costs: Costs) -> Orders:
+    """A new specimen at the same conditions, where one alone was tested.
+
+    Parameters
+    ----------
+    done : Observations
+        The tests there are.
+    costs : Costs
+        Machine hours.
+
+    Returns
+    -------
+    Orders
+        None where there are several.
+    """
+    if len(done.names) > 1:
+        return []
+    why = "Two specimens show the scatter from test to test. Without it nothing here is certain."
+    return [
+        _order(f"test {NEW}", [NEW], done.isotherms.tolist(), done, costs, ("to measure the scatter", why))
+    ]
+
+
+def more_temperatures(done: Observations, costs: Costs) -> Orders:
+    """As many as certainty lacks: beyond those tested, then between them.
+
+    Parameters
+    ----------
+    done : Observations
+        The tests there are.
+    costs : Costs
+        Machine hours.
+
+    Returns
+    -------
+    Orders
+        None where none is lacking.
+    """
+    tested = done.isotherms
+    beyond = [t for t in (tested[-1] + BEYOND, tested[0] - BEYOND) if COLDEST <= t <= WARMEST]
+    between = [t for t in temperatures(done) if tested[0] < t < tested[-1] and t not in tested]
+    new = [float(round(t)) for t in (*beyond, *between)][: max(LEAST_ISOTHERMS - tested.size, 0)]
+    if not new:
+        return []
+    names = [done.names[k] for k in range(min(2, len(done.names)))]
+    why = (
+        f"{counted(tested.size, 'temperature')} {'was' if tested.size == 1 else 'were'} tested. A fault can be proved "
+        f"from {LEAST_ISOTHERMS} on."
+    )
+    purpose = f"because fewer than {LEAST_ISOTHERMS} temperatures cannot prove a fault"
+    return [_order(f"test {named(names)}", names, sorted(new), done, costs, (purpose, why))]
+
+
+def _order(
+    act: str,
+    names: list[str],
+    at: list[float],
+    done: Observations,
+    costs: Costs,
+    why: tuple[str, str],
+    again: str = "",
+) -> dict[str, Any]:
+    """why: its purpose in a few words, and the reason in full."""
+    frequencies = done.frequencies.tolist()
+    hours = sum(costs.hours("", t, frequencies) for name in names for t in at)
+    hours += costs.new_specimen * (NEW in names)
+    words = " ".join(filter(None, [act, again, f"at {joined([f'{t:g}' for t in at])} degC"]))
+    return _content(f"{words}, {band(frequencies)}", why, hours, names, at, frequencies)
+
+
+def _content(
+    act: str,
+    why: tuple[str, str],
+    hours: float,
+    specimens: list[str],
+    at: list[float],
+    frequencies: list[float],
+) -> dict[str, Any]:
+    return {
+        "text": f"{hours:.1f} h: {act}.",
+        "purpose": why[0],
+        "why": [why[1]],
+        "hours": round(hours, 2),
+        "nats": 0.0,
+        "specimens": specimens,
+        "temperature_C": at[0] if len(at) == 1 else None,
+        "frequencies_Hz": frequencies,
+        "half_strain": False,
+    }
+
+
+def named(specimens: Sequence[str]) -> str:
+    """`specimens A and B`, `specimen A and a new specimen`.
+
+    Parameters
+    ----------
+    specimens : sequence of str
+        Their names.
+
+    Returns
+    -------
+    str
+        In words.
+    """
+    own = [name for name in specimens if name not in (METAL, NEW)]
+    others = [name for name in specimens if name in (METAL, NEW)]
+    if len(own) > 1 and specimen_named(own[0]) != own[0]:
+        return joined([f"specimens {joined(own)}", *others])
+    return joined([*map(specimen_named, own), *others])
+
+
+def band(f: Sequence[float]) -> str:
+    """`1 and 10 Hz`, `0.1 to 25 Hz (6 frequencies)`.
+
+    Parameters
+    ----------
+    f : sequence of float
+        Frequencies [Hz], ascending.
+
+    Returns
+    -------
+    str
+        In words.
+    """
+    if len(f) < 4:
+        return f"{joined([f'{x:g}' for x in f])} Hz"
+    return f"{f[0]:g} to {f[-1]:g} Hz ({len(f)} frequencies)"

@@ -1,0 +1,332 @@
+"""The model of a diagnosis at the tests done and at all that could follow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import HEAD
+from asphalt_nscd.diagnosis.model import discrepancy
+from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
+from asphalt_nscd.diagnosis.model.discrepancy import Process
+from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Linear, Tested, parts
+from asphalt_nscd.diagnosis.next_tests.sweeps import (
+    HALF,
+    Costs,
+    Sweep,
+    at_half_strain,
+    every_test,
+    noise_of,
+    on_metal,
+    scatter_of,
+    sweeps_at,
+    sweeps_on_metal,
+    temperatures,
+    with_strain,
+)
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.screening import levels
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
+
+METAL_LEVEL = 0.03  # how well the modulus of a metal specimen and its form factor are known
+
+
+@dataclass(frozen=True)
+class Departure:
+    """By how much tests depart from the model, and what that is about.
+
+    Parameters
+    ----------
+    kind : str
+        "linear", what changes at half the strain at an isotherm if the departure is proportional to the
+        strain; "repeat", a test that cannot be used; "level", an isotherm or specimen that is odd.
+    effect : ndarray of complex (N,)
+        ln E*.
+    specimen : str, optional
+        Where; None where it is everywhere.
+    isotherm : float, optional
+        Where [degC]; None where it is everywhere.
+    frequency : float, optional
+        Where [Hz]; None where it is everywhere.
+    odd : mapping, optional
+        Of a level, the entry of `levels.odd` or `odd_phases`.
+    """
+
+    kind: str
+    effect: NDArray[np.complex128]
+    specimen: str | None = None
+    isotherm: float | None = None
+    frequency: float | None = None
+    odd: Mapping[str, Any] | None = None
+
+
+@dataclass(frozen=True)
+class Possible:
+    """The model at the tests done and at all that could follow.
+
+    Parameters
+    ----------
+    table : Observations
+        Tests done, then those that could follow.
+    linear : Linear
+        The model, linearised.
+    old : Tested
+        Tests done.
+    sweeps : tuple of Sweep
+        That could follow.
+    candidates : tuple of Candidate
+        Causes, in the order of the effects.
+    departures : tuple of Departure
+        What effects come next.
+    metal_frequencies : ndarray
+        Of the rows that follow those of the table [Hz].
+    """
+
+    table: Observations
+    linear: Linear
+    old: Tested
+    sweeps: tuple[Sweep, ...]
+    candidates: tuple[Candidate, ...]
+    departures: tuple[Departure, ...]
+    metal_frequencies: NDArray[np.float64]
+
+
+def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
+    """All sweeps, with the model linearised at the last fit.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests done.
+    costs : Costs
+        Machine hours.
+
+    Returns
+    -------
+    Possible
+        The model at all tests.
+    """
+    observed = with_strain(diagnosis.observed)
+    fitted, base = diagnosis.ladder.fitted, diagnosis.ladder.joint.base
+    laws_between = isinstance(base, FlexibleSpectrum)  # a Burgers law says nothing of another temperature
+    table = every_test(observed, temperatures(observed) if laws_between else observed.isotherms.tolist())
+    noise = noise_of(diagnosis.noise, observed, table)
+    joint = Joint(table, base, noise)
+    scales = np.append(fitted.scales, 0.0)
+    candidates = _candidates(observed, table, fitted.active)
+    at = joint.linearise(fitted.law, scales, fitted.active)
+    nuisance, precision = _of_law(joint, at)
+    keys = tuple(c.key for c in fitted.active)
+    effects = np.column_stack([_effect(joint, at, candidate, keys) for candidate in candidates])
+    if diagnosis.laboratory is not None:  # every sweep is a mounting of its own
+        added = diagnosis.laboratory.factor(joint, at, noise.block)
+        nuisance, precision = np.hstack([nuisance, added]), _block(precision, np.ones(added.shape[1]))
+    processes, roots, variances = _discrepancy(diagnosis, joint, at)
+    of_law = nuisance.shape[1]
+    nuisance = np.hstack([nuisance, *roots])
+    sizes = np.concatenate(
+        [np.full(root.shape[1], v) for root, v in zip(roots, variances, strict=True)] or [np.zeros(0)]
+    )
+    precision = _block(precision, 1.0 / sizes)
+    metal = on_metal(observed)
+    rows = _metal_rows(metal, table, processes, roots, nuisance.shape[1])
+    effects = np.vstack([effects, _metal_effects(metal, candidates)])
+    level = np.zeros((rows.shape[0] + table.size, 1), complex)
+    level[table.size :] = 1.0
+    nuisance = np.hstack([np.vstack([nuisance, rows]), level])
+    linear = Linear(nuisance, _block(precision, np.array([METAL_LEVEL**-2])), effects)
+    n = observed.size
+    old = Tested(np.arange(n), scatter_of(noise.within[:, :n], noise.shared[:, :n], noise.block[:n]))
+    sweeps = tuple(
+        [*sweeps_at(observed, table, noise, costs), *sweeps_on_metal(metal, table.size, noise, costs)]
+    )
+    known = Knowledge(linear, [old])
+    # The law stands at its best already, so that only the discrepancy moves.
+    left = parts(observed.logarithm - fitted.modelled)
+    moved = known.expected(parts(linear.nuisance[old.rows]).T @ np.linalg.solve(old.scatter, left))
+    departing = _departures(linear, moved, processes, roots, of_law, _doubtful(diagnosis))
+    departures = [
+        *(Departure("linear", _halved(table, t, one, linear), isotherm=t) for t, one in departing.items()),
+        *(_again(diagnosis, table, linear, one) for one in _odd(diagnosis)),
+        *_repeats(diagnosis, table, at.modelled + (linear.nuisance @ moved)[: table.size], linear),
+    ]
+    linear = replace(linear, effects=np.column_stack([linear.effects, *(one.effect for one in departures)]))
+    return Possible(table, linear, old, sweeps, candidates, tuple(departures), metal.frequency)
+
+
+def _repeats(
+    diagnosis: Diagnosis, table: Observations, expected: NDArray[np.complex128], linear: Linear
+) -> Iterator[Departure]:
+    """By how much each test that cannot be used departs from what the others say of it, at the row that repeats it."""
+    whole = diagnosis.whole or diagnosis.observed
+    for one in diagnosis.suspects:
+        if one.used:
+            continue
+        name, t, f = whole.names[whole.specimen[one.row]], whole.isotherm[one.row], whole.frequency[one.row]
+        again = (
+            (table.specimen == whole.specimen[one.row])
+            & (table.isotherm == t)
+            & (table.frequency == f)
+            & ~at_half_strain(table)
+        )
+        if again.any():
+            row = int(np.flatnonzero(again)[-1])
+            effect = np.zeros(linear.effects.shape[0], complex)
+            effect[row] = whole.logarithm[one.row] - expected[row]
+            yield Departure("repeat", effect, name, float(t), float(f))
+
+
+def _odd(diagnosis: Diagnosis) -> list[dict[str, Any]]:
+    """Isotherms and specimens that are odd."""
+    done = diagnosis.whole or diagnosis.observed
+    phases, _ = levels.with_confined(levels.odd_phases(done), [], diagnosis.ladder.of_one_place)
+    return [*levels.odd(done), *phases]
+
+
+def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mapping[str, Any]) -> Departure:
+    """By how much an isotherm or specimen is odd, at the rows that repeat it."""
+    again = (table.specimen == table.names.index(one["specimen"])) & ~at_half_strain(table)
+    again[: diagnosis.observed.size] = False
+    if one["temperature_C"] is not None:
+        again &= table.isotherm == one["temperature_C"]
+    size = np.log(one["factor"]) if "factor" in one else 1j * np.radians(one["phase_deg"])
+    effect = np.zeros(linear.effects.shape[0], complex)
+    share = table.frequency[again] / diagnosis.observed.frequencies[-1] if "delay_s" in one else 1.0
+    effect[: table.size][again] = size * share
+    return Departure("level", effect, one["specimen"], one["temperature_C"], odd=one)
+
+
+def _departures(
+    linear: Linear,
+    moved: NDArray,
+    processes: Sequence[Process],
+    roots: Sequence[NDArray],
+    first: int,
+    doubtful: Sequence[float],
+) -> dict[float, NDArray[np.complex128]]:
+    """By isotherm [degC], ln E* (N,) that its own discrepancy takes up."""
+    found: dict[float, NDArray[np.complex128]] = {}
+    for process, root in zip(processes, roots, strict=True):
+        t = process.isotherm
+        if t is not None and t in doubtful:
+            at = slice(first, first + root.shape[1])
+            found[t] = found.get(t, 0.0) + linear.nuisance[:, at] @ moved[at]
+        first += root.shape[1]
+    return found
+
+
+def _doubtful(diagnosis: Diagnosis) -> list[float]:
+    """Isotherms [degC] whose own discrepancy is larger than the scatter of a test."""
+    large = [one.isotherm for one, size in diagnosis.ladder.discrepancy.items() if size > 1.0]
+    return [float(t) for t in diagnosis.observed.isotherms if t in large]
+
+
+def _halved(
+    table: Observations, t: float, departure: NDArray[np.complex128], linear: Linear
+) -> NDArray[np.complex128]:
+    here = np.zeros(linear.effects.shape[0], bool)
+    here[: table.size] = (table.isotherm == t) & at_half_strain(table)
+    return np.where(here, -HALF * departure, 0.0)
+
+
+def _candidates(
+    observed: Observations, table: Observations, active: tuple[Candidate, ...]
+) -> tuple[Candidate, ...]:
+    """Causes in the fit first, then every other one that tests could show, in one shape each."""
+    places = {None, *observed.names, *map(float, observed.isotherms)}
+    found = {candidate.key: candidate for candidate in active}
+    for cause in CATALOGUE:
+        shapes = cause.shapes(table)
+        for place in cause.places(table):
+            if place in places:
+                middle = Candidate(cause, place, (0.0, *shapes[len(shapes) // 2]))
+                found.setdefault(middle.key, middle)
+    return tuple(found.values())
+
+
+def _effect(joint: Joint, at: Fitted, candidate: Candidate, active: tuple) -> NDArray[np.complex128]:
+    if candidate.key in active:
+        return joint.direction(at.law, at.scales, at.active, active.index(candidate.key), 0)
+    return joint.direction(at.law, at.scales, (*at.active, candidate), len(at.active), 0)
+
+
+def _of_law(joint: Joint, at: Fitted) -> tuple[NDArray[np.complex128], NDArray[np.float64]]:
+    """Derivatives (N, q) with respect to law, scales and shapes of causes; the precision of their priors."""
+    modulus, slope = joint.apparent(at.law, at.active, at.scales)
+    shapes = [
+        joint.direction(at.law, at.scales, at.active, k, j)
+        for k, candidate in enumerate(at.active)
+        for j in range(1, len(candidate.values))
+    ]
+    rows = joint.base.prior(at.law)[1]
+    precision = _block(rows.T @ rows, np.full(at.scales.size, joint.noise.scale**-2))
+    return np.column_stack([slope / modulus[:, None], *shapes]), _block(precision, np.ones(len(shapes)))
+
+
+def _block(matrix: NDArray, diagonal: NDArray) -> NDArray[np.float64]:
+    out = np.zeros((matrix.shape[0] + diagonal.size,) * 2)
+    out[: matrix.shape[0], : matrix.shape[0]] = matrix
+    out[range(matrix.shape[0], out.shape[0]), range(matrix.shape[0], out.shape[0])] = diagonal
+    return out
+
+
+def _discrepancy(
+    diagnosis: Diagnosis, joint: Joint, at: Fitted
+) -> tuple[list[Process], list[NDArray[np.complex128]], list[float]]:
+    """Processes, roots (N, rank) and variances; a new isotherm between those tested, a usual specimen."""
+    sizes = diagnosis.ladder.discrepancy
+    if not sizes:
+        return [], [], []
+    found = discrepancy.processes(joint, at)
+    tested = diagnosis.observed.isotherms
+    variances = [_variance(process, sizes, tested) for process in found.described]
+    kept = [k for k, variance in enumerate(variances) if variance > discrepancy.LEAST]
+    return [found.described[k] for k in kept], [found.roots[k] for k in kept], [variances[k] for k in kept]
+
+
+def _variance(process: Process, sizes: Mapping[Process, float], tested: NDArray[np.float64]) -> float:
+    if process in sizes:
+        return sizes[process] ** 2
+    if process.isotherm is not None:
+        known = [sizes.get(replace(process, isotherm=float(t)), 0.0) for t in tested]
+        return float(np.interp(process.isotherm, tested, known)) ** 2
+    alike = [size**2 for one, size in sizes.items() if (one.kind, one.part) == (process.kind, process.part)]
+    return float(np.mean(alike)) if alike else 0.0
+
+
+def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> NDArray[np.complex128]:
+    """What head and channel do to a test on metal; causes of the mix and of a specimen do nothing."""
+    out = np.zeros((metal.size, len(candidates)), complex)
+    for k, candidate in enumerate(candidates):
+        if candidate.place is None and candidate.cause.stage >= HEAD:
+            step = np.array([1e-3 * candidate.typical[0], *([0.0] * (len(candidate.values) - 1))])
+            high, low = (
+                candidate.cause.apparent(metal.modulus, np.array(candidate.values) + sign * step, metal)
+                for sign in (1, -1)
+            )
+            out[:, k] = np.log(high / low) / 2e-3
+    return out
+
+
+def _metal_rows(
+    metal: Observations,
+    table: Observations,
+    processes: Sequence[Process],
+    roots: Sequence[NDArray[np.complex128]],
+    columns: int,
+) -> NDArray[np.complex128]:
+    """Of the nuisance only what the machine adds to all tests reaches the metal."""
+    rows = np.zeros((metal.size, columns), complex)
+    first = columns - sum(root.shape[1] for root in roots)
+    at = [int(np.flatnonzero(table.frequency == f)[0]) for f in metal.frequency]
+    for process, root in zip(processes, roots, strict=True):
+        if process.kind == "all":
+            rows[:, first : first + root.shape[1]] = root[at]
+        first += root.shape[1]
+    return rows

@@ -1,0 +1,412 @@
+"""Tests that a laboratory could do next, as sweeps over frequency, and what each costs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.next_tests.information import Tested
+from asphalt_nscd.diagnosis.observed.noise import Noise
+from asphalt_nscd.diagnosis.observed.observations import Observations
+
+NEW, METAL = "a new specimen", "a metal reference specimen"
+METAL_MODULUS = 70e9  # Pa, aluminium
+ISOTHERMS = 12  # of a table at most, at which further tests are weighed
+APART = 8.0  # K between isotherms, from which one between them is worth a test
+BEYOND = 10.0  # K beyond the tests
+COLDEST, WARMEST = -20.0, 60.0  # degC
+HALF = 0.5  # of the strain, at which linearity is checked
+
+
+@dataclass(frozen=True)
+class Costs:
+    """Machine hours; those of a usual laboratory.
+
+    Parameters
+    ----------
+    mounting : float
+        Of a specimen [h].
+    conditioning : float
+        Of a specimen to a temperature other than that of the room [h].
+    room : tuple of float
+        Temperatures of the room [degC].
+    new_specimen : float
+        Cored, trimmed, glued [h].
+    cycles : float
+        At each frequency.
+    pause : float
+        At each frequency [h].
+    """
+
+    mounting: float = 0.5
+    conditioning: float = 2.0
+    room: tuple[float, float] = (15.0, 25.0)
+    new_specimen: float = 4.0
+    cycles: float = 20.0
+    pause: float = 1.0 / 60.0
+
+    def hours(self, specimen: str, temperature: float, frequencies: Sequence[float]) -> float:
+        """Hours of a sweep of one specimen.
+
+        Parameters
+        ----------
+        specimen : str
+            Its name.
+        temperature : float
+            [degC].
+        frequencies : sequence of float
+            [Hz].
+
+        Returns
+        -------
+        float
+            [h].
+        """
+        away = specimen != METAL and not self.room[0] <= temperature <= self.room[1]
+        fixed = self.mounting + self.conditioning * away + self.new_specimen * (specimen == NEW)
+        return fixed + sum(self.cycles / f / 3600.0 + self.pause for f in frequencies)
+
+    @property
+    def sentence(self) -> str:
+        """What was assumed of the hours, for a reader."""
+        return (
+            f"Hours: {self.mounting:g} h to mount a specimen, {self.conditioning:g} h to bring it to a temperature "
+            f"outside {self.room[0]:g} to {self.room[1]:g} degC, {self.new_specimen:g} h to prepare a new one, "
+            f"{self.cycles:g} cycles and one minute at each frequency."
+        )
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """One specimen at one temperature over some frequencies.
+
+    Parameters
+    ----------
+    specimen : str
+        Its name.
+    temperature : float
+        [degC].
+    frequencies : tuple of float
+        [Hz].
+    half_strain : bool
+        At half of the usual strain.
+    tested : Tested
+        Its rows and their scatter.
+    hours : float
+        That it takes.
+    """
+
+    specimen: str
+    temperature: float
+    frequencies: tuple[float, ...]
+    half_strain: bool
+    tested: Tested
+    hours: float
+
+
+def temperatures(observed: Observations) -> list[float]:
+    """Isotherms tested (a dozen at most), one between any two that are far apart, one beyond either end.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of float
+        [degC], ascending.
+    """
+    tested = _some(observed.isotherms, ISOTHERMS)
+    middle = [round(float(a + b) / 2.0) for a, b in pairwise(tested) if b - a >= APART]
+    ends = [round(float(tested[0] - BEYOND)), round(float(tested[-1] + BEYOND))]
+    inside = [t for t in (*middle, *ends) if COLDEST <= t <= WARMEST]
+    return sorted({*map(float, tested), *map(float, inside)})
+
+
+def frequencies(observed: Observations) -> list[float]:
+    """Frequencies tested (at most eight of them), and one below them.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of float
+        [Hz], ascending.
+    """
+    tested = _some(observed.frequencies, 8)
+    lower = float(f"{tested[0] / 3.0:.1g}")
+    return [*([lower] if lower >= 0.01 else []), *map(float, tested)]
+
+
+def _some(values: NDArray[np.float64], most: int) -> NDArray[np.float64]:
+    """At most so many of them, spread evenly, both ends among them."""
+    return values[np.unique(np.linspace(0, values.size - 1, min(most, values.size)).round().astype(int))]
+
+
+def with_strain(observed: Observations) -> Observations:
+    """With amplitudes relative to the usual one, where the table has none.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    Observations
+        The same tests.
+    """
+    if observed.amplitude is not None:
+        return observed
+    return replace(observed, amplitude=np.ones(observed.size), whole=None)
+
+
+def every_test(observed: Observations, at: Sequence[float]) -> Observations:
+    """The tests done, then every specimen, with a new one, at every temperature and frequency and two strains.
+
+    Parameters
+    ----------
+    observed : Observations
+        Tests done.
+    at : sequence of float
+        Temperatures [degC].
+
+    Returns
+    -------
+    Observations
+        N rows.
+    """
+    names = (*observed.names, NEW)
+    full = [(s, t, f, 1.0) for s in range(len(names)) for t in at for f in frequencies(observed)]
+    tested = set(zip(observed.specimen.tolist(), observed.isotherm.tolist(), strict=True))
+    half = [  # beside the tests at the usual strain
+        (s, t, f, HALF)
+        for s in range(len(observed.names))
+        for t in _some(observed.isotherms, ISOTHERMS).tolist()
+        for f in observed.frequencies
+        if (s, t) in tested
+    ]
+    specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half, strict=True))
+    like = np.array([np.flatnonzero(observed.specimen == min(s, len(names) - 2))[0] for s in specimen])
+    more = replace(
+        observed.subset(like),
+        specimen=specimen,
+        temperature=temperature,
+        frequency=frequency,
+        amplitude=strain * float(np.median(observed.known("amplitude"))),
+        nominal_temperature=temperature,
+    )
+    course: dict[str, Any] = {
+        name: _after(observed, name, specimen)
+        for name in ("order", "cycles", "time_step")
+        if getattr(observed, name) is not None
+    }
+    more = replace(more, **course)
+    both: dict[str, Any] = {
+        name: np.concatenate([getattr(observed, name), getattr(more, name)])
+        for name in (
+            "specimen",
+            "temperature",
+            "frequency",
+            "modulus",
+            "form_factor",
+            "inertia",
+            "amplitude",
+            *course,
+        )
+    }
+    return replace(
+        observed,
+        **both,
+        names=names,
+        nominal_temperature=np.concatenate([observed.isotherm, temperature]),
+        strain=None,
+        quality={},
+        whole=observed.table,
+    )
+
+
+def _after(observed: Observations, name: str, specimen: NDArray[np.int64]) -> NDArray[np.float64]:
+    """A column for tests to come (n,): a specimen has borne all of its tests, a new one none; steps are as usual."""
+    column = observed.known(name)
+    if name == "time_step":
+        return np.full(specimen.size, float(np.median(column)))
+    borne = [column[observed.specimen == k].max() for k in range(len(observed.names))]
+    return np.array([*borne, column.min()])[specimen]
+
+
+def at_half_strain(table: Observations) -> NDArray[np.bool_]:
+    """Rows of tests at half the usual strain.
+
+    Parameters
+    ----------
+    table : Observations
+        N tests.
+
+    Returns
+    -------
+    ndarray of bool (N,)
+        True for these.
+    """
+    strain = table.known("amplitude")
+    return np.asarray(strain < 0.5 * (1.0 + HALF) * np.median(strain))
+
+
+def noise_of(noise: Noise, observed: Observations, table: Observations) -> Noise:
+    """Scatter of each isotherm; that of the whole table on a new one. Every sweep is a mounting of its own.
+
+    Parameters
+    ----------
+    noise : Noise
+        Of the tests done.
+    observed : Observations
+        Tests done.
+    table : Observations
+        N tests.
+
+    Returns
+    -------
+    Noise
+        Of all N.
+    """
+    within, shared = (np.empty((2, table.size)) for _ in range(2))
+    for wide, known in ((within, noise.within), (shared, noise.shared)):
+        wide[:] = known.mean(axis=1, keepdims=True)
+        for t in observed.isotherms:
+            wide[:, table.isotherm == t] = known[:, observed.isotherm == t].mean(axis=1, keepdims=True)
+        wide[:, : observed.size] = known
+    block = np.concatenate([noise.block, noise.block.max() + 1 + np.arange(table.size - observed.size)])
+    return replace(noise, within=within, shared=shared, block=block, discrepancy=None)
+
+
+def scatter_of(within: NDArray, shared: NDArray, block: NDArray) -> NDArray[np.float64]:
+    """Covariance of ln|E*| and phase.
+
+    Parameters
+    ----------
+    within, shared : ndarray (2, n)
+        Standard deviations of a test and of its mounting.
+    block : ndarray of int (n,)
+        Number of the mounting.
+
+    Returns
+    -------
+    ndarray (2n, 2n)
+        ln|E*| first.
+    """
+    same = block[:, None] == block
+    out = np.zeros((2 * block.size, 2 * block.size))
+    for k, (single, common) in enumerate(zip(within, shared, strict=True)):
+        at = slice(k * block.size, (k + 1) * block.size)
+        out[at, at] = np.diag(single**2) + np.outer(common, common) * same
+    return out
+
+
+def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: Costs) -> Iterator[Sweep]:
+    """Sweeps of all specimens; the rows of table behind those of observed hold them.
+
+    Parameters
+    ----------
+    observed : Observations
+        Tests done.
+    table : Observations
+        N tests.
+    noise : Noise
+        Of all N.
+    costs : Costs
+        Machine hours.
+
+    Yields
+    ------
+    Sweep
+        One after another.
+    """
+    first = observed.size
+    halved = at_half_strain(table)
+    groups: dict[tuple, dict[float, int]] = {}
+    for row in range(first, table.size):
+        key = (int(table.specimen[row]), float(table.isotherm[row]), bool(halved[row]))
+        groups.setdefault(key, {}).setdefault(float(table.frequency[row]), row)
+    for (specimen, temperature, half), rows in groups.items():
+        every = tuple(sorted(rows))
+        usual = tuple(f for f in every if f >= observed.frequencies[0])
+        # A part of the band saves minutes of hours, and cannot be held against its own isotherm.
+        for chosen in dict.fromkeys([usual] if half else [usual, every]):
+            at = np.array([rows[f] for f in chosen])
+            yield _sweep(table.names[specimen], temperature, chosen, half, at, noise, costs)
+
+
+def _sweep(
+    specimen: str,
+    temperature: float,
+    chosen: tuple[float, ...],
+    half: bool,
+    at: NDArray[np.int64],
+    noise: Noise,
+    costs: Costs,
+) -> Sweep:
+    one = np.zeros(at.size, int)
+    source = np.minimum(at, noise.within.shape[1] - 1)
+    tested = Tested(at, scatter_of(noise.within[:, source], noise.shared[:, source], one))
+    return Sweep(specimen, temperature, chosen, half, tested, costs.hours(specimen, temperature, chosen))
+
+
+def on_metal(observed: Observations) -> Observations:
+    """A metal specimen at the frequencies tested.
+
+    Parameters
+    ----------
+    observed : Observations
+        Tests done.
+
+    Returns
+    -------
+    Observations
+        One row for each frequency.
+    """
+    at = np.array(
+        [
+            np.flatnonzero(observed.frequency == f)[0]
+            for f in frequencies(observed)
+            if f in observed.frequencies
+        ]
+    )
+    return replace(observed.subset(at), modulus=np.full(at.size, METAL_MODULUS + 0j))
+
+
+def sweeps_on_metal(metal: Observations, first: int, noise: Noise, costs: Costs) -> Iterator[Sweep]:
+    """Sweeps of a metal specimen, whose rows stand behind those of the table.
+
+    Parameters
+    ----------
+    metal : Observations
+        Of `on_metal`.
+    first : int
+        Row of its first test.
+    noise : Noise
+        Of the tests done.
+    costs : Costs
+        Machine hours.
+
+    Yields
+    ------
+    Sweep
+        One after another.
+    """
+    f = [float(value) for value in metal.frequency]
+    ends = sorted({0, len(f) - 1})  # both: of one frequency nobody tells an offset from a delay
+    for chosen in dict.fromkeys([tuple(range(len(f))), tuple(sorted({*ends, len(f) // 2})), tuple(ends)]):
+        at = np.array(chosen) + first
+        one = np.full((2, at.size), np.array(noise.sigma)[:, None])
+        tested = Tested(at, scatter_of(one, np.zeros_like(one), np.zeros(at.size, int)))
+        used = tuple(f[k - first] for k in at)
+        yield Sweep(METAL, 20.0, used, False, tested, costs.hours(METAL, 20.0, used))

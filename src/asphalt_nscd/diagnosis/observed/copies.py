@@ -1,0 +1,112 @@
+"""Tests that agree in every digit with tests of another specimen or temperature: a file was copied, not repeated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import specimen_named
+
+LEAST = 3  # tests alike in modulus and phase that are no chance, however few digits they have
+SAME = 1e-9  # relative difference
+
+
+@dataclass(frozen=True)
+class Copy:
+    """Two blocks of tests that agree in every digit at the same frequencies.
+
+    Parameters
+    ----------
+    blocks : tuple
+        Specimen and isotherm [degC] of each.
+    rows : tuple of int
+        Of both in the table.
+    """
+
+    blocks: tuple[tuple[str, float], tuple[str, float]]
+    rows: tuple[int, ...]
+
+    def reason(self, specimen: str, isotherm: float) -> str:
+        """What is wrong with one of the two blocks.
+
+        Parameters
+        ----------
+        specimen : str
+            Of the block.
+        isotherm : float
+            Of the block [degC].
+
+        Returns
+        -------
+        str
+            In words, with the mend.
+        """
+        other = self.blocks[self.blocks[0] == (specimen, isotherm)]
+        return (
+            f"equal in every digit to {specimen_named(other[0])} at {other[1]:g} degC: one was copied; look in the "
+            "record which"
+        )
+
+
+def copied(observed: Observations) -> Iterator[Copy]:
+    """Sweeps that are copies of each other: of one specimen, or of two at one temperature.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Yields
+    ------
+    Copy
+        A pair.
+    """
+    blocks: dict[tuple[str, float], dict[tuple[float, float], int]] = {}
+    strain = np.zeros(observed.size) if observed.amplitude is None else observed.amplitude
+    for row in range(observed.size):
+        key = observed.names[observed.specimen[row]], float(observed.isotherm[row])
+        blocks.setdefault(key, {})[float(observed.frequency[row]), float(strain[row])] = row
+    for one, other in combinations(blocks, 2):
+        if one[0] != other[0] and one[1] != other[1]:
+            continue
+        common = sorted(blocks[one].keys() & blocks[other].keys())
+        rows = [[block[condition] for condition in common] for block in (blocks[one], blocks[other])]
+        first, second = (observed.modulus[at] for at in rows)
+        flat = np.allclose(
+            first, first[:1], SAME, 0.0
+        )  # one modulus at all frequencies tells nothing of a copy
+        if len(common) >= LEAST and not flat and np.allclose(first, second, SAME, 0.0):
+            yield Copy((one, other), (*rows[0], *rows[1]))
+
+
+def refuse_copies(observed: Observations) -> None:
+    """Refuse two specimens that agree in every digit wherever both were tested: copies have no scatter.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Raises
+    ------
+    InputError
+        Which names both.
+    """
+    tests = {
+        name: {
+            int(observed.cell[row]): observed.modulus[row] for row in np.flatnonzero(observed.specimen == k)
+        }
+        for k, name in enumerate(observed.names)
+    }
+    for one, other in combinations(observed.names, 2):
+        common = tests[one].keys() & tests[other].keys()
+        if len(common) > 2 and all(np.isclose(tests[one][c], tests[other][c], 1e-9, 0.0) for c in common):
+            raise InputError(
+                f"specimens {one} and {other} have the same modulus at all {len(common)} conditions they share: "
+                "copies are not replicates and give no scatter; keep one of them."
+            )

@@ -1,0 +1,170 @@
+"""Measured complex moduli as arrays, with what a cause may need to know about each test."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = NDArray[np.float64]
+HELD = 3  # tests of an isotherm that may be off by itself
+
+
+@dataclass(frozen=True)
+class Observations:
+    """n tests on S specimens, one row each.
+
+    Parameters
+    ----------
+    specimen : ndarray of int (n,)
+        Index into names.
+    names : tuple of str (S,)
+        Of the specimens.
+    temperature : ndarray (n,)
+        As measured [degC].
+    frequency : ndarray (n,)
+        [Hz].
+    modulus : ndarray of complex (n,)
+        Apparent E* [Pa].
+    form_factor : ndarray (n,)
+        gamma between force over displacement at the head and modulus [1/m].
+    inertia : ndarray (n,)
+        gamma mu, of which the reduction added omega^2 to force over displacement, Eq. (1) [kg/m].
+    amplitude : ndarray (n,), optional
+        [m]; None where the table has no such column, as of the next three.
+    order : ndarray (n,), optional
+        Of the tests in time.
+    cycles : ndarray (n,), optional
+        Load cycles before or in the test.
+    time_step : ndarray (n,), optional
+        Of a simulation [s].
+    static_modulus : float, optional
+        Modulus at long times [Pa], known from another test, or None.
+    whole : Observations, optional
+        The table these are rows of, None if they are all.
+    nominal_temperature : ndarray (n,), optional
+        Temperature of the isotherm each test belongs to [degC], where the measured ones differ within it.
+    strain : ndarray (n,), optional
+        Amplitude of the strain, where measured.
+    quality : mapping of str to ndarray (n,)
+        Columns of the testing machine, NaN where it gave none (see `diagnosis.observed.quality`).
+    test_type : str
+        "bending" (two-point), "tension-compression" (a cylinder) or "unknown".
+    """
+
+    specimen: NDArray[np.int64]
+    names: tuple[str, ...]
+    temperature: Vector
+    frequency: Vector
+    modulus: NDArray[np.complex128]
+    form_factor: Vector
+    inertia: Vector
+    amplitude: Vector | None = None
+    order: Vector | None = None
+    cycles: Vector | None = None
+    time_step: Vector | None = None
+    static_modulus: float | None = None
+    whole: Observations | None = None
+    nominal_temperature: Vector | None = None
+    strain: Vector | None = None
+    quality: Mapping[str, Vector] = field(default_factory=dict)
+    test_type: str = "bending"
+
+    @property
+    def table(self) -> Observations:
+        """All tests, to which the largest amplitude, the last cycle and their like refer."""
+        return self.whole or self
+
+    @property
+    def size(self) -> int:
+        """Number n of tests."""
+        return self.temperature.size
+
+    @property
+    def logarithm(self) -> NDArray[np.complex128]:
+        """ln E* (n,): its imaginary part is the phase [rad]."""
+        return np.log(np.abs(self.modulus)) + 1j * np.angle(self.modulus)
+
+    @property
+    def omega(self) -> Vector:
+        """Angular frequency [rad/s]."""
+        return 2.0 * np.pi * self.frequency
+
+    @property
+    def isotherm(self) -> Vector:
+        """Nominal temperature (n,) [degC] of the isotherm each test belongs to."""
+        return self.temperature if self.nominal_temperature is None else self.nominal_temperature
+
+    @property
+    def isotherms(self) -> Vector:
+        """Nominal temperatures tested [degC], ascending."""
+        return np.unique(self.isotherm)
+
+    @property
+    def held_isotherms(self) -> Vector:
+        """Those of them [degC] with a few tests at least; of one test alone nothing is told from scatter."""
+        values, count = np.unique(self.isotherm, return_counts=True)
+        return values[count >= HELD]
+
+    @property
+    def frequencies(self) -> Vector:
+        """Frequencies tested [Hz], ascending."""
+        return np.unique(self.frequency)
+
+    @property
+    def cell(self) -> NDArray[np.int64]:
+        """(n,) number of the condition (temperature, frequency, amplitude) each row repeats."""
+        conditions = [self.isotherm, self.frequency]
+        if self.amplitude is not None:
+            conditions.append(self.amplitude)
+        return np.unique(np.column_stack(conditions), axis=0, return_inverse=True)[1].ravel()
+
+    def known(self, name: str) -> Vector:
+        """An optional column that the caller knows to be there.
+
+        Parameters
+        ----------
+        name : str
+            Of the field.
+
+        Returns
+        -------
+        ndarray (n,)
+            The column.
+        """
+        column: Vector | None = getattr(self, name)
+        assert column is not None, name
+        return column
+
+    def subset(self, rows: NDArray) -> Observations:
+        """Some of the rows; names stay, so that numbers keep their meaning.
+
+        Parameters
+        ----------
+        rows : ndarray
+            Mask or index.
+
+        Returns
+        -------
+        Observations
+            Of these.
+        """
+        optional: dict[str, Any] = {
+            name: None if (value := getattr(self, name)) is None else value[rows]
+            for name in ("amplitude", "order", "cycles", "time_step", "nominal_temperature", "strain")
+        }
+        return replace(
+            self,
+            specimen=self.specimen[rows],
+            temperature=self.temperature[rows],
+            frequency=self.frequency[rows],
+            modulus=self.modulus[rows],
+            form_factor=self.form_factor[rows],
+            inertia=self.inertia[rows],
+            whole=self.table,
+            quality={name: column[rows] for name, column in self.quality.items()},
+            **optional,
+        )

@@ -1,0 +1,115 @@
+"""What the testing machine itself says of a test, held against the limits of the standard."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.files.words import joined, specimen_named
+
+STANDARD = "AASHTO T 378, TP 132"
+SPECIMEN, MACHINE = "the gauges and the ends of the specimens", "the control of the machine"
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Largest value of a quality column that the standard accepts.
+
+    Parameters
+    ----------
+    limit : float
+        In `unit`.
+    unit : str
+        "%" or "deg".
+    label : str
+        Of the column, for a reader.
+    check : str
+        What to check where most tests exceed it.
+    source : str
+        The standard.
+    """
+
+    limit: float
+    unit: str
+    label: str
+    check: str
+    source: str = STANDARD
+
+
+@dataclass(frozen=True)
+class Exceeded:
+    """One test (row of the observations) whose quality column is above its limit, in the column's unit."""
+
+    row: int
+    column: str
+    value: float
+    limit: float
+
+
+# Drift of load and deformation is kept but not judged: no number of the standard could be checked for it, and the
+# sign that means "in the direction of the load" differs from machine to machine.
+LIMITS: dict[str, Limit] = {
+    "load_standard_error_percent": Limit(10.0, "%", "load standard error", MACHINE),
+    "deformation_standard_error_percent": Limit(10.0, "%", "deformation standard error", SPECIMEN),
+    "deformation_uniformity_percent": Limit(30.0, "%", "deformation uniformity", SPECIMEN),
+    "phase_uniformity_deg": Limit(3.0, "deg", "phase uniformity", SPECIMEN),
+}
+UNLIMITED = ("load_drift_percent", "deformation_drift_percent")
+COLUMNS = (*LIMITS, *UNLIMITED)
+
+
+def exceeded(observed: Observations) -> list[Exceeded]:
+    """Every quality value above its limit; NaN exceeds nothing.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    list of Exceeded
+        By row and then in the order of LIMITS.
+    """
+    found = [
+        Exceeded(int(row), name, float(observed.quality[name][row]), limit.limit)
+        for name, limit in LIMITS.items()
+        if name in observed.quality
+        for row in np.flatnonzero(observed.quality[name] > limit.limit)
+    ]
+    order = list(LIMITS)
+    return sorted(found, key=lambda one: (one.row, order.index(one.column)))
+
+
+def where(observed: Observations, column: str) -> str:
+    """Where a limit is exceeded.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    column : str
+        Of quality.
+
+    Returns
+    -------
+    str
+        Specimens, each at the isotherms where half of its tests or more exceed the limit, in words.
+    """
+    rows = [one.row for one in exceeded(observed) if one.column == column]
+    above = np.isin(np.arange(observed.size), rows)
+    places, parts = [], []
+    for k, name in enumerate(observed.names):
+        own = observed.specimen == k
+        isotherms = np.unique(observed.isotherm[own])
+        at = [f"{t:g}" for t in isotherms if above[own & (observed.isotherm == t)].mean() >= 0.5]
+        if len(at) == isotherms.size:
+            places.append(name)
+        elif at:
+            parts.append(f"{specimen_named(name)} at {joined(at)} degC")
+    alike = len(places) > 1 and not places[0].casefold().startswith("specimen")
+    return joined(
+        [f"specimens {joined(places)}" if alike else joined(list(map(specimen_named, places))), *parts]
+    )

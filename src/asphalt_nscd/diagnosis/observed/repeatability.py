@@ -1,0 +1,77 @@
+"""The scatter of a campaign as a laboratory quotes it: coefficients of variation, by isotherm.
+
+Between specimens: how far specimens differ at one temperature and frequency. Within specimens: how far the tests of one
+specimen scatter about its own level, which is taken off together with the mean of each condition. Both in percent of
+|E*| and in degrees of phase, root mean square over the frequencies of an isotherm.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.observed.observations import Observations
+
+Vector = NDArray[np.float64]
+
+
+def coefficients(observed: Observations) -> dict[str, Any] | None:
+    """Coefficients of variation `between` and `within` specimens, for all tests and by isotherm.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    dict or None
+        Each is {"E_percent", "phase_deg"}; `within` is None where it cannot be told from the specimens'
+        levels. None where nothing was repeated.
+    """
+    rows = {
+        float(t): found
+        for t in observed.isotherms
+        if (found := _isotherm(observed.subset(observed.isotherm == t))) is not None
+    }
+    if not rows:
+        return None
+    return {
+        **{way: _pooled([row[way] for row in rows.values()]) for way in ("between", "within")},
+        "by_isotherm": [
+            {"temperature_C": t, **{way: _pooled([row[way]]) for way in ("between", "within")}}
+            for t, row in rows.items()
+        ],
+    }
+
+
+def _isotherm(at: Observations) -> dict[str, tuple[Vector, int]] | None:
+    """Sums of squares (2,) of ln|E*| and phase [rad], with their degrees of freedom."""
+    cell = np.unique(at.cell, return_inverse=True)[1]
+    specimen = np.unique(at.specimen, return_inverse=True)[1]
+    values = np.column_stack([at.logarithm.real, at.logarithm.imag])
+    conditions = np.eye(cell.max() + 1)[cell]
+    between = _residual_squares(conditions, values)
+    if between[1] < 1:
+        return None
+    return {
+        "between": between,
+        "within": _residual_squares(np.hstack([conditions, np.eye(specimen.max() + 1)[specimen]]), values),
+    }
+
+
+def _residual_squares(design: NDArray, values: NDArray) -> tuple[Vector, int]:
+    left, size, _ = np.linalg.svd(design, full_matrices=False)
+    left = left[:, size > 1e-9 * size[0]]
+    residual = values - left @ (left.T @ values)
+    return (residual**2).sum(axis=0), values.shape[0] - left.shape[1]
+
+
+def _pooled(parts: list[tuple[Vector, int]]) -> dict[str, float] | None:
+    freedom = sum(count for _, count in parts)
+    if freedom < 1:
+        return None
+    modulus, phase = np.sqrt(sum(squares for squares, _ in parts) / freedom)
+    return {"E_percent": 100.0 * float(modulus), "phase_deg": float(np.degrees(phase))}

@@ -1,0 +1,294 @@
+"""What to test next: the few sweeps that answer most of what a diagnosis leaves open, per hour of the machine.
+
+Open questions are: does a named cause show without the tests that carry it, and on a metal specimen; which of two
+causes that look alike; does a test that cannot be used repeat itself; is an isotherm that contradicts itself out of
+the linear range; is a cause there that these tests could not show. The expected gain of each is evidence for the right
+answer in nats (ln of the Bayes factor), no more than is needed. The sweep of largest gain per hour is taken, then the
+next, given the first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE, HIDES, USUAL_THRESHOLD, Z_95
+from asphalt_nscd.diagnosis.model.joint import Candidate
+from asphalt_nscd.diagnosis.next_tests import fixed_orders
+from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, Possible, possible
+from asphalt_nscd.diagnosis.next_tests.information import Asked, Inquiry, Knowledge, Question
+from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Costs, Sweep
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.record import rungs
+from asphalt_nscd.diagnosis.screening import levels
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
+from asphalt_nscd.diagnosis.words.order_words import Context, Open, Order, in_a_sentence, purpose, reasons
+from asphalt_nscd.diagnosis.words.sentences import an
+from asphalt_nscd.diagnosis.words.unexplained import size_left
+from asphalt_nscd.diagnosis.written import shown, three_digits, widening, with_interval
+from asphalt_nscd.files.words import joined, specimen_named
+
+MOST = 5
+LEAST = 0.3  # nats, below which a sweep tells nothing
+SURVIVES = 2.0  # standard errors that a cause keeps without what it hangs on
+FOUND = (USUAL_THRESHOLD + Z_95) ** 2  # strength of a cause that is found in 19 of 20 cases
+KEPT = (SURVIVES + Z_95) ** 2
+TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached in 19 of 20 cases
+PRESENT = 0.1  # chance that a cause nobody has seen is there
+PLAIN = {  # whose size alone says little
+    "secondary_process": "a second peak of the loss modulus (secondary process) of {}",
+    "guide_friction": "friction in the guide (a loss modulus larger by {})",
+    "strain_softening": "a softening with strain (|E*| lower by {} at the usual strain)",
+}
+REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
+
+
+def instructions(
+    diagnosis: Diagnosis, costs: Costs | None = None, ahead: fixed_orders.Orders | None = None
+) -> dict[str, Any]:
+    """Content of `instructions` in diagnosis.json: at most five orders, doubtful tests first, then by gain per
+    hour.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    costs : Costs, optional
+        Machine hours; usual ones if None.
+    ahead : fixed_orders.Orders, optional
+        Orders that come before all others.
+
+    Returns
+    -------
+    dict
+        costs and orders.
+    """
+    costs = costs or Costs()
+    model = possible(diagnosis, costs)
+    questions = open_questions(diagnosis, model)
+    chosen = choose(model, questions)
+    done = diagnosis.whole or diagnosis.observed
+    checks = fixed_orders.gauges(done, costs)
+    first = [*(ahead or []), *checks]
+    first += [] if diagnosis.replicated else fixed_orders.second_specimen(done, costs)
+    last = fixed_orders.more_temperatures(done, costs) if diagnosis.replicated else []
+    told = [
+        (one, reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality)))
+        for k, one in enumerate(chosen)
+    ]
+    orders = [
+        {
+            "text": in_a_sentence(one, done),
+            "purpose": purpose(one, questions),
+            "why": why,
+            "hours": round(one.hours, 2),
+            "nats": round(one.nats, 2),
+            "specimens": one.specimens,
+            "temperature_C": None if one.sweep.specimen == METAL else one.sweep.temperature,
+            "frequencies_Hz": list(one.sweep.frequencies),
+            "half_strain": one.sweep.half_strain,
+        }
+        for one, why in told
+        if why
+    ]
+    return {"costs": costs.sentence, "orders": [*[*first, *orders][: MOST - len(last)], *last]}
+
+
+def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
+    """Sweeps by gain per hour, each given those before it; the same sweep on several specimens is one order.
+
+    Parameters
+    ----------
+    model : Possible
+        At all tests that could follow.
+    questions : sequence of Open
+        Open ones.
+
+    Returns
+    -------
+    list of Order
+        In the order chosen.
+    """
+    inquiry = Inquiry(model.linear, model.old, [one.asked for one in questions])
+    orders: list[Order] = []
+    waiting = list(model.sweeps)
+    doubtful = [k for k, one in enumerate(questions) if one.kind in ("repeat", "level")]
+    while questions and waiting:
+        gains = inquiry.gains([sweep.tested for sweep in waiting])
+        totals = gains.sum(axis=1)
+        per_hour = np.where(totals > LEAST, totals / [sweep.hours for sweep in waiting], 0.0)
+        # What makes tests doubtful comes first: all else rests on them.
+        of_doubtful = gains[:, doubtful].sum(axis=1) > LEAST
+        best = int(np.argmax(np.where(of_doubtful.any() & ~of_doubtful, 0.0, per_hour)))
+        sweep, gain, nats = waiting.pop(best), gains[best], float(totals[best])
+        alike = next((one for one in orders if _same(one.sweep, sweep)), None)
+        if per_hour[best] == 0.0 or (alike is None and len(orders) == MOST):
+            break
+        before = inquiry.strengths()
+        inquiry.take(sweep.tested)
+        after = inquiry.strengths()
+        least = [0.05 if one.kind == "metal" else max(0.1 * nats, 0.05) for one in questions]
+        helped = [int(k) for k in np.argsort(-gain) if gain[k] >= least[k]]
+        if alike is None:
+            alike = Order(sweep, [], 0.0, 0.0, {})
+            orders.append(alike)
+        alike.specimens = [
+            name for name in model.table.names if name in (*alike.specimens, sweep.specimen)
+        ] or [METAL]
+        waiting = [other for other in waiting if not _again(other, sweep)]
+        alike.hours, alike.nats = alike.hours + sweep.hours, alike.nats + nats
+        for k in helped:
+            alike.helps[k] = alike.helps.get(k, (before[k], 0.0))[0], after[k]
+    return orders
+
+
+def _same(one: Sweep, other: Sweep) -> bool:
+    return (one.temperature, one.frequencies, one.half_strain) == (
+        other.temperature,
+        other.frequencies,
+        other.half_strain,
+    ) and METAL not in (one.specimen, other.specimen)
+
+
+def _again(one: Sweep, other: Sweep) -> bool:
+    """Whether a sweep repeats tests of another; once metal is mounted, one sweep is all that it has to say."""
+    if METAL in (one.specimen, other.specimen):
+        return one.specimen == other.specimen
+    same = (one.specimen, one.temperature, one.half_strain) == (
+        other.specimen,
+        other.temperature,
+        other.half_strain,
+    )
+    return same and not set(one.frequencies).isdisjoint(other.frequencies)
+
+
+def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
+    """What the diagnosis leaves open."""
+    active = tuple(range(len(diagnosis.ladder.fitted.active)))
+    everything = np.ones(model.linear.nuisance.shape[0], bool)
+    known = Knowledge(model.linear, [model.old]).information
+    found: list[Open] = []
+    rivals = {rung.candidate.key: {one.key for one in rung.rivals} for rung in diagnosis.ladder.rungs}
+    for k in active:
+        found += _of_named(diagnosis, model, k, active)
+        for j in range(len(active), len(model.candidates)):
+            question = Question(k, _amplitude(model.candidates[k]), (*active, j), TOLD_APART)
+            if question.strength(known) < TOLD_APART:
+                both = model.candidates[k], model.candidates[j]
+                as_good = both[1].key in rivals[both[0].key]
+                words = words_of(both[0]), words_of(both[1])
+                found.append(Open("apart", Asked(question, everything), *words, *both, alike=as_good))
+    for n, departure in enumerate(model.departures):
+        question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART)
+        words = _of_departure(diagnosis, departure)
+        found.append(Open(departure.kind, Asked(question, everything), *words, departure=departure))
+    names = [candidate.cause.name for candidate in model.candidates]
+    spread = diagnosis.ladder.estimates_spread  # by which an effect is harder to find
+    shapeless = max(diagnosis.ladder.discrepancy.values(), default=0.0) > HIDES
+    for j in range(len(active), len(model.candidates)):
+        if shapeless and len(model.candidates[j].values) > 1:
+            continue  # a cause with a shape of its own gets no name beside a discrepancy
+        question = Question(j, REACH / spread, active, FOUND, PRESENT / names.count(names[j]))
+        hidden = max(float(question.strength(known)) - _by_limit(diagnosis, model.candidates[j]), 0.0)
+        words = _sized(model.candidates[j], REACH)
+        found.append(
+            Open("reach", Asked(question, everything), *words, candidate=model.candidates[j], hidden=hidden)
+        )
+    return found
+
+
+def _of_departure(diagnosis: Diagnosis, one: Departure) -> tuple[str, str]:
+    """What a departure is, and what speaks of its size or of what new tests show if they are sound, in words."""
+    if one.odd is not None:
+        return levels.described(one.odd)[0], levels.if_sound(one.odd)
+    if one.specimen is None:
+        return f"{one.isotherm:g} degC", _unexplained(diagnosis, one.isotherm)
+    return f"{specimen_named(one.specimen)} at {one.isotherm:g} degC, {one.frequency:g} Hz", ""
+
+
+def _unexplained(diagnosis: Diagnosis, isotherm: float | None) -> str:
+    """What the causes leave at an isotherm [degC], in words."""
+    of_modulus, of_phase = diagnosis.noise.sigma
+    scatter = {"modulus_percent": 100.0 * of_modulus, "phase_deg": float(np.degrees(of_phase))}
+    sizes = diagnosis.ladder.noticed.items()
+    return joined([size_left(one.part, size, scatter) for one, size in sizes if one.isotherm == isotherm])
+
+
+def _by_limit(diagnosis: Diagnosis, candidate: Candidate) -> float:
+    """Strength of a typical effect in the tests done, by the detection limit; none where no effect shows."""
+    ladder = diagnosis.ladder
+    limit = ladder.limits.get(candidate.key, np.inf) * ladder.estimates_spread
+    return float(((USUAL_THRESHOLD + Z_95) * REACH * candidate.typical[0] / limit) ** 2)
+
+
+def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, ...]) -> list[Open]:
+    """Does a named cause show without what it hangs on, and on metal?"""
+    candidate = model.candidates[k]
+    words, amplitude = words_of(candidate), _amplitude(candidate)
+    rows = model.linear.nuisance.shape[0]
+    found = []
+    hangs_on = diagnosis.ladder.hangs_on.get(candidate.key, [])
+    for label, kept in _parts(model.table, rows):
+        if label in hangs_on:
+            question = Question(k, amplitude, active, KEPT)
+            found.append(Open("kept", Asked(question, kept), words, label, candidate))
+    metal = np.arange(rows) >= model.table.size
+    if np.abs(model.linear.effects[metal, k]).max(initial=0.0) > 0.0:
+        question = Question(k, amplitude, active, FOUND)
+        value, error = rungs.amplitude(diagnosis, candidate)
+        share = widening(diagnosis.ladder.estimates_spread) * CONFIDENCE * error / abs(value)
+        shows = _on_metal(model, k, amplitude, share)
+        found.append(Open("metal", Asked(question, metal), words, shows, candidate))
+    return found
+
+
+def _parts(table: Observations, rows: int) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+    """What may be left out, as `hangs_on` names it, and the rows (N,) of the model that stay."""
+    for values, words in (
+        (table.isotherm, lambda t: f"{t:g} degC"),
+        (table.frequency, lambda f: f"{f:g} Hz"),
+        (np.array(table.names)[table.specimen], specimen_named),
+    ):
+        for value in np.unique(values):
+            yield words(value), np.concatenate([values != value, np.ones(rows - table.size, bool)])
+
+
+def _on_metal(model: Possible, k: int, amplitude: float, share: float) -> str:
+    """What a cause does on metal where it does most, to two digits, or those of its interval; share: this of that."""
+    metal = np.arange(model.table.size, model.linear.nuisance.shape[0])
+    effect = amplitude * model.linear.effects[metal, k]
+    most = np.flatnonzero(np.abs(effect) > 0.99 * np.abs(effect).max())
+    at = most[np.argmax(model.metal_frequencies[most])]
+    if abs(effect[at].imag) > abs(effect[at].real):
+        value, unit = float(np.degrees(effect[at].imag)), "deg of phase"
+    else:
+        value, unit = 100.0 * float(effect[at].real), "% of the modulus"
+    half = max(share * abs(value), 10.0 ** np.floor(np.log10(abs(value))))
+    size = f"{with_interval(value, half).partition(' ')[0]} {unit}"
+    every = most.size == effect.size > 1
+    return f"{size} at {'every frequency' if every else f'{model.metal_frequencies[at]:g} Hz'}"
+
+
+def _amplitude(candidate: Candidate) -> float:
+    return candidate.values[0] / float(candidate.typical[0])
+
+
+def words_of(candidate: Candidate) -> str:
+    """`loose clamp of 2`, `temperature bias at 30 degC`."""
+    words, place = candidate.cause.name.replace("_", " "), candidate.place
+    if place is None:
+        return words
+    return f"{words} of {place}" if isinstance(place, str) else f"{words} at {place:g} degC"
+
+
+def _sized(candidate: Candidate, typical: float) -> tuple[str, str]:
+    """A cause of so many typical sizes in words, and that size."""
+    first = candidate.cause.parameters[0]
+    value, unit = shown(typical * first.typical, first.unit)
+    unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
+    words = candidate.cause.name.replace("_", " ")
+    size = f"{three_digits(value)} {unit}"
+    return PLAIN.get(candidate.cause.name, f"{an(words)} of {{}}").format(size), size

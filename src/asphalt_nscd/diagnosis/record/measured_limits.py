@@ -1,0 +1,197 @@
+"""Stated limits held against what is found: every cause put into the user's own table, and the table diagnosed again.
+
+A cause is put in at one, two and three times its stated limit, with either sign where it has two, at every place where
+it may sit. The table keeps its own scatter, its own discrepancy and its own causes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from scipy.special import ndtr
+
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE, USUAL_THRESHOLD, Z_95
+from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.record import report, rungs
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.nscd.cores import cores
+
+TIMES = (1.0, 2.0, 3.0)
+DRAWS = 1000  # of the chance level in each of many diagnoses
+Progress = Callable[[str, float, float], None]
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """A cause to be put in. own: its amplitude that the table has already; times: multiple of the stated limit."""
+
+    candidate: Candidate
+    own: float
+    times: float
+
+
+@dataclass(frozen=True)
+class Trials:
+    """How the diagnoses are run.
+
+    Parameters
+    ----------
+    scatter : tuple of float, optional
+        As stated by the user.
+    seed : int
+        Of the draws.
+    processes : int, optional
+        At once; one a core if None.
+    """
+
+    scatter: tuple[float, float] | None = None
+    seed: int = 0
+    processes: int | None = None
+
+    @property
+    def workers(self) -> int:
+        """How many processes: as asked, else one a core."""
+        return self.processes or cores()
+
+
+def verify(diagnosis: Diagnosis, trials: Trials, progress: Progress = lambda *_: None) -> pd.DataFrame:
+    """Hold the stated limits against what is found; equal on one core or many.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Whose limits.
+    trials : Trials
+        How to run.
+    progress : callable
+        progress(stage, done, total).
+
+    Returns
+    -------
+    DataFrame
+        One row for each cause, place, sign and multiple.
+    """
+    hidden = list(plan(diagnosis))
+    work = [(diagnosis, one, trials) for one in hidden]
+    rows = []
+    with ProcessPoolExecutor(min(trials.workers, max(len(work), 1))) as pool:
+        for row in pool.map(_tried, work):
+            rows.append(row)
+            progress("Verify limits", len(rows), len(work))
+    return pd.DataFrame(rows)
+
+
+def plan(diagnosis: Diagnosis) -> Iterator[Hidden]:
+    """What is to be put in: within the bounds of each cause, at every place that has a limit."""
+    observed, active = diagnosis.observed, {c.key: c for c in diagnosis.ladder.fitted.active}
+    limits = report.physical_limits(diagnosis)
+    for cause in CATALOGUE:
+        shapes = cause.shapes(observed)
+        for place in cause.places(observed):
+            limit = limits.get((cause.name, place))
+            if limit is None:
+                continue
+            there = active.get((cause.name, place))
+            own, shape = (
+                (0.0, shapes[len(shapes) // 2]) if there is None else (there.values[0], there.values[1:])
+            )
+            first = cause.parameters[0]
+            for times in TIMES:
+                for sign in (1.0,) if cause.one_sided else (1.0, -1.0):
+                    amplitude = own + sign * times * limit
+                    if first.low <= amplitude <= first.high:
+                        yield Hidden(Candidate(cause, place, (amplitude, *shape)), own, sign * times)
+
+
+def put_in(diagnosis: Diagnosis, hidden: Hidden) -> Observations:
+    """The whole table, each modulus times what the cause does to that of the law."""
+    whole, ladder = diagnosis.whole or diagnosis.observed, diagnosis.ladder
+    joint = Joint(whole, ladder.joint.base, ladder.joint.noise)
+    fitted = ladder.fitted
+    rest = tuple(c for c in fitted.active if c.key != hidden.candidate.key)
+    before = joint.apparent(fitted.law, fitted.active, fitted.scales)[0]
+    after = joint.apparent(fitted.law, (*rest, hidden.candidate), fitted.scales)[0]
+    return replace(whole, modulus=whole.modulus * after / before)
+
+
+def _tried(work: tuple[Diagnosis, Hidden, Trials]) -> dict[str, Any]:
+    """One row: what was put in, and what the diagnosis made of it."""
+    diagnosis, hidden, trials = work
+    candidate, first = hidden.candidate, hidden.candidate.cause.parameters[0]
+    before = {rung.candidate.key for rung in diagnosis.ladder.rungs}
+    row: dict[str, Any] = {
+        "cause": candidate.cause.name,
+        "where": "" if candidate.place is None else candidate.place,
+        "times_limit": hidden.times,
+        "put_in": candidate.values[0] - hidden.own,
+        "unit": first.unit,
+        "named": 0,
+        "established": 0,
+        "change_found": np.nan,
+        "std_error": np.nan,
+        "within_interval": 0,
+        "named_instead": "",
+    }
+    try:
+        found = diagnose(put_in(diagnosis, hidden), trials.scatter, draws=DRAWS, seed=trials.seed)
+    except InputError:
+        return row
+    for rung in found.ladder.rungs:
+        if rung.candidate.key == candidate.key:
+            value, error = rungs.amplitude(found, rung.candidate)
+            off = abs(value - candidate.values[0])
+            row |= {
+                "named": 1,
+                "established": int(found.established(rung)),
+                "change_found": value - hidden.own,
+                "std_error": error,
+                "within_interval": int(off <= CONFIDENCE * error),
+            }
+    others = [
+        rung.candidate for rung in found.ladder.rungs if rung.candidate.key not in {candidate.key, *before}
+    ]
+    return row | {"named_instead": "; ".join(map(rungs.name_of, others))}
+
+
+def summarised(table: pd.DataFrame) -> dict[str, Any]:
+    """Content of `measured_limits`.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Of `verify`.
+
+    Returns
+    -------
+    dict
+        Of each cause, how often it was named, and how often it should have been.
+    """
+    out: dict[str, Any] = {}
+    for cause, rows in table.groupby("cause", sort=True):
+        times = rows["times_limit"].abs()
+        out[str(cause)] = {
+            f"{multiple:g}": {
+                "tried": int(at.sum()),
+                "named": int(rows.loc[at, "named"].sum()),
+                "within_interval": int(rows.loc[at, "within_interval"].sum()),
+                "other_named": int((rows.loc[at, "named_instead"] != "").sum()),
+                "stated_power": stated_power(multiple),
+            }
+            for multiple in TIMES
+            for at in [times == multiple]
+            if at.any()
+        }
+    return out
+
+
+def stated_power(multiple: float) -> float:
+    """Chance to find a cause at a multiple of its limit, which is 95 % at the limit itself."""
+    return float(ndtr(multiple * (USUAL_THRESHOLD + Z_95) - USUAL_THRESHOLD))

@@ -1,0 +1,263 @@
+"""A diagnosis as `diagnosis.json`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import Place
+from asphalt_nscd.diagnosis.criteria import NOTABLE, WIDE_SPREAD
+from asphalt_nscd.diagnosis.model.bases import BurgersAtEach
+from asphalt_nscd.diagnosis.model.heldout import HeldOut
+from asphalt_nscd.diagnosis.model.joint import Joint
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.observed.scatter import STATED
+from asphalt_nscd.diagnosis.record.rungs import name_of, of_cause, of_law
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, cell_residuals
+from asphalt_nscd.diagnosis.simulation.gain import by_tests_alone, errors, simulated_by, with_burgers_laws
+from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
+from asphalt_nscd.diagnosis.written import SCHEMA_VERSION, name_at, widening
+
+
+def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
+    """Content of `diagnosis.json` (schema: diagnosis.schema.yaml beside this file).
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+
+    Returns
+    -------
+    dict
+        What JSON can hold.
+    """
+    ladder, held = [], HeldOut(by_tests_alone(diagnosis))
+    if diagnosis.relaxation_spectrum:
+        ladder.append(of_law(diagnosis, specimen, held))
+    ladder += [of_cause(diagnosis, rung, specimen, held) for rung in diagnosis.ladder.rungs]
+    spread = diagnosis.ladder.estimates_spread
+    remaining = diagnosis.ladder.remaining
+    modulus_scatter, phase_scatter = diagnosis.noise.sigma
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "verdict": diagnosis.verdict,
+        "tests": diagnosis.observed.size,
+        "tested": diagnosis.replicated and diagnosis.observed.frequencies.size > 2,
+        "scatter": {
+            "modulus_percent": 100.0 * modulus_scatter,
+            "phase_deg": float(np.degrees(phase_scatter)),
+            "specimens_percent": 100.0 * diagnosis.noise.scale,
+            "from_replicates": diagnosis.replicated and diagnosis.noise.freedom < STATED,
+        },
+        "suspect_tests": _suspects(diagnosis),
+        "numerics": _numerics(diagnosis, specimen),
+        "baseline": {
+            "law": "burgers",
+            "parameters": _burgers_parameters(diagnosis),
+            "p_value": diagnosis.baseline_p,
+            **errors(diagnosis, with_burgers_laws(diagnosis, specimen)),
+        },
+        "ladder": ladder,
+        "withdrawn": [name_of(rung.candidate) for rung in diagnosis.ladder.withdrawn],
+        "indistinguishable": _indistinguishable(diagnosis),
+        "not_testable": _not_testable(diagnosis),
+        "detection_limits": _limits(diagnosis),
+        "estimates": _estimates(diagnosis),
+        "estimates_spread": spread,
+        "discrepancy": [
+            {
+                "kind": one.kind,
+                "part": one.part,
+                "temperature_C": one.isotherm,
+                "specimen": one.specimen,
+                "size": size,
+            }
+            for one, size in diagnosis.ladder.noticed.items()
+            if diagnosis.verdict == "unexplained_structure"
+        ],
+        "lack_of_fit_p_value": diagnosis.law_p,
+        "largest_pattern_left": None
+        if remaining is None
+        else {
+            "pattern": remaining.pattern,
+            "p_value": remaining.p_value,
+            "z": float(np.sqrt(remaining.gain)),
+        },
+        "unexplained": _unexplained(diagnosis),
+        "notes": [*diagnosis.notes, *_spread_note(spread)],
+    }
+
+
+def _numerics(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
+    """What the simulation adds to its law."""
+    joint, fitted = diagnosis.baseline_joint, diagnosis.baseline
+    effect = simulated_by(joint, fitted, specimen) - fitted.modelled
+    return {
+        "specimen": specimen.name,
+        "modulus_over_law": specimen.ratio(),
+        "largest_modulus_percent": 100.0 * float(np.abs(effect.real).max()),
+        "largest_phase_deg": float(np.degrees(np.abs(effect.imag).max())),
+    }
+
+
+def _burgers_parameters(diagnosis: Diagnosis) -> dict[str, dict[str, float]]:
+    names = ("Em_Pa", "eta_m_Pa_s", "Ek_Pa", "eta_k_Pa_s")
+    rows, base = np.exp(diagnosis.baseline.law).reshape(-1, 4), diagnosis.baseline_joint.base
+    assert isinstance(base, BurgersAtEach)
+    return {
+        f"{t:g}": dict(zip(names, row.tolist(), strict=True))
+        for t, row in zip(base.isotherms, rows, strict=True)
+    }
+
+
+def _indistinguishable(diagnosis: Diagnosis) -> list[list[str]]:
+    """Groups that this design, or these data, cannot tell apart."""
+    out = [
+        [name_of(rung.candidate), *map(name_of, rung.rivals)]
+        for rung in diagnosis.ladder.rungs
+        if rung.rivals
+    ]
+    out += [[name_of(one), name_of(other)] for one, other in diagnosis.ladder.alike]
+    possible = {cause.name for cause in CATALOGUE if cause.on_bench(diagnosis.observed)}
+    if "loose_clamp" in possible:
+        out.append(["loose_clamp of all specimens", "relaxation_spectrum"])
+    if "guide_stiffness" in possible - {name for name, _ in diagnosis.ladder.limits}:
+        out.append(["guide_stiffness", "static modulus of relaxation_spectrum"])
+    out.append(["specimen_geometry of all specimens", "glassy modulus of relaxation_spectrum"])
+    out.append(["temperature_bias of all isotherms", "shift constants of relaxation_spectrum"])
+    return out
+
+
+def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
+    observed = diagnosis.observed
+    out = [
+        {"cause": cause.name, "needs": cause.needs or "more frequencies and temperatures"}
+        for cause in CATALOGUE
+        if not cause.places(observed)
+    ]
+    shown = {c.key for rung in diagnosis.ladder.rungs for c in (rung.candidate, *rung.rivals)}
+    out += [
+        {"cause": name_of(candidate), "needs": candidate.cause.shows_in}
+        for candidate in diagnosis.ladder.unseen
+        if candidate.key not in shown
+    ]
+    seen = physical_limits(diagnosis)
+    nowhere = {name for name, _ in diagnosis.ladder.limits} - {name for name, _ in seen}
+    beyond = [
+        (name, None if name in nowhere else place) for name, place in diagnosis.ladder.limits.keys() - seen
+    ]
+    out += [
+        {"cause": name, "needs": "other tests: in these, only an impossibly large one would show"}
+        for name in sorted({name_at(*key) for key in beyond})
+    ]
+    if not diagnosis.relaxation_spectrum and observed.frequencies.size < 3:
+        out.append({"cause": "relaxation_spectrum", "needs": "three frequencies: a Burgers law fits any two"})
+    elif not diagnosis.replicated:
+        out.append({"cause": "relaxation_spectrum", "needs": "replicates, or a stated scatter"})
+    return out
+
+
+def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
+    """Amplitude found with 95 % probability: of each cause, and of each place of a confined one."""
+    units = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
+    confined_to = {cause.name: cause.confined_to for cause in CATALOGUE}
+    limits: dict[str, dict[str, Any]] = {}
+    for (name, place), value in physical_limits(diagnosis).items():
+        entry = limits.setdefault(name, {"value": np.inf, "unit": units[name]})
+        entry["value"] = min(entry["value"], float(value))
+        if place is not None:
+            entry["confined_to"] = confined_to[name]
+            entry.setdefault("places", {})[str(place)] = float(value)
+    return limits
+
+
+def _suspects(diagnosis: Diagnosis) -> list[dict[str, Any]]:
+    """Doubtful tests with their reasons, and whether the diagnosis used them."""
+    whole = diagnosis.whole or diagnosis.observed
+    return [
+        {
+            "specimen": whole.names[whole.specimen[one.row]],
+            "temperature_C": float(whole.isotherm[one.row]),
+            "frequency_Hz": float(whole.frequency[one.row]),
+            "reasons": list(one.reasons),
+            "used": one.used,
+        }
+        for one in diagnosis.suspects
+    ]
+
+
+def _estimates(diagnosis: Diagnosis) -> dict[str, Any]:
+    """Amplitude of every cause at every place and its standard error, where a discrepancy was estimated."""
+    out: dict[str, Any] = {}
+    units = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
+    for (name, place), (value, error) in diagnosis.ladder.estimates.items():
+        where = "all" if place is None else str(place)
+        places = out.setdefault(name, {"places": {}})["places"]
+        places[where] = {"value": float(value), "std_error": float(error), "unit": units[name]}
+    return out
+
+
+def _spread_note(spread: float) -> list[str]:
+    if spread < WIDE_SPREAD:
+        return []
+    return [
+        f"These tests lie {spread:.1f} times as far from the free master curve as their scatter suggests. Intervals "
+        f"and limits are therefore multiplied by {spread:.1f}; standard errors are not."
+    ]
+
+
+def physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
+    """Limits that the cause can reach within the bounds of its amplitude, with the factor of a table far from the fit.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+
+    Returns
+    -------
+    dict of tuple to float
+        By cause and place.
+    """
+    most = {
+        cause.name: max(abs(cause.parameters[0].low), abs(cause.parameters[0].high)) for cause in CATALOGUE
+    }
+    factor = widening(diagnosis.ladder.estimates_spread)
+    limits = {key: factor * value for key, value in diagnosis.ladder.limits.items()}
+    return {key: value for key, value in limits.items() if value <= most[key[0]]}
+
+
+def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:
+    observed = diagnosis.observed
+    out: list[dict[str, float | str]] = []
+    if diagnosis.verdict == "unexplained_structure":
+        mean, z = cell_residuals(diagnosis)
+        for cell in np.argsort(-z):
+            if z[cell] < NOTABLE and out:
+                break
+            out.append(_miss(observed, int(np.flatnonzero(observed.cell == cell)[0]), mean[cell], z[cell]))
+    aside, joint = diagnosis.set_aside, diagnosis.ladder.joint
+    if not aside.size:
+        return out
+    expected = Joint(aside, joint.base, joint.noise).predict(diagnosis.ladder.fitted)
+    for row in range(aside.size):
+        left = complex(aside.logarithm[row] - expected[row])
+        sigma = diagnosis.noise.sigma
+        size = max(abs(left.real) / sigma[0], abs(left.imag) / sigma[1])
+        out.append({**_miss(aside, row, left, size), "specimen": aside.names[aside.specimen[row]]})
+    return out
+
+
+def _miss(observed: Observations, row: int, residual: complex, z: float) -> dict[str, float | str]:
+    return {
+        "temperature_C": float(observed.isotherm[row]),
+        "frequency_Hz": float(observed.frequency[row]),
+        "residual_E_percent": 100.0 * residual.real,
+        "residual_phase_deg": float(np.degrees(residual.imag)),
+        "z": float(z),
+    }

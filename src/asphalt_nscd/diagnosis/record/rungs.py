@@ -1,0 +1,211 @@
+"""A rung of the ladder as `diagnosis.json` has it: cause, size, gain, how sure."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE
+from asphalt_nscd.diagnosis.model.bases import LN10, FlexibleSpectrum
+from asphalt_nscd.diagnosis.model.heldout import HeldOut
+from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
+from asphalt_nscd.diagnosis.search.ladder import Rung
+from asphalt_nscd.diagnosis.simulation.gain import (
+    before_and_after,
+    nearest,
+    with_burgers_laws,
+    with_common_law,
+)
+from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
+from asphalt_nscd.diagnosis.written import interval_95, name_at, widening
+
+
+def name_of(candidate: Candidate) -> str:
+    """`cause` or `cause @ place`.
+
+    Parameters
+    ----------
+    candidate : Candidate
+        Which cause.
+
+    Returns
+    -------
+    str
+        Its name.
+    """
+    return name_at(*candidate.key)
+
+
+def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
+    """What a rung gains in sample and on tests left out, as diagnosis.json has it.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    rung : Rung
+        One cause.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+    held : HeldOut
+        Predictions of tests left out.
+
+    Returns
+    -------
+    dict
+        Of the ladder.
+    """
+    observed = diagnosis.observed
+    before, after = (nearest(diagnosis, fitted, specimen) for fitted in (rung.before, rung.after))
+    gain: dict[str, Any] = {"in_sample": before_and_after(diagnosis, before, after)}
+    held_out = {}
+    for part, count in (("isotherm", observed.isotherms.size), ("frequency", observed.frequencies.size)):
+        if count > 2:
+            before, after = (held.predictions(fitted, part) for fitted in (rung.before, rung.after))
+            held_out[f"leave_one_{part}_out"] = before_and_after(
+                diagnosis, before, after, inner=part == "isotherm"
+            )
+    gain["held_out"] = held_out
+    final = _final(diagnosis, rung.candidate)
+    return {
+        "cause": rung.candidate.cause.name,
+        "where": rung.candidate.place,
+        "parameters": _parameters(diagnosis, final),
+        "p_value": rung.p_value,
+        "gain": gain,
+        "probability": diagnosis.probability(rung),
+        "as_good": [name_of(rival) for rival in rung.rivals],
+        "established": diagnosis.established(rung),
+        "taken_off": diagnosis.taken_off(rung),
+        "hangs_on": diagnosis.ladder.hangs_on.get(rung.candidate.key, []),
+        "doubts": diagnosis.doubts.get(rung.candidate.key, []),
+        "sentence": rung.candidate.cause.sentence,
+        "confirmed_by": rung.candidate.cause.confirmed_by,
+    }
+
+
+def _final(diagnosis: Diagnosis, candidate: Candidate) -> Candidate:
+    """The candidate as the last fit has it, with all causes fitted together."""
+    active = diagnosis.ladder.rungs[-1].after.active
+    return next(c for c in active if c.key == candidate.key)
+
+
+def amplitude(diagnosis: Diagnosis, candidate: Candidate) -> tuple[float, float]:
+    """Size of a named cause in the last fit.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    candidate : Candidate
+        Which cause.
+
+    Returns
+    -------
+    float
+        Amplitude.
+    float
+        Its standard error.
+    """
+    first = next(iter(_parameters(diagnosis, _final(diagnosis, candidate)).values()))
+    return first["value"], first["std_error"]
+
+
+def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[str, Any]]:
+    errors = diagnosis.ladder.std_errors(candidate)
+    factor = widening(diagnosis.ladder.estimates_spread)
+    return {
+        parameter.name: _value(
+            value, parameter.unit, float(errors[k]), factor, candidate.shaped and k == 0 and value > 0.0
+        )
+        for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True))
+    }
+
+
+def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
+    """The first rung: one continuous spectrum for all temperatures instead of a Burgers law for each.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+    held : HeldOut
+        Predictions of tests left out.
+
+    Returns
+    -------
+    dict
+        Of the ladder.
+    """
+    ladder, observed = diagnosis.ladder, diagnosis.observed
+    before = with_burgers_laws(diagnosis, specimen)
+    after = with_common_law(diagnosis, specimen)
+    held_out = {}
+    if observed.isotherms.size > 2:
+        # A Burgers law says nothing of another temperature: before is its fit, which has seen the data.
+        predicted = held.predictions(ladder.start, "isotherm")
+        held_out["leave_one_isotherm_out"] = before_and_after(diagnosis, before, predicted, inner=True)
+    if observed.frequencies.size > 2:
+        without_law = HeldOut(diagnosis.baseline_joint).predictions(diagnosis.baseline, "frequency")
+        held_out["leave_one_frequency_out"] = before_and_after(
+            diagnosis, without_law, held.predictions(ladder.start, "frequency")
+        )
+    # As the last fit has them: a delay, say, that is not yet taken would be taken for relaxation.
+    spectrum, fitted = ladder.joint.spectrum, ladder.fitted
+    shift = spectrum.log_shift(fitted.law, observed.isotherms)[0] / LN10
+    return {
+        "cause": "relaxation_spectrum",
+        "where": None,
+        "parameters": {
+            # Two isotherms have one shift between them; one has none.
+            **(
+                _shift_constants(spectrum, fitted, widening(ladder.estimates_spread))
+                if observed.isotherms.size > 2
+                else {}
+            ),
+            "reference_temperature": _value(spectrum.reference_temperature, "degC"),
+        },
+        "log10_shift": {f"{t:g}": float(s) for t, s in zip(observed.isotherms, shift, strict=True)},
+        "p_value": diagnosis.baseline_p,
+        "gain": {"in_sample": before_and_after(diagnosis, before, after), "held_out": held_out},
+        "as_good": [],
+        "established": not diagnosis.too_few,
+        "hangs_on": [],
+        "doubts": [],
+        "sentence": "the mix relaxes over many decades of time; one Burgers law for each temperature has two times",
+        "confirmed_by": "tests over more decades of frequency, or creep at the warmest temperature",
+    }
+
+
+def _shift_constants(spectrum: FlexibleSpectrum, fitted: Fitted, factor: float) -> dict[str, dict[str, Any]]:
+    """C1 and C2, or the slope, where the shift may be straight, which has them at infinity, or bends the other way."""
+    at = [fitted.law.size - 3, fitted.law.size - 2]
+    slope, (curvature, change) = float(np.exp(fitted.law[-3])), spectrum.curvature(fitted.law[-2])
+    variance = np.array([1.0, change])[:, None] * fitted.covariance[np.ix_(at, at)] * [1.0, change]
+    of_curvature = float(np.sqrt(variance[1, 1]))
+    if curvature < CONFIDENCE * of_curvature:
+        straight = {"shift_slope": _value(slope, "decades/K", slope * np.sqrt(variance[0, 0]), factor)}
+        bent = {"shift_curvature": _value(curvature, "1/K", of_curvature, factor)}  # the other way than WLF
+        return straight | (bent if curvature < -CONFIDENCE * of_curvature else {})
+    of_c1, of_c2 = np.array([1.0, -1.0 / curvature]), np.array([0.0, -1.0 / curvature])  # of their logarithms
+    return {
+        name: _value(value, unit, value * np.sqrt(along @ variance @ along), factor)
+        for name, value, unit, along in (
+            ("wlf_C1", slope / curvature, "decades", of_c1),
+            ("wlf_C2", 1.0 / curvature, "K", of_c2),
+        )
+    }
+
+
+def _value(
+    value: float, unit: str, error: float | None = None, factor: float = 1.0, of_logarithm: bool = False
+) -> dict[str, Any]:
+    """factor, of_logarithm: of the interval."""
+    if error is None:
+        return {"value": float(value), "std_error": None, "unit": unit}
+    interval = interval_95(float(value), float(error), factor, of_logarithm)
+    return {"value": float(value), "std_error": float(error), "unit": unit, "interval_95": interval}

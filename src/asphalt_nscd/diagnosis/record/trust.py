@@ -1,0 +1,184 @@
+"""How the measurements were read, and how many of them can be used as they are."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.observed import quality
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.screening import levels, within_isotherm
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
+from asphalt_nscd.files.words import specimen_named
+from asphalt_nscd.measurements.campaign import OFF_TARGET, isotherm_notes
+
+LISTED = 4  # gaps of a table that are named
+
+
+def reading(
+    observed: Observations, notes: Sequence[str], without_tests: Sequence[str] = ()
+) -> dict[str, Any]:
+    """How the measurements were read: test type, isotherms, quality limits exceeded; notes of the import.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    notes : sequence of str
+        Of the import.
+    without_tests : sequence of str
+        A sentence for each folder some of whose files hold no test.
+
+    Returns
+    -------
+    dict
+        Content of `reading`.
+    """
+    specimen = [observed.names[place] for place in observed.specimen]
+    above = [
+        {
+            "specimen": specimen[one.row],
+            "temperature_C": float(observed.isotherm[one.row]),
+            "frequency_Hz": float(observed.frequency[one.row]),
+            "column": one.column,
+            "value": one.value,
+            "limit": one.limit,
+        }
+        for one in quality.exceeded(observed)
+    ]
+    together = isotherm_notes(observed.temperature, observed.isotherm)
+    if together:
+        together.append("Both laws are fitted to the measured temperatures.")
+    return {
+        "test_type": observed.test_type,
+        "specimens": list(observed.names),
+        "isotherms_C": observed.isotherms.tolist(),
+        "quality_columns": [name for name in quality.COLUMNS if name in observed.quality],
+        "limits_exceeded": above,
+        "notes": [
+            *notes,
+            *together,
+            *_quality_notes(above, observed, _shared(observed)),
+        ],
+        **({"off_target": off} if (off := _off_target(observed)) else {}),
+        **({"not_tested": gaps} if (gaps := _gaps(observed)) else {}),
+        **({"files_without_tests": list(without_tests)} if without_tests else {}),
+    }
+
+
+def trust(
+    observed: Observations, diagnosis: Diagnosis, odd: NDArray[np.bool_], broken: Collection[float]
+) -> dict[str, Any]:
+    """How many tests can be used as they are, of each specimen too, how many after a check, how many not at all.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    diagnosis : Diagnosis
+        What was found.
+    odd : ndarray of bool (n,)
+        Rows of odd isotherms and specimens.
+    broken : collection of float
+        Isotherms that contradict themselves, degC.
+
+    Returns
+    -------
+    dict
+        Content of `trust`.
+    """
+    out = np.zeros(observed.size, bool)
+    out[[one.row for one in diagnosis.suspects if not one.used]] = True
+    check = odd | np.isin(observed.isotherm, list(broken))
+    check |= levels.rows(observed, _off_target(observed))
+    above = quality.exceeded(observed)
+    for name in quality.LIMITS:
+        rows = [one.row for one in above if one.column == name]
+        if 2 * len(rows) >= observed.size:
+            check[rows] = True
+    check[[one.row for one in diagnosis.suspects if one.used]] = True
+    check &= ~out
+    use = ~check & ~out
+    whole = [float(t) for t in observed.isotherms if (check | out)[observed.isotherm == t].all()]
+    rest = use | out | np.isin(observed.isotherm, whole)
+    return {
+        "use": int(use.sum()),
+        "check": int(check.sum()),
+        "not_used": int(out.sum()),
+        **(
+            {"check_at_C": whole}
+            if check.any() and rest.all() and len(whole) < observed.isotherms.size
+            else {}
+        ),
+        "use_by_specimen": {
+            name: int(use[observed.specimen == k].sum()) for k, name in enumerate(observed.names)
+        },
+    }
+
+
+def _off_target(observed: Observations) -> list[dict[str, Any]]:
+    """Isotherms of a specimen measured further from their target than T 378 allows, and their mean temperature."""
+    found = []
+    block = within_isotherm.blocks(observed)
+    for number in np.unique(block):
+        rows = np.flatnonzero(block == number)
+        measured, target = float(observed.temperature[rows].mean()), float(observed.isotherm[rows[0]])
+        if abs(measured - target) > OFF_TARGET + 1e-9:
+            name = observed.names[observed.specimen[rows[0]]]
+            found.append({"specimen": name, "temperature_C": target, "measured_C": round(measured, 2)})
+    return found
+
+
+def _gaps(observed: Observations) -> list[str]:
+    """Specimens that were not tested at a temperature at which most others were, in words."""
+    tested = {(int(k), float(t)) for k, t in zip(observed.specimen, observed.isotherm, strict=True)}
+    missing = [
+        f"{specimen_named(name)} at {t:g} degC"
+        for k, name in enumerate(observed.names)
+        for t in map(float, observed.isotherms)
+        if (k, t) not in tested and 2 * sum(at == t for _, at in tested) > len(observed.names)
+    ]
+    more = [f"{len(missing) - LISTED} more"] if len(missing) > LISTED else []
+    return [*missing[:LISTED], *more]
+
+
+def _shared(observed: Observations) -> Counter[str]:
+    """By quality column, in how many tests it exceeds its limit as in half of their isotherm and specimen or more."""
+    above, block = quality.exceeded(observed), within_isotherm.blocks(observed)
+    alike = Counter((one.column, block[one.row]) for one in above)
+    size = Counter(block.tolist())
+    return Counter(
+        one.column for one in above if 2 * alike[one.column, block[one.row]] >= size[block[one.row]]
+    )
+
+
+def _quality_notes(
+    above: Sequence[Mapping[str, Any]], observed: Observations, shared: Mapping[str, int]
+) -> list[str]:
+    """A sentence for each quality limit that some tests exceed, with the worst of them; what follows if it is usual."""
+    notes = []
+    for name, limit in quality.LIMITS.items():
+        found = sorted((one for one in above if one["column"] == name), key=lambda one: -one["value"])
+        if found:
+            worst = "; ".join(
+                f"{one['specimen']} at {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz: "
+                f"{one['value']:g} {limit.unit}"
+                for one in found[:3]
+            )
+            notes.append(
+                f"{limit.label.capitalize()} above {limit.limit:g} {limit.unit} ({limit.source}) in {len(found)} of "
+                f"{observed.size} tests: {worst}{'; and others' if len(found) > 3 else ''}."
+                + (_used_all_the_same(quality.where(observed, name)) if shared.get(name) else "")
+            )
+    return notes
+
+
+def _used_all_the_same(places: str) -> str:
+    return (
+        f" Half of the tests or more exceed it in {places}: check gauges and mounting. No single test is rejected for "
+        "that."
+    )

@@ -1,0 +1,130 @@
+"""Sweeps of which one half contradicts the other: which half is wrong, the other specimens tell.
+
+Two wrong readings of four leave their own isotherm as well ordered as the other two, so causality may take out either
+pair. It stays a matter of causality that something is wrong. Which tests it is, is asked of the level that the
+specimen has on its other isotherms against the other specimens.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.screening.within_isotherm import SCATTER, blocks
+
+FAR = 6.0  # usual departures of a table, beyond which a test is off the level of its specimen
+NEAR = 0.5  # share of the largest departure of a sweep, below which a test is held to be on the level
+CLEARLY_NEAR = 0.35  # the same where causality takes out none: what is merely soft or slow departs smoothly
+LEAST_SPECIMENS = 3  # of two, neither is the odd one
+
+
+def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Which half of a sweep is wrong, by the level that the specimen has on its other isotherms.
+
+    A sweep is turned where the tests that causality takes out are half of it, or all on the level of their
+    specimen, while some others are far off it, and these are no more than half.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    out : ndarray of bool (n,)
+        Those that causality takes out.
+
+    Returns
+    -------
+    ndarray of bool (n,)
+        Tests to leave out.
+    ndarray of bool (n,)
+        Tests of sweeps where the others are left out than causality said.
+    """
+    now, turned = out.copy(), np.zeros(observed.size, bool)
+    block, apart = blocks(observed), _from_level(observed)
+    for one in np.unique(block[out]):
+        rows = np.flatnonzero(block == one)
+        distance = apart[rows]
+        off = distance > NEAR * distance.max()
+        unsure = 2 * np.count_nonzero(out[rows]) >= rows.size or not (off & out[rows]).any()
+        clear = distance.max() > FAR and 2 * np.count_nonzero(off) <= rows.size
+        if unsure and clear and (off & ~out[rows]).any():
+            now[rows], turned[rows] = off, True
+    return now, turned
+
+
+def masked(observed: Observations, out: NDArray[np.bool_], doubtful: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Tests that hide each other in a sweep from which causality takes out none: of four it can accuse but one.
+
+    Two of a sweep at least must be far off the level of their specimen, one of them doubtful, and all others clearly on
+    it. The worst sweep comes first: what is out is no replicate of the others.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    out : ndarray of bool (n,)
+        Those that are out already.
+    doubtful : ndarray of bool (n,)
+        Those that causality might accuse.
+
+    Returns
+    -------
+    ndarray of bool (n,)
+        Tests to leave out besides.
+    """
+    block, found = blocks(observed), np.zeros(observed.size, bool)
+    sweeps = [np.flatnonzero(block == one) for one in np.unique(block[doubtful])]
+    while sweeps:
+        apart = _from_level(observed, out | found)
+        clear = [
+            rows
+            for rows in sweeps
+            if not (out | found)[rows].any()
+            and _two_stand_out(apart[rows], doubtful[rows])
+            and np.unique(observed.specimen[observed.isotherm == observed.isotherm[rows[0]]]).size
+            >= LEAST_SPECIMENS
+        ]
+        if not clear:
+            break
+        worst = max(clear, key=lambda rows: apart[rows].max())
+        found[worst] = apart[worst] > NEAR * apart[worst].max()
+    return found
+
+
+def _two_stand_out(distance: NDArray[np.float64], doubtful: NDArray[np.bool_]) -> bool:
+    """Of the tests of a sweep."""
+    largest = distance.max()
+    off = distance > NEAR * largest
+    some = 1 < np.count_nonzero(off) <= distance.size // 2 and bool((off & doubtful).any())
+    return bool(some and largest > FAR and distance[~off].max() < CLEARLY_NEAR * largest)
+
+
+def _from_level(observed: Observations, out: NDArray[np.bool_] | None = None) -> NDArray[np.float64]:
+    """How far (n,) a test is off the other specimens at its condition, in usual departures of the table.
+
+    What the specimen is off by on its other isotherms, a level and a phase, is taken off first. Zero where no other
+    specimen was tested, or all have a test of the sweep that is out (n,).
+    """
+    logarithm = observed.logarithm
+    values = np.column_stack([logarithm.real, logarithm.imag])
+    apart = np.full(values.shape, np.nan)
+    # A sweep is asked as a whole or not at all: specimens differ, so another reference would be a step.
+    block = blocks(observed)
+    cells = observed.cell if out is None else np.where(np.isin(block, block[out]), -1, observed.cell)
+    for row, (cell, specimen) in enumerate(zip(observed.cell, observed.specimen, strict=True)):
+        others = (cells == cell) & (observed.specimen != specimen)
+        if others.any():
+            apart[row] = values[row] - np.median(values[others], axis=0)
+    known = np.isfinite(apart[:, 0])
+    levelled = np.zeros(values.shape)
+    for specimen, isotherm in np.unique(
+        np.column_stack([observed.specimen, observed.isotherm])[known], axis=0
+    ):
+        here = known & (observed.specimen == specimen) & (observed.isotherm == isotherm)
+        elsewhere = known & (observed.specimen == specimen) & (observed.isotherm != isotherm)
+        if elsewhere.any():
+            levelled[here] = apart[here] - np.median(apart[elsewhere], axis=0)
+    usual = (
+        np.maximum(1.4826 * np.median(np.abs(levelled[known]), axis=0), SCATTER) if known.any() else SCATTER
+    )
+    return np.asarray((np.abs(levelled) / usual).max(axis=1))

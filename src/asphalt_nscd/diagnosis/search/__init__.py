@@ -1,0 +1,1 @@
+"""Which causes are named: the ladder, with its doubts and limits."""

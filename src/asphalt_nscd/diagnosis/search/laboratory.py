@@ -1,0 +1,197 @@
+"""What every laboratory adds to its tests: temperatures within the tolerance of their control, and mountings.
+
+An isotherm is held to some tenths of a kelvin, each specimen on it too, and each mounting has a level and a phase of
+its own. None of that is a fault, and without it every table holds one: of 80 drawn tables that have nothing else, 28
+were given a name. The sizes are inferred from the table by restricted likelihood, beside the discrepancy; few isotherms
+and specimens say little of them, so that each has a prior with a source.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import CHANNEL
+from asphalt_nscd.diagnosis.criteria import LABORATORY, OF_ISOTHERM
+from asphalt_nscd.diagnosis.model import discrepancy, likelihood, start
+from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
+from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
+from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint, Vector
+
+STEP = 0.05  # K, of the derivative along the temperature
+
+
+@dataclass(frozen=True)
+class Laboratory:
+    """Sizes of the effects of LABORATORY in a table.
+
+    Parameters
+    ----------
+    sizes : dict of str to float
+        In their units.
+    """
+
+    sizes: dict[str, float]
+
+    def factor(self, joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> NDArray[np.complex128]:
+        """What the laboratory adds to the scatter.
+
+        Parameters
+        ----------
+        joint : Joint
+            Model of the table.
+        at : Fitted
+            Where it is linearised.
+        mounting : ndarray of int (n,)
+            Number of the specimen's isotherm of each test.
+
+        Returns
+        -------
+        ndarray of complex (n, q)
+            Factor of the covariance of ln E*.
+        """
+        own = [self.sizes[kind] * root for kind, root in _roots(joint, at, mounting).items()]
+        return np.hstack([_of_isotherm(joint, at), *own])
+
+
+def processes(joint: Joint, fitted: Fitted) -> tuple[Processes, tuple[str, ...]]:
+    """What the laboratory adds, in its usual sizes, beside the discrepancy.
+
+    Parameters
+    ----------
+    joint : Joint
+        Whose noise is the scatter of single tests.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    Processes
+        Of the discrepancy, then of each effect.
+    tuple of str
+        The effects, of LABORATORY.
+    """
+    own = {
+        kind: LABORATORY[kind].size * root for kind, root in _roots(joint, fitted, joint.noise.block).items()
+    }
+    beside = discrepancy.processes(joint, fitted)
+    found = Processes(
+        (*beside.described, *(Process(kind, "both") for kind in own)),
+        (*beside.roots, *own.values()),
+        np.hstack([beside.factor, *(joint.noise.whiten(root) for root in own.values())]),
+        np.concatenate(
+            [
+                beside.block,
+                np.repeat(len(beside.roots) + np.arange(len(own)), [r.shape[1] for r in own.values()]),
+            ]
+        ),
+        np.concatenate([beside.usual, np.ones(len(own))]),
+        np.concatenate([beside.spread, [LABORATORY[kind].spread for kind in own]]),
+    )
+    return found, tuple(own)
+
+
+def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
+    """Sizes in a table, beside the discrepancy.
+
+    Parameters
+    ----------
+    joint : Joint
+        Whose noise is the scatter of single tests.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    Laboratory
+        Sizes.
+    """
+    found, kinds = processes(joint, fitted)
+    variances = likelihood.estimate(likelihood.reduce(found, fitted)).variances[-len(kinds) :]
+    return Laboratory(
+        {kind: LABORATORY[kind].size * float(np.sqrt(v)) for kind, v in zip(kinds, variances, strict=True)}
+    )
+
+
+def of_single_tests(joint: Joint, fitted: Fitted) -> Joint:
+    """The model whose noise is the scatter of single tests and the temperatures of isotherms, whose size is stated.
+
+    Parameters
+    ----------
+    joint : Joint
+        With or without what else the laboratory adds.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    Joint
+        Without it.
+    """
+    # What a block shares is its mounting's: it is not counted twice.
+    alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared), discrepancy=None)
+    return Joint(joint.observed, joint.base, alone.beside(_parts(_of_isotherm(joint, fitted))))
+
+
+def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | None]:
+    """The model with what the laboratory adds to the scatter.
+
+    Parameters
+    ----------
+    joint : Joint
+        Whose noise is the scatter of single tests.
+    fitted : Fitted
+        Where it stands.
+
+    Returns
+    -------
+    Joint
+        With it; without it where there is but one isotherm.
+    Laboratory or None
+        What it adds.
+    """
+    if not isinstance(joint.base, FlexibleSpectrum) or joint.observed.isotherms.size < 2:
+        return joint, None
+    # An error that the phases of all tests share is no sum of mountings. Beside a law that bends to it, they would seem
+    # several times as large.
+    shared = tuple(Candidate(cause, None, (0.0,)) for cause in CATALOGUE if cause.stage == CHANNEL)
+    free, beside = start.fit_spectrum(joint.observed, joint.noise, (*fitted.active, *shared))
+    held = of_single_tests(free, beside)
+    found = estimate(held, held.linearise(beside.law, beside.scales, beside.active))
+    alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared))
+    noise = alone.beside(_parts(found.factor(joint, fitted, alone.block)))
+    return Joint(joint.observed, joint.base, noise), found
+
+
+def _parts(factor: NDArray[np.complex128]) -> NDArray:
+    """Of modulus and of phase, one above the other."""
+    return np.concatenate([factor.real, factor.imag])
+
+
+def _of_isotherm(joint: Joint, at: Fitted) -> NDArray[np.complex128]:
+    """Factor (n, isotherms) of their temperatures."""
+    observed = joint.observed
+    isotherm = observed.isotherm[:, None] == observed.isotherms
+    return OF_ISOTHERM * _per_kelvin(joint, at.law)[:, None] * isotherm
+
+
+def _roots(joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> dict[str, NDArray[np.complex128]]:
+    """What one unit of each effect does to ln E*, a column for each mounting."""
+    mounted = np.eye(int(mounting.max()) + 1, dtype=complex)[mounting]
+    return {
+        "specimen temperature": _per_kelvin(joint, at.law)[:, None] * mounted,
+        "mounting, modulus": mounted,
+        "mounting, phase": 1j * mounted,
+    }
+
+
+def _per_kelvin(joint: Joint, law: Vector) -> NDArray[np.complex128]:
+    """Derivative (n,) of ln E* along the temperature."""
+    observed = joint.observed
+    low, high = (
+        joint.base.modulus(law, observed.omega, observed.temperature + step)[0] for step in (-STEP, STEP)
+    )
+    return np.asarray(np.log(high / low) / (2.0 * STEP), complex)

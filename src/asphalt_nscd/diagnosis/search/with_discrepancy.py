@@ -1,0 +1,392 @@
+"""The ladder of a table that holds more than its law, its causes and its scatter.
+
+Every cause is tested, sized and limited beside a discrepancy (`discrepancy`), whose size is estimated with
+that cause in the model. What one isotherm, one frequency or one specimen carries alone is no established
+cause: each is left out in turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause
+from asphalt_nscd.diagnosis.criteria import (
+    ABSORBED,
+    ALPHA_PER_STEP,
+    CONFIDENCE,
+    FOLLOWED,
+    HIDES,
+    MOST_CAUSES,
+    POSSIBLE,
+    SURVIVES,
+    TWENTY_TIMES,
+)
+from asphalt_nscd.diagnosis.model import chance, likelihood
+from asphalt_nscd.diagnosis.model.chance import Scores
+from asphalt_nscd.diagnosis.model.fit_beside import (
+    State,
+    afresh,
+    likeliest,
+    of_rows,
+    of_shapes,
+    of_taken,
+    settle,
+    smoothed,
+    with_causes,
+)
+from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate
+from asphalt_nscd.diagnosis.model.probability import log_odds, shares
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.files.words import specimen_named
+
+Vector = NDArray[np.float64]
+SEVERAL_STARTS = 300  # tests up to which the sizes of the discrepancy are sought from several starts
+REFITS = 4  # candidates that are refitted at each rung
+STARTS = 4  # of a cause with shapes of its own
+NEAR = 0.6  # share of what a name needs, above which a candidate is refitted
+
+
+@dataclass(frozen=True)
+class Found:
+    """One cause taken.
+
+    Parameters
+    ----------
+    candidate : Candidate
+        The cause.
+    p_value : float
+        How likely by chance.
+    before, after : State
+        The states.
+    rivals : tuple of Candidate
+        Who did as well.
+    probability : float
+        As of `ladder.Rung`.
+    """
+
+    candidate: Candidate
+    p_value: float
+    before: State
+    after: State
+    rivals: tuple[Candidate, ...]
+    probability: float
+
+
+@dataclass(frozen=True)
+class Survey:
+    """Every cause that is not in the fit, as if it were the next one: candidates, directions, estimates (k each)."""
+
+    candidates: list[Candidate]
+    pointing: Direction
+    estimates: list[Estimate]
+    one_sided: NDArray[np.bool_]
+
+
+def climb(
+    state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
+) -> tuple[list[Found], State, Survey]:
+    """Causes that beat both chance and a discrepancy without a name, one after the other.
+
+    Parameters
+    ----------
+    state : State
+        To start from.
+    catalogue : sequence of Cause
+        Causes.
+    draws : int
+        Of the chance level.
+    random : Generator
+        Whence.
+
+    Returns
+    -------
+    list of Found
+        In the order taken.
+    State
+        The last one.
+    Survey
+        All causes, estimated there.
+    """
+    taken: list[Found] = []
+    surveyed = survey(state, catalogue)
+    while len(taken) < MOST_CAUSES:
+        found = _next(state, surveyed, draws, random)
+        if found is None:
+            break
+        taken.append(found)
+        state = smoothed(found.after)
+        surveyed = survey(state, catalogue)
+    return taken, state, surveyed
+
+
+def again(
+    state: State, kept: Sequence[Found], catalogue: Sequence[Cause]
+) -> tuple[list[Found], State, Survey]:
+    """The ascent with some causes alone, in their order.
+
+    Parameters
+    ----------
+    state : State
+        Without any cause.
+    kept : sequence of Found
+        The causes.
+    catalogue : sequence of Cause
+        All causes.
+
+    Returns
+    -------
+    list of Found
+        In the order taken.
+    State
+        The last one.
+    Survey
+        All causes, estimated there.
+    """
+    taken: list[Found] = []
+    for one in kept:
+        candidate = one.after.fitted.active[-1]
+        active = (*state.fitted.active, candidate)
+        after = settle(state.plain, state.model.processes, state.fitted, active, one.after.variances)
+        taken.append(replace(one, before=state, after=after))
+        state = smoothed(after)
+    return taken, state, survey(state, catalogue)
+
+
+def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
+    """Candidates that the table can show, each estimated beside the discrepancy.
+
+    Parameters
+    ----------
+    state : State
+        Where they are estimated.
+    catalogue : sequence of Cause
+        Causes.
+
+    Returns
+    -------
+    Survey
+        Of each candidate.
+    """
+    candidates, pointing = _pointing(state, catalogue)
+    # In a large table the sizes are well determined, and each start takes a second.
+    several = state.plain.observed.size <= SEVERAL_STARTS
+    scored = _scored(state, pointing)
+    promising = set(_promising(candidates, scored))
+    estimates = [
+        scored[k]
+        if candidate.shaped and k not in promising
+        else likeliest(state.model, state.variances, pointing.column(k))
+        if several and not candidate.shaped
+        else likelihood.estimate(state.model, pointing.column(k), state.variances)
+        for k, candidate in enumerate(candidates)
+    ]
+    one_sided = np.array([c.cause.one_sided for c in candidates], bool)
+    return Survey(candidates, pointing, estimates, one_sided)
+
+
+def _scored(state: State, pointing: Direction) -> list[Estimate]:
+    """Each candidate beside a discrepancy of the sizes that it has without, which no gain is told of."""
+    information, score = likelihood.weighed(state.model, pointing, state.variances)
+    least = np.maximum(np.diag(information), 1e-12)
+    return [
+        Estimate(state.variances, np.inf, float(amplitude), float(error))
+        for amplitude, error in zip(score / least, least**-0.5, strict=True)
+    ]
+
+
+def _promising(candidates: Sequence[Candidate], scored: Sequence[Estimate]) -> Iterator[int]:
+    """Of each cause with shapes of its own the STARTS that the table speaks for most."""
+    best = np.argsort([-one.z for one in scored], kind="stable")
+    count: dict[tuple, int] = {}
+    for k in best.tolist():
+        key = candidates[k].key
+        count[key] = count.get(key, 0) + 1
+        if candidates[k].shaped and count[key] <= STARTS:
+            yield k
+
+
+def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Found | None:
+    candidates, estimates, one_sided = surveyed.candidates, surveyed.estimates, surveyed.one_sided
+    if not candidates:
+        return None
+    nothing = likeliest(state.model, state.variances)
+    z = np.array([estimate.z for estimate in estimates])
+    z = np.where(one_sided, np.maximum(z, 0.0), np.abs(z))
+    gains = np.array([nothing.misfit - estimate.misfit for estimate in estimates])
+    by_chance = largest_by_chance(state, surveyed, draws, random)
+    # A law fitted without the cause has followed it: what comes near is refitted before it is judged.
+    least = float(np.quantile(by_chance, 1.0 - ALPHA_PER_STEP))
+    large = bool((state.variances > HIDES**2).any())
+    eligible = (z > NEAR * least) & (gains > NEAR * TWENTY_TIMES)
+    shortlist: dict[tuple, list[int]] = {}
+    for k in np.argsort(-np.where(eligible, gains, -np.inf)):
+        key = candidates[k].key
+        if eligible[k] and (key in shortlist or len(shortlist) < REFITS):
+            shortlist.setdefault(key, []).append(int(k))
+    # A discrepancy sized without an error of all phases may have taken it up whole.
+    taken_up = {k for k, one in enumerate(candidates) if large and one.cause.stage == CHANNEL}
+    for k in taken_up:
+        shortlist.setdefault(candidates[k].key, [k])
+    refits = []
+    odds: dict[int, float] = {}
+    for k in (k for starts in shortlist.values() for k in starts):
+        # Of a cause with shapes of its own, a fit that does not stand gives way to one from another start.
+        if any(candidates[j].key == candidates[k].key for j in odds):
+            continue
+        amplitude = estimates[k].amplitude * candidates[k].typical[0]
+        first = candidates[k].cause.parameters[0]
+        values = np.array([np.clip(amplitude, first.low, first.high), *candidates[k].values[1:]])
+        active = (*state.fitted.active, candidates[k].with_values(values))
+        after = settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
+        if k in taken_up:
+            after = min(after, afresh(state, active), key=lambda one: one.misfit)
+        taken = after.fitted.active[-1]
+        gain = state.misfit - after.misfit - of_shapes(after.fitted, taken, state.plain.observed)
+        if gain > TWENTY_TIMES:
+            own = of_taken(after, taken)
+            z[k] = max(z[k], abs(own.z))
+            if not _stands(state, after, taken, own):
+                continue
+            odds[k] = log_odds(taken, state.plain.observed, gain, own.std_error * float(taken.typical[0]))
+            if z[k] > least:
+                refits.append((gain, k, after))
+    if not refits:
+        return None
+    most = max(gain for gain, _, _ in refits)
+    as_good = [refit for refit in refits if most - refit[0] < TWENTY_TIMES]
+    _, k, after = max(as_good, key=lambda refit: odds[refit[1]])
+    rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
+    share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
+    if sum(share[j] for _, j, _ in as_good) < POSSIBLE:
+        return None
+    p_value = chance.tail(by_chance, float(z[k]))
+    return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k])
+
+
+def _stands(before: State, state: State, taken: Candidate, own: Estimate) -> bool:
+    """Whether a cause competes for the place of the next name: what does not takes no probability from one that does.
+
+    Its size is not zero. One with shapes of its own follows almost any structure: it must be carried by the whole
+    table, and its shapes must not be at the edge of what they may be.
+    """
+    if not taken.shaped:
+        return bool(abs(own.z) >= CONFIDENCE)
+    return not (taken.at_bounds or hangs_on(state, taken, before))
+
+
+def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate], Direction]:
+    """Candidates that are not taken yet and that the table can show, with their directions."""
+    taken = {candidate.key for candidate in state.fitted.active}
+    candidates = [
+        c for c in chance.catalogue_candidates(state.plain.observed, catalogue) if c.key not in taken
+    ]
+    if not candidates:
+        return [], Direction(np.zeros((state.model.along.size, 0)), np.zeros((0, 0)), np.zeros(0))
+    d = state.plain.noise.whiten(chance.candidate_directions(state.plain, state.fitted, candidates))
+    pointing = likelihood.directions(state.model, state.linear, d)
+    # A law that was fitted without a spring has followed it and leaves little of its direction: a fit with the spring
+    # decides. It may follow all of most others, as a shift may of an error of temperature.
+    fitted = [isinstance(c.place, str) or c.cause.name == "guide_stiffness" for c in candidates]
+    least = np.where(fitted, FOLLOWED, ABSORBED)
+    left, size = np.diag(pointing.own), (d**2).sum(axis=0)
+    seen = np.flatnonzero(left > least * np.maximum(size, 1e-300))
+    kept = Direction(pointing.cross[:, seen], pointing.own[np.ix_(seen, seen)], pointing.along[seen])
+    return [candidates[k] for k in seen], kept
+
+
+def largest_by_chance(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Vector:
+    """The largest score of a survey in tables without a cause.
+
+    Parameters
+    ----------
+    state : State
+        Where the survey was made.
+    surveyed : Survey
+        Whose candidates.
+    draws : int
+        How many tables.
+    random : Generator
+        Whence.
+
+    Returns
+    -------
+    ndarray (draws,)
+        Drawn.
+    """
+    correlation, _ = likelihood.correlation(state.model, surveyed.pointing, state.variances)
+    k = surveyed.one_sided.size
+    scores = Scores(np.zeros(k), np.ones(k), np.ones(k, bool), correlation)
+    return chance.largest_by_chance(scores, surveyed.one_sided, state.plain.noise.freedom, draws, random)
+
+
+def hangs_on(state: State, candidate: Candidate, before: State | None = None) -> list[str]:
+    """What must not be left out for a cause to be seen.
+
+    A cause with shapes of its own is judged by what it gains over a fit without it: its shapes make its size
+    uncertain long before they make it doubtful that there is one.
+
+    Parameters
+    ----------
+    state : State
+        With the cause.
+    candidate : Candidate
+        The cause.
+    before : State, optional
+        The fit without it, made here if not given.
+
+    Returns
+    -------
+    list of str
+        Isotherms, frequencies, specimens; best none.
+    """
+    observed = state.plain.observed
+    sign, carried = np.sign(candidate.values[0]), []
+    if candidate.shaped and before is None:
+        before = with_causes(state, tuple(one for one in state.fitted.active if one.key != candidate.key))
+    freedom = 2.0 * (len(candidate.values) - 1)
+    for name, label, words in _parts(observed):
+        for value in np.unique(label):
+            rows = np.flatnonzero(label != value)
+            rest = observed.subset(rows)
+            if not candidate.cause.rows(rest, candidate.place).any() or not _enough(rest, name):
+                continue
+            if before is not None and candidate.shaped:
+                lost = _misfit_of(before, rows) - _misfit_of(state, rows) - freedom < SURVIVES**2
+            else:
+                lost = sign * of_taken(state, candidate, rows).z < SURVIVES
+            if lost:
+                carried.append(words(value))
+    return carried
+
+
+def _misfit_of(state: State, rows: NDArray) -> float:
+    """-2 ln of the likelihood of some rows, as `State.misfit`: one step of law and causes, the sizes estimated anew."""
+    plain = Joint(state.plain.observed.subset(rows), state.plain.base, state.plain.noise.subset(rows))
+    linear = plain.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
+    found, start = of_rows(state.model.processes, plain, rows, state.variances)
+    law = linear.law.size + linear.scales.size
+    return (
+        linear.objective
+        - float(linear.gradient @ np.linalg.solve(linear.precision, linear.gradient))
+        + float(np.linalg.slogdet(linear.precision[:law, :law])[1])
+        + likelihood.estimate(likelihood.reduce(found, linear), start=start).misfit
+    )
+
+
+def _parts(observed: Observations) -> Iterator[tuple[str, NDArray, Callable[[Any], str]]]:
+    yield "isotherm", observed.isotherm, lambda t: f"{t:g} degC"
+    yield "frequency", observed.frequency, lambda f: f"{f:g} Hz"
+    yield "specimen", observed.specimen, lambda s: specimen_named(observed.names[s])
+
+
+def _enough(rest: Observations, name: str) -> bool:
+    """Whether what is left still is a table that can show a cause."""
+    left = {"isotherm": rest.isotherms.size, "frequency": rest.frequencies.size}
+    left["specimen"] = np.unique(rest.specimen).size
+    return left[name] > (0 if name == "specimen" else 1)

@@ -1,0 +1,1 @@
+"""What the numerical specimen shows of a law, and how a diagnosis extends it."""

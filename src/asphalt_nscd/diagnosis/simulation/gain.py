@@ -1,0 +1,264 @@
+"""What the numerical specimen shows of a law, and how far that is from the measurements."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from asphalt_nscd.diagnosis.model.joint import Fitted, Joint
+from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
+from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
+from asphalt_nscd.measurements.agreement import mean_relative_error
+
+ERRORS = ("mre_E_percent", "mre_phase_percent")  # of Table 4
+CLOSE = 0.01  # change of the objective at which a fit that is only compared with the tests ends
+Logarithm = NDArray[np.complex128]  # ln E* (n,)
+
+
+def simulated_by(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> NDArray[np.complex128]:
+    """How the numerical specimen shows a law.
+
+    Parameters
+    ----------
+    joint : Joint
+        Model of the table.
+    fitted : Fitted
+        Law, scales and causes.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        ln E*.
+    """
+    observed = joint.observed
+    law = joint.apparent(fitted.law, ())[0]
+    effect = np.log(specimen.apparent_modulus(observed.omega, law) / law)
+    return fitted.modelled + effect
+
+
+def with_burgers_laws(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logarithm:
+    """How the numerical specimen shows a Burgers law fitted at each temperature.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        ln E*.
+    """
+    return simulated_by(diagnosis.baseline_joint, diagnosis.baseline, specimen)
+
+
+def by_tests_alone(diagnosis: Diagnosis) -> Joint:
+    """The joint model whose noise is the scatter of single tests.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+
+    Returns
+    -------
+    Joint
+        Without what a laboratory adds.
+    """
+    return Joint(diagnosis.observed, diagnosis.ladder.joint.base, diagnosis.alone)
+
+
+def nearest(diagnosis: Diagnosis, fitted: Fitted, specimen: NumericalSpecimen) -> Logarithm:
+    """How the numerical specimen shows the law and the causes of a fit, as near to the tests as they come.
+
+    Beside what the laboratory adds and a discrepancy, a law that lacks a cause is far from the tests.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    fitted : Fitted
+        Law, scales and causes to start from.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        ln E*.
+    """
+    joint = by_tests_alone(diagnosis)
+    return simulated_by(joint, joint.fit(fitted.law, fitted.scales, fitted.active, CLOSE), specimen)
+
+
+def with_common_law(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logarithm:
+    """How the numerical specimen shows one law for all temperatures, without causes.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+
+    Returns
+    -------
+    ndarray of complex (n,)
+        ln E*.
+    """
+    return nearest(diagnosis, diagnosis.ladder.start, specimen)
+
+
+def _frame(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> pd.DataFrame:
+    observed = diagnosis.observed
+    return pd.DataFrame(
+        {
+            "specimen": np.array(observed.names)[observed.specimen],
+            "temperature_C": observed.temperature,
+            "frequency_Hz": observed.frequency,
+            "E_MPa": np.exp(logarithm.real) * 1e-6,
+            "phase_deg": np.degrees(logarithm.imag),
+        }
+    )
+
+
+def errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, dict[str, float]]:
+    """Mean relative errors by isotherm, as in Table 4, of the tests that were simulated.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    logarithm : ndarray of complex (n,)
+        ln E*; NaN where not simulated.
+
+    Returns
+    -------
+    dict of dict of float
+        In percent, by quantity and isotherm.
+    """
+    isotherm, there = diagnosis.observed.isotherm, ~np.isnan(logarithm)
+    simulated = _frame(diagnosis, logarithm).assign(temperature_C=isotherm)[there]
+    if simulated.empty:
+        return {name: {} for name in ERRORS}
+    scatter = float(np.degrees(diagnosis.noise.sigma[1]))
+    measured = _frame(diagnosis, diagnosis.observed.logarithm).assign(temperature_C=isotherm)[there]
+    found = mean_relative_error(measured, simulated, scatter)
+    by = [f"{t:g}" for t in found["temperature_C"]]
+    return {name: dict(zip(by, found[name].tolist(), strict=True)) for name in ERRORS}
+
+
+def _misses(diagnosis: Diagnosis, logarithm: Logarithm, rows: NDArray[np.bool_]) -> dict[str, float]:
+    """Mean relative errors of single tests, and the error over the scatter (root mean square), of some rows.
+
+    Not of averages over specimens, as in Table 4: these hide what is wrong with one specimen.
+    """
+    observed = diagnosis.observed.logarithm[rows]
+    left = observed - logarithm[rows]
+    sigma = diagnosis.noise.sigma
+    squares = np.concatenate([(left.real / sigma[0]) ** 2, (left.imag / sigma[1]) ** 2])
+    return {
+        "mre_E_percent": 100.0 * float(np.abs(np.expm1(-left.real)).mean()),
+        # A phase below its own scatter, of an elastic reference beam say, is nothing to divide by.
+        "mre_phase_percent": 100.0
+        * float(np.mean(np.abs(left.imag) / np.maximum(np.abs(observed.imag), sigma[1]))),
+        "rms_over_scatter": float(np.sqrt(squares.mean())),
+    }
+
+
+def before_and_after(
+    diagnosis: Diagnosis, before: Logarithm, after: Logarithm, inner: bool = False
+) -> dict[str, Any]:
+    """Errors before and after: of single tests, and of averages over specimens at each temperature.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    before, after : ndarray of complex (n,)
+        ln E*.
+    inner : bool
+        Single tests at the temperatures between others only; an isotherm at an end, left out, is
+        extrapolated, which tells of the law's end and of no cause.
+
+    Returns
+    -------
+    dict
+        As diagnosis.json has it.
+    """
+    temperature = diagnosis.observed.isotherm
+    rows = np.full(temperature.size, True)
+    if inner:
+        rows = (temperature > temperature.min()) & (temperature < temperature.max())
+    first, second = _misses(diagnosis, before, rows), _misses(diagnosis, after, rows)
+    pair: dict[str, Any] = {name: {"before": first[name], "after": second[name]} for name in first}
+    pair["averages_by_temperature"] = averages(diagnosis, before, after)
+    return pair
+
+
+def averages(
+    diagnosis: Diagnosis, before: Logarithm, after: Logarithm
+) -> dict[str, dict[str, dict[str, float]]]:
+    """Errors before and after by temperature, as in Table 4, of the conditions that hold both.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    before, after : ndarray of complex (n,)
+        ln E*; NaN where not simulated.
+
+    Returns
+    -------
+    dict
+        By temperature, quantity, before and after [%].
+    """
+    before, after = np.where(np.isnan(after), after, before), np.where(np.isnan(before), before, after)
+    first, second = (errors(diagnosis, logarithm) for logarithm in (before, after))
+    return {
+        t: {name: {"before": first[name][t], "after": second[name][t]} for name in first}
+        for t in first["mre_E_percent"]
+    }
+
+
+def residual_table(
+    diagnosis: Diagnosis, specimen: NumericalSpecimen, before: Logarithm | None = None
+) -> pd.DataFrame:
+    """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated).
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Of the tests.
+    specimen : NumericalSpecimen
+        Numerical specimen.
+    before : ndarray of complex (n,), optional
+        ln E* of a simulation as it was (NaN: not simulated); else with a Burgers law fitted at each
+        temperature.
+
+    Returns
+    -------
+    DataFrame
+        Content of residuals.csv.
+    """
+    observed, ladder = diagnosis.observed, diagnosis.ladder
+    frame = _frame(diagnosis, observed.logarithm)
+    if before is None:
+        before = with_burgers_laws(diagnosis, specimen)
+    for name, simulated in (
+        ("before", before),
+        ("after", nearest(diagnosis, ladder.fitted, specimen)),
+    ):
+        left = observed.logarithm - simulated
+        frame[f"E_{name}_MPa"] = np.exp(simulated.real) * 1e-6
+        frame[f"phase_{name}_deg"] = np.degrees(simulated.imag)
+        frame[f"residual_E_{name}_percent"] = 100.0 * left.real
+        frame[f"residual_phase_{name}_deg"] = np.degrees(left.imag)
+    return frame

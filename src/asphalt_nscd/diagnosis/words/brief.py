@@ -1,0 +1,414 @@
+"""The answer of a diagnosis on one screen: what to use, what to correct, what to leave out, what to test next;
+then how far it goes.
+
+Rows of a label and sentences, for the terminal and for the head of the page; the reasons stand in `summary` and on the
+page.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from textwrap import wrap
+from typing import Any
+
+from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS
+from asphalt_nscd.diagnosis.next_tests.fixed_orders import band
+from asphalt_nscd.diagnosis.observed import quality
+from asphalt_nscd.diagnosis.screening import levels
+from asphalt_nscd.diagnosis.words import sentences, unexplained, verdict
+from asphalt_nscd.diagnosis.words.sentences import cause_words, doubtful, not_used, odd
+from asphalt_nscd.diagnosis.written import UNDETERMINED
+from asphalt_nscd.files.words import counted, joined, specimen_named
+from asphalt_nscd.measurements.campaign import OFF_TARGET
+from asphalt_nscd.measurements.kinds import UNKNOWN
+
+Content = Mapping[str, Any]
+Rows = list[tuple[str, list[str]]]
+
+WIDTH, LABEL = 100, 16  # columns of a terminal, and those of them for labels
+MOST = 4  # sentences of a row; a reader finds the others in the reasons
+PARTS = 2  # of what stays unexplained
+FEW = 6  # specimens that are named one by one
+MORE = "{} more: see the reasons."
+
+
+def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
+    """Label and sentences of each row, those with nothing to say left out.
+
+    left: as in `verdict.on_simulation`.
+    """
+    simulated = left is not None or verdict.bonded(content)
+    certain, possible = (_told(verdict.faults(content), content, wanted) for wanted in (True, False))
+    effects, likely = (_told(verdict.effects(content), content, wanted) for wanted in (True, False))
+    found: Rows = [
+        ("Tests", _tests(content)),
+        ("Note", _notes(content)),
+        ("Data", _data(content)),
+        ("Fault", certain or _no_fault(content, bool(possible), bool(effects))),
+        ("Possible fault", [*possible, *_not_taken_off(content, bool(possible))]),
+        ("Effect", effects),
+        ("Possible effect", likely),
+        ("Leave out", [*_few(_out(not_used(content))), *_if_kept(content)]),
+        ("Check first", [*_few(_check(content)), *_what_clears(content)]),
+        ("Next tests", _next(content)),
+        ("Not visible", unexplained.unseen(content)),
+        ("Scatter", _scatter(content)),
+        ("Simulation" if simulated else "Law", _law(content, left, simulated)),
+        ("Unexplained", _unexplained(content)),
+    ]
+    return [(label, said) for label, said in found if said]
+
+
+def text(content: Content) -> str:
+    """The rows as text of WIDTH columns."""
+    told, lines = rows(content), []
+    labels = [label for label, _ in told]
+    after_orders = labels[labels.index("Next tests") + 1 :][:1] if "Next tests" in labels else []
+    for label, said in told:
+        if label == "Next tests" or label in after_orders:
+            lines.append("")
+        for k, sentence in enumerate(said):
+            first = f"{label if k == 0 else '':{LABEL}}"
+            lines += wrap(
+                sentence,
+                WIDTH,
+                initial_indent=first,
+                subsequent_indent=" " * (LABEL + 3 * (label == "Next tests")),
+                break_long_words=False,
+                break_on_hyphens=False,
+            )
+    return "\n".join(lines)
+
+
+def sure(rung: Content) -> bool:
+    """Whether a cause is established; an older diagnosis does not say, and then it is."""
+    return bool(rung.get("established", True))
+
+
+def _told(rungs: list[Content], content: Content, certain: bool) -> list[str]:
+    """Named causes that are certain, or those that are not and improve the fit."""
+    return [
+        _fault(rung, content)
+        for rung in rungs
+        if sure(rung) == certain and (certain or not sentences.worsens(rung))
+    ]
+
+
+def _sentence(words: str) -> str:
+    return f"{words[:1].upper()}{words[1:]}".rstrip(".") + "."
+
+
+def _few(said: list[str]) -> list[str]:
+    """The first of many sentences, and how many more there are."""
+    return said if len(said) <= MOST else [*said[: MOST - 1], MORE.format(len(said) - MOST + 1)]
+
+
+def _tests(content: Content) -> list[str]:
+    read = content.get("reading")
+    if read is None:
+        return []
+    names = read["specimens"]
+    which = counted(len(names), "specimen")
+    if len(names) <= FEW:
+        which = f"specimen{'s' * (len(names) > 1)} {joined(names)}"
+    at = joined([f"{t:g}" for t in read["isotherms_C"]])
+    return [_sentence(f"{verdict.TESTS_OF[read['test_type']]}: {which} at {at} degC")]
+
+
+def _notes(content: Content) -> list[str]:
+    """What a reader must know before all else."""
+    read = content.get("reading", {})
+    said = [verdict.mixes(content), verdict.files(content)]
+    if read.get("test_type") == UNKNOWN:
+        said.append(
+            "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. "
+            "Say whether it was bending or tension-compression: by --measured-in, or in the menu of the page."
+        )
+    if read.get("off_target"):
+        said.append(
+            "All this takes the recorded temperatures for right. Some are off their target: see Check first."
+        )
+    if content.get("origin", "measured") != "measured":
+        said += sentences.origin(content)
+    if read.get("test_type") == "tension-compression" and not read.get("quality_columns", True):
+        said.append("There are no quality columns: tests are judged by modulus and phase alone.")
+    if read.get("not_tested"):
+        said.append(_sentence(f"not tested: {joined(read['not_tested'])}"))
+    return [one for one in said if one]
+
+
+def _data(content: Content) -> list[str]:
+    """How many tests can be used, how many only after a check, how many not."""
+    tests, out = content["tests"], len(not_used(content))
+    trust = content.get("trust", {"use": tests, "check": 0, "not_used": out})
+    everywhere = any(sure(rung) and rung["where"] is None for rung in verdict.faults(content))
+    corrected = " after correction" * (everywhere and trust["use"] > 0)
+    if not trust["check"] and not trust["not_used"]:
+        return [f"All {tests} tests can be used{corrected}."]
+    of = [name for name, count in trust.get("use_by_specimen", {}).items() if count]
+    alone = f" (of {specimen_named(of[0])} only)" if len(of) == 1 < len(trust["use_by_specimen"]) else ""
+    parts = [f"{trust['use'] or 'None'} of {tests + out} tests can be used{corrected}{alone}"]
+    at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)" if "check_at_C" in trust else ""
+    parts += [f"{trust['check']} only if a check clears them{at}"] * bool(trust["check"])
+    parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
+    side = "higher" if "higher" in content.get("one_sided", "") else "lower"
+    phases = [
+        f"Use their |E*| now. Most phases are {side} than |E*| requires: use them after the test on metal, less the "
+        "phase of metal."
+    ] * bool(content.get("one_sided"))
+    return [" ".join([f"{', '.join(parts)}.", *phases])]
+
+
+def _no_fault(content: Content, possible: bool, effects: bool) -> list[str]:
+    """That none is certain, and how many temperatures certainty lacks; effects: whether any of the mix is certain."""
+    odd = [
+        one
+        for key in ("odd_phases", "odd_temperatures", "contradictory_isotherms")
+        for one in content.get(key, [])
+    ]
+    checks = any("probability" in one for one in odd)
+    beside = ["what is to be checked first"] * checks + ["the effect below"] * effects
+    said = "None is certain" if possible else "None found" + f" beside {joined(beside)}" * bool(beside)
+    at = len(content.get("reading", {}).get("isotherms_C", []))
+    if 0 < at < LEAST_ISOTHERMS:
+        there = "is" if at == 1 else "are"
+        said += (
+            f", and none could be proved: that takes {LEAST_ISOTHERMS} temperatures, and there {there} {at}"
+        )
+    return [f"{said}."]
+
+
+def _fault(rung: Content, content: Content) -> str:
+    """A named cause: its size, where it is, what it or its sign means, what to do about it."""
+    size = sentences.size(rung, content)
+    everywhere = " in all tests" * (rung["where"] is None)
+    of_the_mix = rung["cause"] in verdict.OF_THE_MIX
+    meaning = _sentence(rung["sentence"]) if of_the_mix else sentences.meaning(rung).strip()
+    said = _sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}")
+    if not sure(rung):
+        meaning = f"If so, {meaning[:1].lower()}{meaning[1:]}" if meaning else ""
+    said = " ".join(filter(None, [said, meaning]))
+    if not sure(rung):
+        same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
+        if same:
+            others = joined(list(map(sentences.in_words, same)), "or")
+            return f"{said} Not certain: {others} fits as well.{_probability(rung)}"
+        said += _probability(rung)
+        return f"{said} law.json is corrected for it all the same." if _taken_off(rung, content) else said
+    if of_the_mix:
+        return f"{said} law.json is free of it." if _taken_off(rung, content) else said
+    correction = verdict.correction(rung)
+    return f"{said} Correction: {correction}." if correction else said
+
+
+def _probability(rung: Content) -> str:
+    """How likely a name is that is not certain."""
+    return f" Its probability is {sentences.probability(rung)}." if "probability" in rung else ""
+
+
+def _taken_off(rung: Content, content: Content) -> bool:
+    return "law_misses" in content and bool(rung.get("taken_off", True))
+
+
+def _not_taken_off(content: Content, possible: bool) -> list[str]:
+    """That law.json holds what is not certain, where no such cause was taken off."""
+    told = possible and "law_misses" in content
+    taken_off = any(_taken_off(rung, content) for rung in verdict.faults(content) if not sure(rung))
+    return (
+        ["The master curve in law.json is not corrected for possible faults."]
+        if told and not taken_off
+        else []
+    )
+
+
+def _if_kept(content: Content) -> list[str]:
+    """What would be named with the tests left out, where that is something else."""
+    changed = sentences.only_with_suspects(content)
+    return [f"{changed.rstrip('.')}, but they cannot be trusted."] if changed else []
+
+
+def _out(tests: list[Content]) -> list[str]:
+    """Why tests are doubtful, those of one isotherm with the same reasons in one sentence."""
+    alike: dict[tuple, list[Content]] = {}
+    for one in tests:
+        alike.setdefault((one["specimen"], one["temperature_C"], tuple(one["reasons"])), []).append(one)
+    return [
+        _sentence(
+            f"{specimen_named(specimen)}, {t:g} degC, {band(sorted({one['frequency_Hz'] for one in here}))}: "
+            f"{'; '.join(reasons)}"
+        )
+        for (specimen, t, reasons), here in alike.items()
+    ]
+
+
+def _check(content: Content) -> list[str]:
+    """What is doubtful, where, and what to check."""
+    read, tests = content.get("reading", {}), content["tests"] + len(not_used(content))
+    said = _contradictions(content.get("contradictory_isotherms", []))
+    said += [
+        _sentence(
+            f"{specimen_named(one['specimen'])} at {one['temperature_C']:g} degC: measured at {one['measured_C']:g} "
+            f"degC, {abs(one['measured_C'] - one['temperature_C']):.2g} K off its target "
+            f"(AASHTO T 378 allows {OFF_TARGET:g} K). Look for a slip in the record, else test again"
+        )
+        for one in read.get("off_target", [])
+    ]
+    above = read.get("limits_exceeded", [])
+    for name, limit in quality.LIMITS.items():
+        here = [one for one in above if one["column"] == name]
+        of = [one["specimen"] for one in here]
+        most = max(map(of.count, of), default=0)
+        if 2 * len(here) >= tests or 2 * most * len(read.get("specimens", [])) >= tests > 0 < most:
+            said.append(
+                f"{limit.label.capitalize()} is above {limit.limit:g} {limit.unit} in "
+                f"{_where_exceeded(here, content)}. Check {limit.check}."
+            )
+    said += [_sentence(one) for one in levels.sentences(*odd(content))]
+    said += [_sentence(one) for one in levels.of_temperatures(content.get("odd_temperatures", []))]
+    return said + _out(doubtful(content))
+
+
+def _what_clears(content: Content) -> list[str]:
+    """The result of a check that makes doubtful tests usable."""
+    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
+    trust = content.get("trust", {"check": 0})
+    if not trust["check"]:
+        return []
+    if broken and trust.get("check_at_C") == broken:
+        return []
+    return [
+        f"Repeat {'any other' if broken else 'a'} doubtful test after the check. If both agree"
+        f"{_within_scatter(content)}, keep the old one, else use the new."
+    ]
+
+
+def _within_scatter(content: Content) -> str:
+    """Between two tests of one specimen, 95 % of the differences: 2.8 standard deviations (ISO 5725-6)."""
+    within = (content.get("repeatability") or {}).get("within")
+    if within is None:
+        return ""
+    return (
+        f" within {2.8 * within['E_percent']:.2g} % in |E*| and {2.8 * within['phase_deg']:.2g} deg in phase"
+    )
+
+
+def _where_exceeded(above: list[Content], content: Content) -> str:
+    """`all tests of specimens A and B and 3 of specimen C at 4 degC`; specimens were tested alike."""
+    specimens = content.get("reading", {}).get("specimens", [])
+    tests = content["tests"] + len(not_used(content))
+    places: dict[str, list[Content]] = {}
+    for one in above:
+        places.setdefault(one["specimen"], []).append(one)
+    whole = [name for name, at in places.items() if len(at) * len(specimens) == tests]
+    parts = []
+    if whole:
+        named = specimen_named(whole[0]) if len(whole) == 1 else f"specimens {joined(whole)}"
+        parts.append(f"all tests of {named}")
+    for name, at in places.items():
+        if name not in whole:
+            place = ""
+            if len({one["temperature_C"] for one in at}) == 1:
+                place = f" at {at[0]['temperature_C']:g} degC"
+                if len(at) < FEW:
+                    place += f" ({joined([f'{f:g}' for f in sorted(one['frequency_Hz'] for one in at)])} Hz)"
+            parts.append(f"{len(at)} {'' if parts else 'tests '}of {specimen_named(name)}{place}")
+    return ", in ".join(parts)
+
+
+def _contradictions(found: list[Content]) -> list[str]:
+    """Where isotherms contradict themselves most, what to check, and which tests to use then."""
+    again = "then test there again. If phase and slope then agree, use the new tests in place of the old."
+    turned = [one for one in found if "offset_deg" in one]
+    found = [one for one in found if one not in turned]
+    known = [one for one in found if "worst_deg" in one]
+    said = [
+        f"{one['temperature_C']:g} degC: |E*| and phase contradict each other. Check strain and machine, {again}"
+        for one in found
+        if one not in known  # of a file written before
+    ]
+    for side, here in (
+        ("higher", [one for one in known if one["worst_deg"] > 0.0]),
+        ("lower", [one for one in known if one["worst_deg"] <= 0.0]),
+    ):
+        if here:
+            at = joined([f"{one['temperature_C']:g}" for one in here])
+            most = joined([f"{abs(one['worst_deg']):.1f} deg (at {one['worst_Hz']:g} Hz)" for one in here])
+            said.append(
+                f"At {at} degC the phase is up to {most} {side} than |E*| requires (about 90 deg times the slope "
+                f"of log |E*| against log f). Check strain level, load control and gauges, {again}"
+            )
+    return said + [
+        f"{one['sentence']} Check the channels and their settings there, {again}" for one in turned
+    ]
+
+
+def _scatter(content: Content) -> list[str]:
+    found = content.get("repeatability") or {}
+    said = [
+        f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase"
+        for way, words in (
+            ("between", "between specimens"),
+            ("within", "within one specimen, after removing its mean deviation"),
+        )
+        if found.get(way) is not None
+    ]
+    return [f"Standard deviation {'; '.join(said)}."] if said else []
+
+
+def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) -> list[str]:
+    """What the law misses, of what it was made, and where not to use it."""
+    where = verdict.predicted_badly(content)
+    misses = content.get("law_misses")
+    law = "the law" if simulated or misses is None else "law.json"
+    warning = [f"Do not use {law} {where}."] if where else []
+    if simulated or misses is None:
+        return [" ".join([_sentence(verdict.on_simulation(content, left)), *warning])]
+    modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
+    title = next((one["title"] for one in content.get("laws", []) if one["taken"]), "2S2P1D")
+    whom = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
+    said = [
+        f"law.json, a {title} master curve, is off {whom} by {modulus} % in |E*| and {phase} % of the phase angle."
+    ]
+    if verdict.alone(content):
+        said.append("Without replicates nobody knows how much of that is scatter.")
+    named = [*verdict.faults(content), *verdict.effects(content)]
+    corrected = any(rung.get("taken_off", True) for rung in named)
+    out = levels.places(*odd(content))
+    doubtful = content.get("trust", {}).get("check", 0) and not out
+    but = " but those left out" * bool(not_used(content))
+    if corrected or out:
+        without = f" without {joined(out)}" if out else ""
+        among = ", doubtful ones too" * bool(doubtful)
+        said.append(f"It was fitted to the{' corrected' * corrected} tests{without}{among}.")
+    elif doubtful:
+        said.append(f"It was fitted to all tests{but}, doubtful ones too.")
+    said += [f"{note.split(';')[0]}." for note in content["notes"] if note.startswith(UNDETERMINED)]
+    return [" ".join([*said, *warning])]
+
+
+def _unexplained(content: Content) -> list[str]:
+    # An isotherm that contradicts itself is told under what to check first.
+    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
+    of_others = [one for one in content.get("discrepancy", []) if one["temperature_C"] not in broken]
+    told = sentences.more_than_scatter(content) and bool(of_others or not content.get("discrepancy"))
+    parts = unexplained.left({**content, "discrepancy": of_others})[:PARTS] if told else []
+    remarks = unexplained.remarks(content, PARTS) if parts and content.get("discrepancy") else []
+    off = "the common master curve is off by " if content.get("discrepancy") else ""
+    said = [f"Beyond scatter, {off}{part}" for part in parts if part not in remarks]
+    return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, [*said, *remarks])]
+
+
+def _next(content: Content) -> list[str]:
+    """The orders, numbered, each with its hours and purpose; none for data that no laboratory made."""
+    if "reconstructed" in content.get("origin", "measured"):
+        return []
+    orders = content.get("instructions", {"orders": []})["orders"]
+    said = []
+    for number, one in enumerate(orders, 1):
+        hours, act = one["text"].removesuffix(".").split(": ", 1)
+        act = re.sub(r"[\d.]+ to [\d.]+ Hz \(\d+ frequencies\)", "all frequencies", act)
+        why = f", {one['purpose']}" if one.get("purpose") else ""
+        cost = f" ({hours})" if one["hours"] > 0.0 else ""
+        said.append(f"{number}. {_sentence(f'{act}{why}{cost}')}")
+    return said

@@ -1,0 +1,338 @@
+"""What an order to the laboratory says: the tests, their hours, and what they would do for open questions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import ndtr
+
+from asphalt_nscd.diagnosis.causes._cause import Place
+from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
+from asphalt_nscd.diagnosis.criteria import USUAL_THRESHOLD
+from asphalt_nscd.diagnosis.model.joint import Candidate
+from asphalt_nscd.diagnosis.next_tests.fixed_orders import band, named
+from asphalt_nscd.diagnosis.next_tests.further_tests import Departure
+from asphalt_nscd.diagnosis.next_tests.information import Asked
+from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Sweep
+from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.words.sentences import an
+from asphalt_nscd.files.words import joined
+
+REASONS = 3
+NOTICEABLE = 15.0  # percent of cases
+CLEARER = 0.3  # standard errors
+CLEAR = 2.0 * float(np.log(1000.0))  # strength from which two causes are told apart: 1000 to 1
+
+
+@dataclass(frozen=True)
+class Open:
+    """An open question, and how a reader is told what the tests would do for it.
+
+    Parameters
+    ----------
+    kind : str
+        kept, metal, apart, repeat, level, linear or reach.
+    asked : Asked
+        The question, and the tests that count for it.
+    about : str
+        What it is about, in words.
+    other : str
+        What that is held against, in words.
+    candidate, rival : Candidate, optional
+        The causes that are meant, None where it is about a departure.
+    departure : Departure, optional
+        That it is about.
+    alike : bool
+        Whether the two causes fitted the tests equally well.
+    hidden : float
+        Strength that the tests done have less than the linear model says, for the law follows a large effect
+        further than a small one.
+    """
+
+    kind: str
+    asked: Asked
+    about: str
+    other: str = ""
+    candidate: Candidate | None = None
+    rival: Candidate | None = None
+    departure: Departure | None = None
+    alike: bool = False
+    hidden: float = 0.0
+
+    def at(self, order: Order) -> bool:
+        """Whether an order tests the departure that a question is about.
+
+        Parameters
+        ----------
+        order : Order
+            To the laboratory.
+
+        Returns
+        -------
+        bool
+            True at its specimen, isotherm and frequency.
+        """
+        one, sweep = self.departure, order.sweep
+        return (
+            one is not None
+            and (one.specimen is None or one.specimen in order.specimens)
+            and (one.isotherm is None or one.isotherm == sweep.temperature)
+            and (one.frequency is None or one.frequency in sweep.frequencies)
+        )
+
+    @property
+    def place(self) -> Place:
+        """Where the cause sits that it is about."""
+        return None if self.candidate is None else self.candidate.place
+
+
+@dataclass
+class Order:
+    """One order to the laboratory.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        The tests.
+    specimens : list of str
+        Their names.
+    hours : float
+        What it costs.
+    nats : float
+        What it is expected to tell.
+    helps : dict of int to tuple of float
+        Of each question that it helps, the strength before and after.
+    """
+
+    sweep: Sweep
+    specimens: list[str]
+    hours: float
+    nats: float
+    helps: dict[int, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Context:
+    """What an order stands in.
+
+    Parameters
+    ----------
+    later : bool
+        Others come before it.
+    checked : bool
+        A check of gauges is among them.
+    typed : bool
+        Somebody typed the tests in.
+    """
+
+    later: bool = False
+    checked: bool = False
+    typed: bool = True
+
+
+def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[str]:
+    """What the tests would do for the questions that they help most.
+
+    Parameters
+    ----------
+    order : Order
+        To the laboratory.
+    questions : sequence of Open
+        Open ones.
+    context : Context
+        What the order stands in.
+
+    Returns
+    -------
+    list of str
+        Sentences.
+    """
+    told = {
+        k: strengths
+        for k, strengths in order.helps.items()
+        if questions[k].kind not in ("repeat", "level", "linear")
+    }
+    helped = [questions[k] for k in order.helps]
+    here = f"{order.sweep.temperature:g} degC"
+    again = sorted(one.about for one in helped if one.kind == "repeat" and one.at(order))
+    found = []
+    if again:
+        several = len(again) > 1
+        # The order itself has named them.
+        whole = len(again) == len(order.specimens) * len(order.sweep.frequencies)
+        old = f"test{'s' * several}" if whole else f"reading{'s' * several} of {joined(again)}"
+        look = "Look for a typing error in the record first: the" if context.typed else "The"
+        found.append(
+            f"{look} old {old} contradict{'s' * (not several)} the other frequencies at {here}."
+            + " Check gauges and mounting before." * context.checked
+            + " If the new test agrees with the other frequencies, use the new test."
+        )
+    found += [
+        f"{one.about[:1].upper()}{one.about[1:]}. If the new {one.other}, the machine, the temperature, the "
+        "dimensions or the mounting was at fault: use the new tests."
+        for one in helped
+        if one.kind == "level" and one.at(order)
+    ]
+    found += [
+        f"What stays unexplained at {here} ({one.other}) should fall to about half if the mix is not linear. If the "
+        "machine is at fault, it should stay or grow."
+        for one in helped
+        if one.kind == "linear" and one.at(order) and order.sweep.half_strain
+    ]
+    found += [_reason(questions[k], *told[k]) for k in told if questions[k].kind != "reach"]
+    found += _within_reach([(questions[k], *told[k]) for k in told if questions[k].kind == "reach"], context)
+    return [reason for reason in found if reason][:REASONS]
+
+
+def purpose(order: Order, questions: Sequence[Open]) -> str:
+    """What an order is for, in a few words, without its first reason's numbers.
+
+    Parameters
+    ----------
+    order : Order
+        To the laboratory.
+    questions : sequence of Open
+        Open ones.
+
+    Returns
+    -------
+    str
+        "to ...".
+    """
+    helped = [questions[k] for k in order.helps]
+    here = f"{order.sweep.temperature:g} degC"
+    again = [one.departure.frequency for one in helped if one.kind == "repeat" and one.departure]
+    for kind, words in (
+        ("repeat", f"because the old result at {_frequencies(again)} contradicts the other frequencies"),
+        ("level", "to see whether the odd result repeats itself"),
+        ("linear", f"to see whether the mix is linear at {here}"),
+        ("metal", "to confirm the {about}: metal must then show {other}, and 0 deg if there is none"),
+        ("kept", "to confirm the {about}"),
+        ("apart", "to confirm the {about}: {other} would look much the same"),
+        ("reach", "to see whether there is {about}"),
+    ):
+        for one in helped:
+            if one.kind != kind or (kind == "linear" and not (order.sweep.half_strain and one.at(order))):
+                continue
+            at = [c.place for c in (one.candidate, one.rival) if c and c.cause.name == TemperatureBias.name]
+            if kind == "apart" and len(at) == 2:
+                return f"to decide whether the temperature was wrong at {at[0]:g} or at {at[1]:g} degC"
+            if kind == "reach" and at:
+                return f"to see an error of {one.other} in the temperature of any isotherm"
+            alike = [other.place for other in helped if (other.kind, other.about) == (kind, one.about)]
+            other = an(one.other) if kind == "apart" else one.other
+            return words.format(about=one.about.split(" (")[0], other=other) + (
+                _places(alike) if kind == "reach" else ""
+            )
+    return ""
+
+
+def _upper(words: str) -> str:
+    """With a capital first; units keep theirs."""
+    return f"{words[:1].upper()}{words[1:]}"
+
+
+def _frequencies(tested: Iterable[float | None]) -> str:
+    """`10 and 25 Hz`."""
+    return f"{joined([f'{f:g}' for f in sorted({f for f in tested if f is not None})])} Hz"
+
+
+def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context) -> list[str]:
+    """A sentence for each cause that the tests bring within reach, its isotherms or specimens together."""
+    causes: dict[str, list[tuple[Place, float, float]]] = {}
+    for one, *strengths in helped:
+        before, after = (
+            100.0 * float(ndtr(np.sqrt(max(strength - one.hidden, 0.0)) - USUAL_THRESHOLD))
+            for strength in strengths
+        )
+        if after - before >= NOTICEABLE:
+            causes.setdefault(one.about, []).append((one.place, before, after))
+    without = "with only the steps above" if context.later else "without it"
+    return [
+        f"If there is {about}{_places([place for place, _, _ in found])}, this test finds it with a chance of "
+        f"{_chances([after for _, _, after in found])}; {without} the chance is "
+        f"{_chances([before for _, before, _ in found])}{_depending([place for place, _, _ in found])}."
+        for about, found in causes.items()
+    ]
+
+
+def _depending(places: Sequence[Place]) -> str:
+    """On what a range of chances depends; nothing for a cause at one place or none."""
+    if len(places) < 2:
+        return ""
+    return f", depending on the {'specimen' if isinstance(places[0], str) else 'temperature'}"
+
+
+def _places(places: Sequence[Place]) -> str:
+    """` at 4, 20 or 50 degC`, ` of specimen A or B`; nothing for a cause of all tests."""
+    temperatures = sorted(place for place in places if isinstance(place, float))
+    if temperatures:
+        return f" at {joined([f'{t:g}' for t in temperatures], 'or')} degC"
+    names = [place for place in places if isinstance(place, str)]
+    return f" of {joined(names, 'or')}" if names else ""
+
+
+def _chances(values: Sequence[float]) -> str:
+    least, most = f"{min(values):.0f}", f"{max(values):.0f}"
+    return f"{least} %" if least == most else f"{least} to {most} %"
+
+
+def _reason(one: Open, before: float, after: float) -> str:
+    if one.kind == "kept":
+        now, then = np.sqrt(before), np.sqrt(after)
+        if then - now < CLEARER:
+            return ""
+        return (
+            f"The {one.about} should then be found without {one.other} too, by {then:.1f} standard errors (now "
+            f"{now:.1f})."
+        )
+    if one.kind == "metal":
+        return f"Metal shows only what the machine adds. The {one.about} must show there as {one.other}."
+    if before >= CLEAR and not one.alike:
+        return ""
+    now = (
+        f"{_upper(an(one.other))} fits these tests as well as the {one.about}."
+        if one.alike
+        else f"{_upper(an(one.other))} would look much the same. These tests speak for the {one.about}, but not "
+        "beyond doubt."
+    )
+    return f"{now} This test should {'decide' if after >= CLEAR else 'make it clearer'}."
+
+
+def in_a_sentence(one: Order, done: Observations) -> str:
+    """An order in one sentence, its time first.
+
+    Parameters
+    ----------
+    one : Order
+        The order.
+    done : Observations
+        The tests there are.
+
+    Returns
+    -------
+    str
+        The sentence.
+    """
+    where = "" if one.sweep.specimen == METAL else f" at {one.sweep.temperature:g} degC"
+    half = ", at half the strain" if one.sweep.half_strain else ""
+    again = " again" if _all_tested(one, done) else ""
+    return (
+        f"{one.hours:.1f} h: test {named(one.specimens)}{again}{where}, {band(one.sweep.frequencies)}{half}."
+    )
+
+
+def _all_tested(one: Order, done: Observations) -> bool:
+    """Whether an order asks for tests that were all made."""
+    tested = {
+        (done.names[k], round(t, 6), round(f, 6))
+        for k, t, f in zip(done.specimen, done.isotherm, done.frequency, strict=True)
+    }
+    wanted = {
+        (name, round(one.sweep.temperature, 6), round(f, 6))
+        for name in one.specimens
+        for f in one.sweep.frequencies
+    }
+    return not one.sweep.half_strain and wanted <= tested

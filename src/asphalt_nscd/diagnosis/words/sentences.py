@@ -1,0 +1,338 @@
+"""What a diagnosis says in plain sentences, for the terminal and for the page alike.
+
+Units are written as on a terminal (degC, deg, +-); the page sets them in type.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
+from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
+from asphalt_nscd.diagnosis.written import (
+    CONFINED_TO,
+    interval_95,
+    name_at,
+    shown,
+    three_digits,
+    widening,
+    with_interval,
+)
+from asphalt_nscd.files.words import counted, joined, specimen_named
+
+Content = Mapping[str, Any]
+SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not None}
+BOUNDS = {
+    cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
+}
+ORIGINS = {
+    "measured": "No file says that the data are synthetic or reconstructed: they are taken for measurements.",
+    "digitised": "The data were read off figures; what is found may be an error of that reading.",
+    "reconstructed": (
+        "This diagnosis rests on reconstructed data. They are not measurements: they were drawn about one smooth "
+        "law fitted to the published Burgers parameters, so that a cause found here is one of this reconstruction."
+    ),
+    "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
+}
+LAW = "relaxation_spectrum"
+RANKED = "In this order: checks, doubtful tests again, then the tests that tell most per hour."
+ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
+WORSE = 1.05  # times the misfit without a cause, from which it is told that the cause does not help
+
+
+def odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Odd isotherms in |E*|, then odd isotherms and specimens in phase."""
+    return content.get("odd_levels", []), content.get("odd_phases", [])
+
+
+def not_used(content: Content) -> list[Content]:
+    """Suspect tests that the diagnosis left out."""
+    return [one for one in content.get("suspect_tests", []) if not one["used"]]
+
+
+def doubtful(content: Content) -> list[Content]:
+    """Suspect tests that the diagnosis used all the same."""
+    return [one for one in content.get("suspect_tests", []) if one["used"]]
+
+
+def with_suspects(content: Content) -> str:
+    """What the suspect tests would have changed, had they been used; empty where no test is left out."""
+    return _changed(content, "with_suspects", "If the tests left out were kept")
+
+
+def without_doubtful(content: Content) -> str:
+    """What is named without the doubtful tests that are used; empty where there are none."""
+    return (
+        _changed(content, "without_doubtful", "If the doubtful tests were left out")
+        if doubtful(content)
+        else ""
+    )
+
+
+def only_with_suspects(content: Content) -> str:
+    """What only the tests left out speak for, or against; empty where they change no name."""
+    return (
+        _changed(content, "with_suspects", "With these tests")
+        if any(_names_changed(content, "with_suspects"))
+        else ""
+    )
+
+
+def _names_changed(content: Content, key: str) -> tuple[list[str], list[str]]:
+    """Causes that another choice of tests would name, and those that it would not."""
+    then = content.get(key)
+    if then is None:
+        return [], []
+    now, other = _faults_then(content, then)
+    return [words for words in other if words not in now], [words for words in now if words not in other]
+
+
+def _faults_then(content: Content, then: Content) -> tuple[list[str], list[str]]:
+    """Causes named, and those that another choice of tests would name; a law is no fault."""
+    return (
+        [cause_words(rung) for rung in content["ladder"] if rung["cause"] not in (BOND_MAPPING, LAW)],
+        [cause_words(rung) for rung in then["causes"] if rung["cause"] != LAW],
+    )
+
+
+def _changed(content: Content, key: str, when: str) -> str:
+    """What another choice of tests would name; empty where there was none."""
+    then = content.get(key)
+    if then is None:
+        return ""
+    more, less = (joined(list(map(an, names))) for names in _names_changed(content, key))
+    kept = set.intersection(*map(set, _faults_then(content, then)))
+    changes = [f"{'also ' * bool(kept)}name {more}"] if more else []
+    changes += [f"no longer name {less}"] if less else []
+    return f"{when}, the diagnosis would {joined(changes) or 'name the same causes'}."
+
+
+def place_of_test(one: Content) -> str:
+    """`specimen 2, 30 degC, 10 Hz`."""
+    return f"{specimen_named(one['specimen'])}, {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
+
+
+def of_intervals(content: Content) -> str:
+    """What a size with +- says, where any is told; more than it says where the tests lie far from the fit."""
+    if not content["ladder"]:
+        return ""
+    factor = widened(content)
+    if factor == 1.0:
+        return "+- is the 95 % interval."
+    return (
+        f"+- is the 95 % interval. The tests lie {factor:.1f} times as far from the common master curve as their "
+        f"scatter explains, so it was widened {factor:.1f} times."
+    )
+
+
+def widened(content: Content) -> float:
+    """Factor on the intervals of a diagnosis."""
+    return widening(content.get("estimates_spread", 1.0))
+
+
+def origin(content: Content) -> list[str]:
+    """What the origin of the data means for a reader."""
+    stated = content.get("origin", "measured")
+    return [sentence for word, sentence in ORIGINS.items() if word in stated] or [f"The data are {stated}."]
+
+
+def law_of_the_mix(content: Content) -> tuple[str, str] | None:
+    """The relaxation spectrum with its shift, and how sure it is; none where no test asks for one."""
+    for rung in content["ladder"]:
+        if rung["cause"] == "relaxation_spectrum":
+            shift = _shift(rung, widened(content))
+            sure = _sure(rung, content)
+            return f"Time-temperature shift of the free master curve: {shift}".removesuffix(": "), sure
+    return None
+
+
+def _shift(rung: Content, factor: float) -> str:
+    """The constants of the shift with temperature, and at which temperature they hold; factor: on their intervals."""
+    found = rung["parameters"]
+    constants = [
+        f"{name.replace('_', ' ').replace('wlf ', 'WLF ')} {estimate(one, factor)}"
+        for name, one in found.items()
+        if name != "reference_temperature"
+    ]
+    if "reference_temperature" in found and constants:
+        constants.append(
+            f"reference temperature {three_digits(found['reference_temperature']['value'])} degC"
+        )
+    return ", ".join(constants)
+
+
+def causes(content: Content) -> list[tuple[str, str]]:
+    """Each named cause with its size; what its sign means, how sure the name is and what would confirm it."""
+    return [
+        (
+            f"{cause_words(rung)}: {size(rung, content)}".removesuffix(": "),
+            f"{meaning(rung)}{_sure(rung, content)}{_not_in_answer(rung)}{_to_confirm(rung)}",
+        )
+        for rung in content["ladder"]
+        if rung["cause"] != "relaxation_spectrum"
+    ]
+
+
+def _not_in_answer(rung: Content) -> str:
+    """Why the answer does not mention a cause."""
+    if rung.get("established", True) or not worsens(rung):
+        return ""
+    return " It is not in the answer above: if all tests count alike, they fit worse with it than without it."
+
+
+def _to_confirm(rung: Content) -> str:
+    """Only where the simulations do not show it by themselves."""
+    return "" if rung["cause"] == BOND_MAPPING else f" To confirm it: {rung['confirmed_by']}."
+
+
+def meaning(rung: Content) -> str:
+    """What the sign of the amplitude says; empty for a cause that has but one."""
+    if rung["cause"] not in SIGNS:
+        return ""
+    above, below = SIGNS[rung["cause"]]
+    return f"{above if next(iter(rung['parameters'].values()))['value'] > 0.0 else below} "
+
+
+def _sure(rung: Content, content: Content) -> str:
+    if rung["cause"] == BOND_MAPPING:
+        return f"Established: {rung['evidence']}."
+    chance = "below one in a million" if rung["p_value"] < 1e-6 else _per_cent(rung["p_value"])
+    likely = f", with a probability of {probability(rung)}" if "probability" in rung else ""
+    doubts = _doubts(rung, content)
+    if doubts:
+        first, *more = doubts
+        return f"Not certain: {'. '.join([first[:1].lower() + first[1:], *more])}."
+    if not rung.get("established", True):
+        return f"Not certain: {lacking(content)}."
+    if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
+        return f"Established{likely}. It stays whichever isotherm, frequency or specimen is left out."
+    if rung["cause"] != "relaxation_spectrum":
+        return f"Established{likely}: the chance that scatter alone produces it is {chance}."
+    if all(one["cause"] != BOND_MAPPING for one in content["ladder"]):
+        return ""  # the Burgers laws are those of the simulated paper
+    return (
+        "Established: a Burgers law at each temperature is not enough. The chance that scatter alone makes it miss by "
+        f"so much is {chance}."
+    )
+
+
+def _doubts(rung: Content, content: Content) -> list[str]:
+    """Why a name is not certain, a sentence each without its full stop."""
+    doubts = []
+    named = {name_at(one["cause"], one["where"]) for one in content["ladder"]}
+    also = [name for name in rung["as_good"] if name in named]
+    others = [name for name in rung["as_good"] if name not in named]
+    if others:
+        doubts.append(
+            f"{joined(list(map(in_words, others)), 'or')} fits as well; these tests do not say which"
+        )
+    if also:
+        doubts.append(f"{joined(list(map(in_words, also)))} would have fitted as well before both were named")
+    if rung.get("hangs_on"):
+        left_out = f"{joined(rung['hangs_on'], 'or')} is left out"
+        doubts.append(f"It is no longer found if {left_out}")
+    doubts += rung.get("doubts", [])
+    if rung.get("probability", 1.0) < NAMED:
+        doubts.append(f"Its probability is {probability(rung)}, and certainty takes {100.0 * NAMED:.0f} %")
+    isotherms = content.get("reading", {}).get("isotherms_C", [])
+    if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):
+        doubts.append(f"Besides, {lacking(content)}")
+    return doubts
+
+
+def probability(rung: Content) -> str:
+    """Of a name at its place; that another cause or none holds is the rest."""
+    return f"{100.0 * rung['probability']:.0f} %"
+
+
+def worsens(rung: Content) -> bool:
+    """Whether the tests, counted alike, fit worse with a cause than without it."""
+    fits = rung.get("gain", {}).get("in_sample", {}).get("rms_over_scatter")
+    return bool(fits) and fits["after"] > WORSE * fits["before"]
+
+
+def lacking(content: Content) -> str:
+    """What a table has too little of for a name to be certain."""
+    at = len(content.get("reading", {}).get("isotherms_C", []))
+    stated = content.get("provenance", {}).get("scatter_stated")
+    few = []
+    if 0 < at < LEAST_ISOTHERMS:
+        few.append(
+            f"only {counted(at, 'temperature')} {'was' if at == 1 else 'were'} tested, and certainty takes "
+            f"{LEAST_ISOTHERMS}"
+        )
+    if not (content.get("scatter", {}).get("from_replicates", True) or stated):
+        few.append("no condition was tested on a second specimen")
+    elif not content.get("tested", True):
+        few.append("only two frequencies were tested, and certainty takes 3")
+    return "; ".join(few) or f"certainty takes {ENOUGH}"
+
+
+def in_words(name: str) -> str:
+    """`temperature_bias @ 21.0` in words."""
+    cause, _, place = name.partition(" @ ")
+    if CONFINED_TO.get(cause) == "temperature_C":
+        return cause_words({"cause": cause, "where": float(place) if place else None})
+    return cause_words({"cause": cause, "where": place or None})
+
+
+def more_than_scatter(content: Content) -> bool:
+    """Whether the named causes leave structure, whatever the verdict says of their names."""
+    pattern = content["largest_pattern_left"]
+    chances = [content.get("lack_of_fit_p_value", 0.0), 1.0 if pattern is None else pattern["p_value"]]
+    return min(chances) <= 0.5 * ALPHA_PER_STEP
+
+
+def size(rung: Content, content: Content) -> str:
+    """Amplitude of a cause with its 95 % interval; empty where these tests do not give one."""
+    amplitude = next(iter(rung["parameters"].values()))
+    if amplitude["std_error"] is not None and amplitude["value"] in BOUNDS.get(rung["cause"], ()):
+        value, unit = shown(amplitude["value"], amplitude["unit"])
+        beyond = "more" if amplitude["value"] > 0.0 else "less"
+        return f"{three_digits(value)} {typed(unit)} or {beyond} (the search ends there)"
+    return estimate(amplitude, _factor(rung, content))
+
+
+def estimate(one: Content, factor: float = 1.0) -> str:
+    """A value with its 95 % interval, times a factor, and unit."""
+    value, unit = shown(one["value"], one["unit"])
+    if one["std_error"] is None:
+        return f"{three_digits(value)} {typed(unit)}".rstrip()
+    low, high = interval_95(one["value"], one["std_error"], factor)
+    told = one.get("interval_95") or (low, high)
+    if not np.isclose(sum(told), low + high, rtol=1e-6, atol=0.0):  # of the logarithm
+        ends = " to ".join(three_digits(shown(end, one["unit"])[0]) for end in told)
+        return f"{three_digits(value)} ({ends}) {typed(unit)}"
+    half = shown(0.5 * (high - low), one["unit"])[0]
+    return f"{with_interval(value, half)} {typed(unit)}".rstrip()
+
+
+def _factor(rung: Content, content: Content) -> float:
+    """On the intervals of a rung; no measurement widens what simulations show."""
+    return 1.0 if rung["cause"] == BOND_MAPPING else widened(content)
+
+
+def typed(unit: str) -> str:
+    """A unit as it is typed without a degree sign."""
+    return {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
+
+
+def cause_words(rung: Content) -> str:
+    """`temperature bias at 30 degC`, `loose clamp of specimen 2`."""
+    words, where = rung["cause"].replace("_", " "), rung["where"]
+    if where is None:
+        return words
+    return f"{words} of {specimen_named(where)}" if isinstance(where, str) else f"{words} at {where:g} degC"
+
+
+def an(words: str) -> str:
+    """The words with their article."""
+    return f"{'an' if words[0] in 'aeiou' else 'a'} {words}"
+
+
+def _per_cent(chance: float) -> str:
+    return f"{three_digits(float(f'{100.0 * chance:.1g}'))} %"

@@ -1,0 +1,101 @@
+"""A diagnosis as text: the answer on one screen, and its reasons."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from tabulate import tabulate
+
+from asphalt_nscd.diagnosis.words import brief, sentences, table_rows, unexplained, verdict
+
+Content = Mapping[str, Any]
+
+
+def answer(content: Content) -> str:
+    """What to use, what to correct, what to leave out, what to test next."""
+    told = brief.text(content)
+    return f"{told}\n\n{sentences.of_intervals(content)}" if "+-" in told else told
+
+
+def summary(content: Content) -> str:
+    """The answer, and the reasons, one part after another; parts with nothing to say are left out."""
+    read = content.get("reading", {"notes": []})
+    law, named = sentences.law_of_the_mix(content), sentences.causes(content)
+    simulated, two_laws = verdict.on_simulation(content), verdict.two_laws(content)
+    parts = [
+        ("", [answer(content)]),
+        ("Why tests are left out", _suspects(content)),
+        (
+            "Law of the mix",
+            [
+                *([verdict.TWO_LAWS] if two_laws else []),
+                f"{simulated[:1].upper()}{simulated[1:]}",
+                *two_laws,
+                *([f"{law[0]}. {law[1]}".rstrip()] if law else []),
+                *verdict.beyond_the_tests(content),
+            ],
+        ),
+        ("Causes", [*(f"{cause}. {sure}" for cause, sure in named), *_on_others(content)]),
+        ("What stays unexplained", _left(content)),
+        ("Why these tests next", _orders(content)),
+        ("Scatter", _scatter(content)),
+        ("Limits, stated and measured", _limits(content)),
+        ("Remarks", content["notes"]),
+        ("What was read", read["notes"]),
+    ]
+    return "\n\n".join(_part(title, lines) for title, lines in parts if lines)
+
+
+def _part(title: str, lines: Sequence[str]) -> str:
+    return "\n".join([*([title.upper()] if title else []), *lines])
+
+
+def _on_others(content: Content) -> list[str]:
+    """Of the causes that were not named."""
+    return list(filter(None, [unexplained.no_cause(content)]))
+
+
+def _suspects(content: Content) -> list[str]:
+    lines = []
+    for one in sentences.not_used(content):
+        where = sentences.place_of_test(one)
+        lines.append(f"{where[:1].upper()}{where[1:]}:")
+        lines += [f"  {reason}" for reason in one["reasons"]]
+    return lines + list(filter(None, [sentences.with_suspects(content), sentences.without_doubtful(content)]))
+
+
+def _left(content: Content) -> list[str]:
+    dropped = [sentences.in_words(name) for name in content["withdrawn"]]
+    left = unexplained.left(content)
+    left = [unexplained.OF_WHAT_IS_LEFT, *left] if content.get("discrepancy") else left
+    return left + ([f"Considered but not named, since too unsure: {', '.join(dropped)}."] if dropped else [])
+
+
+def _orders(content: Content) -> list[str]:
+    found = content.get("instructions", {"orders": []})
+    lines = []
+    for number, one in enumerate(found["orders"], 1):
+        lines += [f"{number}. {one['text']}", *(f"   {why}" for why in one["why"])]
+    return [*lines, f"{sentences.RANKED} {found['costs']}"] if lines else []
+
+
+def _limits(content: Content) -> list[str]:
+    rows = table_rows.measured_limits(content)
+    if not rows:
+        return []
+    return [
+        table_rows.LIMITS_STATED,
+        *tabulate(rows, table_rows.LIMITS_HEAD, disable_numparse=True).splitlines(),
+    ]
+
+
+def _scatter(content: Content) -> list[str]:
+    rows = table_rows.scatter_rows(content)
+    if not rows:
+        return []
+    table = tabulate(rows, table_rows.SCATTER_HEAD, disable_numparse=True)
+    return [
+        table_rows.SCATTER_CAPTION,
+        *table.splitlines(),
+    ]

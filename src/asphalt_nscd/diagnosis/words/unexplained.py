@@ -1,0 +1,125 @@
+"""What a diagnosis leaves unexplained, and what it could not have seen, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from asphalt_nscd.diagnosis.screening import levels
+from asphalt_nscd.diagnosis.words.sentences import Content, more_than_scatter, odd, typed
+from asphalt_nscd.diagnosis.written import shown, three_digits
+from asphalt_nscd.files.words import joined, specimen_named
+
+OF_WHAT_IS_LEFT = (
+    "The four largest misfits of the free master curve, scatter subtracted. residuals.csv has each test."
+)
+UNSEEN = {  # the commonest faults, whose limits everybody is told
+    "phase_offset": "A common phase offset",
+    "channel_delay": "A delay of all tests",
+    "temperature_bias": "A temperature error at one isotherm",
+    "strain_softening": "A softening with strain",
+}
+MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
+LARGEST = 4  # parts of what stays unexplained that are listed
+
+
+def no_cause(content: Content) -> str:
+    """That nothing was named, where nothing was."""
+    named = any(rung["cause"] != "relaxation_spectrum" for rung in content["ladder"])
+    return "" if named else "No cause is named."
+
+
+def unseen(content: Content) -> list[str]:
+    """How large the commonest faults may be without these tests showing them; empty where none was judged."""
+    named = {rung["cause"] for rung in content["ladder"]}
+    never = [one["cause"] for one in content["not_testable"]]
+    told = []
+    for cause, words in UNSEEN.items():
+        limit = content["detection_limits"].get(cause)
+        if limit and cause not in named:
+            told.append(f"{words} smaller than {_sizes(limit, content)}.")
+        elif cause in never:
+            told.append(f"{words}, of any size.")
+    return told
+
+
+def _sizes(limit: Content, content: Content) -> str:
+    """A limit, or that at each temperature where it depends on it."""
+    places = limit.get("places", {})
+    if not places:
+        return _size(limit["value"], limit["unit"])
+    sizes = [f"{_size(places[at], limit['unit'])} at {float(at):g} degC" for at in sorted(places, key=float)]
+    tested = content.get("reading", {}).get("isotherms_C", [])
+    never = [f"{t:g}" for t in tested if t not in map(float, places)]
+    return joined(sizes) + (f", and of any size at {joined(never)} degC" if never else "")
+
+
+def _size(value: float, unit: str) -> str:
+    size, name = shown(value, unit)
+    return f"{size:.2g} {typed(name)}"
+
+
+def left(content: Content) -> list[str]:
+    """What no cause explains, largest first, in percent of |E*| or degrees of phase."""
+    parts = sorted(content.get("discrepancy", []), key=lambda one: -one["size"])[:LARGEST]
+    if parts:
+        return [*(_part_left(one, content) for one in parts), *remarks(content)]
+    pattern = content["largest_pattern_left"]
+    if content["verdict"] == "unexplained_structure" and pattern is not None and more_than_scatter(content):
+        if pattern["pattern"].count("slope over temperature") and _one_isotherm(content):
+            return _largest(content)
+        return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]
+    return []
+
+
+def remarks(content: Content, most: int = LARGEST) -> list[str]:
+    """On the sizes of what is left: what they include, and that few specimens do not tell which one is odd.
+
+    Of few specimens each has a large part in the common curve that it is compared with.
+    """
+    places = levels.places(*odd(content))
+    said = [f"These sizes include what is odd: {joined(places)}"] if places else []
+    specimens = len(content.get("reading", {}).get("specimens", []))
+    largest = sorted(content.get("discrepancy", []), key=lambda one: -one["size"])[:most]
+    if 1 < specimens < MANY_SPECIMENS and any(one["specimen"] is not None for one in largest):
+        said.append(f"{specimens} specimens are too few to tell which one is odd")
+    return said
+
+
+def _one_isotherm(content: Content) -> bool:
+    return len(content.get("reading", {}).get("isotherms_C", [])) == 1
+
+
+def _largest(content: Content) -> list[str]:
+    """The mean residual that is left over most, where a slope over temperature has no meaning."""
+    found = [one for one in content.get("unexplained", []) if "specimen" not in one][:1]
+    return [
+        f"{abs(one['residual_E_percent']):.1f} % in |E*| and {abs(one['residual_phase_deg']):.1f} deg in the phase at "
+        f"{one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
+        for one in found
+    ]
+
+
+def _part_left(one: Content, content: Content) -> str:
+    """One part of the discrepancy, its size first."""
+    size = size_left(one["part"], one["size"], content["scatter"])
+    if one["specimen"] is None:
+        t = one["temperature_C"]
+        return f"{size} of all tests" if t is None else f"{size} at {t:g} degC"
+    size = f"{size} of {specimen_named(one['specimen'])}"
+    if one["kind"] == "spectrum":
+        return f"{size}: its master curve has another shape than the common one"
+    whole = [odd["specimen"] for odd in content.get("odd_phases", []) if odd["temperature_C"] is None]
+    if one["part"] == "phase" and one["specimen"] in whole:
+        return f"{size}, most of it alike in all its tests"
+    return f"{size}, changing with frequency and temperature"
+
+
+def size_left(part: str, value: float, scatter: Mapping[str, float]) -> str:
+    """Size of a part of the discrepancy, "modulus", "phase" or "both"; value: in units of the scatter."""
+    if part == "phase":
+        return f"{_one_digit(value * scatter['phase_deg'])} deg in the phase"
+    return f"{_one_digit(value * scatter['modulus_percent'])} % in |E*|"
+
+
+def _one_digit(value: float) -> str:
+    return f"{value:.1f}" if value >= 0.1 else f"{value:.1g}"

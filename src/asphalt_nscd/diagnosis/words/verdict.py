@@ -1,0 +1,291 @@
+"""What the law or the simulation misses, where a law must not be used, and how to correct a fault."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL
+from asphalt_nscd.diagnosis.screening import levels
+from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
+from asphalt_nscd.diagnosis.words.sentences import (
+    Content,
+    an,
+    cause_words,
+    more_than_scatter,
+    not_used,
+    odd,
+)
+from asphalt_nscd.diagnosis.written import mean_averages, three_digits
+from asphalt_nscd.files.words import joined
+from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
+
+TESTS_OF = TEST_TYPES | {UNKNOWN: "tests of a kind that was not said"}
+OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to} | {
+    "relaxation_spectrum",
+    BOND_MAPPING,
+}
+SIMPLER = "one Burgers law for each temperature"
+COMMON = (
+    "the free master curve"  # everywhere the name of the law of the diagnosis; the other is called law.json
+)
+TWO_LAWS = (
+    f"Two laws are fitted. The diagnosis uses {COMMON}, a master curve of any smooth shape. law.json holds a law of "
+    "few parameters (2S2P1D unless --law says another) for use in other programs."
+)
+WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
+MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of
+
+
+def mixes(content: Content) -> str:
+    """What a reader must know first: specimens that are hardly of one mix; empty where they may be."""
+    spread = (content.get("repeatability") or {}).get("between")
+    if spread is None or spread["E_percent"] <= levels.ONE_MIX:
+        return ""
+    return (
+        f"Specimens scatter by {spread['E_percent']:.1f} % in |E*| and {spread['phase_deg']:.1f} deg in phase, more "
+        "than those of one mix do. If there are two mixes, diagnose each alone."
+    )
+
+
+def faults(content: Content) -> list[Content]:
+    """Named faults of the tests."""
+    return [rung for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
+
+
+def effects(content: Content) -> list[Content]:
+    """Named effects of the mix itself beside its relaxation: what it does while it is tested."""
+    return [
+        rung
+        for rung in content["ladder"]
+        if rung["cause"] in OF_THE_MIX - {"relaxation_spectrum", BOND_MAPPING}
+    ]
+
+
+def correction(rung: Content) -> str:
+    """What to do to the tests to be rid of a fault, where it is one number."""
+    value = next(iter(rung["parameters"].values()))["value"]
+    if rung["cause"] == "channel_delay":
+        return f"{_less(360.0 * value, 'deg per Hz')} the phase"
+    if rung["cause"] == "phase_offset":
+        return f"{_less(value, 'deg')} the phase"
+    if rung["cause"] == "specimen_geometry":
+        return f"if its dimensions prove wrong, divide its |E*| by {three_digits(1.0 + value)}"
+    if rung["cause"] == "temperature_bias":
+        return f"take {three_digits(rung['where'] + value)} degC as their temperature"
+    return ""
+
+
+def _less(value: float, unit: str) -> str:
+    way = ("subtract", "from") if value > 0.0 else ("add", "to")
+    return f"{way[0]} {three_digits(abs(value))} {unit} {way[1]}"
+
+
+def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:
+    """One sentence: what the simulation misses with the paper's laws, and with what was found.
+
+    left: errors in percent of "E" and "phase" that tests simulated with it have left; else those of the diagnosis.
+    """
+    ladder = content["ladder"]
+    if not ladder:
+        if content["verdict"] != "nothing_to_explain":
+            return f"{SIMPLER} leaves more than scatter, and no cause of the catalogue explains it."
+        if not content["tested"]:
+            return _cannot_judge(content)
+        holds = _holding(content)
+        return f"{SIMPLER} fits these tests to within their scatter{holds or '; nothing is left to explain'}."
+    first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
+    names = ("mre_E_percent", "mre_phase_percent")
+    missed = [last[name]["after"] for name in names] if left is None else [left["E"], left["phase"]]
+    written = three_digits if left is not None or bonded(content) else _two
+    before, after = (
+        [f"{written(error)} %" for error in errors]
+        for errors in ([first[name]["before"] for name in names], missed)
+    )
+    facets = ["facets for bonds"] if bonded(content) else []
+    found = joined([*facets, *(_noun(rung) for rung in ladder if rung["cause"] != BOND_MAPPING)])
+    simpler = "this simulation with the bonds of the paper" if facets else _first_law(content)
+    worse = _worse([first[name]["before"] for name in names], missed)
+    missed_by = _whom(content)
+    if facets or left is not None:
+        return (
+            f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} the "
+            f"simulation misses by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
+        )
+    spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in ladder)
+    law = COMMON if spectrum else simpler
+    found = joined([_noun(rung) for rung in ladder if rung["cause"] != "relaxation_spectrum"])
+    these = "this cause" if len(ladder) == 1 else "these causes"
+    without = f" Without {these} it misses by {before[0]} and {before[1]}."
+    return (
+        f"{law}{f', fitted together with {found},' * bool(found)} misses {missed_by} by {after[0]} in |E*| and "
+        f"{after[1]} in the phase, {_beyond_bonds(content)}.{without * (law == simpler)}{worse}"
+    )
+
+
+def two_laws(content: Content) -> list[str]:
+    """Where both are fitted, what the free master curve and law.json are, and why they miss by different amounts."""
+    misses = content.get("law_misses")
+    spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in content["ladder"])
+    if misses is None or not spectrum or bonded(content):
+        return []
+    kept = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung.get("taken_off", True)]
+    them = "is not certain, so law.json is not corrected for it" if len(kept) == 1 else ""
+    them = them or "are not certain, so law.json is not corrected for them"
+    doubtful = f" {joined(kept).capitalize()} {them}." if kept else ""
+    out = levels.places(*odd(content))
+    fewer = f", those of law.json without {joined(out)}" if out else ""
+    neither = " Tests left out are in neither." * bool(not_used(content))
+    return [
+        f"law.json misses {_whom(content)} by {misses['mre_E_percent']:.2g} % in |E*| and "
+        f"{misses['mre_phase_percent']:.2g} % in the phase.{doubtful}",
+        "The two weigh the tests differently. For law.json all tests count alike, |E*| as much as the phase. For "
+        f"{COMMON} a test counts less the more it scatters, and a temperature or a specimen that no master curve fits "
+        f"counts little. All these misfits are means over the temperatures{fewer}.{neither}",
+    ]
+
+
+def _whom(content: Content) -> str:
+    """What a law is held against."""
+    return "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
+
+
+def _noun(rung: Content) -> str:
+    """A named cause as a thing that tests show."""
+    words = cause_words(rung)
+    return an(words.replace("specimen geometry", "error of the dimensions") if rung["where"] else words)
+
+
+def bonded(content: Content) -> bool:
+    """Whether simulations took part, whose bonds come first among what they missed."""
+    return any(rung["cause"] == BOND_MAPPING for rung in content["ladder"])
+
+
+def _first_law(content: Content) -> str:
+    """The law that the first rung begins with: of too few tests no spectrum is told, but causes rest on one."""
+    rung = content["ladder"][0]
+    if rung["cause"] == "relaxation_spectrum":
+        return SIMPLER
+    first = mean_averages(rung["gain"]["in_sample"])["mre_E_percent"]["before"]
+    burgers = list(content["baseline"]["mre_E_percent"].values())
+    return SIMPLER if abs(first - sum(burgers) / len(burgers)) < 1e-3 * first else COMMON
+
+
+def _holding(content: Content) -> str:
+    """What a scatter holds that is none: it is larger by that, and hides as much."""
+    places = levels.places(*odd(content))
+    if not places:
+        return ""
+    are = "is" if len(places) == 1 else "are"
+    return f", but that scatter includes {joined(places)}, which {are} odd"
+
+
+def _worse(before: Sequence[float], after: Sequence[float]) -> str:
+    """A warning where a law with fewer parameters misses what it was made for by more."""
+    worse = [
+        part
+        for part, was, now in zip(("|E*|", "the phase"), before, after, strict=True)
+        if now > max(WORSE * was, was + AT_ALL)
+    ]
+    return f" That is more than before in {joined(worse)}: do not use this law." if worse else ""
+
+
+def _cannot_judge(content: Content) -> str:
+    """Why tests without a finding do not say that the simulation is right, and what to add."""
+    if content["scatter"]["from_replicates"] or content["provenance"].get("scatter_stated"):
+        return (
+            "Two frequencies cannot judge a law: a Burgers law fits them exactly, whatever is wrong. Test at "
+            "three frequencies or more."
+        )
+    alone = len(content.get("reading", {}).get("specimens", [])) == 1
+    lacking = "One specimen" if alone else "Specimens without a common temperature and frequency"
+    add = "Test a second one at the same conditions" if alone else "Test two at the same conditions"
+    return (
+        f"{lacking} cannot judge a law: nothing was found, but the scatter from test to test is not known. "
+        f"{add}, or state the scatter."
+    )
+
+
+def _beyond_bonds(content: Content) -> str:
+    """Whether more than scatter is left, once what the simulated bonds add to their law is taken off."""
+    if not content["tested"] and alone(content):
+        return "and nobody knows how much of that is scatter"
+    fits = content["verdict"] == "explained" or not more_than_scatter(content)
+    named = [rung for rung in content["ladder"] if rung["cause"] not in ("relaxation_spectrum", BOND_MAPPING)]
+    sure = all(rung.get("established", True) for rung in named)
+    within = " within specimens" if content["scatter"]["from_replicates"] else ""
+    scatter = "no more than scatter can explain" if fits else f"more than scatter{within} can explain"
+    by = "" if sure or not fits else ", but not every cause is certain"
+    by += _holding(content) if fits else "" if named else ", and no cause was found"
+    bonds = content["numerics"]["largest_modulus_percent"]
+    if bonds <= content["scatter"]["modulus_percent"]:
+        return f"{scatter}{by}"
+    added = f"of which the simulated bonds add up to {bonds:.1f} % to |E*|"
+    return f"{added}; the rest is {scatter}{by}"
+
+
+def alone(content: Content) -> bool:
+    """Whether nothing tells the scatter: one specimen, and none was stated."""
+    return not content["scatter"]["from_replicates"] and not content["provenance"].get("scatter_stated")
+
+
+def _left_out(content: Content) -> tuple[dict[float, float], float] | None:
+    """Errors of |E*| in percent of each isotherm predicted from the others, and their mean between the two ends."""
+    rungs = content["ladder"]
+    gain = rungs[-1]["gain"].get("held_out", {}).get("leave_one_isotherm_out") if rungs else None
+    if gain is None:
+        return None
+    errors = {float(t): one["mre_E_percent"]["after"] for t, one in gain["averages_by_temperature"].items()}
+    return errors, mean_averages(gain, inner=True)["mre_E_percent"]["after"]
+
+
+def predicted_badly(content: Content) -> str:
+    """Where the law predicts temperatures that were left out of its fit badly, between others or beyond; else empty."""
+    found = _left_out(content)
+    if found is None:
+        return ""
+    errors, between = found
+    if between > POOR:
+        return "at temperatures that were not tested"
+    return "beyond the tested temperatures" if max(errors[min(errors)], errors[max(errors)]) > POOR else ""
+
+
+def beyond_the_tests(content: Content) -> list[str]:
+    """How far off the law is at temperatures left out of its fit, where that forbids to use it there."""
+    found = _left_out(content)
+    if found is None or not predicted_badly(content):
+        return []
+    errors, between = found
+    coldest, warmest = min(errors), max(errors)
+    inner = sorted({*errors} - {coldest, warmest})
+    between_them = f"at {inner[0]:g} degC" if len(inner) == 1 else "between them on average"
+    return [
+        f"Each temperature was also predicted from the others by {COMMON}. |E*| is then off by "
+        + ", ".join(
+            f"{_two(errors[t])} % at {t:g} degC{' (where these tests are doubtful)' * _wrong(t, content)}"
+            for t in (coldest, warmest)
+        )
+        + f" and {_two(between)} % {between_them}."
+    ]
+
+
+def _two(error: float) -> str:
+    return f"{float(f'{error:.2g}'):g}"
+
+
+def _wrong(temperature: float, content: Content) -> bool:
+    """Whether a cause is named at an isotherm, or the isotherm contradicts itself."""
+    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
+    return temperature in [*broken, *(rung.get("where") for rung in content["ladder"])]
+
+
+def predicts_badly(gain: dict[str, Any], inner: bool) -> bool:
+    """Whether what is left out is predicted much worse than before, which may have seen it; inner: between others."""
+    found = mean_averages(gain, inner)
+    return any(errors["after"] > max(MUCH_WORSE * errors["before"], POOR) for errors in found.values())
+
+
+def files(content: Content) -> str:
+    """Which files of a folder gave no test; empty where all did."""
+    return " ".join(content.get("reading", {}).get("files_without_tests", []))
