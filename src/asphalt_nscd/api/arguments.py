@@ -75,10 +75,12 @@ def _require(called: str, value: Any, annotation: Any, names: Mapping[str, Any])
     # "tuple[float, float] | None" is two kinds; what stands in brackets is one.
     kinds = re.split(r" \| (?![^\[]*\])", annotation) if isinstance(annotation, str) else ["Any"]
     known = [found for kind in kinds if (found := _kind(kind, names))]
+    # One kind that is not known may be the right one: nothing is refused.
     if len(known) < len(kinds):
         return
     if not any(_fits(value, kind, names) for kind in kinds):
         words = [word for _, word in known if word]
+        # Any text may be a path, so one of the two words says it.
         if "a path" in words and "text" in words:
             words.remove("text")
         raise InputError(f"{called} = {short(value)} ({type(value).__name__}); give {' or '.join(words)}.")

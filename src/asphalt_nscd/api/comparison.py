@@ -105,6 +105,7 @@ class Comparison:
         made = {name: one.outcome.diagnosis for name, one in self.diagnoses.items()}
         parts = [
             master_curve(one, EN_12697_26[0]).assign(mix=name)
+            # A diagnosis read from files has left nothing to draw a curve from.
             for name, one in made.items()
             if one is not None
         ]
@@ -114,6 +115,7 @@ class Comparison:
 
 def _ranks(table: pd.DataFrame) -> tuple[list[int], list[int]]:
     """95 % interval of the rank of each row, 1 for the stiffest."""
+    # Intervals of |E*| are even on its logarithm, and 1.96 standard deviations to each side.
     size = np.log(table["E_high_MPa"] / table["E_low_MPa"]).to_numpy() / (2.0 * CONFIDENCE)
     # The same ranks at each call.
     random = np.random.default_rng(0)

@@ -77,6 +77,7 @@ def solve_contacts(
         if order == "nts" or np.shape(W) != (free.size, free.size):  # which is refused there
             return solve_normal_first(W, free, mu, tolerance)
         matrix = (
+            # Not every format of scipy can be indexed; this one can.
             sparse.csr_array(W)[place][:, place]
             if sparse.issparse(W)
             else np.asarray(W)[np.ix_(place, place)]

@@ -267,6 +267,7 @@ class Diagnosis:
             For a diagnosis that was read from files.
         """
         made, stated = self.outcome.diagnosis, self.content["provenance"]["scatter_stated"]
+        # Files hold the answer, not what it was computed from.
         if made is None:
             raise InputError("This diagnosis was read from files; diagnose the measurements again.")
         scatter = None if stated is None else (float(stated[0]), float(stated[1]))
@@ -383,6 +384,7 @@ _LADDER = [
 
 
 def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
+    # A cause gives its amplitude first (CONTRIBUTING.md).
     name, amplitude = next(iter(rung["parameters"].items()))
     inside = mean_averages(rung["gain"]["in_sample"])
     return {

@@ -115,6 +115,7 @@ def export(
     ...     print(export(law, f"{folder}/T15.csv", "csv", frequencies_Hz=(3.0, 40.0)))
     /.../T15.csv: 2 Prony terms at 15 degC, largest errors less than 1e-06 % of |E*| ...
     """
+    # By the ending, for a law is JSON and a result HDF5.
     if isinstance(law, Result) or Path(str(law)).suffix.lower() in (".h5", ".hdf5"):
         return _export_result(law, output, form)
     card, tested = settings.of_card(), (temperatures_C, frequencies_Hz)

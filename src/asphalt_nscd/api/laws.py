@@ -145,6 +145,7 @@ class Law:
             units: E_glassy_Pa, tau_s.
         """
         parsed = self._parsed
+        # The reference temperature is chosen, not fitted.
         names = [name for name in parsed.parameters if name != "reference_temperature_C"]
         return pd.DataFrame(
             {
@@ -336,6 +337,7 @@ def fit(table: Any, law: str = "2s2p1d", *, temperature_C: float | None = None, 
             )
         frame = pd.DataFrame(
             {
+                # By isotherm: a Burgers law is of one set temperature, and readings wander about it.
                 "temperature_C": observed.isotherm,
                 "frequency_Hz": observed.frequency,
                 "E_MPa": 1e-6 * np.abs(observed.modulus),

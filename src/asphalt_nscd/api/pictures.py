@@ -45,6 +45,7 @@ def drawing() -> Iterator[None]:
     try:
         yield
     except ModuleNotFoundError as missing:
+        # A note, so that the error keeps its kind and its traceback.
         missing.add_note("Figures need the extra: pip install 'asphalt-nscd[figures]'")
         raise
 

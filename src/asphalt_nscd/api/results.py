@@ -30,6 +30,7 @@ class Result:
 
     arrays: Mapping[str, np.ndarray]
     attributes: Mapping[str, Any]
+    # Not compared: two results with the same arrays are equal, wherever they came from.
     name: str = field(default="in memory", compare=False)
 
     @classmethod

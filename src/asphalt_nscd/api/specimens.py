@@ -144,6 +144,7 @@ class Packing(Spheres):
         >>> bool(abs(floor["force_z_N"].sum() / (2600 * 9.81 * 40 * np.pi / 6 * 0.008**3) + 1) < 0.01)  # their weight
         True
         """
+        # Files of other programs hold spheres alone.
         if "contacts/force" not in self.arrays:
             raise InputError("packing: it holds no forces; pour it here, or go on from it with `pour`.")
         bodies, force = self.arrays["contacts/bodies"], self.arrays["contacts/force"]
@@ -373,6 +374,7 @@ def read_packing(path: str | Path, *, unit: str | None = None, up: str = "z") ->
     [0.005, 0.005]
     """
     (arrays, attributes), notes = as_deposit(read_spheres(path), unit, up)
+    # One text: an attribute of the file is a number or text.
     return Packing(arrays, {**attributes, "notes": "\n".join(notes)}, Path(path).stem)
 
 

@@ -87,6 +87,7 @@ def command(
 
     vibration["stroke"] *= 1e-3
     fallen = Pouring(surfaces=Surfaces(**surfaces), vibration=Vibration(**vibration), **pouring)
+    # Half a minute without a word looks like a hang.
     if not is_compiled("granular.step"):
         click.echo("compiling the core, once for this version: half a minute", err=True)
     with _progress.bars("s") as progress:

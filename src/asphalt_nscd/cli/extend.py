@@ -16,6 +16,7 @@ class Test(click.ParamType):
     def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
         """A temperature [degC], a frequency [Hz] and a path of `T,f,file`."""
         try:
+            # At most twice, for a path may hold commas.
             temperature, frequency, path = value.split(",", 2)
             return float(temperature), float(frequency), Path(path)
         except ValueError:

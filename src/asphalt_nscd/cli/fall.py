@@ -57,6 +57,7 @@ def command(specimen: Path, law: Path, bonds: dict[str, Any], how: dict[str, Any
     from asphalt_nscd.rheology.laws_io import read_bond_law
     from asphalt_nscd.specimen.cutting import read_specimen
 
+    # An option of type Number gives a float.
     how |= {"height": 1e-3 * how["height"], "frames": round(how["frames"])}
     arrays, columns = fell(read_specimen(specimen), bond_law(read_bond_law(law)), Fall(**how), Bonds(**bonds))
     save(output, "fall", arrays, columns)

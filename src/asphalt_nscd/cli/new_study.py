@@ -10,6 +10,7 @@ from asphalt_nscd.table_import.quantities import MEASURED, SIEVES, spellings
 
 
 @click.command(
+    # A line of \b keeps click from filling the list below it into a paragraph.
     epilog=f"""Names of columns, whatever their case, blanks and dashes, with the unit behind, as
 in `|E*| [GPa]` or delta_rad:
 

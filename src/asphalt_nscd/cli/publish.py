@@ -29,5 +29,6 @@ def command(
     """Copy results that will be committed, with checksums, and fill their tables into documents."""
     from asphalt_nscd.reporting.publish import fill_blocks, publish
 
+    # Documents first: a block that is missing is refused before anything is copied.
     fill_blocks(documents, dict(block))
     publish(files, root, output)

@@ -15,6 +15,7 @@ def command(port: int, browser: bool) -> None:
 
         from asphalt_nscd.web.app import create_app
     except ModuleNotFoundError as error:
+        # Any other module that is missing is a fault of ours.
         if error.name not in ("flask", "werkzeug"):
             raise
         raise click.ClickException(

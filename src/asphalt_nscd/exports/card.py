@@ -84,6 +84,7 @@ class Settings:
     name: str = "ASPHALT"
 
     def __post_init__(self) -> None:
+        # Between these limits shear and bulk moduli are positive.
         if self.poisson is not None and not -1.0 < self.poisson < 0.5:
             raise InputError(
                 f"Poisson's ratio {self.poisson:g}: give a number greater than -1 and less than 0.5, "
@@ -248,6 +249,7 @@ class Card:
         if self.exact:
             if self.series.long_term == 0.0:
                 return " The law flows."
+            # 1.01 for rounding: such a series was given just this share.
             flows = self.series.long_term < 1.01 * LEAST_LONG_TERM * self.series.instantaneous
             return (
                 f" The law flows; {LEAST_LONG_TERM:g} of the instantaneous modulus stands for none."
@@ -295,6 +297,7 @@ def make_card(law: ExportedLaw, settings: Settings) -> Card:
     """
     low, high = law.reduced_band()
     chain = law.law.as_chain() if isinstance(law.law, Burgers) else law.law
+    # Without a spring in series the instantaneous modulus has no end, nor has a series of this kind.
     if isinstance(chain, KelvinChain) and chain.spring < float("inf"):
         series = of_chain(chain)
         if not series.moduli:

@@ -294,6 +294,7 @@ def law_of(
     kind = content.get("law") if isinstance(content, dict) else None
     known = [*ONE_TEMPERATURE, *LAWS]
     if kind not in known:
+        # Both files lie in the folder of a diagnosis.
         if isinstance(content, dict) and "ladder" in content:
             raise InputError(f"{path}: is a diagnosis; give the law.json beside it.")
         holds = "no law file, for it has no key 'law'" if kind is None else f"holds law {kind!r}"

@@ -119,6 +119,7 @@ def make_table(law: ExportedLaw) -> Table:
         at = np.repeat(celsius[defined], frequency.size)
         omega = np.tile(2.0 * np.pi * frequency, int(defined.sum()))
         half = law.uncertainty.half(law.law, omega, at)  # type: ignore[arg-type]
+        # A factor to either side, since the interval is of ln |E*|.
         spread[defined] = np.exp(half.real).reshape(-1, frequency.size)
     # From 70 degF, wherever the law has its own reference.
     log_shift = np.log10(factor / factor[TEMPERATURES_F.index(REFERENCE_F)])

@@ -29,6 +29,7 @@ def frame(card: Card) -> pd.DataFrame:
             "branch": range(len(moduli)),
             f"modulus_{units.stress}": [units.of(modulus) for modulus in moduli],
             **known,
+            # The long-term branch is a spring, which never relaxes.
             "relaxation_time_s": [float("inf"), *series.times],
             "share_of_instantaneous": [modulus / series.instantaneous for modulus in moduli],
         }

@@ -284,6 +284,7 @@ def read_csv(path: str | Path) -> Table:
     if not rows:
         raise unreadable(path, "the file is empty", "give a header line and one line for each row")
     header = rows[0][1]
+    # Excel writes semicolons where its decimals have commas.
     if len(header) == 1 and re.search("[;\t]", header[0]):
         raise InputError(f"{path}: columns are not separated by commas; {_AS_CSV}.")
     if len(set(header)) < len(header) or "" in header:

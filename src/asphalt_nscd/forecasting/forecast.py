@@ -152,6 +152,7 @@ class Forecast:
             Of ln|E*| and, imaginary, of the phase [rad].
         """
         parts = np.array([*self.deviation.values()]).reshape(-1, self.modulus.size)
+        # Twice the error of the model; the sizes of the doubts are about two standard deviations already.
         return np.sqrt((parts.real**2).sum(axis=0) + 4.0 * model.real**2) + 1j * np.sqrt(
             (parts.imag**2).sum(axis=0) + 4.0 * model.imag**2
         )
@@ -193,6 +194,7 @@ class Networks:
         for level in found:
             packing, contents = self._contents(level, seed)
             physics = physics_of(recipe, settings, level, last=level is found[-1])
+            # All that a map rests on: a doubt about the stones solves no finer level again.
             key = (
                 level.name,
                 level.smallest,
@@ -206,6 +208,7 @@ class Networks:
             if key not in self._maps:
                 self._maps[key] = level_map(contents, level, recipe.aggregate, bulk, physics)
             results.append(LevelResult(level, packing, contents.prism.radius.size, self._maps[key], bulk))
+            # Reuss, to which the lower bound of Hashin & Shtrikman falls where the matrix flows.
             bulk = 1.0 / (level.fraction / recipe.aggregate.bulk + (1.0 - level.fraction) / bulk)
         return tuple(results)
 
@@ -251,9 +254,11 @@ def forecast(
         made.append(networks.chain(recipe, settings, seed))
         runs.append(np.log(modulus_of(made[-1], recipe.aggregate, recipe.binder_modulus())))
     logs = np.array(runs)
+    # Of two numbers half the range is the standard deviation too.
     deviation = {"packing": _half_range(logs)} if len(seeds) > 1 else {}
     for k, (name, (doubted, chosen)) in enumerate(doubts.items()):
         progress("networks", len(seeds) + k, stages)
+        # In the same packing, so that a doubt holds nothing of the draw.
         levels = networks.chain(doubted, chosen, seeds[0])
         deviation[name] = np.log(modulus_of(levels, doubted.aggregate, doubted.binder_modulus())) - logs[0]
     progress("networks", stages, stages)
@@ -310,6 +315,7 @@ def _doubted(recipe: Recipe, settings: Settings) -> dict[str, tuple[Recipe, Sett
         ),
         "voids": (replace(recipe, voids=recipe.voids + DOUBTS["voids"]), settings),
     }
+    # What is switched off cannot be in doubt.
     unused = set() if settings.touching else {"film_factor", "skeleton_pressure"}
     unused |= set() if settings.voids else {"voids"}
     return {name: pair for name, pair in changed.items() if name not in unused}

@@ -92,6 +92,7 @@ def read_pairs(table: str | Path, recipe: Recipe) -> list[Pair]:
         refusal = TwoS2P1D.refusal(values)
         if refusal:
             raise rows.error(row, f"{refusal}; correct it.")
+        # The shift is never asked: all points are at the one temperature of the laws.
         laws[key] = TwoS2P1D(**values, shift=Arrhenius(150e3, UNSTATED))
     return [
         Pair(state, replace(recipe, name=state, binder=law, shifted=False), laws[state, "mix"])
@@ -308,6 +309,7 @@ def best_map(pairs: list[Pair]) -> np.ndarray:
 def _any_map(binder: np.ndarray) -> np.ndarray:
     """Terms (n, 35) of a Stieltjes function of the binder's modulus [Pa]."""
     x = binder[:, None]
+    # The constant in MPa, so that its weight is of the size of the others.
     return np.hstack([np.full_like(x, 1e6), x, x / (1.0 + x / ANY_MAP)])
 
 

@@ -54,7 +54,9 @@ def write_crate(files: Sequence[Path], root: Path, workflow: Path, provenance: P
         "Measurements, laws, simulated bending tests and their diagnosis; report.html shows them."
     )
     crate.license = crate.add(_work(crate, LICENCE, "MIT License"))
+    # When the results were made, not when they were packed.
     crate.datePublished = datetime.fromtimestamp(provenance.stat().st_mtime, UTC)
+    # No CWL: the library can make it of Galaxy's workflows alone, and refuses all others.
     main = crate.add_workflow(workflow, workflow.name, main=True, lang="snakemake", gen_cwl=False)
     main["name"], main["license"], main["citation"] = TITLE, LICENCE, {"@id": PAPER}
     main["version"] = made_by["git_commit"]

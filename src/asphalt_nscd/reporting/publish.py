@@ -32,6 +32,7 @@ def publish(files: Sequence[Path], root: Path, output: Path) -> None:
         with atomic_path(output / path.relative_to(root)) as temporary:
             shutil.copyfile(path, temporary)
     with atomic_path(output / CHECKSUMS) as temporary:
+        # As `sha256sum --check` reads it.
         temporary.write_text("".join(f"{_sum(path)}  {name}\n" for name, path in _published(output)))
 
 
@@ -51,6 +52,7 @@ def altered(folder: Path) -> list[str]:
     sums = folder / CHECKSUMS
     if not sums.is_file():
         return [f"{sums}: is missing"]
+    # Whatever bytes a damaged list holds, it is told as one.
     lines = [line.partition("  ") for line in sums.read_text(encoding="utf-8", errors="replace").splitlines()]
     listed = {name: digest for digest, _, name in lines}
     if "" in listed:

@@ -23,6 +23,7 @@ def by_rule(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataFram
         if not path.exists():
             continue
         job = _job(path)
+        # RULE.tsv, or a folder RULE with a file for each job.
         rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
         rows.append((rule, *(_number(job[key]) for key in ("s", "cpu_time", "max_rss"))))
     if not rows:

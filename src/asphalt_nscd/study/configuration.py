@@ -85,10 +85,12 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
         raise InputError(
             f"{source}: study {study['study']!r} is a folder of other results; give it another name."
         )
+    # Before the defaults, behind which nobody could tell what the user gave.
     _settle_origin(study, source)
     steps_given = {"time_step_s", "steps_per_cycle"} & set(study.get("test", {}))
     _fill(study, rules, rules)
     if "packings" in study["specimens"]:
+        # A default of pouring, and nothing is poured.
         del study["specimens"]["deposit"]
     _check(study, source)
     usual = usual_steps_per_cycle(study["test"]["type"])

@@ -130,6 +130,7 @@ def _check_measurements(study: Mapping[str, Any], source: str) -> None:
 
 def _check_reconstruction(study: Mapping[str, Any], source: str) -> None:
     """As many tests as a diagnosis needs, and a geometry for every specimen."""
+    # As `reconstruct` names its specimens.
     names = [str(number + 1) for number in range(study["measurements"]["reconstruct"]["specimens"])]
     frequencies = len(study["frequencies_Hz"])
     with _at(f"{source}: frequencies_Hz"):

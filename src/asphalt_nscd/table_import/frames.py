@@ -91,5 +91,6 @@ def _text(value: Any) -> str:
     if value is None or (isinstance(value, float | np.floating) and np.isnan(value)):
         return ""
     if isinstance(value, float | np.floating):
+        # The shortest text that gives the same number back.
         return repr(float(value))
     return " ".join(str(value).split())

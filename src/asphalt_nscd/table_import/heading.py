@@ -124,6 +124,7 @@ def read_heading(text: str) -> Heading:
     for name in (_tidy(stem) + unit, _tidy(stem + unit)):
         if at and Heading(name).is_result:
             return Heading(name, at)
+    # `|E*| 2` or `E* A`: a number or a single letter behind the name is a specimen.
     if trailing := _TRAILING.fullmatch(_tidy(stem)):
         heading = Heading(_tidy(trailing["name"]) + unit)
         if heading.is_result and SPECIMEN not in at:

@@ -131,6 +131,7 @@ def melted(cells: Cells) -> Cells:
     rows = []
     for columns in spread.values():
         said = [headings[next(iter(columns.values()))].at.get(key, "") for key in conditions]
+        # `0.5 Hz` in a heading may have a point above cells with decimal commas.
         texts = [
             text if key == SPECIMEN else like_below(text, below)
             for key, text in zip(conditions, said, strict=True)

@@ -65,6 +65,7 @@ def specimen_of(text: str, target: float | None) -> Name:
     tail = plain if match is None else plain[match.end() :]
     repeated = _REPEATED.search(tail) is not None
     stem = plain if match is None else plain[: match.start()]
+    # A name that is all remark, `Repeated`, stays a name.
     stem = _REPEATED.sub("", stem).strip("-_ ,") or plain
     temperature = None if match is None else f"{_degrees(match):.4g}"
     hyphened = match is not None and match[1] == "-"

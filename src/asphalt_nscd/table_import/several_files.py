@@ -216,6 +216,7 @@ def _require_alike(parts: list[Part]) -> None:
     sweeps: dict[tuple[str, ...], dict[int, dict[tuple[str, ...], str]]] = {}
     for place, part in enumerate(parts):
         moduli = part.read.table.columns.get("E_MPa", [])
+        # Forces and displacements have no modulus yet, and are not compared.
         for (specimen, temperature, *test), modulus in zip(_tests(part), moduli, strict=bool(moduli)):
             sweep = sweeps.setdefault((specimen, temperature), {}).setdefault(place, {})
             sweep[tuple(test)] = modulus

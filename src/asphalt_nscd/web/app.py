@@ -130,6 +130,7 @@ def create_app(token: str | None = None) -> Flask:
                 abort(400, f"{path.name}: two files have this name")
             one.save(path)
             desk.files.append(path)
+        # They were of the columns of other files.
         desk.choices = Choices()
         return _read(desk)
 
@@ -172,6 +173,7 @@ def create_app(token: str | None = None) -> Flask:
         # Only names that the job has listed, so that no name leads out of the folder.
         if desk.job is None or desk.job.state != "done" or name not in desk.job.result["files"]:
             abort(404, "no such file")
+        # One address for both: shown in the page's frame, or taken away.
         return send_from_directory(desk.output, name, as_attachment="download" in request.args)
 
     return app

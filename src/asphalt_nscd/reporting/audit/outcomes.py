@@ -225,6 +225,7 @@ def waveform(test: Record) -> Judgement:
     basis = np.column_stack([np.ones_like(angle), angle, np.cos(angle), np.sin(angle)])
     solution, *_ = np.linalg.lstsq(basis, force, rcond=None)
     left = force - basis @ solution
+    # Behind offset and drift come the two parts of the harmonic.
     share = 100.0 * float(np.abs(left).max() / np.hypot(*solution[2:]))
     return Judgement(
         "fig7",

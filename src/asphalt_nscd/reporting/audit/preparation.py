@@ -221,6 +221,7 @@ def bonds(readings: pd.DataFrame) -> Iterator[Judgement]:
         "conservative",
         said,
         "|E*| over that of the law with rmin",
+        # Open where another reading that may be theirs lies on the other side of one.
         LEFT_OPEN if said >= 1.0 > readings["expected"][readings["possible"]].min() else judged(said < 1.0),
         f"With rmin our specimen is {'less' if said < 1.0 else 'already more'} stiff than its law. The printed errors "
         f"allow other readings: {'; '.join(possible) or 'none'}. The mean radius of "

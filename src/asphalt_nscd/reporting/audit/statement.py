@@ -188,4 +188,5 @@ def told(statements: str | Path, judgements: Iterable[Judgement]) -> pd.DataFram
 
 
 def _rounded(value: object) -> object:
+    # Six digits, which another processor gives too.
     return float(f"{value:.6g}") if isinstance(value, float) else value

@@ -52,6 +52,7 @@ def draw(
     temperatures = sorted(set(before["temperature_C"]) | set(after["temperature_C"]))
     frequencies = np.unique(np.concatenate([before["frequency_Hz"], after["frequency_Hz"]]))
     figure, panels = style.new_figure(style.SINGLE, 165.0, rows=2, sharex=True, sharey=True)
+    # t=t keeps each temperature; without it all would have the last one of the loop.
     of_all: dict[float, Callable[..., np.ndarray]] = {
         t: lambda omega, t=t: spectrum.complex_modulus(omega, t) for t in temperatures
     }
@@ -72,6 +73,7 @@ def draw(
         style.frequency_axis(axes, frequencies)
         axes.set_ylabel(AXIS[COLUMN])
         style.letter(axes, panel, words)
+        # A shared axis takes the labels off the upper panel.
         axes.tick_params(labelbottom=True)
     panels[0].set_ylim(bottom=min(0.0, panels[0].get_ylim()[0]))
     point: dict[str, Any] = {"ls": "", "marker": "o", "color": style.INK}

@@ -82,6 +82,7 @@ def slow_deflection(model: Record) -> tuple[NDArray[np.float64], NDArray[np.floa
         tuple(model.arrays[f"operator/{name}"] for name in ("data", "indices", "indptr")), shape=shape
     )
     deflection = model.arrays["basis"][:, 0]
+    # The first of the three components of a bond is normal.
     normal = (model.arrays["weight"] * (operator @ deflection))[::3]
     bodies = deflection[: 6 * (deflection.size // 6)].reshape(-1, 6)
     return np.linalg.norm(bodies[:, :3], axis=1), normal / np.abs(normal).mean()
@@ -95,6 +96,7 @@ def _chains(axes: Axes, specimen: Record, force: NDArray[np.float64], colour: st
     shown = np.flatnonzero(near & (np.maximum(first, second) < len(position)) & (force > 0.0))
     shown = shown[np.argsort(force[shown])]
     ends = np.stack([position[first[shown]], position[second[shown]]], axis=1)
+    # As pixels, since a vector file would hold each of these lines.
     axes.add_collection(
         LineCollection(
             list(ends), linewidths=WIDTH * force[shown], colors=colour, capstyle="round", rasterized=True
@@ -123,6 +125,7 @@ def _distribution(axes: Axes, force: NDArray[np.float64]) -> None:
         (-force[force < 0.0], PUSHED, style.DASHES[1], "compression"),
     ):
         share = np.histogram(part, BINS)[0] / (force.size * np.diff(BINS))
+        # A logarithmic axis has no place for zero.
         axes.stairs(np.where(share > 0.0, share, np.nan), BINS, color=colour, ls=dash, label=text)
     axes.set_yscale("log")
     axes.set_xlim(BINS[0], BINS[-1])

@@ -71,6 +71,7 @@ def _panel(axes: Axes, cause: str, rows: dict[str, float], unit: str, found: dic
         if (cause, place) in found:
             estimate, error = (shown(part, unit)[0] for part in found[cause, place])
             axes.errorbar(
+                # A limit is of the size, whatever the sign.
                 abs(estimate),
                 row,
                 xerr=CONFIDENCE * error,

@@ -27,6 +27,7 @@ def draw(packing: list[Path]) -> Figure:
     Figure
         In the size of a journal column.
     """
+    # Tables of a study without facets lack the column.
     both = all("mapping" in read_csv(path).columns for path in packing)
     tests = read_tests(packing, numbers=["friction", "solid_fraction"], texts=["mapping"] if both else [])
     tests["facets"] = tests["mapping"] == "facets" if both else False

@@ -40,6 +40,7 @@ def draw(readings: list[Path], simulations: list[Path]) -> Figure:
     other["reading"] = "blocked"
     other.loc[other["law_source"] == "pascal", "reading"] = "pascal"
     used = read_tests(simulations, texts=["law_source"])
+    # The same sample alone, so that no packing is part of the difference.
     used = used[used["specimen"].isin(other["specimen"])]
     if used.empty:
         raise InputError("no simulation of the specimen of the readings; simulate it.")

@@ -95,6 +95,7 @@ def curves(
     """|E*| and phase against reduced frequency, and the Black diagram, with rivals and, if known, measurements."""
     figure, axes = style.new_figure(style.WIDE, 72.0, columns=3)
     reduced = points["frequency_Hz"] * found.recipe.binder.shift.factor(points["temperature_C"])
+    # Points come by temperature; a line is drawn along the reduced frequency.
     order = np.argsort(reduced.to_numpy())
     x = reduced.to_numpy()[order]
     frame, others = points.iloc[order], rivals.iloc[order]

@@ -52,5 +52,6 @@ def power(value: float, digits: int = 2) -> str:
     str
         For Matplotlib.
     """
+    # 1e-9: rounding must not take a power of ten below its own exponent.
     exponent = int(np.floor(np.log10(value) + 1e-9))
     return rf"${value / 10.0**exponent:.{digits}g}\times10^{{{exponent}}}$"

@@ -226,6 +226,7 @@ def label_ends(
     figure.draw_without_rendering()  # settles the size of the axes
     points = 72.0 / axes.figure.dpi
     at = np.array([axes.transData.transform((x, y))[1] for y in ends]) * points
+    # 8.5 points are a line of this text with its room.
     for y, text, colour, shift in zip(ends, texts, colours, separate(at.tolist(), 8.5) - at, strict=True):
         axes.annotate(
             text,
@@ -257,5 +258,6 @@ def separate(places: Sequence[float], least: float) -> np.ndarray:
     """
     wanted, steps = np.asarray(places, float), least * np.arange(len(places))
     order, result = np.argsort(wanted, kind="stable"), np.empty_like(wanted)
+    # Less the steps, "far enough apart" is "not falling", of which isotonic regression is the least-squares solution.
     result[order] = isotonic_regression(wanted[order] - steps).x + steps
     return result

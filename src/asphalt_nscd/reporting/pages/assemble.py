@@ -88,6 +88,7 @@ def _shown(entry: Entry, caption: Path, folder: Path) -> dict[str, Any]:
         "title": title,
         "caption": _html(text),
         "order": _order(title),
+        # Relative, so that the links hold wherever the folder is copied to.
         "sources": [(path.name, Path(os.path.relpath(path, folder)).as_posix()) for path in entry.sources],
     }
     if entry.path.suffix == ".png":

@@ -39,6 +39,7 @@ def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame) -> None:
     """Write the page: ranking, curves, and a link to the diagnosis of each mix beside it."""
     first = table.iloc[0]
     lines = [
+        # quote: the name of a mix stands within an attribute too.
         f"<tr><td><a href='{escape(row.mix, quote=True)}/diagnosis.html'>{escape(row.mix)}</a></td>"
         f"<td>{row.rank_low}{f' to {row.rank_high}' if row.rank_high > row.rank_low else ''}</td>"
         f"<td>{row.E_MPa:.0f}</td><td>{row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}</td>"

@@ -134,6 +134,7 @@ def sections(
         "specimens": specimen_plots.charts(causality, diagnosis),
         "origin": sentences.origin(content),
         "scatter": scatter(content),
+        # Table 4 is of the paper's mix: beside measurements of another it says nothing.
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
         "ladder": [
@@ -248,6 +249,7 @@ def _table4(paths: Sequence[Path]) -> list[list[str]]:
 def _rung(rung: dict[str, Any], last: bool, content: dict[str, Any]) -> dict[str, Any]:
     """A row of the ladder; after the last, whether the law may be used where nothing was tested."""
     gain = rung["gain"]
+    # How bonds carry the law is computed, and widened by no scatter of the tests.
     factor = 1.0 if rung["cause"] == BOND_MAPPING else sentences.widened(content)
     return {
         "cause": _cause(rung),

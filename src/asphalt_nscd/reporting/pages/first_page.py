@@ -88,6 +88,7 @@ def _lead(
     why = [f"{joined(sure)}: established"] if sure else []
     why += [f"{joined(unsure)}: likely, not certain"] if unsure else []
     said = in_type("; ".join(why))
+    # The scatter stands in the last row, below the rungs.
     last, scatter_of_one = gained[-2], gained[-1]
     act = in_type(orders[0]["text"]) if orders else ""
     invented = "reconstructed" in content.get("origin", "measured")
@@ -132,6 +133,7 @@ def _typed(value: Any) -> Any:
 
 def _frame(paths: Sequence[Path], name: str) -> pd.DataFrame:
     table = read_csv(the_only(paths, name))
+    # Only these: a specimen called 01 is no number.
     numbers = ("temperature_C", "frequency_Hz", "E_MPa", "phase_deg", "spheres", "bonds", "E_over_law")
     return pd.DataFrame(
         {name: table.numbers(name) if name in numbers else values for name, values in table.columns.items()}
@@ -163,6 +165,7 @@ def _simulated(tests: pd.DataFrame, samples: pd.DataFrame) -> list[str]:
 def _wrong(way: pd.DataFrame) -> list[str]:
     """What the campaign that the ladder begins with misses, how much of it is its law's, and what others printed."""
     rungs = list(dict.fromkeys(way["rung"]))
+    # As an index True is 1: the rung behind the likeliest reading, which one sample alone was tested by.
     likeliest = rungs[0] == LIKELIEST
     begin = way[way["rung"] == rungs[likeliest]]
     mean, worst = begin.mean(numeric_only=True), begin.set_index("temperature_C")

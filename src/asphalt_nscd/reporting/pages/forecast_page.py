@@ -58,6 +58,7 @@ def write_page(found: Forecast, folder: Path) -> Path:
 
 def _answer(found: Forecast, said: dict) -> list[str]:
     frame = written.points(found)
+    # One point for the first line: that of the middle modulus.
     middle = frame.iloc[int(np.argsort(frame["E_MPa"].to_numpy())[len(frame) // 2])]
     return [
         f"|E*| = {middle.E_MPa:.0f} MPa ({middle.E_low_MPa:.0f} to {middle.E_high_MPa:.0f}) and phase "

@@ -47,6 +47,7 @@ def _answer(content: dict[str, Any], title: str) -> Figure:
     lines = [*textwrap.wrap(title, CHARACTERS), "", *_asked_for(content["reported"]), ""]
     for label, sentences in rows(content):
         for n, sentence in enumerate(sentences):
+            # 16 characters at the left are for the label.
             wrapped = textwrap.wrap(sentence, CHARACTERS - 16) or [""]
             lines += [f"{label if n == k == 0 else '':<16}{line}" for k, line in enumerate(wrapped)]
     if len(lines) > LINES:
@@ -132,6 +133,7 @@ def _curves(tables: dict[str, pd.DataFrame], content: dict[str, Any]) -> Figure:
                         linewidth=0.7,
                         label=said or None,
                     )
+        # Readings of an isotherm differ by tenths, and share one entry of the legend.
         for temperature, those in used.groupby(used["temperature_C"].round()):
             axes.plot(
                 those["reduced_frequency_Hz"],
@@ -147,6 +149,7 @@ def _curves(tables: dict[str, pd.DataFrame], content: dict[str, Any]) -> Figure:
     black.plot(used["phase_deg"], used["E_MPa"], ".", markersize=4, color="C0")
     black.plot(curve["phase_deg"], curve["E_MPa"], color="black", linewidth=0.8)
     black.set(yscale="log", xlabel="phase [°]", ylabel="|E*| [MPa]")
+    # Its first row, at 15 degC and 10 Hz, stands on the page before.
     _grid_of_values(figure.add_subplot(grid[2, :]), tables["reported"].iloc[1:])
     for n, line in enumerate(textwrap.wrap(law_in_words(content), 130)):
         figure.text(0.06, 0.055 - 0.013 * n, line, size=7)

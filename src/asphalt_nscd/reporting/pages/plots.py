@@ -95,6 +95,7 @@ def law_chart(title: str, curve: Sequence[Path]) -> Chart:
             light, dark = looks[name]
             parts.append(f'<g style="--light:{light};--dark:{dark}">')
             if f"{column}_low_{unit}" in frame:
+                # Along the lower edge and back along the upper one.
                 low, high = (drawn.points(frame, f"{column}_{side}_{unit}") for side in ("low", "high"))
                 parts.append(f'<path class="band" d="M{_path([*low, *high[::-1]])}Z"/>')
             line = _path(drawn.points(frame, f"{column}_{unit}"))
@@ -177,6 +178,7 @@ def _map(tests: pd.DataFrame, means: pd.DataFrame, quantity: str, when: str) -> 
     every = []
     for row in means.sort_values(["temperature_C", "frequency_Hz"]).to_dict("records"):
         value = row[column]
+        # A condition that was not simulated has no error before.
         if pd.isna(value):
             continue
         own = tests[(tests[ISOTHERM] == row[ISOTHERM]) & (tests["frequency_Hz"] == row["frequency_Hz"])]

@@ -43,6 +43,7 @@ def write_page(folder: Path, title: str, said: str) -> Path:
         f'<tr><th scope="row">{escape(name)}</th><td>{escape(in_type(text.strip()))}</td></tr>'
         for name, _, text in lines
     )
+    # The heads of this table stand at its left, where those of page.css would stick to the top.
     content = f"""<!doctype html><html lang="en"><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1"><title>{escape(title)}</title>
 <style>{STYLE}th {{ position: static; vertical-align: top; }}</style><script>{SCRIPT}</script>

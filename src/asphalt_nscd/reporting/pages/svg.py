@@ -139,6 +139,7 @@ def key(specimen: object, isotherm: float, frequency: float) -> str:
 def test(at: tuple[float, float], words: str, key: str, look: str = "test") -> str:
     """A circle that says which test it is."""
     return (
+        # The title is the hint that a browser shows and what a screen reader says.
         f'<circle class="{look}" data-test="{escape(key)}" cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="4">'
         f"<title>{escape(words)}</title></circle>"
     )

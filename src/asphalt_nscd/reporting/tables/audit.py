@@ -55,6 +55,7 @@ def make(results: Results) -> pd.DataFrame:
     """One row for each statement of the paper: what it says, what we find, and what would have changed that."""
     tests = pd.read_csv(the_only(results.simulations, "simulations"))
     changed = pd.read_csv(the_only(results.sensitivity, "sensitivity"))
+    # In kPa: in the Pa that Table 3 prints, asphalt at -10 degC would be a rubber of 40 MPa.
     published = dict(zip(*read_published(the_only(results.laws, "laws"), "kPa"), strict=True))
     pascal, blocked = _relative(pd.read_csv(the_only(results.readings, "readings")), tests)
     diameter, count = read_counts(the_only(results.counts, "counts"))

@@ -42,6 +42,7 @@ def make(
         shown = mean_relative_error(data, _shown(fitted, numerical, data)).set_index("temperature_C")
         held = _held_out(content)
         row = {
+            # The first table is the study's own; the others are called after their folders.
             "data": found.parent.name if number else content["origin"],
             "origin": content["origin"],
             "causes_named": ", ".join(

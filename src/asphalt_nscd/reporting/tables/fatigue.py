@@ -18,6 +18,7 @@ REFERENCE = 100e-6  # strain of the courses, and what their bonds endured
 def life(course: Path) -> float:
     """Cycles to FAILURE, interpolated between the jumps."""
     table = pd.read_csv(course)
+    # Both signs turned, for np.interp wants places that rise, and the stiffness falls.
     return float(np.interp(-FAILURE, -table["stiffness"], table["cycles"]))
 
 

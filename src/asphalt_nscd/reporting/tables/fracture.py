@@ -29,6 +29,7 @@ def make(simulations: list[Path], facets: list[Path]) -> pd.DataFrame:
                     "tests_with_broken_bonds": int((broken > 0).sum()),
                     "broken_bonds": int(broken.sum()),
                     "most_broken_bonds": int(broken.max()),
+                    # Bonds are of the sample, which several tests share.
                     "bonds_mean": tests.groupby("specimen")["bonds"].first().mean(),
                     "largest_utilisation": tests.loc[broken == 0, "largest_utilisation"].max(),
                 }

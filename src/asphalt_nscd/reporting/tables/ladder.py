@@ -56,6 +56,7 @@ def make(
         rung = rung.merge(named(mean_relative_error(data, law), "law"), on="temperature_C")
         rung.insert(0, "rung", name)
         for error in ERRORS:
+            # Only the law of the last campaign was fitted without the temperature in question.
             held = _held_out(content, error) if paths is extended else {}
             rung[name_of(error, "held_out")] = [held.get(f"{t:g}") for t in rung["temperature_C"]]
         rungs.append(rung)

@@ -29,6 +29,7 @@ def make(measured: list[Path]) -> pd.DataFrame:
     for number, path in enumerate(measured):
         frame = read_measured([path])
         origin = origin_of(frame)
+        # The first table is the study's own; the others are called after their folders.
         name = path.parent.name if number else origin
         data = frame.groupby(KEYS)[["E_MPa", "phase_deg"]].mean().reset_index()
         omega = 2.0 * np.pi * data["frequency_Hz"].to_numpy()

@@ -30,6 +30,7 @@ def make(grading: list[Path], used: list[Path]) -> pd.DataFrame:
         }
     ).sort_values("diameter_mm", ascending=False, ignore_index=True)
     table["retained_percent"] = np.abs(np.diff(table["passing_percent"], prepend=100.0))
+    # Int64 with a capital holds whole numbers beside sieves that no sphere stands for.
     table["spheres"] = table["diameter_mm"].map(number).astype("Int64")
     shown = table["spheres"].notna()
     volume = table["spheres"].astype(float) * table["diameter_mm"] ** 3
