@@ -301,6 +301,7 @@ def conclude(
     doubtful = levels.rows(diagnosis.observed, chain(*odd, temperatures))
     if np.unique(diagnosis.observed.isotherm[~doubtful]).size < diagnosis.observed.isotherms.size:
         doubtful[:] = False  # the rest makes no law
+    # law.json is of all temperatures: one isotherm has no shift.
     fit = None if observed.isotherms.size < 2 else material_law(diagnosis, ~doubtful, stated.law)
     content, before = report.as_json(diagnosis, numerical), None
     if fit is not None:

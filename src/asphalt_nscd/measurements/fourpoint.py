@@ -79,6 +79,7 @@ class Beam(Shape):
             Plate(INNER[0] * self.h, driven, 0.5),
             Plate(INNER[1] * self.h, driven, 0.5),
             Plate(0.0, (HELD, HELD, HELD, FREE, FREE, HELD), 0.0),
+            # Free along the beam at one end: held at both it would be stretched as it bends.
             Plate(self.h, (HELD, HELD, FREE, FREE, FREE, HELD), 0.0),
         )
 
@@ -137,6 +138,7 @@ class Beam(Shape):
 
     def usual_amplitude(self) -> float:
         """Of the inner clamps [m], which strains the outermost fibre by USUAL_STRAIN."""
+        # M = F L/6 between the inner clamps: strain F L H/(12 E I) over deflection 5 F L^3/(324 E I) is 5.4 H/L^2.
         return USUAL_STRAIN * self.h**2 / (5.4 * self.depth)
 
 

@@ -45,4 +45,5 @@ def least_modulus(temperature: ArrayLike, frequency: ArrayLike) -> NDArray[np.fl
         [MPa].
     """
     at_one_hertz = np.asarray(temperature) - _KELVIN_PER_DECADE * np.log10(frequency)
+    # On the logarithm, for |E*| falls by decades.
     return np.exp(np.interp(at_one_hertz, list(_SOFTEST), np.log(list(_SOFTEST.values()))))

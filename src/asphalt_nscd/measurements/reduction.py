@@ -343,6 +343,7 @@ def _check_whole_table(table: Table, frame: pd.DataFrame, form: str) -> None:
         )
     largest = frame["phase_deg"].abs().max()
     expected = LARGEST_PHASE_AT_LEAST["soft" if frame["E_MPa"].min() < GLASSY else "glassy"]
+    # Phases of records are computed here: their unit is not in question.
     if form != "records" and largest <= expected:
         raise InputError(
             f"{table.path}: the largest phase is {largest:.3g}: is it in radians? "

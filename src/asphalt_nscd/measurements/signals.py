@@ -101,6 +101,7 @@ def harmonic_response(
     window = _window(time, force, displacement, frequency, cycles)
     phase = 2.0 * np.pi * frequency * window.time
     centred = window.time - window.time.mean()
+    # Offset and drift: five cycles from rest are not steady where the Maxwell time is long (1.6 s at -10 degC).
     basis = np.column_stack(
         [np.ones_like(phase), centred / np.ptp(window.time), np.cos(phase), np.sin(phase)]
     )
@@ -156,6 +157,7 @@ def peak_response(
     0.3142 rad
     """
     window = _window(time, force, displacement, frequency, cycles)
+    # A last sample that rounds up would begin a cycle of its own.
     cycle = np.minimum((window.time - window.time[0]) * frequency, window.cycles - 0.5).astype(int)
     amplitudes, lags = [], []
     for number in range(window.cycles):
@@ -238,6 +240,7 @@ def _uniform_step(time: Vector) -> float:
             f"time is not sampled evenly at sample {uneven[0] + 2} (step {steps[uneven[0]]:.3g} s, "
             f"elsewhere {usual:.3g} s); resample the record."
         )
+    # Over the whole record the rounding of printed times averages out.
     return float((time[-1] - time[0]) / steps.size)
 
 

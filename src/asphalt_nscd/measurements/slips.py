@@ -60,6 +60,7 @@ def slips(table: pd.DataFrame) -> Iterator[str]:
     yield from _radians(table)
     moduli = list(_units_of_moduli(table))
     yield from moduli
+    # A wrong unit makes isotherms seem exchanged, too: it is told alone.
     if not moduli:
         yield from _warmer_but_stiffer(table)
         yield from _order_of_isotherms(table)
@@ -69,6 +70,7 @@ def slips(table: pd.DataFrame) -> Iterator[str]:
 def _units_of_labels(table: pd.DataFrame) -> Iterator[str]:
     temperature = np.sort(table["temperature_C"].unique())
     celsius = celsius_of_fahrenheit(temperature)
+    # Of 39.2, 50 and 68 degF the last two are whole as they stand: two at least must not be.
     if temperature.size >= LEAST and _whole(celsius).all() and (~_whole(temperature)).sum() >= 2:
         yield (
             f"the temperatures {_listed(temperature)} are {_listed(np.round(celsius))} degC in degrees "
@@ -117,6 +119,7 @@ def _units_of_moduli(table: pd.DataFrame) -> Iterator[str]:
     logarithm = _by_condition(table)
     if logarithm.shape[1] < 2:
         return
+    # Without the specimen itself: of two or three its own slip would draw the median along.
     others = pd.DataFrame({name: logarithm.drop(columns=name).median(axis=1) for name in logarithm})
     apart = logarithm - others
     for specimen in apart:

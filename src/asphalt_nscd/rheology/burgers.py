@@ -131,6 +131,7 @@ class Burgers:
         retardation = self.viscosity_k / self.modulus_k
         p1 = self.viscosity_m / self.modulus_m + self.viscosity_m / self.modulus_k + retardation
         p2 = self.viscosity_m / self.modulus_m * retardation
+        # Above zero for any four positive parameters, so that both rates are real: the law cannot ring.
         root = np.sqrt(p1**2 - 4.0 * p2)
         slow = 2.0 / (p1 + root)  # not (p1 - root)/(2 p2), which cancels
         fast = (p1 + root) / (2.0 * p2)

@@ -65,6 +65,7 @@ class KelvinChain:
         """
         i_omega = 1j * np.asarray(omega, dtype=float)
         elements = np.asarray(self.kelvin_springs) + i_omega[..., None] * np.asarray(self.kelvin_dashpots)
+        # An infinite part is an absent one: its compliance is zero.
         return 1.0 / self.spring + 1.0 / self.dashpot / i_omega + (1.0 / elements).sum(axis=-1)
 
     def complex_modulus(self, omega: ArrayLike) -> NDArray[np.complex128]:
@@ -97,6 +98,7 @@ class KelvinChain:
         """
         time = np.asarray(time, dtype=float)
         rates = np.divide(self.kelvin_springs, self.kelvin_dashpots)
+        # expm1, for 1 - exp cancels where a slow element has barely begun to creep.
         delayed = -np.expm1(-time[..., None] * rates) / np.asarray(self.kelvin_springs)
         return 1.0 / self.spring + time / self.dashpot + delayed.sum(axis=-1)
 

@@ -81,6 +81,7 @@ def nearest(printed: Printed, wanted: Complex) -> Complex | None:
     if np.abs(missed(x)).max() > CLOSE:
         x = moved(moved(start, printed.error), 0.0)
     error = free @ x
+    # A phase at or below zero is no material's.
     if np.abs(missed(x)).max() > CLOSE or (angle + error[n:]).min() <= 0.0:
         return None
     return np.asarray(law + error[:n] + 1j * error[n:])

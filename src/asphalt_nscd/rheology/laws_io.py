@@ -296,11 +296,13 @@ def renamed(values: dict[str, float], keys: dict[str, str]) -> dict[str, float]:
 
 
 def _or_none(value: float) -> float | None:
+    # JSON has no infinity: an absent part is null.
     return None if math.isinf(value) else value
 
 
 def _is_number(value: Any) -> bool:
     """Whether it is finite and one that a float can hold; JSON knows whole numbers without end."""
+    # True is an int in Python.
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
     return abs(value) <= sys.float_info.max

@@ -158,6 +158,7 @@ class Sigmoid(OfModulus):
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
         """What its own parameters must satisfy, if these do not."""
+        # Unlike CAM the sigmoid takes the logarithm of its lower end.
         if (
             0.0 < values["static_modulus"] < values["glassy_modulus"]
             and min(values["tau"], values["gamma"]) > 0.0

@@ -171,6 +171,7 @@ def _spaced(
     scale = np.array([_scales(allowed)]).T.repeat(omega.size, axis=1).ravel()
     system = np.vstack([relative.real, relative.imag]) / scale[:, None]
     wanted = np.concatenate([np.ones(omega.size), np.zeros(omega.size)]) / scale
+    # Columns of equal length, as in `conversion`: NNLS holds all gradients against one tolerance.
     size = np.linalg.norm(system, axis=0)
     values = nnls(system / size, wanted)[0] / size
     kept = values[1:] > NEGLIGIBLE * values.max()

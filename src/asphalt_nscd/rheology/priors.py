@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
 REFERENCE_TEMPERATURE = 15.0  # degC, of c2 and wlf_slope below
+# At 0.7 the tests say as much as the prior does: 1/0.7^2 = 2.
 FROM_PRIOR = 0.7  # posterior over prior standard deviation above which the tests do not determine a parameter
 
 

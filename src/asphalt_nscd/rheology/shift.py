@@ -130,6 +130,7 @@ class Arrhenius:
         ndarray
             (n, 1) Of ln a_T with respect to ln(activation_energy).
         """
+        # ln a_T is proportional to the energy, and so is its own slope by ln Q.
         return np.log(self.factor(temperature))[:, None]
 
 

@@ -133,6 +133,7 @@ def _solved(printed: Printed, wanted: str) -> float:
     times = 10.0**DECADES / np.sqrt(printed.omega.min() * printed.omega.max())
     i_omega = 1j * printed.omega[:, None]
     basis = np.hstack([1.0 / (1.0 + i_omega * times), np.ones((n, 1)), 1.0 / i_omega]) * law[:, None]
+    # To size one, for the solver's tolerances are absolute.
     basis /= np.abs(basis).mean(axis=0)
     program = _Program(basis.shape[1], n)
     beyond, of_data, value = np.zeros(2 * n), angle, np.nan  # second order of ln u, phases of the data
@@ -177,7 +178,9 @@ class _Program:
         errors[:, self.above] -= one
         errors[:, self.below] += one
         weights = np.repeat([1.0, printed.weight], n)[:, None]
+        # Normal equations: the law is the fit where its slopes stand at right angles to the errors.
         fitted = (log_slopes(printed.law, printed.omega) * weights).T
+        # By the sign one of the two parts is zero: both could else grow, and the mean error with them.
         upper, lower = np.zeros((2, 2 * n, self.size))
         upper[:, self.above], upper[:, self.signs] = one, -LARGEST * one
         lower[:, self.below], lower[:, self.signs] = one, LARGEST * one
@@ -204,6 +207,7 @@ class _Program:
             )
         else:
             aim = phase if wanted == "smallest" else -phase
+            # Bounds are of smooth data, which have no scatter.
             high[-1] = 0.0
         whole = np.zeros(self.size)
         whole[self.signs] = 1

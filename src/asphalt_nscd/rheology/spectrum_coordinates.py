@@ -120,6 +120,7 @@ class Coordinates:
         values = {name: self.scales.get(name, 1.0) * float(np.exp(value)) for name, value in given.items()}
         if "h" in values:
             values["h"] = float(expit(given["h"]))
+            # As a share of h, k is below it whatever the fit tries.
             values["k"] = values["h"] * float(expit(given["k"]))
         if "c2" in values:
             values["c2"] = self.least_c2 / given["c2"]
@@ -196,6 +197,7 @@ class Coordinates:
                 for name, value in self._usual(guess, slope).items():
                     if name in self.names:
                         x[self.names.index(name)] = value
+                # Off the bounds, at which a parameter would count as unseen.
                 group = np.tile(np.clip(x, self.low + 2.0 * MARGIN, self.high - 2.0 * MARGIN), (TAUS.size, 1))
                 group[:, self.names.index("tau")] = TAUS
                 yield group

@@ -180,6 +180,7 @@ class _Problem:
         for start in starts:
             found.append(self.solve(start))
             found.sort(key=lambda solution: solution.cost)
+            # ROUGH^2 ends the search too where a law fits its own numbers, whose objectives are rounding.
             if len(found) >= LEAST_STARTS and found[1].cost <= (1.0 + AGREE) * found[0].cost + ROUGH**2:
                 break
         return found[0]
@@ -209,6 +210,7 @@ class _Problem:
         """Residuals of the tests less what the parameters take from them; a prior leaves them less to take."""
         size = 2 * self.modulus.size
         seen = self.seen(solution)
+        # The hat matrix by singular vectors: J^T J would square the condition of a flat valley.
         left = np.linalg.svd(solution.jac[:, seen], full_matrices=False)[0][:size]
         return size - float(np.sum(left**2))
 
@@ -236,6 +238,7 @@ class _Problem:
         values, freedom = parameters(law), self.freedom(solution)
         variance = None
         if self.prior is not None:
+            # Beside a prior the residuals are in units of the settled scatter already.
             variance = 1.0
         elif known:
             variance = self.scatter_of(solution, known) ** 2

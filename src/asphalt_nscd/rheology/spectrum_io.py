@@ -88,6 +88,7 @@ class Uncertainty:
             (n,) Of ln|E*| and, imaginary, of the phase [rad].
         """
         slopes = law.log_slopes(omega, temperature)
+        # Without the misfit of the form the band held 84 to 91 % of drawn mixes, and 75 to 84 % of their phases.
         of_modulus, of_phase = (
             student(freedom) * np.sqrt(np.einsum("ij,jk,ik->i", part, self.covariance, part) + form**2)
             for part, freedom, form in zip((slopes.real, slopes.imag), self.freedom, self.form, strict=True)

@@ -40,6 +40,7 @@ from asphalt_nscd.diagnosis.written import widening
 
 def of_machine(cause: Cause) -> bool:
     """Whether a cause sits in the head or the channels, the same in all tests of a machine."""
+    # Amplitudes add up over campaigns; the shapes of a cause would not.
     return cause.stage >= HEAD and not cause.confined_to and len(cause.parameters) == 1
 
 
@@ -129,6 +130,7 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
         each = {cause: [_evidence(one, [*causes, cause]) for one in states] for cause in open_}
         pooled = {cause: _together(each[cause], amplitudes) for cause in open_}
         first = max(open_, key=lambda cause: _z(cause, pooled[cause]))
+        # An offset of the machine inflates the spread by which each campaign is believed less: 1.25 to 1.7, not 1.0.
         beside = np.append(amplitudes, pooled[first].value)
         states = [one.judged_beside([*causes, first], beside) for one in states]
         each = {cause: [_evidence(one, [*causes, cause]) for one in states] for cause in open_}
@@ -201,6 +203,7 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
         apart = columns[-1][:, None] * parts
         pointing = likelihood.directions(model, rest, state.plain.noise.whiten(apart))
         information, score = likelihood.weighed(model, pointing, variances)
+        # A campaign whose estimates spread further than they say counts for less, as in its own intervals.
         information, score = information / campaign.spread**2, score / campaign.spread**2
         return _Evidence(information, score + information @ np.full(parts.shape[1], stands[shown[-1]]))
     information, score = likelihood.weighed(model, pointing, variances)
@@ -263,16 +266,20 @@ def _together(each: Sequence[_Evidence], taken: Vector) -> _Whole:
     free = float(1.0 / np.linalg.inv(whole)[last, last]) / whole[last, last] if last else 1.0
     mean = float(weight @ value / weight.sum())
     square, freedom = float(weight @ (value - mean) ** 2), weight.size - 1
+    # Cochran's Q: chi-squared where one size holds for all.
     differ = float(chdtrc(freedom, square)) if freedom else 1.0
     if differ < DIFFERENT:
+        # Moments (DerSimonian & Laird 1986): the variance between campaigns, above what their errors make.
         excess = (square - freedom) / (weight.sum() - float(weight @ weight) / weight.sum())
         wide = 1.0 / (1.0 / weight + excess)
         mean, error = float(wide @ value / wide.sum()), float((wide.sum() * free) ** -0.5)
         return _Whole(mean, error, mean / error, float(np.sqrt(excess)), differ)
+    # A mixture of sound campaigns and those astray, by EM: one far off keeps 1/LARGER^2 of its weight.
     for _ in range(ITERATIONS):
         pulled = weight * (1.0 - _astray(value - mean, weight) * (1.0 - LARGER**-2))
         mean = float(pulled @ value / pulled.sum())
     error = float((pulled.sum() * free) ** -0.5)
+    # A mixture is not normal: its likelihood ratio says how sure the mean is, not mean over error.
     ratio = 2.0 * free * (_log_likelihood(value - mean, weight) - _log_likelihood(value, weight))
     return _Whole(mean, error, float(np.sign(mean) * np.sqrt(max(ratio, 0.0))), 0.0, differ)
 
@@ -329,6 +336,7 @@ def _by_chance(
     information = np.sum([_evidence(one, causes).information for one in states], axis=0)
     own = information[taken:, taken:]
     if taken:
+        # What is taken already stays free, and takes its part of the others' information.
         cross = information[taken:, :taken]
         own = own - cross @ np.linalg.solve(information[:taken, :taken], cross.T)
     size = np.sqrt(np.maximum(np.diag(own), 1e-300))

@@ -26,6 +26,7 @@ class Damage(Cause):
     @staticmethod
     def _progress(observed: Observations) -> Vector:
         """(n,) from zero at the first test to one at the last."""
+        # Cycles where the table has both: damage grows with loads, not with tests.
         name = "order" if observed.cycles is None else "cycles"
         count, every = observed.known(name), observed.table.known(name)
         return (count - every.min()) / max(np.ptp(every), 1e-300)

@@ -19,6 +19,7 @@ class GuideStiffness(Cause):
     needs = "two-point bending and the static modulus of the mix (--static-modulus-mpa), since both add alike to |E*|"
 
     def places(self, observed: Observations) -> Sequence[Place]:
+        # It adds to E1 as a larger static modulus does at every temperature and frequency: that must be known.
         return () if observed.static_modulus is None or not self.on_bench(observed) else (None,)
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:

@@ -21,6 +21,7 @@ class LooseClamp(Cause):
     confined_to = "specimen"
 
     def places(self, observed: Observations) -> Sequence[Place]:
+        # A compliance of all specimens, 1/E + C, is another law exactly: only one that differs shows.
         return observed.names if len(observed.names) > 1 and self.on_bench(observed) else ()
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:

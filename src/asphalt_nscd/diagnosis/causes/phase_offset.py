@@ -16,6 +16,7 @@ class PhaseOffset(Cause):
     confirmed_by = "a test on an elastic reference specimen of metal, which has no phase of its own"
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
+        # The error turns F/z as recorded; the reduction then adds the inertia of Eq. (1), unturned.
         inertia = observed.inertia * observed.omega**2
         return (modulus - inertia) * np.exp(1j * np.radians(values[0])) + inertia
 

@@ -20,6 +20,7 @@ class SpecimenGeometry(Cause):
     confined_to = "specimen"
 
     def places(self, observed: Observations) -> Sequence[Place]:
+        # Of two specimens neither is the odd one.
         return observed.names if len(observed.names) > 2 else ()
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:

@@ -18,6 +18,7 @@ class StrainSoftening(Cause):
 
     def places(self, observed: Observations) -> Sequence[Place]:
         amplitude = observed.amplitude
+        # Amplitudes that wobble about one setting are no sweep of the strain.
         return (None,) if amplitude is not None and np.ptp(amplitude) > 0.2 * amplitude.max() else ()
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:

@@ -109,6 +109,7 @@ class FlexibleSpectrum:
     @property
     def _curvatures(self) -> tuple[float, float]:
         """Least, and how much the largest is above it [1/K]."""
+        # WLF is singular where 1 + curvature (T - T_ref) = 0, which these bounds keep CLEAR of the tests.
         least = -1.0 / (self.above + CLEAR)
         return least, 1.0 / (self.below + CLEAR) - least
 
@@ -126,6 +127,7 @@ class FlexibleSpectrum:
             Log-odds.
         """
         least, width = self._curvatures
+        # Well inside: at a bound the derivative by the log-odds vanishes, and no fit would leave.
         return float(logit(np.clip((curvature - least) / width, 0.1, 0.9)))
 
     def curvature(self, log_odds: float) -> tuple[float, float]:
@@ -166,6 +168,7 @@ class FlexibleSpectrum:
         curvature, change = self.curvature(x[-2])
         away = temperature - self.reference_temperature
         bent = away / (1.0 + curvature * away)
+        # The slope is a logarithm: no mix grows stiffer as it warms.
         wlf = -LN10 * np.exp(x[-3]) * bent
         # odd in the distance, so that it bends both ends apart and leaves slope and curvature to the WLF
         # shift
@@ -194,6 +197,7 @@ class FlexibleSpectrum:
         m = self.times.size
         shift, shift_slopes = self.log_shift(x, temperature)
         z = 1j * (omega * np.exp(shift))[:, None] * self.times
+        # Strengths are logarithms: whatever they are, modulus and phase obey Kramers and Kronig.
         strength = np.exp(x[:m])
         terms = z / (1.0 + z) * strength
         known = self.static_modulus is not None
@@ -201,6 +205,7 @@ class FlexibleSpectrum:
         along = (terms / (1.0 + z)).sum(axis=1)  # derivative with respect to ln(reduced frequency)
         slope = np.empty((omega.size, self.parameters), complex)
         slope[:, :m] = terms
+        # A static modulus that is known keeps its column, empty, so that parameters keep their places.
         slope[:, m] = 0.0 if known else static
         slope[:, m + 1 :] = along[:, None] * shift_slopes
         return static + terms.sum(axis=1), slope
@@ -290,6 +295,7 @@ class BurgersAtEach:
         ndarray of complex (n, p)
             Its derivative with respect to the parameters.
         """
+        # A test off its target still has the law of its isotherm: a Burgers law knows no other temperature.
         at = np.abs(temperature[:, None] - self.isotherms).argmin(axis=1)
         em, eta_m, ek, eta_k = np.exp(x.reshape(-1, 4))[at].T
         i_omega = 1j * omega

@@ -88,9 +88,11 @@ def scores(
     taken = fitted.jacobian.T @ d
     gram = d.T @ d - taken.T @ np.linalg.solve(fitted.precision, taken)
     information = np.diag(gram)
+    # No law of the mix follows what one specimen does: only rounding is to be kept off.
     least = np.where(confined, 1e-9, ABSORBED)
     seen = information > least * np.maximum((d**2).sum(axis=0), 1e-300)
     norm = np.sqrt(np.where(seen, information, 1.0))
+    # One Newton step to the very best: a fit ends within a tolerance of it.
     to_best = np.linalg.solve(fitted.precision, fitted.gradient)
     z = np.where(seen, d.T @ (fitted.residual - fitted.jacobian @ to_best) / norm, 0.0)
     correlation = gram / norm[:, None] / norm * (seen[:, None] & seen)
@@ -121,6 +123,7 @@ def largest_by_chance(
         In absolute value, or upwards only.
     """
     value, vector = np.linalg.eigh(found.correlation)
+    # By eigenvalues, since causes that look alike leave the correlation without a Cholesky factor.
     root = vector * np.sqrt(np.maximum(value, 0.0))
     normal = random.standard_normal((draws, value.size)) @ root.T
     normal = np.where(one_sided, normal, np.abs(normal))
@@ -144,6 +147,7 @@ def tail(by_chance: Vector, z: float) -> float:
         Above zero.
     """
     share = float(np.mean(by_chance >= z))
+    # Fewer than ten draws tell a chance to a third at best.
     if share * by_chance.size >= 10:
         return share
     edge = float(np.quantile(by_chance, 0.99))
@@ -218,6 +222,7 @@ def structures(observed: Observations) -> list[Structure]:
     list of Structure
         Of modulus and of phase.
     """
+    # Centred, so that slopes and bends hold nothing of the level.
     log_f = np.log(observed.frequency) - np.log(observed.frequency).mean()
     above = observed.temperature - observed.temperature.mean()
     patterns = {

@@ -22,6 +22,7 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 
 Vector = NDArray[np.float64]
 Kernel = Callable[[NDArray], NDArray]
+# With this length a prototype found offsets put into three real tables again within 0.07 deg.
 LENGTH = 1.5  # of ln f, over which the discrepancy of an isotherm changes
 # shares of its variance: the same at all frequencies, smooth over ln f, of one condition
 LEVEL, SMOOTH, ROUGH = 0.25, 0.6, 0.15
@@ -102,6 +103,7 @@ class Processes:
         away = np.log(variances / self.usual**2)
         about = np.isfinite(self.spread)
         s = np.where(about, 2.0 * self.spread, 1.0) ** 2
+        # Half-Cauchy on the size: mostly none, with a tail that lets a broken isotherm be as odd as it is.
         value = np.where(about, away**2 / s, 2.0 * np.log1p(variances / self.usual**2))
         rare = 2.0 / (self.usual**2 + variances)
         slope = np.where(about, 2.0 * away / s / variances, rare)
@@ -121,6 +123,7 @@ class Processes:
         ndarray (2n, r)
             Factor of the covariance of ln|E*| and of the phase.
         """
+        # Columns of no size would cost as much as others whenever residuals are whitened.
         kept = [
             np.sqrt(variance) * root
             for root, variance in zip(self.roots, variances, strict=True)
@@ -147,6 +150,7 @@ def processes(joint: Joint, fitted: Fitted) -> Processes:
     """
     observed, noise = joint.observed, joint.noise
     described, roots = list[Process](), []
+    # The law of a single specimen is its spectrum.
     if len(observed.names) > 1:
         spectra = noise.sigma[0] * _of_spectrum(joint, fitted)
         for k, name in enumerate(observed.names):
@@ -186,6 +190,7 @@ def _kernels(observed: Observations) -> Iterator[tuple[Process, NDArray, Kernel]
         at = np.where(observed.isotherm == t, 0.0, np.nan)[:, None]
         yield Process("isotherm", "either", isotherm=float(t)), log_f + at, lambda apart: LEVEL + along(apart)
     if observed.isotherms.size > 1:
+        # No level: one common to all tests is the law's, or an offset of the phase, which has a name.
         yield Process("all", "either"), log_f, along
     if len(observed.names) > 1:
         span = ACROSS * max(float(np.ptp(observed.isotherms)), 1.0)

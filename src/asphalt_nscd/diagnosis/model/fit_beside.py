@@ -237,6 +237,7 @@ def of_taken(
         found_value = likelihood.with_uncertain_sizes(model, pointing, found_value)
     active = next(one for one in state.fitted.active if one.key == candidate.key)
     stands = active.values[0] / active.typical[0]
+    # The estimate is what the fit, standing at this size, still lacks.
     return replace(found_value, amplitude=found_value.amplitude + stands)
 
 

@@ -33,6 +33,7 @@ class HeldOut:
         ndarray of complex (n,)
             ln E*.
         """
+        # By identity, for arrays have no hash.
         key = id(fitted), part
         if key not in self._made:
             values, label = np.unique(getattr(self.joint.observed, part), return_inverse=True)

@@ -179,6 +179,7 @@ class Joint:
     def __init__(self, observed: Observations, base: Base, noise: Noise) -> None:
         self.observed, self.base, self.noise = observed, base, noise
         self.membership = np.eye(len(observed.names))[observed.specimen]
+        # Candidates are tried at one law: it is computed once for all that leave the temperatures alone.
         self._last: tuple[Vector, tuple[Complex, Complex]] | None = None  # at the temperatures stated
 
     @property
@@ -214,6 +215,7 @@ class Joint:
         factor = 1.0 if scales is None else np.exp(scales)[observed.specimen]
         slope = np.column_stack([slope, self.membership * modulus[:, None]])
         modulus, slope = factor * modulus, np.reshape(factor, (-1, 1)) * slope
+        # As a signal passes them: the channel delays what the head has added too.
         for candidate in sorted(active, key=lambda c: c.cause.stage):
             rows = candidate.cause.rows(observed, candidate.place)
             values = np.array(candidate.values)
@@ -316,6 +318,7 @@ class Joint:
         p, s, total = law.size, scales.size, jacobian.shape[1]
         precision = jacobian.T @ jacobian
         precision[:p, :p] += prior_slope.T @ prior_slope
+        # Without a prior the scales and the level of the law would say the same.
         precision[range(p, p + s), range(p, p + s)] += self.noise.scale**-2
         first = p + s
         for candidate in active:  # the shapes of a cause are held weakly where they start
@@ -418,6 +421,7 @@ class Joint:
 
     def _moved(self, fitted: Fitted, step: Vector) -> Fitted:
         p, s = fitted.law.size, fitted.scales.size
+        # Logarithms and log-odds: beyond a factor of e^2 the linearised model says nothing.
         law = fitted.law + np.clip(step[:p], -2.0, 2.0)
         first, active = p + s, []
         for candidate in fitted.active:
@@ -425,6 +429,7 @@ class Joint:
             values = np.array(candidate.values) + step[first : first + size] * candidate.typical
             low = [parameter.low for parameter in candidate.cause.parameters]
             high = [parameter.high for parameter in candidate.cause.parameters]
+            # Clipped: a cause that wants more stands at its bound, and `doubts` tells so.
             active.append(candidate.with_values(np.clip(values, low, high)))
             first += size
         return self.linearise(law, fitted.scales + step[p : p + s], tuple(active))
@@ -436,5 +441,6 @@ def _damped_step(now: Fitted, damping: float) -> Vector | None:
     damped = now.precision + damping * np.diag(np.diag(now.precision) + 1e-9)
     if not (np.isfinite(damped).all() and np.isfinite(now.gradient).all()):
         return None
+    # A factor that fails says that the precision is not positive definite: more damping makes it so.
     _, step, failed = dposv(damped, now.gradient)
     return None if failed else step

@@ -21,6 +21,7 @@ Vector = NDArray[np.float64]
 
 UNKNOWN = 2.0  # standard deviation of the ln v that a table tells nothing of
 ITERATIONS = 25
+# Far below the gain of 6 that a name asks for.
 CONVERGED = 0.05  # change of -2 ln likelihood
 
 
@@ -197,6 +198,7 @@ def moved(model: Reduced, cause: Direction, amount: float) -> tuple[Reduced, Dir
 def _projected(fitted: Fitted, left: NDArray, right: NDArray) -> NDArray:
     """left^T A right: what the law may follow is taken out."""
     j = fitted.jacobian
+    # A itself would be 2n x 2n: only its products with few columns are formed.
     return left.T @ right - (left.T @ j) @ np.linalg.solve(fitted.precision, j.T @ right)
 
 
@@ -225,6 +227,7 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
     """
     lowest, highest = np.log(LEAST), np.log(MOST)
     usual = model.processes.usual
+    # On ln v variances stay above zero, and steps by orders of magnitude are short.
     log_v = np.log(usual**2 if start is None else np.maximum(start, LEAST))
     now = _point(model, cause, log_v)
     # SQUAREM: two multiplicative steps, then a long one along both, taken back where it does not gain
@@ -233,9 +236,11 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
         middle = _point(model, cause, first)
         second = np.clip(first + middle.step, lowest, highest)
         one, change = first - log_v, second - 2.0 * first + log_v
+        # The third step length of Varadhan & Roland (2008); at 1 the long step is the two short ones.
         reach = float(np.clip(np.linalg.norm(one) / np.maximum(np.linalg.norm(change), 1e-12), 1.0, 20.0))
         far = np.clip(log_v + 2.0 * reach * one + reach**2 * change, lowest, highest)
         trial = _point(model, cause, far)
+        # Written so that a NaN too is taken back.
         if not trial.objective <= middle.objective:
             far, trial = second, _point(model, cause, second)
         if not np.isfinite(trial.objective):
@@ -268,6 +273,7 @@ def with_uncertain_sizes(model: Reduced, cause: Direction, found: Estimate) -> E
     """
     curvature, along = _curvature(model, cause, found.variances)
     value, vector = np.linalg.eigh(0.5 * curvature)  # half of it, for -2 ln likelihood
+    # Where the table says nothing of a size, its factor of e^2 keeps the error finite.
     spread = (vector.T @ along) ** 2 / (np.maximum(value, 0.0) + UNKNOWN**-2)
     return replace(found, std_error=float(np.sqrt(found.std_error**2 + spread.sum())))
 
@@ -287,6 +293,7 @@ def _curvature(model: Reduced, cause: Direction, variances: Vector) -> tuple[NDA
     right = s[:, None] * np.column_stack([model.along, cause.cross[:, 0]])
     solved = dpotrs(lower, right, lower=1)[0]
     pull, sensed = (solved / s[:, None]).T
+    # A direction that law and processes take up whole has no information; rounding would make it negative.
     information = max(float(cause.own[0, 0] - right[:, 1] @ solved[:, 1]), 1e-12)
     pull = pull - sensed * float(cause.along[0] - right[:, 1] @ solved[:, 0]) / information
     left = left - np.outer(sensed, sensed) / information
@@ -338,6 +345,7 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
         pull = pull - sensed * amplitude
     prior, slope, _ = found.prior(v)
     misfit += prior
+    # A prior that falls counts with the data, one that rises with the trace, so that both stay positive.
     trace = np.bincount(block, np.maximum(diagonal, 0.0), m) + np.maximum(slope, 0.0)
     square = np.bincount(block, pull**2, m) + np.maximum(-slope, 0.0)
     # the multiplicative step keeps variances positive; its power of a half makes it monotone (minorise-

@@ -52,6 +52,7 @@ def odds_of(
     ways = 2.0 if one_sided else 1.0  # one sign alone has twice the density
     density = ways / (np.pi * expected.size * (1.0 + (size / expected.size) ** 2))
     chance = expected.chance / places
+    # A size known worse than by its prior has the width of the prior.
     known = min(std_error, expected.size)
     return float(
         0.5 * gain + np.log(density * known * np.sqrt(2.0 * np.pi)) + np.log(chance / (1.0 - chance))

@@ -46,6 +46,7 @@ def fit_spectrum(
         Its fit.
     """
     best: tuple[float, Joint, Fitted] | None = None
+    # Least squares on so many elements has poor local minima: several starts.
     for c1, c2 in WLF_STARTS:
         base = _spectrum(observed, c1, c2)
         joint = Joint(observed, base, noise)
@@ -92,6 +93,7 @@ def marginal_likelihood(joint: Joint, fitted: Fitted) -> float:
     """ln of the Laplace approximation, up to what does not depend on the roughness."""
     spectrum = joint.spectrum
     sign, curvature = np.linalg.slogdet(fitted.precision)
+    # The prior of m - 2 second differences pays for its own width, else the roughest would always win.
     normaliser = -2.0 * (spectrum.times.size - 2) * np.log(spectrum.roughness)
     return -0.5 * (fitted.objective + curvature - normaliser)
 
@@ -177,5 +179,6 @@ def _first_law(observed: Observations, base: FlexibleSpectrum, c1: float, c2: fl
     slope = np.linspace(0.0, -4.0, m)  # weaker where slower
     # the sum of the elements is to be a little more than the stiffest test, whatever their number
     strength = np.log(1.2 * largest) + slope - np.log(np.exp(slope).sum())
+    # Beyond the coldest test, where WLF would be singular.
     c2 = max(c2, base.below + 2.0 * CLEAR)
     return np.concatenate([strength, [np.log(1e-3 * largest), np.log(c1 / c2), base.log_odds(1.0 / c2), 0.0]])

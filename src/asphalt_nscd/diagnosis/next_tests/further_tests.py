@@ -137,6 +137,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     metal = on_metal(observed)
     rows = _metal_rows(metal, table, processes, roots, nuisance.shape[1])
     effects = np.vstack([effects, _metal_effects(metal, candidates)])
+    # Metal has a level of its own: its phase and its slope over frequency tell of the machine, its modulus hardly.
     level = np.zeros((rows.shape[0] + table.size, 1), complex)
     level[table.size :] = 1.0
     nuisance = np.hstack([np.vstack([nuisance, rows]), level])
@@ -176,6 +177,7 @@ def _repeats(
             & ~at_half_strain(table)
         )
         if again.any():
+            # Tests to come stand behind those done: the last such row is the repetition.
             row = int(np.flatnonzero(again)[-1])
             effect = np.zeros(linear.effects.shape[0], complex)
             effect[row] = whole.logarithm[one.row] - expected[row]
@@ -197,6 +199,7 @@ def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mappi
         again &= table.isotherm == one["temperature_C"]
     size = np.log(one["factor"]) if "factor" in one else 1j * np.radians(one["phase_deg"])
     effect = np.zeros(linear.effects.shape[0], complex)
+    # A delay's phase is told at the highest frequency and falls with it.
     share = table.frequency[again] / diagnosis.observed.frequencies[-1] if "delay_s" in one else 1.0
     effect[: table.size][again] = size * share
     return Departure("level", effect, one["specimen"], one["temperature_C"], odd=one)
@@ -286,6 +289,7 @@ def _discrepancy(
     found = discrepancy.processes(joint, at)
     tested = diagnosis.observed.isotherms
     variances = [_variance(process, sizes, tested) for process in found.described]
+    # A process of no size would have an infinite precision.
     kept = [k for k, variance in enumerate(variances) if variance > discrepancy.LEAST]
     return [found.described[k] for k in kept], [found.roots[k] for k in kept], [variances[k] for k in kept]
 

@@ -210,6 +210,7 @@ class Question:
         own = information[..., self.cause, self.cause]
         if free:
             cross, among = information[..., self.cause, free], information[..., free, :][..., free]
+            # To a unit diagonal, so that one small ridge suits amplitudes of any unit; causes alike are singular.
             scale = 1.0 / np.sqrt(np.maximum(np.diagonal(among, axis1=-2, axis2=-1), LEAST))
             among = among * scale[..., :, None] * scale[..., None, :] + LEAST * np.eye(len(free))
             cross = cross * scale

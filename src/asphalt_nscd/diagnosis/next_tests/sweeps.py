@@ -143,6 +143,7 @@ def frequencies(observed: Observations) -> list[float]:
         [Hz], ascending.
     """
     tested = _some(observed.frequencies, 8)
+    # A third, to a digit that a machine can be set to; below 0.01 Hz twenty cycles take more than half an hour.
     lower = float(f"{tested[0] / 3.0:.1g}")
     return [*([lower] if lower >= 0.01 else []), *map(float, tested)]
 
@@ -196,6 +197,7 @@ def every_test(observed: Observations, at: Sequence[float]) -> Observations:
         if (s, t) in tested
     ]
     specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half, strict=True))
+    # A new specimen has no row yet: it takes the geometry of the last one.
     like = np.array([np.flatnonzero(observed.specimen == min(s, len(names) - 2))[0] for s in specimen])
     more = replace(
         observed.subset(like),

@@ -145,6 +145,7 @@ def _components(residual: Vector, block: NDArray, share: float) -> tuple[float, 
 def _scale(scales: Vector) -> float:
     known = SCALE_FREEDOM * SPECIMEN_SCALE**2
     spread = np.abs(scales - np.median(scales))
+    # By the median: one wrong diameter must not widen what all specimens may differ by.
     robust = 1.4826 * float(np.median(spread)) if scales.size > 2 else 0.0
     freedom = max(scales.size - 1, 0)
     return float(np.sqrt((known + freedom * robust**2) / (SCALE_FREEDOM + freedom)))

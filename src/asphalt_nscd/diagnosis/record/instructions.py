@@ -36,6 +36,7 @@ LEAST = 0.3  # nats, below which a sweep tells nothing
 SURVIVES = 2.0  # standard errors that a cause keeps without what it hangs on
 FOUND = (USUAL_THRESHOLD + Z_95) ** 2  # strength of a cause that is found in 19 of 20 cases
 KEPT = (SURVIVES + Z_95) ** 2
+# With 2 ln of the Bayes factor scattering by 2 d about d^2: d^2 - 1.645 * 2 d = 6 at d^2 = 21.
 TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached in 19 of 20 cases
 PRESENT = 0.1  # chance that a cause nobody has seen is there
 PLAIN = {  # whose size alone says little

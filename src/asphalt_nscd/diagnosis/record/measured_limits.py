@@ -83,6 +83,7 @@ def verify(diagnosis: Diagnosis, trials: Trials, progress: Progress = lambda *_:
     work = [(diagnosis, one, trials) for one in hidden]
     rows = []
     with ProcessPoolExecutor(min(trials.workers, max(len(work), 1))) as pool:
+        # In the order of the plan, whichever is ready first.
         for row in pool.map(_tried, work):
             rows.append(row)
             progress("Verify limits", len(rows), len(work))
@@ -114,6 +115,7 @@ def plan(diagnosis: Diagnosis) -> Iterator[Hidden]:
 def put_in(diagnosis: Diagnosis, hidden: Hidden) -> Observations:
     """The whole table, each modulus times what the cause does to that of the law."""
     whole, ladder = diagnosis.whole or diagnosis.observed, diagnosis.ladder
+    # `apparent` asks for no scatter, which is that of the tests used and not of the whole table.
     joint = Joint(whole, ladder.joint.base, ladder.joint.noise)
     fitted = ladder.fitted
     rest = tuple(c for c in fitted.active if c.key != hidden.candidate.key)

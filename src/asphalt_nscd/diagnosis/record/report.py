@@ -238,6 +238,7 @@ def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:
     if diagnosis.verdict == "unexplained_structure":
         mean, z = cell_residuals(diagnosis)
         for cell in np.argsort(-z):
+            # At least one, however small, for something is unexplained.
             if z[cell] < NOTABLE and out:
                 break
             out.append(_miss(observed, int(np.flatnonzero(observed.cell == cell)[0]), mean[cell], z[cell]))

@@ -123,6 +123,7 @@ def freedom_of(diagnosis: Diagnosis) -> tuple[float, float]:
         Of |E*| and of the phase.
     """
     freedom = diagnosis.noise.freedom
+    # Taken for known, the scatter of two to four specimens held the mix in 88 to 89 % of blind tables, not 95.
     return min(freedom, SCALE_FREEDOM + len(diagnosis.observed.names) - 1), freedom
 
 

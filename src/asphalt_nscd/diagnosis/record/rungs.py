@@ -62,6 +62,7 @@ def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held
     gain: dict[str, Any] = {"in_sample": before_and_after(diagnosis, before, after)}
     held_out = {}
     for part, count in (("isotherm", observed.isotherms.size), ("frequency", observed.frequencies.size)):
+        # Of two, the one that is left predicts nothing: it has no slope, or no shift.
         if count > 2:
             before, after = (held.predictions(fitted, part) for fitted in (rung.before, rung.after))
             held_out[f"leave_one_{part}_out"] = before_and_after(

@@ -187,6 +187,7 @@ def fit_stiffness(campaign: Campaign) -> StiffnessOnly:
         return np.vstack([tests, np.diag(1.0 / np.concatenate([STRAYS, np.full(names.size, usual)]))])
 
     x = np.concatenate([USUAL, np.zeros(names.size)])
+    # How much usual values count depends on the scatter, and that on the curve they shape.
     for _ in range(ROUNDS):
         x = least_squares(residual, x, jacobian, x_scale="jac").x
         slope = jacobian(x)
@@ -217,6 +218,7 @@ def fit_stiffness(campaign: Campaign) -> StiffnessOnly:
 def _shift(x: Vector, reference: float, temperature: Vector) -> tuple[Vector, NDArray]:
     """lg a_T (n,) of the WLF shift and its derivatives (n, 2) with respect to lg c1 and lg c2."""
     above = temperature - reference
+    # A kelvin off the singularity of WLF below the coldest test.
     c1, c2 = 10.0 ** x[4], np.maximum(10.0 ** x[5], 1.0 - above.min())
     shift = -c1 * above / (c2 + above)
     return shift, LN10 * np.column_stack([shift, -shift * c2 / (c2 + above)])

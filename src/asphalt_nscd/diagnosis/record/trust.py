@@ -127,6 +127,7 @@ def _off_target(observed: Observations) -> list[dict[str, Any]]:
     for number in np.unique(block):
         rows = np.flatnonzero(block == number)
         measured, target = float(observed.temperature[rows].mean()), float(observed.isotherm[rows[0]])
+        # Readings have a tenth of a degree: 0.5 is not above 0.5 whatever the last bit says.
         if abs(measured - target) > OFF_TARGET + 1e-9:
             name = observed.names[observed.specimen[rows[0]]]
             found.append({"specimen": name, "temperature_C": target, "measured_C": round(measured, 2)})

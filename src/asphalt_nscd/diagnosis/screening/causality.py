@@ -82,6 +82,7 @@ def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list
                     float(z),
                 )
             )
+    # Two-sided, and shared by all pairs tried (Bonferroni).
     least = -ndtri(0.5 * ALPHA_PER_TABLE / max(tried, 1))
     return sorted((one for one in found if one.z > least), key=lambda one: -one.z)
 

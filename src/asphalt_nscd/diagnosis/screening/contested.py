@@ -124,6 +124,7 @@ def _from_level(observed: Observations, out: NDArray[np.bool_] | None = None) ->
         elsewhere = known & (observed.specimen == specimen) & (observed.isotherm != isotherm)
         if elsewhere.any():
             levelled[here] = apart[here] - np.median(apart[elsewhere], axis=0)
+    # A table that repeats almost exactly would make every test far off.
     usual = (
         np.maximum(1.4826 * np.median(np.abs(levelled[known]), axis=0), SCATTER) if known.any() else SCATTER
     )

@@ -111,6 +111,7 @@ def covariances(frequency: ArrayLike) -> NDArray:
     log_f = np.log(np.asarray(frequency, float))
     edges = np.arange(log_f.min() - MARGIN, log_f.max() + MARGIN + CELL, CELL)
     modulus = _integral(edges, log_f) - _integral(edges, np.array([log_f.mean()]))
+    # Bode's kernel is integrated in closed form over each cell: it has a logarithmic pole in one of them.
     phase = np.diff(_primitive(edges - log_f[:, None]), axis=1) / np.pi
     of_slope = np.vstack([modulus, phase])
     centre = 0.5 * (edges[1:] + edges[:-1])
@@ -131,4 +132,5 @@ def _integral(edges: Vector, until: Vector) -> NDArray:
 def _primitive(x: NDArray) -> NDArray:
     """Integral of ln coth(|t| / 2) from 0 to x."""
     decay = np.exp(-np.abs(x))
+    # By dilogarithms; spence(z) is Li2(1 - z).
     return np.sign(x) * (np.pi**2 / 4.0 - spence(1.0 - decay) + spence(1.0 + decay))

@@ -183,6 +183,7 @@ def _levels(observed: Observations, values: Vector) -> dict[Place, float]:
         at = observed.isotherm == t
         specimens = np.unique(observed.specimen[at])
         if specimens.size >= LEAST:
+            # The median bears one bad test of the sweep.
             level |= {
                 (int(k), float(t)): float(np.median(apart[at & (observed.specimen == k)])) for k in specimens
             }
@@ -197,6 +198,7 @@ def _beyond_the_median(level: Mapping[Place, float]) -> dict[Place, float]:
         for place, value in level.items()
         if len(own[place[0]]) >= LEAST
     }
+    # By the median, which the odd levels themselves do not enlarge.
     usual = NORMAL * float(np.median(np.abs(list(left.values())))) if left else 0.0
     return {place: value for place, value in left.items() if abs(value) > max(FAR, DEVIATIONS * usual)}
 
@@ -212,6 +214,7 @@ def _told_apart(level: Mapping[Place, float], least: float, most: int = MOST) ->
         _, place, _, passes = max((abs(errors), place, value, ok) for place, value, errors, ok in judged)
         del rest[place]
         out.append(place)
+        # Rosner's rule: the last that passes makes all before it odd too, since one may mask another.
         sure = len(out) if passes else sure
     rest |= {place: level[place] for place in out[sure:]}
     return {
@@ -240,11 +243,14 @@ def _predicted(
         freedom = int(others.sum() - np.linalg.matrix_rank(design[others]))
         if freedom < LEAST_FREEDOM:
             continue
+        # Specimen and isotherm columns share the constant, so that the design lacks a rank.
         back = np.linalg.pinv(design[others])
         residual = values[others] - design[others] @ (back @ values[others])
         departure = float(values[row] - design[row] @ (back @ values[others]))
+        # The error of a prediction: that of one more level, and of the fit it is predicted by.
         spread = np.sqrt(residual @ residual / freedom * (1.0 + np.sum((design[row] @ back) ** 2)))
         errors = departure / max(float(spread), 1e-12)
+        # Two-sided, and shared by all levels of the table (Bonferroni).
         by_chance = float(stdtrit(freedom, 1.0 - 0.5 * ALPHA_PER_TABLE / values.size))
         yield place, departure, errors, abs(errors) > max(DEVIATIONS, by_chance)
 
@@ -259,6 +265,7 @@ def _departures(level: Mapping[Place, float]) -> Iterator[tuple[int, float]]:
                 apart.append(level[k, t] - float(others.mean()))
                 spread += float(np.sum((others - others.mean()) ** 2))
                 freedom += others.size - 1
+        # On one side everywhere: a specimen that changes sides has mountings that scatter.
         if apart and abs(np.sign(apart).sum()) == len(apart):
             middle = float(np.median(apart))  # the mean could be the doing of one isotherm
             if abs(middle) > max(FAR_SPECIMEN, DEVIATIONS * float(np.sqrt(spread / freedom))):

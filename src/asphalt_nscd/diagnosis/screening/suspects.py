@@ -130,6 +130,7 @@ def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspe
     """
     loo = loo or within_isotherm.leave_one_out(observed)
     broken = np.isin(observed.isotherm, _broken_temperatures(observed, loo))
+    # Modulus, phase and both together of each judged test are looked at (Bonferroni).
     values = loo.chance.shape[1] * max(np.count_nonzero(loo.judged), 1)
     limit = np.where(broken, IN_BROKEN, 1.0) / values
     flags = _singled_out(observed)
@@ -148,6 +149,7 @@ def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspe
     # What is already out is no replicate of the others.
     apart, chance = _from_replicates(observed, ~out)
     far = chance * values < FAR
+    # Where a whole isotherm breaks, causality accuses sound tests too and is no second witness.
     agree = (np.sign(apart) == np.sign(left)) & ~broken[:, None]
     supported = agree & ((doubtful & far) | ((single < LEANING) & (chance * values < VERY_FAR)))
     out |= supported.any(axis=1)
@@ -335,6 +337,7 @@ def _singled_out(observed: Observations) -> list[list[str]]:
     above = quality.exceeded(observed)
     for one in above:
         alike = sum(other.column == one.column and block[other.row] == block[one.row] for other in above)
+        # What half of a sweep exceeds is its gauges or the control, and accuses no single test.
         if 2 * alike < np.count_nonzero(block == block[one.row]):
             limit = quality.LIMITS[one.column]
             unit = limit.unit
@@ -362,10 +365,12 @@ def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[N
         labels = [np.unique(label[rows], return_inverse=True)[1] for label in (block, observed.cell)]
         design = np.hstack([np.eye(label.max() + 1)[label] for label in labels])
         left, size, _ = np.linalg.svd(design, full_matrices=False)
+        # By rank: a specimen at one condition gives columns that say the same.
         left = left[:, size > 1e-9 * size[0]]
         freedom = rows.size - left.shape[1]
         if freedom < LEAST_FREEDOM:
             continue
+        # A test of leverage one has a row or column of its own: nothing judges it.
         room = np.maximum(1.0 - (left**2).sum(axis=1), 1e-6)[:, None]
         residual = values[rows] - left @ (left.T @ values[rows])
         squares = (residual**2).sum(axis=0)

@@ -131,6 +131,7 @@ def find(state: State, surveyed: Survey) -> tuple[list[Odd], list[float]]:
     found: list[Odd] = []
     while len(found) < MOST_CAUSES and places:
         judged = list(_judged(beside, places, whitened))
+        # Odds of the catalogue are those of the tests as they are, before any fault is off.
         share = shares([*(odds for odds, *_ in judged), *(named if not found else [])])
         if not judged or share[best := int(np.argmax(share[: len(judged)]))] < POSSIBLE:
             break
@@ -163,6 +164,7 @@ def _effects(state: State) -> tuple[list[Odd], NDArray[np.complex128]]:
             rows &= observed.specimen == observed.names.index(specimen)
         if isotherm is not None:
             rows &= observed.isotherm == isotherm
+        # What reaches all tests is a cause of the catalogue.
         if rows.any() and not rows.all():
             places.append(Odd(kind, specimen, isotherm))
             effects.append(along[kind] * rows)
@@ -176,6 +178,7 @@ def _effects(state: State) -> tuple[list[Odd], NDArray[np.complex128]]:
     held = [float(t) for t in observed.held_isotherms]
     for name in observed.names:
         add(OFFSET, name, None)
+        # At one frequency a delay is an offset.
         if observed.frequencies.size > 1:
             add(DELAY, name, None)
         for t in held if observed.isotherms.size > 1 else ():
@@ -225,6 +228,7 @@ def _of_catalogue(state: State, surveyed: Survey) -> list[float]:
     for candidate, one in zip(surveyed.candidates, surveyed.estimates, strict=True):
         first = candidate.cause.parameters[0]
         size = float(np.clip(one.amplitude * first.typical, first.low, first.high))
+        # `of_shapes` would ask for a fit of each shape: here each costs two (Akaike).
         gain = nothing - one.misfit - 2.0 * (len(candidate.values) - 1)
         taken = candidate.with_values(np.array([size, *candidate.values[1:]]))
         odds = log_odds(taken, state.plain.observed, gain, one.std_error * first.typical)

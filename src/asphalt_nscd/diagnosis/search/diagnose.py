@@ -120,6 +120,7 @@ def diagnose(
     baseline_joint, baseline = start.fit_burgers_at_each(observed, alone)
     baseline_p = misfit_p_value(baseline, alone)
     spectrum_p = misfit_p_value(fitted, noise)
+    # Neither law holds the other as a special case, so Schwarz's criterion decides and no F test.
     spectrum_better = _information(fitted) < _information(baseline)
     no_common_law = baseline_p > ALPHA_PER_STEP and not spectrum_better and spectrum_p < ALPHA_PER_STEP
     common = joint, fitted
@@ -209,9 +210,11 @@ def _in_unit(value: float, unit: str) -> str:
 def misfit_p_value(fitted: Fitted, noise: Noise) -> float:
     """Lack of fit: of what the fit leaves beyond the replicates (F test), or a stated scatter (chi-squared)."""
     size = fitted.residual.size
+    # Priors hold many parameters: what the tests determine is the trace of the hat matrix.
     used = float(np.trace(np.linalg.solve(fitted.precision, fitted.jacobian.T @ fitted.jacobian)))
     if noise.freedom >= scatter.STATED:
         return float(chdtrc(size - used, fitted.residual @ fitted.residual))
+    # Replicates alone leave `freedom` of these squares (pure error); the rest is lack of fit.
     left = float(fitted.residual @ fitted.residual) - noise.freedom
     freedom = size - used - noise.freedom
     if freedom < 1.0:
@@ -246,12 +249,14 @@ def _noise(
         directions = chance.candidate_directions(joint, fitted, candidates)
         patterns = [p.direction[:, None] for p in chance.specimen_structures(observed)]
         refined = scatter.estimate(observed, np.hstack([membership, directions, *patterns]), scales)
+        # Few replicates against many patterns leave no freedom: the first estimate then stands.
         return refined or noise, True
     notes.append(
         "No condition was repeated on another specimen. What a smooth law misses is therefore taken for scatter, and "
         "whether a law fits cannot be tested. Measure a second specimen or state the scatter."
     )
     sizes = FIRST_SCATTER
+    # How smooth the law is depends on the scatter, and the scatter on what a smooth law leaves.
     for _ in range(3):
         noise = scatter.stated(observed, *sizes, scatter.SPECIMEN_SCALE)
         _, fitted = start.fit_spectrum(observed, noise)
@@ -268,6 +273,7 @@ def _residual_scatter(fitted: Fitted, sizes: tuple[float, float]) -> tuple[tuple
         left = n - float(hat[part].sum())
         freedom += left
         rms = np.sqrt(float(fitted.residual[part] @ fitted.residual[part]) / max(left, 1.0))
+        # A table made by a formula leaves nothing, by which residuals cannot be divided.
         new.append(max(size * rms, 1e-4))
     return (new[0], new[1]), max(int(freedom), 1)
 

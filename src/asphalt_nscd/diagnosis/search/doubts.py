@@ -159,6 +159,7 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))
         parts = parts[:, np.abs(parts).max(axis=0) > 0.0]
+        # Only where smooth rivals leave it enough: else weak evidence has been told already.
         if parts.shape[1] > 1 and abs(table.beside(rest, direction, (parts,), 1.0).z) < ENOUGH <= least:
             yield f"Its size may differ between {words}"
 

@@ -153,6 +153,7 @@ def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | N
     Laboratory or None
         What it adds.
     """
+    # On one isotherm a mounting is the level of its specimen, and a temperature belongs to the law.
     if not isinstance(joint.base, FlexibleSpectrum) or joint.observed.isotherms.size < 2:
         return joint, None
     # An error that the phases of all tests share is no sum of mountings. Beside a law that bends to it, they would seem

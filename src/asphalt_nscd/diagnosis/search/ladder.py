@@ -198,6 +198,7 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
     """
     random = np.random.default_rng(seed)
     ladder = Ladder(joint, start)
+    # No law common to all temperatures, against which a cause could be held.
     if not isinstance(joint.base, FlexibleSpectrum):
         ladder.remaining = _remaining(joint, start, draws, random)
         return ladder
@@ -205,6 +206,7 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
     found, end, survey = with_discrepancy.climb(begun, catalogue, draws, random)
     _take(ladder, begun, found, end)
     ladder.estimates = limits_beside.estimates(end, survey)
+    # The weakest goes first and alone: without it the others may hold.
     while (one := ladder.unsure) is not None:
         ladder.withdrawn += [rung for rung in ladder.rungs if rung.candidate.key == one.key]
         found = [other for other in found if other.candidate.key != one.key]
@@ -276,11 +278,13 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
             np.ones(members.max() + 1, bool),
         )
         value, vector = np.linalg.eigh(found.correlation)
+        # What the law takes up leaves eigenvalues of rounding, of which a quotient says nothing.
         kept = value > 1e-3
         square = float((((vector.T @ found.z)[kept]) ** 2 / value[kept]).sum())
         rank = int(kept.sum())
         if rank == 0:
             continue  # each specimen has frequencies of its own: the law takes all of it
+        # Twice, for modulus and phase are both tried.
         p_value = 2.0 * float(fdtrc(rank, joint.noise.freedom, square / rank))
         out.append(
             Remaining(min(p_value, 1.0), f"each specimen at each frequency, {name}", max(square - rank, 0.0))
@@ -307,5 +311,6 @@ def spread_of(estimates: Mapping[tuple, tuple[float, float]], left_out: Set[str]
     for (name, _), (value, error) in estimates.items():
         if name not in left_out and 0.0 < error < np.inf and not (value < 0.0 and name in ONE_SIGN):
             squares.setdefault(name, []).append((value / error) ** 2)
+    # A cause that may sit at many places counts once, as any other.
     each = [float(np.mean(one)) for one in squares.values()]
     return max(1.0, float(np.sqrt(np.mean(each)))) if each else 1.0

@@ -84,6 +84,7 @@ def _hidden_bias(joint: Joint, fitted: Fitted, candidate: Candidate, threshold: 
 
 def _by_refit(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, threshold: float) -> float:
     """By how much the limit grows when the law may follow the effect as far as it can; infinite if it does."""
+    # No law follows what one specimen does: its linear limit holds.
     if isinstance(candidate.place, str) or not isinstance(joint.base, FlexibleSpectrum):
         return 1.0
     return max(_beyond(joint, fitted, candidate, size, threshold), 1.0)
@@ -132,6 +133,7 @@ def alike(
             other = candidates[k]
             if one.cause.name == other.cause.name or not (found.seen[i] and found.seen[k]):
                 continue
+            # Of strength z along one direction a correlated one leaves z^2 (1 - r^2).
             if STRONGEST**2 * (1.0 - correlation[i, k] ** 2) < as_good:
                 out.setdefault((other.key, one.key), (other, one))
     return list(out.values())

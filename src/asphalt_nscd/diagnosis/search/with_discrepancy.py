@@ -120,6 +120,7 @@ def climb(
         if found is None:
             break
         taken.append(found)
+        # The roughness that a law took on for a cause is given back before the next one is sought.
         state = smoothed(found.after)
         surveyed = survey(state, catalogue)
     return taken, state, surveyed
@@ -176,6 +177,7 @@ def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     candidates, pointing = _pointing(state, catalogue)
     # In a large table the sizes are well determined, and each start takes a second.
     several = state.plain.observed.size <= SEVERAL_STARTS
+    # A second process has 45 shapes: scores tell which four are worth an estimate beside the discrepancy.
     scored = _scored(state, pointing)
     promising = set(_promising(candidates, scored))
     estimates = [
@@ -215,6 +217,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     candidates, estimates, one_sided = surveyed.candidates, surveyed.estimates, surveyed.one_sided
     if not candidates:
         return None
+    # From several starts too: a worse answer for none would pass for a gain of each cause.
     nothing = likeliest(state.model, state.variances)
     z = np.array([estimate.z for estimate in estimates])
     z = np.where(one_sided, np.maximum(z, 0.0), np.abs(z))
@@ -250,6 +253,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         gain = state.misfit - after.misfit - of_shapes(after.fitted, taken, state.plain.observed)
         if gain > TWENTY_TIMES:
             own = of_taken(after, taken)
+            # The law refitted with a cause leaves it more than the law that had followed it.
             z[k] = max(z[k], abs(own.z))
             if not _stands(state, after, taken, own):
                 continue
@@ -260,9 +264,11 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         return None
     most = max(gain for gain, _, _ in refits)
     as_good = [refit for refit in refits if most - refit[0] < TWENTY_TIMES]
+    # Equals in gain are told apart by what is usual of them, and not by a trifle.
     _, k, after = max(as_good, key=lambda refit: odds[refit[1]])
     rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
     share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
+    # A name and what fits as well are told together: they share their probability.
     if sum(share[j] for _, j, _ in as_good) < POSSIBLE:
         return None
     p_value = chance.tail(by_chance, float(z[k]))
@@ -349,6 +355,7 @@ def hangs_on(state: State, candidate: Candidate, before: State | None = None) ->
     sign, carried = np.sign(candidate.values[0]), []
     if candidate.shaped and before is None:
         before = with_causes(state, tuple(one for one in state.fitted.active if one.key != candidate.key))
+    # Akaike's price of a free parameter, for each shape.
     freedom = 2.0 * (len(candidate.values) - 1)
     for name, label, words in _parts(observed):
         for value in np.unique(label):
@@ -389,4 +396,5 @@ def _enough(rest: Observations, name: str) -> bool:
     """Whether what is left still is a table that can show a cause."""
     left = {"isotherm": rest.isotherms.size, "frequency": rest.frequencies.size}
     left["specimen"] = np.unique(rest.specimen).size
+    # One specimen is a table still; one isotherm has no shift, one frequency no slope.
     return left[name] > (0 if name == "specimen" else 1)

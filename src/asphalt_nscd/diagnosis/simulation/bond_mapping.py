@@ -58,6 +58,7 @@ def simulated(campaign: str | Path, observed: Observations) -> Logarithm:
 def over_law(campaign: str | Path) -> pd.Series:
     """|E*| over that of the law of each sample, in its tests without broken bonds."""
     tests = read_tests([campaign], ["broken_bonds"])
+    # A broken bond softens a specimen whatever its mapping.
     whole = tests[tests["broken_bonds"] == 0]
     return (whole["E_MPa"] / whole["E_law_MPa"]).groupby(whole["specimen"]).mean()
 

@@ -318,6 +318,7 @@ def extend(
     named = causes_taken_off(diagnosis_file)
     observed, _ = read_observations(measured, geometry)
     law = read_spectrum(law_file)
+    # More samples than specimens stand for these in turn.
     stands_for = sample.number % len(observed.names)
     frequencies = [frequency for _, frequency, _ in sample.tests]
     band = 2.0 * np.pi * min(frequencies) / MARGIN, 2.0 * np.pi * max(frequencies) * MARGIN
@@ -354,6 +355,7 @@ def _bond_modulus(
     inside = [c for c in here if c.cause.stage == MATERIAL or _scales(c)]
 
     def modulus(omega: Vector) -> Complex:
+        # A subset keeps the table as its whole, to which largest amplitudes and last cycles refer.
         swept = replace(observed.subset(np.full(omega.size, row)), frequency=omega / (2.0 * np.pi))
         value = law.complex_modulus(omega, temperature)
         for candidate in sorted(inside, key=lambda c: c.cause.stage):

@@ -52,6 +52,7 @@ def of_campaign(simulations: str | Path, temperatures: Vector, frequencies: Vect
         )
     whole = tests["broken_bonds"] == 0
     relative = np.log(tests["E_MPa"] / tests["E_law_MPa"])
+    # The packing's own ratio to its law is no numerics.
     relative -= tests["specimen"].map(relative[whole].groupby(tests["specimen"]).median())
     turned = tests["phase_deg"] - tests["phase_law_deg"]
     found: dict[str, float | int] = {"tests": len(tests), "tests_with_broken_bonds": int((~whole).sum())}

@@ -62,6 +62,7 @@ class NumericalSpecimen:
         dynamic = modulus[:, None, None] * self.stiffness - (omega**2)[:, None, None] * self.mass
         motion = np.linalg.solve(dynamic[:, 1:, 1:], -dynamic[:, 1:, :1])
         force = dynamic[:, 0, 0] + (dynamic[:, :1, 1:] @ motion)[:, 0, 0]
+        # As a machine reduces it: Eq. (1) adds the inertia that it counts, whatever the specimen's own motion is.
         return np.asarray(
             self.geometry.form_factor() * (force + self.geometry.mass_factor() * omega**2), complex
         )
