@@ -44,6 +44,7 @@ def mean_relative_error(
     if simulation.empty:
         raise InputError("the table of simulations is empty; simulate at least one test.")
     experiment = experiment.loc[simulation.index]
+    # A delayed channel may turn a phase below zero; the error is relative to its size.
     size = experiment.abs()
     size["phase_deg"] = size["phase_deg"].clip(lower=least_phase_deg)
     errors = 100.0 * np.abs(simulation - experiment) / size

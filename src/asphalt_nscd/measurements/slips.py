@@ -108,6 +108,7 @@ def _order_of_frequencies(table: pd.DataFrame) -> Iterator[str]:
 def _radians(table: pd.DataFrame) -> Iterator[str]:
     for specimen, temperature, slope, phase in _sweeps(table):
         required = 90.0 * slope  # deg, by Kramers and Kronig to first order
+        # In radians it is a 57th of itself in degrees: far below what |E*| requires, and near to it once converted.
         if slope > LEAST_SLOPE and phase < 0.2 * required and 0.5 < np.degrees(phase) / required < 2.0:
             yield (
                 f"the phases of {specimen_named(str(specimen))} at {temperature:g} degC (median {phase:.3g}) look "

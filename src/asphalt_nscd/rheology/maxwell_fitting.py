@@ -163,6 +163,7 @@ def _spaced(
     omega: Vector, target: NDArray[np.complex128], terms: int, reach: float, allowed: Miss
 ) -> MaxwellSeries:
     """Series of evenly spaced relaxation times; moduli by non-negative least squares."""
+    # One at least: a narrow band times a reach below one would turn the order of the times.
     middle, half = np.sqrt(omega[0] * omega[-1]), max(np.sqrt(omega[-1] / omega[0]) * reach, 1.0)
     times = np.geomspace(1.0 / half, half, terms) / middle if terms > 1 else np.array([1.0 / middle])
     turned = 1j * omega[:, None] * times

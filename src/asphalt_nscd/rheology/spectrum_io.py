@@ -146,6 +146,7 @@ def spectrum_content(
     if uncertainty is not None:
         covariance, freedom = uncertainty.covariance, uncertainty.freedom
         values = np.array(list(parameters(law).values()))
+        # On logarithms, in which the law was fitted: no interval reaches zero.
         spread = np.exp(student(min(freedom)) * np.sqrt(np.diag(covariance)))
         content["interval_95"] = {
             keys[name]: [float(value / by), float(value * by)]

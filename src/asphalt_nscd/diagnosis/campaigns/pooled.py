@@ -296,6 +296,7 @@ def _astray(left: Vector, weight: Vector) -> Vector:
 
 def _densities(left: Vector, weight: Vector) -> Vector:
     """Of errors (n,) of sound campaigns and of those in larger error, up to a factor: (2, n)."""
+    # Farther out both densities would underflow, and no share of either be left.
     z = np.minimum(np.sqrt(weight) * np.abs(left), FARTHEST)
     return np.array(
         [(1.0 - ASTRAY) * np.exp(-0.5 * z**2), ASTRAY / LARGER * np.exp(-0.5 * (z / LARGER) ** 2)]

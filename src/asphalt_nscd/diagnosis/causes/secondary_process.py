@@ -34,6 +34,7 @@ class SecondaryProcess(Cause):
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         strength, log_time, energy, exponent = values
+        # Of the whole table, so that its time means the same where isotherms are left out.
         middle = float(np.median(observed.table.isotherms)) + ZERO_CELSIUS
         kelvin = observed.temperature + ZERO_CELSIUS
         log_shift = energy * 1e3 / GAS_CONSTANT * (1.0 / kelvin - 1.0 / middle)

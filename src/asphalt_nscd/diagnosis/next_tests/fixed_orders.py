@@ -41,6 +41,7 @@ def gauges(done: Observations, costs: Costs) -> Orders:
         share = np.bincount(done.specimen[rows], minlength=len(done.names)) / np.bincount(done.specimen)
         names = [done.names[k] for k in np.flatnonzero(share >= 0.5)]
         room = float(np.mean(costs.room))
+        # Nearest to the room, so that no conditioning is paid for.
         at = float(min(done.isotherms, key=lambda t: abs(t - room)))
         why = (
             f"{rows.size} of {done.size} tests exceed the limit of {limit.label}. If the new ones stay below it, the "
@@ -70,6 +71,7 @@ def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
     Orders
         One order.
     """
+    # Both ends: at one frequency an offset and a delay are the same.
     ends = [float(done.frequencies[0]), float(done.frequencies[-1])]
     hours = costs.hours(METAL, float(np.mean(costs.room)), ends)
     why = (

@@ -118,6 +118,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     table = every_test(observed, temperatures(observed) if laws_between else observed.isotherms.tolist())
     noise = noise_of(diagnosis.noise, observed, table)
     joint = Joint(table, base, noise)
+    # A new specimen begins at the level of the mix, with the spread that specimens have.
     scales = np.append(fitted.scales, 0.0)
     candidates = _candidates(observed, table, fitted.active)
     at = joint.linearise(fitted.law, scales, fitted.active)

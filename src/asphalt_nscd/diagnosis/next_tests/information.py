@@ -140,6 +140,7 @@ class Knowledge:
 
     def _new(self, rows: NDArray[np.int64], scatter: Sequence[Matrix]) -> tuple[Matrix, Matrix]:
         """Of each set of tests (M, n), effects (M, 2n, K) and spread (M, 2n, q) in units of what was not known."""
+        # The innovation: scatter of the new tests, and what the old ones leave open of law and discrepancy.
         at = np.concatenate([rows, rows + self._left.shape[0] // 2], axis=1)
         spread = self._spread[at]
         lower = np.linalg.cholesky(np.array(scatter) + spread @ spread.transpose(0, 2, 1))
@@ -158,6 +159,7 @@ class Knowledge:
         Knowledge
             Another one.
         """
+        # Updated by the tests taken alone: a factor anew would be of all q unknowns, after each order.
         effects, spread = (value[0] for value in self._new(tests.rows[None], [tests.scatter]))
         new = copy(self)
         new.information = self.information + effects.T @ effects

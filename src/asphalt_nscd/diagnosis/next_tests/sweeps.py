@@ -233,6 +233,7 @@ def every_test(observed: Observations, at: Sequence[float]) -> Observations:
         nominal_temperature=np.concatenate([observed.isotherm, temperature]),
         strain=None,
         quality={},
+        # Effects stay relative to the largest strain and the last cycle of the tests done.
         whole=observed.table,
     )
 

@@ -64,6 +64,7 @@ def _isotherm(at: Observations) -> dict[str, tuple[Vector, int]] | None:
 
 def _residual_squares(design: NDArray, values: NDArray) -> tuple[Vector, int]:
     left, size, _ = np.linalg.svd(design, full_matrices=False)
+    # By rank: conditions and specimens share a constant.
     left = left[:, size > 1e-9 * size[0]]
     residual = values - left @ (left.T @ values)
     return (residual**2).sum(axis=0), values.shape[0] - left.shape[1]

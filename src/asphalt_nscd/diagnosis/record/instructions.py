@@ -192,6 +192,7 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
     for j in range(len(active), len(model.candidates)):
         if shapeless and len(model.candidates[j].values) > 1:
             continue  # a cause with a shape of its own gets no name beside a discrepancy
+        # That a cause is there at all is shared by the places where it may be.
         question = Question(j, REACH / spread, active, FOUND, PRESENT / names.count(names[j]))
         hidden = max(float(question.strength(known)) - _by_limit(diagnosis, model.candidates[j]), 0.0)
         words = _sized(model.candidates[j], REACH)

@@ -57,6 +57,7 @@ class StiffnessOnly:
         value, slope = _log10_modulus(self.parameters, self.reference, temperature, frequency)
         specimens = self.tests["specimen"].nunique()
         variance = np.einsum("ij,jk,ik->i", slope, self.covariance, slope) * LN10**2
+        # As in `reported`: the level is a mean over few specimens, and what they differ by is little known.
         freedom = min(self.freedom, SCALE_FREEDOM + specimens - 1)
         spread = np.exp(float(stdtrit(freedom, 0.975)) * np.sqrt(variance))
         modulus = 10.0**value
@@ -195,6 +196,7 @@ def fit_stiffness(campaign: Campaign) -> StiffnessOnly:
         used = float(np.sum((slope[: modulus.size] @ inverse) * slope[: modulus.size]))
         freedom = max(modulus.size - used, 1.0)
         left = residual(x)[: modulus.size] * size
+        # A table drawn from its own curve leaves no scatter to divide by.
         size = max(float(np.sqrt(left @ left / freedom)), 1e-5)
     law, _ = _log10_modulus(x[:6], reference, temperature, frequency)
     tests = pd.DataFrame(

@@ -67,6 +67,7 @@ def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list
             quarter = 0.5 * np.pi / np.log(high / low)
             by_slope, by_phase = quarter * (second.real - first.real), 0.5 * (second.imag + first.imag)
             count = min(map(np.count_nonzero, rows))
+            # The slope is a difference of two tests, the phase their mean.
             sigma = np.hypot(quarter * np.sqrt(2.0) * noise.sigma[0], np.sqrt(0.5) * noise.sigma[1])
             z = abs(by_slope - by_phase) / sigma * np.sqrt(count)
             if abs(by_slope - by_phase) < AGREES * max(abs(by_slope), abs(by_phase)):

@@ -27,6 +27,7 @@ def _sets(tests: int) -> tuple[tuple[NDArray[np.int64], float], ...]:
     values = range(2 * tests)
     found = [(np.array([[value] for value in values]), RARE)]
     found.append((np.array([[test, test + tests] for test in range(tests)]), RARE + WITH_IT))
+    # Of four, the two that are wrong are as well ordered as the two that are right.
     if tests >= LEAST_FOR_TWO:
         apart = [pair for pair in combinations(values, 2) if pair[1] - pair[0] != tests]
         found.append((np.array(apart), 2.0 * RARE))

@@ -142,6 +142,7 @@ class Ladder:
         first = fitted.place_of(candidate.key)
         at = slice(first, first + len(candidate.values))
         errors = np.sqrt(np.diag(fitted.covariance))[at] * candidate.typical
+        # The larger of both: the fit takes the sizes of the discrepancy for known, the estimate does not.
         errors[0] = max(errors[0], self.estimates.get(candidate.key, (0.0, 0.0))[1])
         return errors
 
