@@ -163,7 +163,7 @@ def _steady_force(model: Model, law: BondLaw, case: LoadCase, times: np.ndarray)
         model.system, law.discrete_modulus(omega, 0.0), omega, static=model.static_factor
     )
     amplitude = case.amplitude * harmonic.actuator_stiffness(stiffness, case.rig, omega)
-    return (amplitude * np.exp(1j * omega * times)).imag
+    return (amplitude * np.exp(1j * omega * times)).imag  # the drive is a sine
 
 
 def read_subject(model_file: str | Path, excerpt_file: str | Path | None = None) -> Model | ModelExcerpt:
@@ -244,6 +244,7 @@ class TestFiles:
         if self.checkpoint is None:
             return None
         run: dict[str, float | int | str] = {
+            # by content: a file made anew under its old name is another run
             "model": digest(self.model),
             "law": digest(self.law),
             "frequency_Hz": case.frequency,
@@ -302,6 +303,7 @@ def simulate(
     if files.rig is not None:
         columns |= case.rig.columns()
     save(files.output, "test", arrays, columns)
+    # only now: a run killed while its result is written can still go on
     if options.checkpoint is not None:
         options.checkpoint.drop()
     return columns

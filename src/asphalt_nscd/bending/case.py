@@ -89,6 +89,7 @@ class LoadCase:
             Displacement [m].
         """
         angle = self.omega * (time - self.rig.channel_delay) - self.rig.phase_offset
+        # at rest until the motion arrives at the channel
         return np.where(angle > 0.0, self.amplitude * np.sin(angle), 0.0)
 
 

@@ -81,6 +81,7 @@ def write_excerpt(path: str | Path, model: Model, digest: str) -> None:
     arrays = {
         "layer_height": model.layers.height,
         "layer_spheres": model.layers.spheres,
+        # stored as it lies in memory: a product by columns would add in another order than the model's
         "along": model.along.T,
         **{REDUCED + name: value for name, value in excerpt.arrays().items()},
     }

@@ -186,6 +186,7 @@ def cycle_by_cycle(
     """
     geometry, system = _trapezoid(specimen), _system(specimen, bonds)
     length, tires = specimen.network.length, np.isfinite(system.strength)
+    # no strength: bonds of a fatigue test tire and do not break; which may tire was asked before
     system = replace(system, load=np.zeros_like(system.load), strength=np.full(length.size, np.inf))
     amplitude = strain_amplitude / largest_strain(geometry)
     omega = 2.0 * np.pi * frequency

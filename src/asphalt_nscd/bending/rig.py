@@ -18,6 +18,7 @@ KEYS = {
     "channel_delay": "channel_delay_s",
     "phase_offset": "phase_offset_rad",
 }
+# a mass below zero: less moves than the reduction counts
 SIGNED = ("channel_delay", "phase_offset", "head_mass")
 LARGEST = 1e15  # in SI units: far beyond any rig, and squares are finite
 
@@ -65,6 +66,7 @@ class Rig(HeadDevices):
             allowed = Range(low=-LARGEST if name in SIGNED else 0.0, high=LARGEST)
             if not allowed.holds(value):
                 raise InputError(f"rig: {KEYS[name]} = {value:g} must be {allowed}.")
+        # behind a clamp the balance of the head (nscd/bonds/head.py) is monotone only with masses above zero
         if self.head_mass < 0.0 < self.clamp_compliance:
             raise InputError(
                 f"rig: head_mass_kg = {self.head_mass:g} is negative, which a compliant clamp does not allow; give one "

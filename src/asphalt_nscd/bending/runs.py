@@ -369,6 +369,7 @@ def _one_by_one(
             assert small is not None, "the full system makes every step"
             state = small.full_state()
             march.go_on_with(_full_stepper(model, law, stepper.dt, state, case.rig))
+            # the refused step left the state before it: the full system makes it
             run.force[n] = march.move_to(driven[n])
         if small is None:
             run.velocity[n] = layers.mean @ stepper.state.velocity

@@ -210,11 +210,13 @@ def _matrix(found: dict[str, np.ndarray], name: str) -> sparse.csr_array:
     lines, width = (m, n) if nz == _COMPRESSED_ROWS else (n, m)
     if p.size != lines + 1 or p[0] != 0 or (np.diff(p) < 0).any() or p[-1] > min(i.size, x.size, nzmax):
         raise ValueError("the pointers W/p do not fit W/i and W/x")
+    # there may be room for more entries than there are (nzmax): the last pointer tells
     i, x = i[: p[-1]], x[: p[-1]]
     if ((i < 0) | (i >= width)).any():
         raise ValueError("W has entries outside its rows and columns")
     storage = sparse.csr_array if nz == _COMPRESSED_ROWS else sparse.csc_array
     matrix = sparse.csr_array(storage((x, i, p), shape=(m, n)))
+    # an entry that is there twice means its sum, as in CSparse
     matrix.sum_duplicates()
     return matrix
 

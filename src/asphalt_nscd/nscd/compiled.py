@@ -15,5 +15,6 @@ except ModuleNotFoundError as missing:
 from asphalt_nscd.nscd.core_cache import core_folder
 
 setattr(config, "CACHE_DIR", core_folder())  # noqa: B010 - numba declares none of its settings
+# no fastmath, which may add in another order: equal bits are promised. A division by zero gives inf or NaN
 compiled = njit(cache=True, error_model="numpy")
 compiled_for_teams = njit(cache=True, error_model="numpy", nogil=True)  # run by many threads at once

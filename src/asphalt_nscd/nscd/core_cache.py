@@ -10,7 +10,7 @@ from pathlib import Path
 def core_folder() -> str:
     """The folder of what has been compiled from these sources."""
     digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.rglob("*.py")):
+    for source in sorted(Path(__file__).parent.rglob("*.py")):  # a folder lists its files in any order
         digest.update(source.read_bytes())
     return str(Path(cache_base()) / f"core-{digest.hexdigest()[:16]}")
 

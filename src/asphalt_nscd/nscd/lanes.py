@@ -101,6 +101,7 @@ def _as_lanes(builder: ir.IRBuilder, array: Any, pointer: ir.Value) -> ir.Value:
 
 
 def _alignment(array: Any) -> int:
+    # of one number: LLVM would take loads of whole lines, which fault in views and copies that straddle them
     return int(array.dtype.bitwidth) // 8
 
 
@@ -181,6 +182,7 @@ def select_greater(typing_context: Any, a: Any, b: Any, then: Any, otherwise: An
     """In each lane `then` if a > b, else `otherwise`."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        # ordered: NaN is not greater than anything and takes `otherwise`
         return builder.select(builder.fcmp_ordered(">", *arguments[:2]), *arguments[2:])
 
     return _lanes(_lanes, _lanes, _lanes, _lanes), code
@@ -251,6 +253,7 @@ def total(typing_context: Any, value: Any) -> Any:
     """Sum of the lanes in double precision, from the first to the last."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
+        # one after another: in the same order on every processor
         lanes = [builder.extract_element(arguments[0], _PLACE(lane)) for lane in range(WIDTH)]
         lanes = [builder.fpext(lane, ir.DoubleType()) if value != _lanes else lane for lane in lanes]
         result = lanes[0]

@@ -71,10 +71,12 @@ def barrier_wait(barrier, members):
         return
     meeting = _read(barrier, MEETINGS)
     if _add(barrier, ARRIVED, 1) == members - 1:
+        # set back before the others are let go: they may be at the next meeting at once
         _add(barrier, ARRIVED, -members)
         _add(barrier, MEETINGS, 1)
         return
     looks = 0
+    # a member that failed will never come
     while _read(barrier, MEETINGS) == meeting and _read(barrier, BROKEN_UP) == 0:
         looks += 1
         if looks > SPINS:
@@ -175,6 +177,7 @@ class _Member(threading.Thread):
         number, called = 1, _reached(self._calls, 0, 1, AWAKE)
         while True:
             while not called:
+                # first asleep, then a look: a call that comes in between finds this member asleep, and rings
                 self._asleep = True
                 if self._calls[0] < number:
                     self._bell.acquire()
@@ -189,7 +192,7 @@ class _Member(threading.Thread):
                 barrier[BROKEN_UP] = 1
                 self._returned = None, failure
             self.task = None
-            del kernel, barrier, arguments
+            del kernel, barrier, arguments  # else the arrays of this call live until the next
             number += 1
             called = _answer(self._answers, self._calls, number)
 

@@ -244,6 +244,7 @@ class World:
         if not np.isfinite(velocity).all():
             raise ArithmeticError("the motion of a step is not finite")
         self._lose(stored)
+        # the equations of motion took the work of bonds on G v, not on true openings: the rest is `turning`
         foreseen = law.update(explicit - last, operator @ velocity, self.kelvin)[0]
         taken = -dt * float((weight * foreseen) @ (operator @ velocity))
         self._count(velocity, weight, sigma, kelvin, taken, contacts)
@@ -262,6 +263,7 @@ class World:
         """
         left = ~self.broken
         number = clusters(self.bonds.first[left], self.bonds.second[left], self.radius.size)
+        # the largest first; stable, so that equal ones keep their order from run to run
         order = np.argsort(-np.bincount(number), kind="stable")
         return np.asarray(np.argsort(order)[number])
 
@@ -362,6 +364,7 @@ class _Contacts:
 
     def solve(self, velocity: np.ndarray, factor: SuperLU, dt: float) -> np.ndarray:
         """The velocity (6 n,) after the impulses of all that would close within the step."""
+        # an overlap is not pushed open, which would add energy
         gap, touching = np.maximum(self.gap, 0.0), np.zeros(self.gap.size, bool)
         corrected = velocity
         self.rows_met, self.impulse = self.rows[:0], np.empty(0)

@@ -111,14 +111,17 @@ def as_deposit(spheres: Spheres, unit: str | None = None, up: str = "z") -> tupl
     order = [axis for axis in range(3) if axis != UP.index(up)] + [UP.index(up)]
     position, radius = metric.position[:, order], metric.radius
     low, high = (position - radius[:, None]).min(axis=0), (position + radius[:, None]).max(axis=0)
+    # 1e-9: rounding must not turn a square box
     if high[1] - low[1] > (high[0] - low[0]) * (1.0 + 1e-9):
         turn = [1, 0, 2]
         position, low, high = position[:, turn], low[turn], high[turn]
         order = [order[1], order[0], order[2]]
     if order != [0, 1, 2]:
         notes.append(f"axes {', '.join(UP[axis] for axis in order)} of the file became length, width, height")
+    # contiguous, as the kernels are compiled for: a view of columns would have a kernel compiled anew
     position = np.ascontiguousarray(position - low)
     box = high - low
+    # so far away, digits may have been lost when the file was written
     far = bool((np.abs(low) > 10.0 * box.max()).any())
     if far:
         places = ", ".join(f"{UP[axis]} {-low[k]:+.6g} m" for k, axis in enumerate(order))
@@ -167,6 +170,7 @@ def overlaps(position: NDArray[np.float64], radius: NDArray[np.float64]) -> Over
         return Overlaps(touching, 0.0, (0, 0), 0.0, 0)
     share = -gap / np.minimum(radius[first], radius[other])
     worst = int(share.argmax())
+    # spheres are counted from one, as one counts the lines of a file
     return Overlaps(
         touching,
         float(-gap.min()),

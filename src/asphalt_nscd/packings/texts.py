@@ -37,7 +37,7 @@ def read_text(path: Path) -> Spheres:
         For what is empty or no text of spheres.
     """
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = path.read_text(encoding="utf-8-sig")  # spreadsheets begin with a byte order mark
     except UnicodeDecodeError:
         mend = "give a deposit of this program to `asphalt-nscd trim` itself"
         if not path.read_bytes().startswith(b"\x89HDF"):
@@ -56,6 +56,7 @@ def read_text(path: Path) -> Spheres:
 
 def _dump(path: Path, text: str) -> Spheres:
     """The last snapshot of a LIGGGHTS or LAMMPS dump."""
+    # snapshots before the last one show grains on their way
     start = text.rindex("ITEM: TIMESTEP") if "ITEM: TIMESTEP" in text else 0
     snapshots = text.count("ITEM: TIMESTEP")
     parts = re.split(r"^ITEM: ", text[start:], flags=re.MULTILINE)[1:]
@@ -107,6 +108,7 @@ def _frame(path: Path, rows: str, names: list[str]) -> pd.DataFrame:
     if ";" in rows and "," in rows:
         raise InputError(f"{path}: decimals are written with a comma; write them with a point.")
     try:
+        # a separator that is a regular expression needs the engine in Python
         frame = pd.read_csv(
             io.StringIO(rows), sep=separator, header=None, engine="python", skipinitialspace=True
         )

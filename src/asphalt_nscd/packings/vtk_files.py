@@ -45,6 +45,7 @@ def read_points(path: Path) -> Spheres:
     reader = kinds[path.suffix.lower()]()
     reader.SetFileName(str(path))
     reader.GlobalWarningDisplayOff()  # what is wrong is said below, in one sentence
+    # the reader of legacy files takes the first array alone unless told
     if hasattr(reader, "ReadAllScalarsOn"):
         reader.ReadAllScalarsOn()
     reader.Update()
@@ -119,6 +120,7 @@ def write_poly_data(
         data.SetLines(cells(lines))
     for attributes, arrays in ((data.GetPointData(), of_points), (data.GetCellData(), of_lines or {})):
         for name, values in arrays.items():
+            # deep: VTK would point into an array that numpy frees
             array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
             array.SetName(name)
             attributes.AddArray(array)

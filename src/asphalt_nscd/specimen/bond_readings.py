@@ -101,6 +101,7 @@ def crossing(specimen: Specimen) -> np.ndarray:
     first, second, length = network.first[between], network.second[between], network.length[between]
     start = specimen.position[first]
     direction = (specimen.position[second] - start) / length[:, None]
+    # from the middle of a bond: no sphere farther away meets its line
     reach = 0.5 * length + specimen.radius.max()
     near = cKDTree(specimen.position).query_ball_point(start + 0.5 * length[:, None] * direction, reach)
     bond = np.repeat(np.arange(first.size), [len(spheres) for spheres in near])

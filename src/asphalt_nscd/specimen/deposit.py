@@ -130,6 +130,7 @@ def vibrate(
     push = pressure * length * width * dt
     steps, every, touched = round(vibration.duration / dt), max(1, round(RECORD / dt)), np.zeros(n, bool)
     mass = WALL_MASS * bed.weight() / float(np.linalg.norm(bed.gravity))
+    # where the stroke begins, half of it above the grains
     bed.hang_wall(bed.top() + vibration.stroke / 2.0, mass)
     for k in range(steps):
         # 1e-9: the product of a whole period may round to less than a whole number
@@ -145,4 +146,5 @@ def vibrate(
         if k % every == every - 1:
             history.note(bed, bed.plane_point[WALL, 2])
             progress("vibrating", k + 1, steps)
+    # out of the way of the grains, which come to rest without it
     bed.fix_wall(bed.top() + vibration.stroke / 2.0)

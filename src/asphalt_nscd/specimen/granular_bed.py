@@ -480,6 +480,7 @@ class GranularBed:
         if not first.size:
             return 1.0, 1.0  # all in flight
         force = np.zeros_like(self.velocity[:, :3])
+        # bodies have many contacts: indexed assignment would keep one of each
         np.add.at(force, first, -impulse)
         np.add.at(force, second, impulse)
         total = weight.sum(axis=0)

@@ -154,6 +154,7 @@ def facet_network(position: np.ndarray, radius: np.ndarray, shape: Shape) -> Net
         first = own[facets.first[bonded]]
         second = np.append(own, [n + above, n + below])[facets.second[bonded]]
         length = facets.length[bonded]
+        # both branches are computed: a plate, which has no radius, must not index one
         gap = length - radius[first] - np.where(second < n, radius[np.minimum(second, n - 1)], 0.0)
         cut = np.isin(second, [n + k for k in order[1:-1]])
         gap[cut] = length[cut]  # a plate in the middle cuts through spheres

@@ -102,6 +102,7 @@ def power_diagram(position: np.ndarray, radius: np.ndarray, region: Region) -> F
         Where the cells never fill the region.
     """
     distance = region.offset - position @ region.normal.T
+    # far enough that each face mirrors a sphere: the diagram is open where one mirrors none
     volume, within = region.volume, max(2.0 * radius.max(), 1.01 * distance.min(axis=0).max())
     while True:
         facets, kept = _diagram(position, radius, region, distance, within)
@@ -129,6 +130,7 @@ def _diagram(
     pair = np.sort(corners[:, _EDGES].reshape(-1, 2), axis=1)
     at = np.repeat(np.arange(len(vertex)), len(_EDGES))
     owner = np.concatenate([np.arange(n), sphere])
+    # with the image of another a sphere shares no more than an edge on a face
     wanted = (pair[:, 0] < n) & ((pair[:, 1] < n) | (owner[pair[:, 1]] == pair[:, 0]))
     pair, at = pair[wanted], at[wanted]
     order = np.lexsort((pair[:, 1], pair[:, 0]))

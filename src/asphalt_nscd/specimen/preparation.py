@@ -247,6 +247,7 @@ def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
     began = time.process_time()
     box, vibration, position, radius = pouring.box, pouring.vibration, bed.position.copy(), bed.radius
     numerics = PouringNumerics.of(radius, pouring.time_step)
+    # the weight of the layer: 16 times as much lowers it by 0.4 mm more, and presses grains into each other
     history, pressure = (
         PouringHistory(),
         bed.weight() / (box[0] * box[1]) if vibration.duration > 0.0 else 0.0,

@@ -68,6 +68,7 @@ def inertia(specimen: Specimen) -> np.ndarray:
     """
     cell = specimen.network.cell
     if cell.size:
+        # turning, it is a sphere as large as its cell
         mass, radius = specimen.geometry.mass * cell / cell.sum(), np.cbrt(0.75 * cell / np.pi)
     else:
         radius = specimen.radius
@@ -95,7 +96,7 @@ def bond_weight(specimen: Specimen, poisson: float, kt_over_kn: float) -> np.nda
     if specimen.area == "facets":
         stiffness = facet_share(specimen.geometry, kt_over_kn)
     else:
-        stiffness = np.array([1.0, 0.5 / (1.0 + poisson), 0.5 / (1.0 + poisson)])
+        stiffness = np.array([1.0, 0.5 / (1.0 + poisson), 0.5 / (1.0 + poisson)])  # G over E, Eqs. (8)-(11)
     return specimen.network.form[:, None] * stiffness
 
 
@@ -160,6 +161,7 @@ def bending_system(
     return BondedSystem(
         operator=_joined(operator, column),
         weight=bond_weight(specimen, poisson, kt_over_kn).ravel(),
+        # plates that are driven as one share a number: their masses add up
         mass=np.bincount(column[column >= 0], mass.ravel()[column >= 0]),
         load=np.bincount(column[column >= 0], load.ravel()[column >= 0]),
         driven=int(column[6 * n + geometry.axis]),

@@ -47,6 +47,7 @@ def account(
     else:
         stepper = CondensedStepper(system, law, DT / scheme.a, CondensedState.at_rest(system, law), devices)
     run, worst = March(stepper, scheme, law, DT), 0.0
+    # ten steps at rest first, in which the weight comes to bear
     for n in range(10 + round(100 * cycles)):
         run.move_to(amplitude * np.sin(OMEGA * DT * max(0, n - 9)))
         worst = max(worst, abs(run.account.sums.error))
@@ -74,6 +75,7 @@ def closure() -> list[Row]:
 @checks
 def terms() -> list[Row]:
     weightless = replace(beam(), load=np.zeros(beam().mass.size))
+    # the difference is the fifth cycle alone: transients die within two (QUICK_LAW)
     long, short = (account(weightless, 1e-6, "reduced", "fitted", cycles=cycles)[0] for cycles in (5.0, 4.0))
     loss = np.pi * 1e-12 * driving_force(beam(), QUICK_LAW.discrete_modulus(OMEGA, 0.0), OMEGA).imag
     stored = account(weightless, 1e-6, "condensed", "euler", cycles=0.25, law=elastic(1e10))[0].springs

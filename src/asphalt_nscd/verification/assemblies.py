@@ -118,6 +118,7 @@ def spheres_in_a_box(*cells: int, seed: int = 0) -> Assembly:
     centre += rng.uniform(-0.12, 0.12, centre.shape)
     radius = 0.5 * np.ones(len(centre))
     contacts = []
+    # W and q know no gap: pairs that nearly touch count as contacts. Sorted, for a set has no order
     for i, j in sorted(cKDTree(centre).query_pairs(1.08)):
         normal = (centre[i] - centre[j]) / np.linalg.norm(centre[i] - centre[j])
         contacts.append((i, j, 0.5 * (centre[i] + centre[j]), normal))
@@ -125,7 +126,7 @@ def spheres_in_a_box(*cells: int, seed: int = 0) -> Assembly:
         for axis in range(3):
             for side in (1.0, -1.0):
                 depth = position[axis] if side > 0 else shape[axis] - position[axis]
-                if depth < 0.54 and not (axis == 2 and side < 0):
+                if depth < 0.54 and not (axis == 2 and side < 0):  # no lid
                     normal = side * np.eye(3)[axis]
                     contacts.append((i, -1, position - 0.5 * normal, normal))
     mass = 2600.0 * 4 / 3 * np.pi * radius**3

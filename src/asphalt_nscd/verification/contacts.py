@@ -31,9 +31,11 @@ def block_on_ground(gravity: np.ndarray, friction: float, gap: float = 0.0) -> B
 
 def slide(slope: float, friction: float, steps: int = 40, dt: float = 1e-3) -> np.ndarray:
     """Velocity (3,) [m/s] of the block after so many steps from rest, gravity leaning by `slope` [rad]."""
+    # downhill lies between the tangents: a law for each tangent alone would pass along one of them
     gravity = G * np.array([np.sin(slope) * 0.6, np.sin(slope) * 0.8, -np.cos(slope)])
     system, law = block_on_ground(gravity, friction), elastic(1e9)
     state = CondensedState.at_rest(system, law)
+    # contacts are bonds that have broken
     state.broken = list(range(4))
     stepper = CondensedStepper(system, law, dt, state)
     for _ in range(steps):

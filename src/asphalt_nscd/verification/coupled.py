@@ -93,6 +93,7 @@ def stacks() -> list[Row]:
         solution = solve_contacts(w, q, 0.6, tolerance=1e-8)
         error = natural_map(w, q, 0.6, solution.reactions)
         rows.append(Row(f"{name}, error of the natural map", 0.0, error, TOLERANCE, APART))
+        # the lowest bricks come first, with four contacts each
         ground = solution.reactions[::3][: 4 * across].sum() / (shape * across * 2.0 * G * 1e-3)
         rows.append(Row(f"{name}, force on the ground over its weight", 1.0, ground, 1e-6, "equilibrium"))
     return rows
@@ -104,6 +105,7 @@ def twenty(seed: int) -> tuple[np.ndarray, np.ndarray]:
     jacobian = rng.normal(size=(60, 66))
     q = rng.normal(size=60)
     q[::3] -= 0.5
+    # far from singular: each method must solve it alone
     return jacobian @ jacobian.T / 66 + 0.2 * np.eye(60), q
 
 
@@ -123,6 +125,7 @@ def each_alone() -> list[Row]:
     (w, q), mu = twenty(0), 0.7
     problem = ContactProblem.of(w, q, mu)
     solved, _ = problem.sweeps(1e-15, 3000, np.zeros(60))
+    # near enough for the statuses to be right, all that Newton's method is asked for
     near = solved * (1.0 + 1e-3 * np.random.default_rng(1).normal(size=60))
     path = list(islice(interior_path(problem, 3.0, 0.0), 10))
     soft = softened(problem, 0.3, solved)

@@ -109,6 +109,7 @@ def restart() -> list[Row]:
     for method, scheme in (("condensed", "fitted"), ("reduced", "euler")):
         with tempfile.TemporaryDirectory() as folder:
             checkpoint = Checkpoint(Path(folder, "run.h5"), 4, {})
+            # between checkpoints, which are kept every four steps: some steps are made twice
             for stop_after in (11, 30):
                 with suppress(_Stopped):
                     tested(method, scheme, checkpoint, stop_after)

@@ -68,6 +68,7 @@ def passing_grains() -> Row:
 def heavy_on_light() -> list[Row]:
     """A sphere on three small ones, of the largest mass ratio that is taken, and of a larger one."""
     ratio = LARGEST_RATIO
+    # a tenth of a radius apart from each other: nothing but floor and heavy sphere holds them
     distance = 1.05 * 2 * R / np.sqrt(3.0)
     angle = np.arange(3) * 2 * np.pi / 3
     low = np.column_stack([0.5 + distance * np.cos(angle), 0.5 + distance * np.sin(angle), np.full(3, R)])

@@ -74,6 +74,7 @@ def patch() -> list[Row]:
     force = np.repeat(network.form, 3) * (operator @ motion)
     half = np.array([geometry.width, geometry.thickness, geometry.h]) / 2
     centre = np.array([0.0, 0.0, half[2]])
+    # no bond bears the traction on the free faces, so cells that reach them are not in equilibrium
     deep = (half - np.abs(specimen.position - centre) > 6e-3).all(axis=1)
     load = (operator.T @ force).reshape(n, 6)[deep]
     scale = network.area.mean()
@@ -152,6 +153,7 @@ def clamped() -> Model:
     """A prism between four clamps, of its weight and a thousandth of its inertia: it does not swing."""
     beam = jittered_beam(seed=6, shape=(4, 2, 25), area="facets", test=Beam.test)
     model = model_of(Record(*condensed(beam, "beam", Bonds(yield_Pa=1e12)), ""))
+    # directions kept ready hold the projection of the old masses: none then
     return replace(model, system=replace(model.system, mass=1e-3 * model.system.mass), stand_by=None)
 
 

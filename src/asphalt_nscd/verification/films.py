@@ -83,6 +83,7 @@ def lubrication() -> list[Row]:
         leading = 6.0 * np.pi * a**2 / gaps
         name = f"ratio of radii {ratio}, squeezed film"
         rows.append(Row(f"{name}, over 6 pi mu a^2 / h", 1.0, normal[0] / leading[0], 3e-3, source))
+        # the difference of two gaps, four times apart, has no constant: the factor of the logarithm is left
         second = (normal - leading) @ [1.0, -1.0] / np.log(4.0)
         expected = 6.0 * np.pi * ratio * (1.0 + 7.0 * ratio + ratio**2) / (5.0 * (1.0 + ratio) ** 3)
         rows.append(Row(f"{name}, factor of ln(1/h)", expected, second, 0.1, source))
@@ -91,7 +92,7 @@ def lubrication() -> list[Row]:
         name = f"ratio of radii {ratio}, sheared film, factor of ln(1/h)"
         rows.append(Row(name, expected, slide, 0.01, source))
     plane = deviatoric_stiffness(pair(2e-4, 1.0), RIGID, SYRUP, FINE)[0][0]
-    wall = Films(*np.array([[1.0], [0.0], [2e-4], [np.pi * 0.81]]))
+    wall = Films(*np.array([[1.0], [0.0], [2e-4], [np.pi * 0.81]]))  # a radius of 0 is a plane
     found = deviatoric_stiffness(wall, RIGID, SYRUP, FINE)[0][0] / plane
     rows.append(Row("sphere and plane over two spheres", 4.0, found, 0.01, "Brenner 1961: 6 pi mu R^2 / h"))
     return rows

@@ -85,7 +85,7 @@ def fractured(method: str, name: str, most_enrichments: int = 30) -> Run:
             assert isinstance(march.stepper, ReducedStepper)
             state = march.stepper.full_state()
             march.go_on_with(CondensedStepper(specimen(), QUICK_LAW, DT / scheme.a, state))
-            before = march.now
+            before = march.now  # in the coordinates of the full system
             run.force.append(march.move_to(at))
         run.broken = list(march.stepper.state.broken)
         run.full_steps += isinstance(march.stepper, CondensedStepper)

@@ -46,6 +46,7 @@ def follow(law: BondLaw, opening: np.ndarray, dt: float) -> np.ndarray:
 
 def steady_modulus(law: BondLaw, steps: int, cycles: int = 40) -> complex:
     """-sigma/u [Pa] of the steady oscillation with `steps` per cycle."""
+    # 40 cycles are 4 s, and the slow relaxation of the law takes 0.24 s: its transient is gone
     angle = 2 * np.pi * np.arange(1, cycles * steps + 1) / steps
     sigma = follow(law, np.sin(angle), 1 / (FREQUENCY * steps))
     last = slice(-steps, None)

@@ -115,6 +115,7 @@ def laminated_beam(geometry: Geometry, slices: int, shear: float) -> BondedSyste
     width = geometry.B + (geometry.b - geometry.B) * middle / h
     corner = np.array([[x, y] for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
     point = np.empty((4 * slices, 3))
+    # four equal bonds w / sqrt(12) from the axis have the second moment of the section
     point[:, :2] = np.tile(corner, (slices, 1)) * np.repeat(width / np.sqrt(12.0), 4)[:, None]
     point[:, 2] = np.repeat(middle, 4)
     frame = np.tile(np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]]), (4 * slices, 1, 1))
@@ -129,6 +130,7 @@ def laminated_beam(geometry: Geometry, slices: int, shear: float) -> BondedSyste
     share = geometry.e * (geometry.B + (geometry.b - geometry.B) * height / h) * step
     share[-1] /= 2.0
     density = geometry.mass / (geometry.e * h * (geometry.B + geometry.b) / 2.0)
+    # next to no rotary inertia, which Eq. (1) and Rayleigh's quotient do not know
     mass = np.full((slices, 6), 1e-12)
     mass[:, :3] = density * share[:, None]
     mass[-1, :3] += geometry.mobile_mass

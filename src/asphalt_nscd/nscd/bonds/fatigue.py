@@ -168,6 +168,7 @@ def tire(
     while True:
         weight = system.weight * remaining_stiffness(damage)
         opening = system.operator @ statics.motion(weight)
+        # twice the energy of a unit motion of the head is its stiffness: no force at the head has to be formed
         stiffness = float(weight @ opening**2)
         rows.append((cycles, stiffness, np.count_nonzero(damage >= 1.0)))
         # looked at before the jump, so that the last row is the first one below the limit, and `life` can
@@ -177,7 +178,9 @@ def tire(
         speed = np.where(tires & (damage < 1.0), rate(strain(amplitude * opening, length)), 0.0)
         if not speed.max() > 0.0:
             raise ArithmeticError("no bond tires at this strain")
+        # to first order the head loses what bonds lose of their energy at this motion, that of least energy
         energy = (system.weight * opening**2).reshape(-1, 3).sum(axis=1)
+        # a few overloaded bonds would keep every jump short: the cycles gone may always grow by a thousandth
         step = max(jumps.bond / speed.max(), jumps.growth * cycles)
         step = min(step, _step_that_takes(jumps.stiffness * stiffness, energy, speed, damage))
         damage = np.minimum(damage + step * speed, 1.0)

@@ -45,18 +45,21 @@ class PackedBonds:
         self.size, self._law, self._number = mobility.size, law, number
         bodies, self._frame, arm = _rigid_bonds(operator)
         nobody = -(-self.size // 6)
+        # what stands still is a body of no mobility, whose row stays zero: sweeps need no branch for it
         bodies[bodies < 0] = nobody
         self._mobility = self._by_body(mobility, nobody)
         self._mobility[:, 6:] = self._mobility[:, [0, 3]]
         even = (
             (self._mobility[:, :6] == self._mobility[:, [6, 6, 6, 7, 7, 7]]).all(axis=1)[bodies].all(axis=1)
         )
+        # in global axes: a sweep reads 18 numbers a bond, and neither frame nor law
         response = np.einsum("bck,bc,bcl->bkl", self._frame, law.reshape(-1, 3), self._frame)
         for side in range(2):
             own = self._mobility[bodies[:, side]]
             turn = np.cross(np.eye(3), arm[:, side, None])  # (b, k, 3): axis k x arm
             response += own[:, :3, None] * np.eye(3) + np.einsum("bmk,bm,bml->bkl", turn, own[:, 3:6], turn)
         parts = []
+        # even ones first: one comparison a block tells whether mobilities come with the motion
         for bonds in (np.flatnonzero(even), np.flatnonzero(~even)):
             blocks = _blocks(bodies[bonds], nobody, WIDTH, WINDOW)
             parts.append(np.where(blocks >= 0, bonds[blocks], -1))
@@ -104,6 +107,7 @@ class PackedBonds:
             Relative change of the last sweep.
         """
         motion = self._by_body(velocity, len(self._mobility) - 1)
+        # a row has room for eight numbers: the mobility comes with the motion, a fifth less time
         motion[:, 6:] = self._mobility[:, 6:]
         _lay_out(self._blocks, self._frame, self._law, explicit, reaction, self._packed)
         _apply(self._bodies, self._packed, motion, self._mobility, self._even)
@@ -155,6 +159,7 @@ def _blocks(bodies, nobody, width, window):
         for n in range(count):
             bond = waiting[n]
             i, j = bodies[bond, 0], bodies[bond, 1]
+            # what stands still may be shared by lanes: its row is written back as it was
             if lane < width and (i == nobody or taken[i] != block) and taken[j] != block:
                 blocks[block, lane] = bond
                 taken[i] = taken[j] = block

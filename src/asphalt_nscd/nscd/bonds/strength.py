@@ -29,6 +29,7 @@ def utilisations(reaction: np.ndarray, strength: np.ndarray) -> np.ndarray:
     """
     reaction = reaction.reshape(-1, 3)
     shear = np.hypot(reaction[:, 1], reaction[:, 2])
+    # a bond under pressure breaks by shear alone
     return np.maximum(-reaction[:, 0], shear) / strength
 
 

@@ -63,6 +63,7 @@ class BondedSystem:
     )
 
     def __post_init__(self) -> None:
+        # asked so that NaN is refused
         if not (self.strength > 0.0).all():
             raise ValueError("strength: each bond's must be greater than zero; leave weaker bonds out.")
         if not (self.gap >= 0.0).all():

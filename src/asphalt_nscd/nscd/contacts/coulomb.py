@@ -28,6 +28,7 @@ def cut(x, y, z, limit):
         The same reactions, no longer than the limit.
     """
     square = x * x + y * y + z * z
+    # all lanes compute both values: that of a contact without tangential force, 0/0, is never taken
     share = select_greater(square, limit * limit, limit / sqrt(square), broadcast(1.0))
     return share * x, share * y, share * z
 
@@ -54,15 +55,18 @@ def one_contact(w, q0, q1, q2, mu):
     tuple of float
         r_n and both parts of r_T [N s].
     """
+    # where nothing can move no reaction helps, and the natural map tells that there is no solution
     if q0 >= 0.0 or w[0, 0] <= 0.0:
         return 0.0, 0.0, 0.0
     stopping = -q0 / w[0, 0]
+    # below, the reciprocal of mu r_n is taken
     if mu == 0.0:
         return stopping, 0.0, 0.0
     b1, b2 = w[0, 1] / w[0, 0], w[0, 2] / w[0, 0]
     a11, a12 = w[1, 1] - w[1, 0] * b1, w[1, 2] - w[1, 0] * b2
     a21, a22 = w[2, 1] - w[2, 0] * b1, w[2, 2] - w[2, 0] * b2
     g1, g2 = q1 + w[1, 0] * stopping, q2 + w[2, 0] * stopping
+    # nothing slips, and |r_T| = 0 has no reciprocal either
     if g1 == 0.0 and g2 == 0.0:
         return stopping, 0.0, 0.0
     trace = a11 + a22
@@ -91,6 +95,7 @@ def one_contact(w, q0, q1, q2, mu):
         if n > 0.0:
             dx = (a12 * y - (a22 + s) * x) / determinant
             dy = (a21 * x - (a11 + s) * y) / determinant
+            # 1/|r_T| is nearly linear in s, |r_T| is not (as in the secular equation of Moré & Sorensen 1983)
             slope = (b1 * dx + b2 * dy) / (mu * n * n) + (x * dx + y * dy) / tangential**3
             new = s + (1.0 / tangential - 1.0 / (mu * n)) / slope if slope != 0.0 else -1.0
         # Newton's step left the bracket: bisect, or go outwards by eight while there is no upper end
@@ -119,6 +124,7 @@ def project_on_cone(n, t, s, friction):
     tangential = np.sqrt(t * t + s * s)
     if tangential <= friction * n:
         return n, t, s
+    # in the polar cone, whose points have the tip as their nearest
     if friction * tangential <= -n:
         return 0.0, 0.0, 0.0
     height = (n + friction * tangential) / (1.0 + friction * friction)
@@ -155,6 +161,7 @@ def projections(z: np.ndarray, mu: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     across = np.eye(2) - direction[:, :, None] * direction[:, None, :]
     round_cone = mu * height / np.where(tangential > 0.0, tangential, 1.0)
     derivative[:, 1:, 1:] += round_cone[:, None, None] * across
+    # both hold at the tip, where the projection has several generalised derivatives: the identity is one
     point[inside], derivative[inside] = z[inside], np.eye(3)
     point[outside & ~inside], derivative[outside & ~inside] = 0.0, 0.0
     return point, derivative

@@ -171,6 +171,7 @@ def _follow(
 ) -> tuple[np.ndarray, float, int]:
     """The best reactions along a path and by Newton's method from it, their error, and the steps."""
     best, least, steps = np.zeros_like(problem.free_velocity), np.inf, 0
+    # ten times FIRST_REFINEMENT, so that the first trial comes where the error falls below it
     refined, refined_step, mark, mark_step = 10.0 * FIRST_REFINEMENT, 0, np.inf, 0
     for step, r in zip(range(most_steps), path, strict=False):
         error, steps = max(problem.errors(r)), steps + 1

@@ -115,6 +115,7 @@ def _direction(
 
 def _determinant(x: np.ndarray) -> np.ndarray:
     tangential = np.hypot(x[:, 1], x[:, 2])
+    # as a product: the difference of squares would cancel near the border of the cone
     return (x[:, 0] - tangential) * (x[:, 0] + tangential)
 
 
@@ -157,6 +158,7 @@ def _reach(x: np.ndarray, dx: np.ndarray) -> float:
         root = np.sqrt(b * b - a * c)
         q = -(b + np.copysign(root, b))
         candidates = np.concatenate([q / a, c / q, -x[:, 0] / dx[:, 0]])
+    # no root, NaN, is no border: it fails this question too
     candidates = candidates[candidates > 0.0]
     return candidates.min(initial=np.inf)
 

@@ -90,6 +90,7 @@ def linearised(problem: ContactProblem, r: np.ndarray) -> tuple[np.ndarray, np.n
     z = r.reshape(-1, 3) - rho[:, None] * u
     z[:, 0] -= rho * mu * slip
     point, projection = projections(z, mu)
+    # |u_T| has a kink at rest: zero is one of its generalised derivatives
     along = u[:, 1:] / np.where(slip > 0.0, slip, 1.0)[:, None]
     shift = np.tile(np.eye(3), (mu.size, 1, 1))
     shift[:, 0, 1:] = mu[:, None] * along

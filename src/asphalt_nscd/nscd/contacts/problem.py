@@ -95,6 +95,7 @@ class ContactProblem:
             )
         if np.iscomplexobj(W if not sparse.issparse(W) else W.data):
             raise ValueError("W must be real")
+        # a copy: broadcast arrays are read-only, which the compiled kernels would take for another type
         friction = np.broadcast_to(np.asarray(mu, float), contacts).copy()
         matrix = sparse.csr_array(W, dtype=float)
         blocks, row, own = _with_own_blocks(matrix)
@@ -107,6 +108,7 @@ class ContactProblem:
             raise ValueError(f"W is of size {size:.0e}; give it in units in which it is nearer to one")
         trace = np.trace(blocks.data[own], axis1=1, axis2=2)
         usual = trace.mean() if trace.any() else 1.0
+        # one over the mean eigenvalue of W_aa; that of all contacts where W_aa moves nothing
         length = 3.0 / np.where(trace > 1e-14 * usual, trace, usual)
         coupled = sparse.csr_array((np.ones(row.size), blocks.indices, blocks.indptr), (contacts, contacts))
         return cls(

@@ -75,6 +75,7 @@ def deal_lively(s, begin, count, workspace, last):
     blocks, copies = workspace.lively_blocks, workspace.lively_contacts
     found = number_blocks(workspace.bodies, begin, count, workspace.wall + 1, workspace, last)
     nobody, start = private_rows(s, workspace)[0], first_lively(begin)
+    # the last row stays zero: lanes left over read their contact from it
     no_contact = workspace.noted.shape[0] - 1
     for block in range(start, start + found):
         for lane in range(WIDTH):
@@ -149,6 +150,7 @@ def in_blocks(
     """
     spheres, planes = workspace.wall + 1 - workspace.planes, workspace.planes
     if workspace.block.size < pair.size:
+        # a quarter more, so that lists which grow step by step do not ask for new arrays each time
         workspace = workspace_for(pair.size + pair.size // 4, spheres + planes, planes)
     rows, counts = np.empty_like(bodies), np.empty(begin.size - 1, np.int64)
     team.run(_number_slabs, begin, bodies, rows, counts, workspace)
@@ -165,6 +167,7 @@ def in_blocks(
 def _number_slabs(rank, members, barrier, begin, bodies, rows, counts, workspace):
     mark_started(barrier)
     last, first_plane = begin.shape[0] - 2, workspace.wall + 1 - workspace.planes
+    # each member's own: in one array members would take cache lines from each other
     last_block = np.empty(workspace.motion.shape[0], np.int32)
     for kind in range(3):
         first, end = first_and_end(rank, members, last, kind)

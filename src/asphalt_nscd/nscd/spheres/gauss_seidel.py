@@ -126,6 +126,7 @@ def sweep_blocks(
     for block in range(begin, begin + count):
         contact = contacts_of(contacts, block)
         i, j = gather(motion, blocks, block, 1), gather(motion, blocks, block, 2)
+        # walls have no inverse mass; the driven one may have some, and stands alone in the last slab
         rough = select_greater(j[3], zeros(), broadcast(friction[0]), broadcast(friction[1]))
         x, y, z, violation = new_impulse(contact, i, j, rough, broadcast(relaxation))
         dx, dy, dz = x - contact[3], y - contact[4], z - contact[5]
@@ -137,6 +138,7 @@ def sweep_blocks(
         lively = above(moved, broadcast(quiet)) | above(violation, broadcast(calm))
         if lively:
             for lane in range(WIDTH):
+                # a spare row of this slab takes what is not noted: two threads would write a common one
                 rows[0, 0, lane] = spare
                 if lively >> lane & 1:
                     rows[0, 0, lane] = noted
@@ -305,9 +307,11 @@ def sweep_until(
                 part, slabs, workspace, friction, relaxation, everyone, ends, quiet, limit, last_block, rows
             )
             barrier_wait(barrier, members)
+        # no barrier: only the last slab, which is this member's, touches the wall
         if rank == 0:
             push = guide_wall(motion, workspace.wall, drive, push)
         if everyone:
+            # each member adds the same numbers in the same order: all end with the same sweep, without asking
             changed, size, fastest = 0.0, 0.0, 0.0
             for s in range(last + 1 - idle):
                 changed += account[s, CHANGED]

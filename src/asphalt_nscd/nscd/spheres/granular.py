@@ -196,6 +196,7 @@ def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
             gather(workspace.motion, slabs.blocks, block, 2),
         )
         opening = (j[0] - i[0]) * x + (j[1] - i[1]) * y + (j[2] - i[2]) * z
+        # a pair that moves apart counts by its gap: an impact may turn its grains within the step
         least = gap + broadcast(dt) * select_greater(opening, zero, zero, opening)
         # an open gap may close within the step; an overlap left by an unconverged step is undone slowly
         overlap = zero - gap - broadcast(allowed_overlap)
@@ -327,6 +328,7 @@ def step(
     for i in range(begin, end):
         for k in range(3):
             workspace.motion[i, k] += dt * gravity[k]
+    # slabs read bodies that other members have packed
     barrier_wait(barrier, members)
     for kind in range(3):
         mine, others = first_and_end(rank, members, last, kind)
@@ -335,6 +337,7 @@ def step(
             pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin)
             if restitution > 0.0:
                 rebound(s, slabs, workspace, velocity, restitution)
+    # the sweeps begin with the contacts counted in all slabs
     barrier_wait(barrier, members)
     sweeps, change = sweep_until(
         rank,
@@ -352,6 +355,7 @@ def step(
     unpack_motion(workspace.motion, begin, end, velocity)
     if rank == 0:  # who guides the wall
         unpack_motion(workspace.motion, n, bodies, velocity)
+    # by the velocity at the end of the step (theta = 1): the targets that just close a gap are set for it
     for i in range(begin, end):
         for k in range(3):
             position[i, k] += dt * velocity[i, k]

@@ -154,6 +154,7 @@ def _partners(
                 needed = end + found + plane_point.shape[0]
                 if needed <= other.shape[0]:
                     break
+                # what found no room was counted all the same: grown once, it fits
                 other = np.concatenate((other, np.empty(max(needed, other.shape[0]), np.int64)))
             # ascending, so that reactions are carried from list to list in one pass
             _sort(other, end, end + found)
@@ -389,6 +390,7 @@ def _cells_between(start, end, cell, cells):
 def _candidates(i, position, radius, reach, furthest, cell, low, shape, first, members, spheres, out, offset):
     """Count the partners of sphere i; write them from `offset` on as far as `out` has room."""
     x, y, z, size = position[i, 0], position[i, 1], position[i, 2], radius[i]
+    # no partner is larger than the sphere itself: two of its radii reach every centre
     spread = 2.0 * size + reach + furthest
     x_first, x_last = _cells_between(x - spread - low[0], x + spread - low[0], cell, shape[0])
     y_first, y_last = _cells_between(y - spread - low[1], y + spread - low[1], cell, shape[1])

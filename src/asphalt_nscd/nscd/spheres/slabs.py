@@ -222,6 +222,7 @@ def _deal(
         for at in range(place.shape[1]):
             if at % layers == 0:
                 begin[at // layers] = following
+            # members hold the list in order, so a layer keeps the order of the list, however many share it
             for member in range(members):
                 count = place[member, at]
                 place[member, at] = following
@@ -283,6 +284,7 @@ def part_of(rank, members, slabs, kind, work):
     if kind == 2:
         return first_and_end(rank, members, slabs, kind)
     total = 0.0
+    # few slabs hold most of the lively contacts: equal numbers of slabs would be unequal work
     for s in range(kind, slabs, 2):
         total += work[s]
     first = end = kind

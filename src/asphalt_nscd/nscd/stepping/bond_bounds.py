@@ -267,4 +267,5 @@ def _of_each(contributions: np.ndarray, envelope: np.ndarray) -> np.ndarray:
 
 def _first(values: np.ndarray, count: int) -> np.ndarray:
     """Places of the `count` largest of (n,)."""
+    # stable: of equal bonds the first, so that an excerpt has the same ones everywhere
     return np.argsort(-values, kind="stable")[:count]

@@ -103,6 +103,7 @@ class StandBy:
         """
         known = {int(bond): self.directions[:, self.owner == place] for place, bond in enumerate(self.bonds)}
         search = _Search(system, basis, shifted, known)
+        # each once, as asked: a restart that asks for this list gets the same columns to the bit
         return self._of(search, list(dict.fromkeys([*known, *bonds, *search.following(bonds, ahead)])))
 
     def arrays(self) -> dict[str, np.ndarray]:

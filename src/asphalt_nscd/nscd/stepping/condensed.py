@@ -160,6 +160,7 @@ class CondensedStepper:
         explicit = law.explicit_part(state.sigma, state.kelvin)
         while True:
             velocity, contact_force, friction = self._solve(explicit, driven_velocity)
+            # NaN is not <= 1 either: the step would break bond after bond
             if not np.isfinite(velocity).all():
                 raise ArithmeticError("the motion of a step is not finite")
             sigma, kelvin = law.update(explicit, system.operator @ velocity, state.kelvin)
@@ -234,6 +235,7 @@ class CondensedStepper:
         system, state, dt = self.system, self.state, self.dt
         head, following = system.driven, self._follow_head()
         impedance = (system.mass[head] + float(self._coupling() @ following)) / dt
+        # affine in the velocity of the head: two solutions serve all the velocities that are tried below
         held = self._velocity(impulse, 0.0)
 
         def move(head_velocity: float) -> tuple[np.ndarray, np.ndarray]:

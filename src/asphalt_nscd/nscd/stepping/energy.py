@@ -72,7 +72,7 @@ class Energies:
     @property
     def error(self) -> float:
         """Work of the actuator less all the others [J]: rounding."""
-        return 2.0 * self.actuator - sum(asdict(self).values())
+        return 2.0 * self.actuator - sum(asdict(self).values())  # the sum holds it too
 
     def columns(self) -> dict[str, float]:
         """Values by the names that they have in result files; the error relative to the actuator's work."""
@@ -127,7 +127,9 @@ class EnergyAccount:
             The state at its end.
         """
         of = forms(stepper)
+        # a two-step scheme has rates over dt/a; the account is over dt
         sums, scale = self.sums, dt / stepper.dt
+        # by the bonds that are left: what the last step had beyond it was stored in those that broke
         old = self._stores(stepper, of, before, before)
         if len(stepper.state.broken) != self._broken:
             sums.fracture += sums.springs - old["springs"]

@@ -117,6 +117,7 @@ class Excerpt:
         """
         rest = {name: arrays[f"rest/{name}"] for name in ("utilised", "closed", "travel")}
         reaction, closing = arrays["reaction"], arrays["closing"]
+        # summed as `bound` does, so that the excerpt has the bits of the whole model
         utilised = np.sqrt(reaction[:, 0] ** 2 + reaction[:, 1] ** 2 + reaction[:, 2] ** 2)
         bounds = BondBounds(
             arrays["number"],

@@ -31,6 +31,7 @@ def static_factor(system: BondedSystem, modulus: complex | np.ndarray = 1.0) -> 
     SuperLU or Multigrid
         With `.solve`.
     """
+    # real, as factors are: of each bond the size of its modulus; losses are left to the iteration
     free, size = system.free, np.abs(modulus) / abs(np.mean(modulus))
     return factorise(system.stiffness(system.weight * size)[free][:, free], system)
 
@@ -97,6 +98,7 @@ def _follow(
     beyond = beyond[free][:, free]
 
     def solve(force: np.ndarray) -> np.ndarray:
+        # real factors take both parts at once, as two right-hand sides
         parts = static.solve(np.column_stack([force.real, force.imag]))
         return np.asarray(parts[:, 0] + 1j * parts[:, 1])
 

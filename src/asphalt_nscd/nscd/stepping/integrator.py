@@ -59,7 +59,7 @@ class March:
         try:
             force = stepper.move(base.actuator, actuator)
         except Exception:
-            self._widen()
+            self._widen()  # a bond may have broken before the step failed
             self.now.put(stepper.state)
             raise
         base = base.widened(stepper.state)

@@ -80,6 +80,7 @@ class Projection:
         rows = rows_of(removable)
         opening = operator @ basis
         weighted = weight[:, None] * opening
+        # of the sound system: the measure of residuals stays what it is as bonds break
         head = operator.T @ (system.weight * operator[:, [system.driven]].toarray()[:, 0])
         columns = [
             system.mass[:, None] * basis,

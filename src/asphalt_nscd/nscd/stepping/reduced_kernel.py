@@ -76,6 +76,7 @@ def take_steps(run):
         stress = max(maxima[0], abs(new_s[0]))
         size = run.head_norm * stress + run.load_norm
         missing = _norm_of_product(run.residual_factor, combined)
+        # written so that NaN is refused
         if not missing <= run.tolerance * size:
             return n, RESIDUAL, -1
         for c in range(run.closing.shape[0]):
@@ -86,12 +87,14 @@ def take_steps(run):
                 return n, CLOSED_GAP, c
         worst, most = -1, maxima[2]
         for c in range(run.reaction.shape[0]):
+            # a bound of two numbers first: rows of k numbers are summed only where it does not settle a bond
             if run.beyond_head[c, 0] * abs(new_s[0]) + run.beyond_head[c, 1] > most:
                 share = _utilisation(run.reaction[c], new_s)
                 if share > most:
                     worst, most = c, share
         if most > 1.0:
             return n, YIELD, worst
+        # from here on the step counts: one that is refused must leave all as it was
         maxima[2] = most
         maxima[0] = stress
         if size > 0.0:

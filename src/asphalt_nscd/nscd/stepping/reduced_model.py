@@ -166,6 +166,7 @@ class Columns:
         ndarray
             (d, n) Orthonormal columns, n <= m.
         """
+        # a system without load brings a column of zeros, which has no length to divide by
         extra = extra[:, extra.any(axis=0)]
         parts = [self._parts[0][:, 1:], *self._parts[1:]]
         for _ in range(4):  # each pass removes what rounding left of the one before

@@ -378,6 +378,7 @@ class ReducedStepper:
 
     def _watch(self, sigma: np.ndarray, motion: np.ndarray) -> None:
         """Widen the envelope of s and q, and list the bonds that could yield or close within it."""
+        # before the lists change: of bonds that are no longer watched only a bound is known
         self._maxima[2] = self._borne()
         s, q = self._sigma_envelope, self._motion_envelope = self._beyond(sigma, motion)
         self._may_yield, self._may_close = self._of_bonds(lambda part: part.bounds.candidates(s, q))

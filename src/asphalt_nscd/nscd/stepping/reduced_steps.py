@@ -34,6 +34,7 @@ def advance_reduced(run: ReducedRun) -> tuple[int, int, int]:
     sizes = [run.driven.size, run.q.size, run.kelvin_recall.size, *run.residual_factor.shape]
     sizes += [len(run.reaction), len(run.closing), run.velocity.shape[1]]
     counts, taken = np.array(sizes, np.intp), np.empty(3, np.intp)
+    # held by name until the call is over: the kernel has nothing but addresses
     held = [value if isinstance(value, np.ndarray) else _numbers(value) for value in run]
     addresses = np.array([_address(value) for value in held], np.uintp)
     _kernel()(counts.ctypes.data, addresses.ctypes.data, taken.ctypes.data)

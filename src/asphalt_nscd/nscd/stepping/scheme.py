@@ -57,6 +57,7 @@ class Scheme:
         """
         if name == "euler":
             return cls()
+        # x / sin(2 x) by sinc, which has no 0/0 at an angle of zero, where this is BDF2
         b = 0.5 / float(np.sinc(angle / np.pi))
         return cls(b * (1.0 + 2.0 * float(np.cos(angle))), b)
 
@@ -108,6 +109,7 @@ class History:
         History
             The copy.
         """
+        # copies, for the compiled kernel changes the arrays of a state in place
         return cls({name: getattr(state, name).copy() for name in VARIABLES}, actuator)
 
     def put(self, state: Any) -> None:
