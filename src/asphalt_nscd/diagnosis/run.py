@@ -484,6 +484,7 @@ def without_doubtful(
     whole = diagnosis.whole
     rows = [one.row for one in diagnosis.suspects]
     kept = sum(one.used for one in diagnosis.suspects)
+    # A second opinion is a whole diagnosis: asked only where a name and tests enough are at stake.
     if whole is None or not diagnosis.ladder.rungs or kept < MATTERING * whole.size or not kept:
         return None
     try:

@@ -148,6 +148,7 @@ def conditions(residuals: pd.DataFrame, scatter: dict[str, float]) -> pd.DataFra
     for quantity, sigma in (("E", scatter["modulus_percent"]), ("phase", scatter["phase_deg"])):
         for when in BEFORE_AFTER:
             column = RESIDUALS[quantity].format(when)
+            # A mean over specimens scatters by the root of their number less.
             means[f"z_{column}"] = means[column] / sigma * np.sqrt(means["count"])
     return means
 
@@ -284,6 +285,7 @@ def interval_95(value: float, error: float, factor: float = 1.0, of_logarithm: b
     [0.751, 5.329]
     """
     if of_logarithm:
+        # To first order the logarithm errs by error / value; so taken, no interval reaches zero.
         ratio = float(np.exp(factor * CONFIDENCE * error / value))
         return [value / ratio, value * ratio]
     return [value - factor * CONFIDENCE * error, value + factor * CONFIDENCE * error]

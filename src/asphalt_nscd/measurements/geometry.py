@@ -140,6 +140,7 @@ def require_within(shape: Shape, box: Sequence[float]) -> None:
         (shape.h, "high", "long", box[0]),
         (shape.thickness, "thick", "wide", box[1]),
     ):
+        # Millimetres become metres by a product, which errs in the last bit for 36 or 51 of them.
         if wanted > size * (1.0 + 1e-9):
             name = next(key for key, value in shape.keys().items() if np.isclose(1e-3 * value, wanted))
             raise InputError(

@@ -107,6 +107,7 @@ def averages(frame: pd.DataFrame, by: Sequence[str] = KEYS, columns: Sequence[st
         Mean of each, its standard deviation `<column>_sd` (NaN for one sample), count.
     """
     groups = frame.groupby(list(by))[list(columns)]
+    # Of a sample, so NaN for a single one: zero would say that it scatters by nothing.
     spread = groups.std(ddof=1).add_suffix("_sd")
     return groups.mean().join(spread).join(groups.size().rename("count")).reset_index()
 

@@ -168,7 +168,7 @@ def form_factor(geometry: Geometry) -> float:
     25095.8
     """
     x = 1.0 - geometry.b / geometry.B
-    # There the closed form has lost three of sixteen digits.
+    # The closed form holds 13 digits at 0.05, and nine at 0.001.
     if x < 0.05:
         shape = sum(x**n / (n + 3) for n in range(14))  # 0.05^14 is below rounding
     else:

@@ -104,6 +104,7 @@ def chain_at(
     except InputError as refusal:
         raise InputError(f"{name} at {temperature:g} degC: {refusal}") from None
     return chain_content(
+        # Scaled after the fit, whose error is relative: neither it nor a time changes.
         chain.scaled(factor),
         source=name,
         temperature=temperature,

@@ -177,6 +177,7 @@ class TwoS2P1D:
 def _refusal(values: Mapping[str, float]) -> str:
     positive = all(values[name] > 0.0 for name in ("delta", "tau", "beta") if name in values)
     ordered = 0.0 <= values["static_modulus"] < values["glassy_modulus"]
+    # Equal exponents are one element of weight 1 + delta: a law still, though k and h say the same.
     if positive and ordered and 0.0 < values["k"] <= values["h"] < 1.0:
         return ""
     return "needs 0 < k <= h < 1, 0 <= E_static_Pa < E_glassy_Pa, and delta, tau_s and beta above zero"
@@ -194,6 +195,7 @@ def _log_slopes(law: HuetSayegh | TwoS2P1D, omega: ArrayLike, temperature: Array
     modulus = static + (glassy - static) / retarded
     by_retarded = -(glassy - static) / retarded**2
     by_reduced = -by_retarded * (law.k * slow + law.h * fast + flow)
+    # In the order of `parameters`, each times its parameter, as derivatives by logarithms are.
     columns = [
         static * (1.0 - 1.0 / retarded),
         glassy / retarded,

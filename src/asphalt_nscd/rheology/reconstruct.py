@@ -165,6 +165,7 @@ def fit_published(table3: str | Path) -> tuple[np.ndarray, Fit[Spectrum]]:
         The law, with a WLF shift.
     """
     temperatures, laws = read_published(table3)
+    # At no others: between and beyond them a Burgers law has bumps that its data had not.
     omega = 2.0 * np.pi * np.array(FREQUENCIES)
     modulus = np.concatenate([law.complex_modulus(omega) for law in laws])
     fit = fit_spectrum(

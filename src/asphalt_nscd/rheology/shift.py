@@ -55,6 +55,7 @@ class WLF:
             Where c2 + T - T_ref is not positive: the shift is not defined there.
         """
         above = np.asarray(temperature, dtype=float) - self.reference_temperature
+        # Beyond its singularity the formula turns its sign: a colder mix would be softer.
         if np.any(self.c2 + above <= 0.0):
             raise InputError(
                 f"WLF shift: it is not defined {np.min(self.c2):g} K below {self.reference_temperature:g} "

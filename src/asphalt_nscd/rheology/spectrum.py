@@ -103,5 +103,6 @@ def parameters(law: Any) -> dict[str, float]:
     dict of str to float
         In the order of `parameter_names`.
     """
+    # A Burgers law is of one temperature and has no shift.
     parts = [law, law.shift] if hasattr(law, "shift") else [law]
     return {name: getattr(part, name) for part in parts for name in parameter_names(type(part))}

@@ -137,6 +137,7 @@ class Cause(ABC):
             return np.ones(observed.size, bool)
         if isinstance(place, str):
             return observed.specimen == observed.names.index(place)
+        # Exactly: places are isotherms of the same table.
         return observed.isotherm == place
 
     def impossible(self, values: Vector, observed: Observations) -> str:

@@ -94,6 +94,7 @@ def read_observations(
     temperature, frequency = frame["temperature_C"].to_numpy(float), frame["frequency_Hz"].to_numpy(float)
     nominal = nominal_temperatures(table, temperature)
     isotherm = temperature if (nominal == temperature).all() else nominal
+    # T 378 sets strains from peak to peak, and displacements elsewhere are amplitudes.
     strain = table.numbers_or_nan("microstrain") * HALF_MICRO
     origins = sorted(set(frame["origin"]))
     observed = Observations(
