@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 
 import numpy as np
 import pandas as pd
@@ -15,7 +16,9 @@ import asphalt_nscd as an
 from asphalt_nscd.cli.diagnose import command
 from asphalt_nscd.diagnosis.words.sentences import causes, law_of_the_mix
 from asphalt_nscd.diagnosis.written import three_digits
+from asphalt_nscd.exports.workbook import corrected_workbook
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.reporting.pages.diagnosis_page import PARAMETERS
 from asphalt_nscd.reporting.pages.handout import law_in_words
 from asphalt_nscd.table_import.campaign import read_campaign
@@ -121,6 +124,25 @@ def test_the_workbook_has_charts_of_its_cells(folder):
                 sheet, cells = reference.replace("$", "").split("!")
                 values = [cell.value for row in book[sheet.strip("'")][cells] for cell in row]
                 assert all(isinstance(value, int | float) for value in values)
+
+
+def test_a_chart_shows_a_specimen_with_its_own_tests_where_the_table_alternates_them(folder, tmp_path):
+    table = pd.read_csv(folder / "corrected.csv")
+    for name in ("diagnosis.json", "reported.csv", "master_curve.csv"):
+        shutil.copy(folder / name, tmp_path)
+    table.sort_values(["temperature_C", "frequency_Hz"]).to_csv(tmp_path / "corrected.csv", index=False)
+    book = load_workbook(corrected_workbook(tmp_path))
+    sheet = book["Corrected"]
+    place = [cell.value for cell in sheet[1]].index("specimen")
+    specimens = table["specimen"].astype(str).unique()
+    drawn = [
+        one for chart in book["Charts"]._charts for one in chart.series if "Corrected" in one.yVal.numRef.f
+    ]
+    assert len(drawn) == 3 * len(specimens)
+    for series in drawn:
+        first, last = re.findall(r"\d+", series.yVal.numRef.f.split("!")[1])
+        (own,) = {str(sheet[row][place].value) for row in range(int(first), int(last) + 1)}
+        assert series.tx.v == specimen_named(own)
 
 
 def test_an_unknown_law_is_refused():

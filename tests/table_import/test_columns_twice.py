@@ -51,6 +51,8 @@ def test_a_frequency_above_two_columns_of_an_export(tmp_path):
     campaign = exports(tmp_path, a=equal)
     assert columns(campaign, "frequency_Hz", "E_MPa") == [["25", "1"], ["9100", "5000"]]
     assert said(campaign, "25 Hz stands above two columns with equal results, which count once")
+    of_one_digit = EXPORT.format("A", "", "1", 5000).replace("13.25", "19")
+    assert said(exports(tmp_path, a=of_one_digit), "1 Hz stands above two columns with equal results")
 
 
 def test_a_frequency_in_two_names_of_a_wide_table(tmp_path):

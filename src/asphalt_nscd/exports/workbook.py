@@ -136,8 +136,10 @@ def corrected_workbook(folder: Path) -> Path:
     # A specimen called 01 is not 1.
     tests = pd.read_csv(folder / "corrected.csv", dtype={"specimen": str})
     used = tests["status"] == "used"
+    # A chart takes a specimen's rows from its first to its last; NCAT's tables alternate specimens.
+    corrected = tests[used].sort_values("specimen", key=lambda one: pd.factorize(one)[0], kind="stable")
     sheets = {
-        "Corrected": tests[used].drop(columns="status"),
+        "Corrected": corrected.drop(columns="status"),
         "Left out": tests[~used].drop(columns=["E_MPa", "phase_deg", "corrected_for"]),
         "Mix": pd.read_csv(folder / "reported.csv"),
         "Master curve": pd.read_csv(folder / "master_curve.csv"),
@@ -158,7 +160,7 @@ def corrected_workbook(folder: Path) -> Path:
         )
         sheets["Laws compared"] = pd.DataFrame(content["laws"])
     filled = {name: table for name, table in sheets.items() if len(table)}
-    write_sheets(folder / "corrected.xlsx", filled, _plots_of_mix(tests[used]))
+    write_sheets(folder / "corrected.xlsx", filled, _plots_of_mix(corrected))
     return folder / "corrected.xlsx"
 
 

@@ -263,13 +263,14 @@ def _turned(path: Path, line: int, frequencies: list[str], rows: list[Row], note
     for place, frequency in enumerate(headings, start=1):
         values = [cells[place] if place < len(cells) else "" for _, cells in rows]
         value = float(frequency.replace(",", "."))
+        twice = value in turned
         same = turned.setdefault(value, (modulus, [frequency, *values]))
         if same[1][1:] != values:
             raise InputError(
                 f"{path}, line {line}: {value:g} {unit} stands above two columns with different results; remove the "
                 "column that does not hold, or correct its frequency. A retest belongs in an export of its own."
             )
-        if same[1][0] is not frequency:
+        if twice:
             notes.append(f"{value:g} {unit} stands above two columns with equal results, which count once")
     return Cells(Path(), header, list(turned.values()))
 
