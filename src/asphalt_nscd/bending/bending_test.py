@@ -405,6 +405,7 @@ def outcome(
     history = record.time, record.force, record.displacement, frequency
     # the first cycles hold the transient of the Maxwell dashpot and of the start from rest
     steady = harmonic_response(*history, cycles=min(REDUCED_CYCLES, int(cycles)))
+    # the paper's way: maxima carry the drift of the Maxwell dashpot, which the fit takes off
     peak = peak_response(*history, cycles=1)
     columns: dict[str, Any] = {
         "specimen": model.name,

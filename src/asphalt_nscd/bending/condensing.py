@@ -47,9 +47,10 @@ class Bonds(Ranged):
     """
 
     head: str = one_of("free", HEADS)
-    poisson: float = within(0.35, above=-1.0, high=0.5)
+    poisson: float = within(0.35, above=-1.0, high=0.5)  # of Eqs. (8)-(11); a network then shows 0.16
+    # one: a uniform strain is in equilibrium in any packing, with the modulus of the law (facet_network)
     kt_over_kn: float = within(1.0, low=1e-4, high=10.0)
-    yield_Pa: float = within(2.7e6, low=1.0)
+    yield_Pa: float = within(2.7e6, low=1.0)  # the paper's, which names no test behind it
     friction: float = within(0.7, low=0.0, high=100.0)
 
 

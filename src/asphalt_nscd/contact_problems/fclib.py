@@ -89,6 +89,7 @@ def solve_files(files: Sequence[str | Path], tolerance: float) -> list[Outcome]:
     InputError
         For a file that holds no such problem.
     """
+    # all first: a file that cannot be read is told before minutes go into the others
     problems = [read_problem(file) for file in files]
     outcomes = []
     for file, problem in zip(files, problems, strict=True):

@@ -279,6 +279,7 @@ class World:
         first, second = self.bonds.first, self.bonds.second
         if not first.size:
             return np.empty(0), np.empty((0, 3, 3)), np.empty((0, 3))
+        # axes that stay would strain a body that turns: by 5e-5 at 0.01 rad, by 0.12 at 0.5 rad
         half = (rotation[second] * rotation[first].inv()).as_rotvec() / 2.0
         mean = (Rotation.from_rotvec(half) * rotation[first]).as_matrix()
         frame = self.bonds.frame @ mean.transpose(0, 2, 1)
@@ -350,6 +351,7 @@ class _Contacts:
         first, second, gap = near_pairs(world.position, radius, *planes, *found, reach)  # type: ignore[call-arg]  # compiled
         left = ~world.broken
         joined = np.sort(np.stack([world.bonds.first[left], world.bonds.second[left]]), axis=0)
+        # a pair as one number, since isin knows no pairs
         free = ~np.isin(first * (n + len(planes[0])) + second, joined[0] * (n + len(planes[0])) + joined[1])
         first, second, gap = first[free], second[free], gap[free]
         normal = np.empty((first.size, 3))

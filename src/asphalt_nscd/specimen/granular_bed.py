@@ -98,6 +98,8 @@ class PouringNumerics:
             For diameters that differ by more than LARGEST_RATIO.
         """
         smallest, largest = float(radius.min()), float(radius.max())
+        # a sphere sinks into a grain of 1/1000 of its mass by 0.005 of the grain's radius, into one of
+        # 1/27 000 by 0.48, while the sweeps end as converged
         if largest > LARGEST_RATIO * smallest * (1.0 + 1e-9):
             raise InputError(
                 f"spheres of {2e3 * smallest:.3g} and {2e3 * largest:.3g} mm: diameters differ by more than "
@@ -237,6 +239,7 @@ class GranularBed:
         landed ones are searched.
         """
         low = self.position[:, 2] - self.radius
+        # over the last sphere, with which all that still fall keep their distance: computed once
         self._lowest = np.minimum.accumulate(low[::-1])[::-1] - self.position[-1, 2]
         self._involved = 0
 
@@ -302,6 +305,7 @@ class GranularBed:
         """Count the spheres that may meet the landed ones within the step, directly or through a third."""
         if self._lowest is None:
             return
+        # the last sphere is the highest: it falls free for longest
         falling, landed = self.velocity[self.radius.size - 1, 2], slice(0, self._involved)
         moved = self.velocity[landed, 2] != falling
         top = (self.position[landed, 2] + self.radius[landed])[moved].max(initial=self.plane_point[2, 2])
@@ -402,6 +406,7 @@ class GranularBed:
         ndarray (c,)
             Gaps [m].
         """
+        # searched anew: the list in use holds what may meet in a step, which may be less than is asked
         start, other = neighbours.find_pairs(
             self.position, self.radius, self.plane_point, self.plane_normal, below
         )

@@ -60,6 +60,7 @@ class Surfaces(Ranged):
     """
 
     friction: float = within(0.2, low=0.0, high=100.0)
+    # smooth walls lower the usual layer from 63.5 to 62.1 mm (docs/pouring.md)
     wall_friction: float | None = within(None, low=0.0, high=100.0)
     restitution: float = within(0.0, low=0.0, below=1.0)
 
@@ -93,6 +94,7 @@ class Pouring(Ranged):
     seed: int = within(0, low=0)
     surfaces: Surfaces = Surfaces()
     vibration: Vibration = Vibration()
+    # shorter steps change neither height nor overlap; at 0.2 ms fast grains exchange no false impulse
     time_step: float = within(4e-4, "time_step_s", low=1e-6, high=1e-3)
     threads: int = 1
 

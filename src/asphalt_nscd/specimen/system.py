@@ -12,6 +12,7 @@ from asphalt_nscd.measurements.shape import DRIVEN, FREE, HELD, Plate, Shape
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.specimen.trimming import Specimen
 
+# blocked, |E*| of the paper's specimen is 2.6 times that of its law, free 1.1 (bond_readings.csv)
 HEADS = ("free", "blocked")
 
 
@@ -67,6 +68,7 @@ def inertia(specimen: Specimen) -> np.ndarray:
         (n, 6) Three times the mass [kg], three times the moment of inertia [kg m2].
     """
     cell = specimen.network.cell
+    # masses of cells leave the first resonance of a bar 7e-5 from c/4L, those of spheres 3.7e-3
     if cell.size:
         # turning, it is a sphere as large as its cell
         mass, radius = specimen.geometry.mass * cell / cell.sum(), np.cbrt(0.75 * cell / np.pi)

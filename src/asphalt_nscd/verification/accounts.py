@@ -56,6 +56,7 @@ def account(
 
 @checks
 def closure() -> list[Row]:
+    # so narrow that gaps close, and so strong that no bond breaks before
     narrow = replace(beam(), gap=1e-3 * beam().gap, strength=np.full_like(beam().strength, np.inf))
     rig = HeadDevices(1e-7, 1e4, 5.0, 0.2)
     rows = []

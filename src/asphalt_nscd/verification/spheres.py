@@ -80,6 +80,7 @@ def _on_incline(slope: float, friction: float) -> GranularBed:
 
 @checks
 def rolling() -> list[Row]:
+    # a thousandth above the least friction with which it rolls
     ball = _on_incline(0.3, 2 / 7 * np.tan(0.3) * 1.001)
     speed, source = 5 / 7 * G * np.sin(0.3) * ball.time, "a = (5/7) g sin(slope) where mu > (2/7) tan(slope)"
     return [

@@ -164,6 +164,7 @@ def tire(
     """
     tires = np.isfinite(system.strength)
     damage, cycles = np.zeros(length.size), 0.0
+    # without inertia, about 1 % of the force of a trapezoid at 25 Hz
     statics, rows = Statics(system, TOLERANCE, ENOUGH_ITERATIONS, 20 * ENOUGH_ITERATIONS), []
     while True:
         weight = system.weight * remaining_stiffness(damage)

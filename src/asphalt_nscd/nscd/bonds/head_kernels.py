@@ -35,6 +35,7 @@ def follow_actuator(devices, dt, free_force, impedance, actuator, x, v):
     """
     clamp, spring, slider, mass = devices
     push = clamp * (free_force - mass * v / dt + spring * x) + x - actuator
+    # the inclusion r in F_s Sign(v+) is a projection: sticking and sliding need no iteration
     held = min(max(push, -clamp * slider), clamp * slider)
     velocity = (held - push) / (clamp * (impedance + mass / dt + spring * dt) + dt)
     if velocity != 0.0:

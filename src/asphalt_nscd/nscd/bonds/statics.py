@@ -55,6 +55,7 @@ class Statics:
             Where no solution is found.
         """
         system, free = self.system, self.system.free
+        # on the factors of other weights, if there are any; should they fail, once more on new ones
         for last in (self._factor is None, True):
             if self._factor is None:
                 self._factor = factorise(system.stiffness(weight)[free][:, free].tocsc(), system)

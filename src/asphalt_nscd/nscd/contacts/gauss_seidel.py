@@ -68,6 +68,7 @@ def accelerated_sweeps(start, other, block, q, friction, length, part, tolerance
         # says that the end is near
         if sweep % _CHECK == 0 or sweep == most_sweeps or size <= tolerance**2 * whole:
             error = max(natural_map(start, other, block, q, friction, length, part, swept))
+            # of swept reactions alone: extrapolated ones may lie outside the cones
             if error < least:
                 least = error
                 best[:] = swept

@@ -402,6 +402,7 @@ def _candidates(i, position, radius, reach, furthest, cell, low, shape, first, m
         for cy in range(y_first, y_last + 1):
             row = (cz * shape[1] + cy) * shape[0]
             begin, end = first[row + x_first], first[row + x_last + 1]
+            # cells of a row lie side by side: one run of blocks, whose ends may hold spheres too far away
             for block in range(begin // WIDTH, -(-end // WIDTH)):
                 dx, dy, dz = (
                     load(spheres, block, 0) - at_x,

@@ -23,6 +23,7 @@ MOST_SLABS = 256
 LAYER = 5e-4  # m, within which pairs stand in the order of the list
 MOST_LAYERS = 1000
 FAIR = 4  # a multiple of it: as many slabs of even number as of odd, and equal parts for two threads
+# contacts of a large sphere need a block each: one strip alone filled 6.7 lanes of eight
 STRIPS = 3  # of one slab, at least: blocks are then nearly full
 
 

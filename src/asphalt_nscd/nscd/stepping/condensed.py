@@ -106,6 +106,7 @@ class CondensedStepper:
         """actuator: its displacement [m] at `state`."""
         self.system, self.step_law, self.dt, self.state = system, law.step(dt), dt, state
         self.devices, self.actuator = devices, actuator
+        # solved, not swept: sweeps that stop at a change of 1e-4 or 1e-5 give 0.3 to 7.6 % of |E*| (Fig. 6)
         self._operator = ShiftedOperator(system, dt / self.step_law.compliance)
         self._operator.remove(state.broken)
         self._following = np.empty(0), -1

@@ -154,6 +154,7 @@ class EnergyAccount:
         contact = getattr(stepper, "contact", None)
         if contact is not None:
             reaction, opening = (part.reshape(-1, 3) for part in contact)
+            # a gap that closes within the step has u_n = -gap/dt where it presses: the impact loses that work
             sums.impact -= dt * float((reaction[:, 0] * opening[:, 0]).sum())
             sums.friction -= dt * float((reaction[:, 1:] * opening[:, 1:]).sum())
 

@@ -50,7 +50,7 @@ class SweepingStepper:
         self.system, self.law, self.dt, self.state = system, law.step(dt), dt, state
         self.tolerance, self.most_sweeps = tolerance, most_sweeps
         self._inverse_mass = 1.0 / system.mass
-        self._inverse_mass[system.driven] = 0.0
+        self._inverse_mass[system.driven] = 0.0  # no reaction moves what is driven
         self._column = system.operator[:, [system.driven]]
         self._bonds = PackedBonds(
             system.operator,
@@ -90,6 +90,7 @@ class SweepingStepper:
         self.sweeps += sweeps
         self.largest_change = max(self.largest_change, change)
         inertia = system.mass[system.driven] * (driven_velocity - state.velocity[system.driven]) / dt
+        # by the head's own equation of motion: it holds, whatever the sweeps have left open elsewhere
         drive = inertia - system.load[system.driven] - (self._column.T @ reaction)[0]
         sigma = reaction / system.weight
         state.kelvin = self.law.stretched(state.kelvin, sigma)

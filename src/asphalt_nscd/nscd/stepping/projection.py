@@ -76,6 +76,7 @@ class Projection:
         free, operator = system.free, system.operator
         weight = system.weight.copy()
         weight[rows_of(broken)] = 0.0
+        # forces and couples over the root of their stiffness have one unit, that of the root of an energy
         root = np.sqrt(system.stiffness_diagonal[free])
         rows = rows_of(removable)
         opening = operator @ basis

@@ -70,6 +70,7 @@ def take_steps(run):
             combined[a] = (new_v[a] - v[a]) / dt
             combined[k + a] = new_s[a]
         combined[2 * k] = 1.0
+        # the bonds watched are those of the envelope: beyond it the trial cannot tell whether one yields
         if outside:
             return n, OUTSIDE_ENVELOPE, -1
         # an inaccurate trial must not decide on gaps and yield, nor one without its contacts on yield

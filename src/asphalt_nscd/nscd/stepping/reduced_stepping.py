@@ -286,6 +286,7 @@ class ReducedStepper:
         from asphalt_nscd.nscd.stepping.condensed import CLOSED
 
         model, system = self.model, self.model.system
+        # what s_0 would be in a reduced step of this force
         stress = abs(full.missing[system.driven]) / model.stiffness[0, 0]
         self._maxima[0] = max(self._maxima[0], stress)
         # relative to the largest load so far: at zero crossings of the head the instant's own is nothing to
@@ -353,6 +354,7 @@ class ReducedStepper:
 
     def _step_inverse(self) -> np.ndarray:
         model = self._part
+        # an inverse and no factors: the kernel allocates nothing and calls no linear algebra
         return np.linalg.inv((model.mass + self.dt / self.law.compliance * model.stiffness)[1:, 1:])
 
     def _seen_from_head(self, inverse: np.ndarray) -> tuple[float, np.ndarray, np.ndarray, float]:
