@@ -219,7 +219,22 @@ def log_residual(measured: NDArray[np.complex128], law: NDArray[np.complex128]) 
 def best_of_starts(
     residual: Callable[[Vector], Vector], bounds: tuple[Vector, Vector], starts: tuple[Vector, Vector]
 ) -> OptimizeResult:
-    """Least squares from random starts between two corners; the lowest cost wins."""
+    """Least squares from random starts between two corners; the lowest cost wins.
+
+    Parameters
+    ----------
+    residual : callable
+        From parameters (p,) to residuals (r,).
+    bounds : tuple of ndarray (p,)
+        Lowest and highest parameters of the fit.
+    starts : tuple of ndarray (p,)
+        Two corners between which STARTS points are drawn uniformly, from SEED.
+
+    Returns
+    -------
+    OptimizeResult
+        As `scipy.optimize.least_squares` gives it, with its Jacobian.
+    """
     random = np.random.default_rng(SEED)
     solutions = (
         least_squares(
@@ -267,5 +282,18 @@ def covariance_of(
 
 
 def rms_of(solution: OptimizeResult, points: int) -> float:
-    """Root mean square over the points of the complex residual's norm."""
+    """Root mean square over the points of the complex residual's norm.
+
+    Parameters
+    ----------
+    solution : OptimizeResult
+        Least squares of `log_residual`: two residuals for each point.
+    points : int
+        How many were fitted.
+
+    Returns
+    -------
+    float
+        Root mean square of |ln(E_measured / E_law)|.
+    """
     return float(np.sqrt(2.0 * solution.cost / points))

@@ -158,7 +158,18 @@ class Sigmoid(OfModulus):
 
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
-        """What its own parameters must satisfy, if these do not."""
+        """What its own parameters must satisfy, if these do not.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            Parameters by field name: moduli [Pa], tau [s], gamma [-].
+
+        Returns
+        -------
+        str
+            Empty where they are allowed; else what is needed, in the names that a law file has.
+        """
         # Unlike CAM the sigmoid takes the logarithm of its lower end.
         if (
             0.0 < values["static_modulus"] < values["glassy_modulus"]
@@ -236,7 +247,18 @@ class CAM(OfModulus):
 
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
-        """What its own parameters must satisfy, if these do not."""
+        """What its own parameters must satisfy, if these do not.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            Parameters by field name: moduli [Pa], tau [s], v and w [-].
+
+        Returns
+        -------
+        str
+            Empty where they are allowed; else what is needed, in the names that a law file has.
+        """
         positive = min(values["tau"], values["v"], values["w"]) > 0.0
         if positive and 0.0 <= values["static_modulus"] < values["glassy_modulus"]:
             return ""

@@ -50,7 +50,18 @@ class HuetSayegh:
 
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
-        """What its own parameters must satisfy, if these do not."""
+        """What its own parameters must satisfy, if these do not.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            Parameters by field name: moduli [Pa], tau [s], delta, k and h [-].
+
+        Returns
+        -------
+        str
+            Empty where they are allowed; else what is needed, in the names that a law file has.
+        """
         return _refusal(values)
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
@@ -134,7 +145,18 @@ class TwoS2P1D:
 
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
-        """What its own parameters must satisfy, if these do not."""
+        """What its own parameters must satisfy, if these do not.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            Parameters by field name: moduli [Pa], tau [s], delta, k, h and beta [-].
+
+        Returns
+        -------
+        str
+            Empty where they are allowed; else what is needed, in the names that a law file has.
+        """
         return _refusal(values)
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
