@@ -55,7 +55,15 @@ class PouringHistory:
     touched: list[int] = field(default_factory=list)  # grains touched by the wall in each period
 
     def note(self, bed: GranularBed, wall: float = np.nan) -> None:
-        """Add the present state of the bed, and the height [m] of the wall."""
+        """Add the present state of the bed, and the height [m] of the wall.
+
+        Parameters
+        ----------
+        bed : GranularBed
+            Whose time [s] and height of the layer [m] are added.
+        wall : float
+            Height of the top wall [m]; NaN while it is out of the way.
+        """
         self.time.append(bed.time)
         self.height.append(bed.layer_height())
         self.wall.append(wall)
@@ -78,7 +86,23 @@ def settle(
     progress: Progress,
     stage: str,
 ) -> None:
-    """Advance until the root mean square speed stays under rest_speed [m/s], at most `longest` [s]."""
+    """Advance until the root mean square speed stays under rest_speed [m/s], at most `longest` [s].
+
+    Parameters
+    ----------
+    bed : GranularBed
+        Spheres in motion; it changes in place.
+    numerics : PouringNumerics
+        Time step [s] and what its sweeps do.
+    rest_speed : float
+        Root mean square speed [m/s] under which the bed is at rest, four looks (5 ms apart) in a row.
+    longest : float
+        Time of the bed [s] after which this ends anyway.
+    progress : callable
+        progress(stage, done, total), in seconds of the bed.
+    stage : str
+        Its first argument.
+    """
     n = bed.radius.size
     began = bed.time
     check = max(1, round(5e-3 / numerics.time_step))
@@ -94,7 +118,26 @@ def settle(
 def balance(
     bed: GranularBed, numerics: PouringNumerics, longest: float, progress: Progress, stage: str
 ) -> tuple[float, float]:
-    """Advance with tight sweeps until forces are in equilibrium, at most `longest` [s]; see out_of_balance."""
+    """Advance with tight sweeps until forces are in equilibrium, at most `longest` [s]; see out_of_balance.
+
+    Parameters
+    ----------
+    bed : GranularBed
+        Spheres near rest; it changes in place.
+    numerics : PouringNumerics
+        Whose tolerance and number of sweeps are replaced by REST_TOLERANCE and REST_SWEEPS.
+    longest : float
+        Time of the bed [s] after which this ends anyway.
+    progress : callable
+        progress(stage, done, total), in seconds of the bed.
+    stage : str
+        Its first argument.
+
+    Returns
+    -------
+    tuple of float
+        The two of `GranularBed.out_of_balance`; below UNBALANCED, unless `longest` ended it.
+    """
     tight = replace(numerics, tolerance=REST_TOLERANCE, most_sweeps=REST_SWEEPS)
     began = bed.time
     check = max(1, round(5e-3 / numerics.time_step))
@@ -119,6 +162,21 @@ def vibrate(
 
     The lower half of the stroke would pass through rigid grains once they lie dense. So the wall is a light
     plate between rails: its drive pushes with at most `pressure` [Pa].
+
+    Parameters
+    ----------
+    bed : GranularBed
+        A layer at rest; it changes in place, and its wall hangs clear of the grains in the end.
+    numerics : PouringNumerics
+        Time step [s] and what its sweeps do.
+    vibration : Vibration
+        Stroke [m], frequency f [Hz] and duration [s].
+    pressure : float
+        The most that the drive pushes with, over the area of the box [Pa].
+    history : PouringHistory
+        Takes heights each 5 ms, and for each period how many grains the wall touched.
+    progress : callable
+        progress("vibrating", done, total), in steps.
     """
     # only what falls may overlap more for a moment: what the wall presses together stays in the layer
     numerics = replace(

@@ -69,7 +69,18 @@ class Facets:
         return float((self.area * self.length).sum() / 3.0)
 
     def cells(self, position: np.ndarray) -> np.ndarray:
-        """Volume (n,) [m3] of the cell of each sphere, from its centre (n, 3): pyramids over the facets of the cell."""
+        """Volume of the cell of each sphere: the sum of the pyramids from its centre over the facets of the cell.
+
+        Parameters
+        ----------
+        position : ndarray (n, 3)
+            Centres of the spheres that made the diagram [m].
+
+        Returns
+        -------
+        ndarray (n,)
+            Volumes [m3]; together they fill the region.
+        """
         n, own = len(position), self.second < len(position)
         height = ((self.centroid - position[self.first]) * self.frame[:, 0]).sum(axis=1)
         volume = np.bincount(self.first, self.area * height / 3.0, n)

@@ -146,7 +146,18 @@ def stretched(prism: Specimen, system: BondedSystem, motion: np.ndarray) -> tupl
 
 
 def static_motion(system: BondedSystem) -> np.ndarray:
-    """Static motion (d,) of a system whose driven degree of freedom moves by one."""
+    """Static motion of a system whose driven degree of freedom moves by one.
+
+    Parameters
+    ----------
+    system : BondedSystem
+        Supports, bonds and the degree of freedom that is driven.
+
+    Returns
+    -------
+    ndarray (d,)
+        Displacements over that of the driven degree of freedom, which is one.
+    """
     free, k = system.free, system.stiffness()
     matrix, coupling = k[free][:, free].tocsc(), k[free][:, [system.driven]].toarray()[:, 0]
     factor, motion = factorise(matrix, system), np.ones(system.mass.size)

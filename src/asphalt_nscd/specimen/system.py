@@ -17,7 +17,18 @@ HEADS = ("free", "blocked")
 
 
 def affine_modulus(kt_over_kn: float) -> float:
-    """E of an isotropic network that fills the volume, over that of its bonds, where all spheres follow the strain."""
+    """E of an isotropic network that fills the volume, over that of its bonds, where all spheres follow the strain.
+
+    Parameters
+    ----------
+    kt_over_kn : float
+        Tangential over normal stiffness of the bonds, a.
+
+    Returns
+    -------
+    float
+        (2 + 3 a) / (4 + a): 1/2 of bonds without tangential stiffness, 1 where both are alike.
+    """
     return (2.0 + 3.0 * kt_over_kn) / (4.0 + kt_over_kn)
 
 
@@ -42,11 +53,23 @@ def affine_poisson(kt_over_kn: float) -> float:
 
 
 def facet_share(shape: Shape, kt_over_kn: float) -> np.ndarray:
-    """Normal and two tangential stiffnesses (3,) of a facet over E A / l, E being the modulus of the law.
+    """Stiffnesses of a facet over E A / l, E being the modulus of the law.
 
-    The law is that of |E*| by the form factor of the test. That of two-point bending counts bending alone: the material
-    is stiffer by the part that shear has in the deflection. One constant from theory (docs/mapping.md), none from a
-    specimen.
+    The law is that of |E*| by the form factor of the test. That of two-point bending counts bending alone:
+    the material is stiffer by the part that shear has in the deflection. One constant from theory
+    (docs/mapping.md), none from a specimen.
+
+    Parameters
+    ----------
+    shape : Shape
+        Of the specimen; it says what share of the deflection its form factor counts.
+    kt_over_kn : float
+        Tangential over normal stiffness of the bonds.
+
+    Returns
+    -------
+    ndarray (3,)
+        Normal, then two tangential, without a unit.
     """
     modulus = affine_modulus(kt_over_kn) * shape.counted_share(affine_poisson(kt_over_kn))
     return np.array([1.0, kt_over_kn, kt_over_kn]) / modulus
