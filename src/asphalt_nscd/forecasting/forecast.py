@@ -266,7 +266,25 @@ def forecast(
 
 
 def physics_of(recipe: Recipe, settings: Settings, level: Level, last: bool) -> Physics:
-    """What a level's films and contacts do; air voids and the dry skeleton belong to the coarsest, `last`."""
+    """What a level's films and contacts do; air voids and the dry skeleton belong to the coarsest, `last`.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        Air voids and film thickness of the mix.
+    settings : Settings
+        Which parts of the physics take part, and their constants.
+    level : Level
+        Whose grains they are; films are thin only where its grains touch.
+    last : bool
+        Whether it is the coarsest.
+
+    Returns
+    -------
+    Physics
+        Film [m], loosening (linear strain), share of facets that are voids, pressure of the skeleton
+        [Pa].
+    """
     touching = settings.touching and level.touching
     voids = recipe.voids if settings.voids and last else 0.0
     matrix = 1.0 - level.fraction * (1.0 - recipe.voids)  # and air, of the volume of the mix

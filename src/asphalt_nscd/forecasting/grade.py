@@ -27,7 +27,18 @@ FREQUENCIES = (3.0, 6.0, 10.0)  # Hz of the paper, of a time of loading 1 / omeg
 
 
 def softening_point(penetration: float) -> float:
-    """Ring and ball [degC] of the binder in the mix, from its penetration [0.1 mm] before mixing."""
+    """Ring and ball of the binder in the mix (Ullidtz & Larsen 1983). Mixing leaves 0.65 of its penetration.
+
+    Parameters
+    ----------
+    penetration : float
+        Before mixing [0.1 mm].
+
+    Returns
+    -------
+    float
+        98.4 - 26.4 log10(0.65 penetration) [degC].
+    """
     # Mixing hardens a binder: 0.65 of its penetration is left.
     return 98.4 - 26.4 * float(np.log10(0.65 * penetration))
 

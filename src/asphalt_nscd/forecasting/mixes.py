@@ -59,7 +59,18 @@ class Pair:
         return self.mix.complex_modulus(self.omega, self.recipe.temperature)
 
     def binder(self, decades: float = 0.0) -> np.ndarray:
-        """E* [Pa] of the binder, at frequencies so many decades higher."""
+        """Modulus of the binder at the points of the recipe.
+
+        Parameters
+        ----------
+        decades : float
+            Frequencies are raised by so many: above zero the binder is stiffer than the recovered one.
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            E* [Pa].
+        """
         return self.recipe.binder.complex_modulus(self.omega * 10.0**decades, self.recipe.temperature)
 
 
@@ -248,6 +259,24 @@ def calibrated(
 
     The pressure is the best of PRESSURES; with each the modulus is fitted to the maps of the usual one, since they
     know ratios of moduli alone, but for the bulk modulus of the binder. The best is solved anew.
+
+    Parameters
+    ----------
+    pair : Pair
+        The mix that they are set on.
+    settings : Settings
+        Whose skeleton pressure is replaced.
+    networks : Networks
+        Packings and maps.
+    shifted : bool
+        Set the binder's frequencies in place of the modulus of the aggregate.
+
+    Returns
+    -------
+    Calibrated
+        Recipe and settings with what was found, and the decades of the shift, at most one up or down.
+    tuple of LevelResult
+        Levels of the forecast with these.
     """
     usual = pair.recipe.aggregate.modulus
 
@@ -275,7 +304,22 @@ def calibrated(
 
 
 def binder_shift(pair: Pair, levels: tuple[LevelResult, ...], recipe: Recipe) -> float:
-    """Decades by which the binder's frequencies must be raised for the forecast to meet one mix best."""
+    """Decades by which the binder's frequencies must be raised for the forecast to meet one mix best.
+
+    Parameters
+    ----------
+    pair : Pair
+        The mix to be met.
+    levels : tuple of LevelResult
+        Of the forecast, from fine to coarse.
+    recipe : Recipe
+        Of the aggregate.
+
+    Returns
+    -------
+    float
+        Of least squares of ln E*, between -3 and 3.
+    """
 
     def off(decades: float) -> float:
         found = np.log(modulus_of(levels, recipe.aggregate, pair.binder(decades)) / pair.measured)
@@ -288,6 +332,17 @@ def best_map(pairs: list[Pair]) -> np.ndarray:
     """Weights of the Stieltjes function of the binder's modulus that comes nearest to all mixes of one recipe.
 
     No forecast that knows the recipe and the binder alone can come much nearer: it is one such function.
+
+    Parameters
+    ----------
+    pairs : list of Pair
+        Mixes of one recipe, at its points.
+
+    Returns
+    -------
+    ndarray (35,)
+        Not negative: of a constant, of the modulus x itself, and of x / (1 + x / pole) for each pole in
+        ANY_MAP.
     """
     basis = np.vstack([_any_map(pair.binder()) for pair in pairs])
     measured = np.concatenate([pair.measured for pair in pairs])

@@ -105,6 +105,22 @@ def films_of(contents: Contents, level: Level, physics: Physics) -> tuple[Films,
 
     Spheres shrink alike until they fill the fraction; grains that touched in the layer stay as close as physics.film
     says: a crushed grain holds less than the sphere that touches the same neighbours.
+
+    Parameters
+    ----------
+    contents : Contents
+        A prism of the level's packing.
+    level : Level
+        Fraction that its grains fill, and their largest size [m].
+    physics : Physics
+        Film between grains that touch, and its loosening.
+
+    Returns
+    -------
+    Films
+        Larger and smaller radius, gap [m] and facet [m2] of each bond, in packing units.
+    ndarray of bool (b,)
+        True where the grains touched in the layer; never at a plate.
     """
     prism, network = contents.prism, contents.prism.network
     radius = np.append(prism.radius, [0.0, 0.0])  # the plates
@@ -171,10 +187,30 @@ def _statics(contents: Contents) -> list[Statics]:
 def bond_stiffness(
     contents: Contents, level: Level, grain: Solid, matrix_bulk: float, physics: Physics, ratio: np.ndarray
 ) -> np.ndarray:
-    """Stiffness (m, 3 b) [N/m] of the components of all bonds: films, those that are voids, and dry contacts.
+    """Stiffness of the components of all bonds: films, those that are voids, and dry contacts.
 
-    ratio (m,): modulus of the matrix over that of the grains, real or complex. At one it is their material, where
-    films are squeezed: its bulk modulus rises with the modulus from matrix_bulk [Pa] to theirs.
+    At a ratio of one the matrix is the material of the grains, where films are squeezed: its bulk modulus
+    rises with the modulus from matrix_bulk to theirs.
+
+    Parameters
+    ----------
+    contents : Contents
+        A prism of the level's packing.
+    level : Level
+        Fraction that its grains fill.
+    grain : Solid
+        Modulus [Pa] and Poisson's ratio of the stone.
+    matrix_bulk : float
+        K of the matrix where it is soft [Pa].
+    physics : Physics
+        What films and contacts do.
+    ratio : ndarray (m,)
+        Modulus of the matrix over that of the grains, real or complex.
+
+    Returns
+    -------
+    ndarray (m, 3 b)
+        Normal and two tangential stiffnesses of each bond [N/m].
     """
     films, touching = films_of(contents, level, physics)
     young = ratio * grain.modulus

@@ -68,7 +68,24 @@ def fit_bonds(
     highest_omega: float,
     classes: int = CLASSES,
 ) -> FittedBonds:
-    """The system with chains for bonds of this stiffness, over a band [rad/s]; see FittedBonds for their error."""
+    """The system with chains for bonds of this stiffness, over a band; see FittedBonds for their error.
+
+    Parameters
+    ----------
+    system : BondedSystem
+        Whose weights are replaced.
+    stiffness : callable
+        Complex stiffness (f, 3 b) [N/m] of all components at angular frequencies (f,) [rad/s].
+    lowest_omega, highest_omega : float
+        The band [rad/s].
+    classes : int
+        How many chains at most; components of one shape over frequency share one.
+
+    Returns
+    -------
+    FittedBonds
+        System and laws; its weights are mean stiffnesses over UNIT.
+    """
     omega = np.geomspace(lowest_omega, highest_omega, SAMPLES)
     logarithm = np.log(stiffness(omega).T)
     size = logarithm.real.mean(axis=1, keepdims=True)
@@ -107,7 +124,22 @@ def _classes(shape: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def harmonic_stiffness(system: BondedSystem, stiffness: Stiffness, omega: float) -> complex:
-    """Force over displacement [N/m] of the head in steady oscillation at omega [rad/s], without chains or steps."""
+    """Stiffness of the head in steady oscillation, without chains or steps.
+
+    Parameters
+    ----------
+    system : BondedSystem
+        Supports, masses and bonds.
+    stiffness : callable
+        Complex stiffness (f, 3 b) [N/m] of all components at angular frequencies (f,) [rad/s].
+    omega : float
+        Angular frequency [rad/s].
+
+    Returns
+    -------
+    complex
+        Force over displacement of the head [N/m].
+    """
     own = stiffness(np.array([omega]))[0]
     weight = np.abs(own)
     return driving_force(replace(system, weight=weight), own / weight, omega)
@@ -116,7 +148,26 @@ def harmonic_stiffness(system: BondedSystem, stiffness: Stiffness, omega: float)
 def step_test(
     bonds: FittedBonds, frequency: float, amplitude: float, cycles: int = 5, steps_per_cycle: int = 32
 ) -> SteppedTest:
-    """Drive the head by amplitude [m] at frequency [Hz] from rest, by the fitted scheme (nscd/stepping/scheme.py)."""
+    """Drive the head sinusoidally from rest, by the fitted scheme (nscd/stepping/scheme.py).
+
+    Parameters
+    ----------
+    bonds : FittedBonds
+        Of `fit_bonds`, over a band that holds the frequency.
+    frequency : float
+        [Hz].
+    amplitude : float
+        Of the head [m].
+    cycles : int
+        How many; the stiffness is that of the last REDUCED_CYCLES.
+    steps_per_cycle : int
+        The scheme has no error of the time step in steady oscillation, so few are enough.
+
+    Returns
+    -------
+    SteppedTest
+        Stiffness [N/m], force (cycles steps_per_cycle,) [N], broken bonds and energies [J].
+    """
     # the fitted scheme has no error of the time step in steady oscillation: a few steps a cycle are enough
     time_step = 1.0 / (frequency * steps_per_cycle)
     scheme = Scheme.named("fitted", 2.0 * np.pi / steps_per_cycle)
