@@ -154,7 +154,20 @@ def zeros_of(typing_context: Any, array: Any) -> Any:
 
 @intrinsic
 def broadcast(typing_context: Any, value: Any) -> Any:
-    """One number in all lanes."""
+    """One number in all lanes.
+
+    Parameters
+    ----------
+    typing_context : Any
+        Of numba, which passes it; a call leaves it out.
+    value : float
+        Of double precision.
+
+    Returns
+    -------
+    lanes
+        Of double precision.
+    """
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         lanes = ir.Constant(_lanes.vector, ir.Undefined)
@@ -179,7 +192,22 @@ def sqrt(typing_context: Any, value: Any) -> Any:
 
 @intrinsic
 def select_greater(typing_context: Any, a: Any, b: Any, then: Any, otherwise: Any) -> Any:
-    """In each lane `then` if a > b, else `otherwise`."""
+    """In each lane `then` if a > b, else `otherwise`.
+
+    Parameters
+    ----------
+    typing_context : Any
+        Of numba, which passes it; a call leaves it out.
+    a, b : lanes
+        Compared as ordered numbers: NaN is not greater than anything.
+    then, otherwise : lanes
+        Of double precision, as a and b.
+
+    Returns
+    -------
+    lanes
+        One of the two in each lane, without a branch.
+    """
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         # ordered: NaN is not greater than anything and takes `otherwise`
@@ -190,7 +218,20 @@ def select_greater(typing_context: Any, a: Any, b: Any, then: Any, otherwise: An
 
 @intrinsic
 def above(typing_context: Any, a: Any, b: Any) -> Any:
-    """An int64 of which bit k is set if a > b in lane k."""
+    """An int64 of which bit k is set if a > b in lane k.
+
+    Parameters
+    ----------
+    typing_context : Any
+        Of numba, which passes it; a call leaves it out.
+    a, b : lanes
+        Of double precision.
+
+    Returns
+    -------
+    int64
+        Between 0 and 255; zero where no lane is above.
+    """
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         bits = builder.bitcast(builder.fcmp_ordered(">", *arguments), ir.IntType(WIDTH))
@@ -201,7 +242,22 @@ def above(typing_context: Any, a: Any, b: Any) -> Any:
 
 @intrinsic
 def load(typing_context: Any, array: Any, block: Any, row: Any) -> Any:
-    """array[block, row, :]."""
+    """array[block, row, :].
+
+    Parameters
+    ----------
+    typing_context : Any
+        Of numba, which passes it; a call leaves it out.
+    array : ndarray (b, rows, WIDTH)
+        Of `aligned`, of double precision or of single.
+    block, row : int
+        Place of the line.
+
+    Returns
+    -------
+    lanes
+        Of the numbers that the array has.
+    """
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _row(context, builder, signature.args[0], *arguments)
@@ -212,7 +268,19 @@ def load(typing_context: Any, array: Any, block: Any, row: Any) -> Any:
 
 @intrinsic
 def store(typing_context: Any, array: Any, block: Any, row: Any, value: Any) -> Any:
-    """array[block, row, :] = value."""
+    """array[block, row, :] = value.
+
+    Parameters
+    ----------
+    typing_context : Any
+        Of numba, which passes it; a call leaves it out.
+    array : ndarray (b, rows, WIDTH)
+        Of `aligned`, of double precision or of single.
+    block, row : int
+        Place of the line.
+    value : lanes
+        Of the numbers that the array has.
+    """
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _row(context, builder, signature.args[0], *arguments[:3])
@@ -224,7 +292,24 @@ def store(typing_context: Any, array: Any, block: Any, row: Any, value: Any) -> 
 
 @intrinsic
 def gather(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any) -> Any:
-    """Of an array (n, WIDTH) the rows numbers[block, side, :]: one a lane, a tuple of WIDTH columns."""
+    """Of an array (n, WIDTH) the rows numbers[block, side, :]: one a lane, a tuple of WIDTH columns.
+
+    Parameters
+    ----------
+    typing_context : Any
+        Of numba, which passes it; a call leaves it out.
+    array : ndarray (n, WIDTH)
+        A row for each body, of `aligned`.
+    numbers : ndarray of int (b, sides, WIDTH)
+        Rows that are asked for, eight for each block and side.
+    block, side : int
+        Place in `numbers`.
+
+    Returns
+    -------
+    tuple of lanes
+        Column k of the eight rows at place k.
+    """
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         rows = [
@@ -237,7 +322,21 @@ def gather(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any)
 
 @intrinsic
 def scatter(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any, columns: Any) -> Any:
-    """The reverse of `gather`. Where two lanes name one row, the last one stays."""
+    """The reverse of `gather`. Where two lanes name one row, the last one stays.
+
+    Parameters
+    ----------
+    typing_context : Any
+        Of numba, which passes it; a call leaves it out.
+    array : ndarray (n, WIDTH)
+        A row for each body, of `aligned`.
+    numbers : ndarray of int (b, sides, WIDTH)
+        Rows to be written, eight for each block and side.
+    block, side : int
+        Place in `numbers`.
+    columns : tuple of lanes
+        WIDTH of them, as `gather` gives them.
+    """
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         rows = _transposed(builder, cgutils.unpack_tuple(builder, arguments[4]))
@@ -250,7 +349,20 @@ def scatter(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any
 
 @intrinsic
 def total(typing_context: Any, value: Any) -> Any:
-    """Sum of the lanes in double precision, from the first to the last."""
+    """Sum of the lanes in double precision, from the first to the last.
+
+    Parameters
+    ----------
+    typing_context : Any
+        Of numba, which passes it; a call leaves it out.
+    value : lanes
+        Of double precision or of single.
+
+    Returns
+    -------
+    float
+        In an order that is the same on every processor, and so with equal bits.
+    """
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         # one after another: in the same order on every processor

@@ -223,18 +223,59 @@ class LawStep:
     kelvin_gain: np.ndarray  # factors of sigma+ in dk+, with minus
 
     def explicit_part(self, sigma: np.ndarray, kelvin: np.ndarray) -> np.ndarray:
-        """b [m/s] from sigma (...,) [Pa] and kelvin displacements (k, ...) [m]."""
+        """What the law remembers at the start of a step: b of U+ = b - S sigma+.
+
+        Parameters
+        ----------
+        sigma : ndarray (...,)
+            Stress at the start [Pa].
+        kelvin : ndarray (k, ...)
+            Displacements of the Kelvin elements at the start [m].
+
+        Returns
+        -------
+        ndarray (...,)
+            b [m/s].
+        """
         return np.asarray(
             self.spring_memory * sigma - (_beside(self.kelvin_recall, kelvin) * kelvin).sum(axis=0)
         )
 
     def update(self, explicit: np.ndarray, velocity: np.ndarray, kelvin: np.ndarray) -> tuple:
-        """(sigma+, dk+) from the opening velocity U+ (...,) [m/s]."""
+        """State at the end of a step, from what the bond opened at.
+
+        Parameters
+        ----------
+        explicit : ndarray (...,)
+            b of `explicit_part` [m/s].
+        velocity : ndarray (...,)
+            Opening velocity U+ [m/s].
+        kelvin : ndarray (k, ...)
+            Displacements of the Kelvin elements at the start [m].
+
+        Returns
+        -------
+        tuple of ndarray
+            sigma+ = (b - U+) / S (...,) [Pa], and dk+ (k, ...) [m].
+        """
         sigma = (explicit - velocity) / self.compliance
         return sigma, self.stretched(kelvin, sigma)
 
     def stretched(self, kelvin: np.ndarray, sigma: np.ndarray) -> np.ndarray:
-        """dk+ (k, ...) [m] from dk- and sigma+ (...,) [Pa]."""
+        """Kelvin displacements at the end of a step.
+
+        Parameters
+        ----------
+        kelvin : ndarray (k, ...)
+            At the start [m].
+        sigma : ndarray (...,)
+            Stress at the end [Pa]; a positive one shortens, as sigma = -Em dm has it.
+
+        Returns
+        -------
+        ndarray (k, ...)
+            dk+ = (eta_k dk- - dt sigma+) / (eta_k + dt Ek) [m].
+        """
         return np.asarray(
             _beside(self.kelvin_decay, kelvin) * kelvin - _beside(self.kelvin_gain, kelvin) * sigma
         )

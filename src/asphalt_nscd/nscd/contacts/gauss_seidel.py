@@ -143,7 +143,23 @@ def _dot(a, b):
 
 @compiled
 def sweep_once(start, other, block, q, friction, r):
-    """Solve each contact in turn with all others held; r (3 c,) changes in place. W_aa must stand in W."""
+    """Solve each contact in turn with all others held; r (3 c,) changes in place. W_aa must stand in W.
+
+    Parameters
+    ----------
+    start : ndarray of int (c + 1,)
+        Where the blocks of each row of W begin in `other` and `block`.
+    other : ndarray of int (k,)
+        Contact that each block couples the row's own to.
+    block : ndarray (k, 3, 3)
+        Blocks of the Delassus operator W [1/kg].
+    q : ndarray (3 c,)
+        Free velocities [m/s]; normal first in each contact.
+    friction : ndarray (c,)
+        Coefficient of each contact.
+    r : ndarray (3 c,)
+        Reactions [N s], in the order of q.
+    """
     each, free = r.reshape(-1, 3), q.reshape(-1, 3)
     for a in range(friction.shape[0]):
         u0, u1, u2 = free[a, 0], free[a, 1], free[a, 2]

@@ -19,10 +19,28 @@ NO_CONTACT = -1  # in a lane left over
 
 @compiled_for_teams
 def number_blocks(bodies, begin, count, fixed, workspace, last):
-    """Deal contacts between bodies[begin:begin + count] (c, 2) into blocks; returns how many there are.
+    """Deal contacts into blocks.
 
-    workspace.block and workspace.lane then hold where each stands. Bodies from `fixed` on do not yield, so that
-    contacts of a block may share them. last (r,): of this member alone, for the block in which each body stood.
+    workspace.block and workspace.lane then hold where each stands. Bodies from `fixed` on do not yield, so
+    that contacts of a block may share them.
+
+    Parameters
+    ----------
+    bodies : ndarray of int (c, 2)
+        Bodies of each contact; the first one yields.
+    begin, count : int
+        Contacts begin to begin + count are dealt, and no others.
+    fixed : int
+        Number of the first body that does not yield.
+    workspace : Workspace
+        Whose block, lane, filled and following are written, at these contacts alone.
+    last : ndarray of int (r,)
+        Room of this member alone: the block in which each body stood last.
+
+    Returns
+    -------
+    int
+        How many blocks there are; they are numbered from zero.
     """
     filled, following = workspace.filled, workspace.following
     for k in range(begin, begin + count):
@@ -107,13 +125,31 @@ def first_lively(begin):
 
     Chains of contacts that share bodies, and full blocks, decide how many blocks there must be; of some contacts
     of a slab there are no more of either than of all, so that twice the number of its blocks is enough.
+
+    Parameters
+    ----------
+    begin : int
+        Contact at which the slab begins.
+
+    Returns
+    -------
+    int
+        Place in workspace.lively_blocks.
     """
     return begin // WIDTH * 2
 
 
 @compiled_for_teams
 def give_back(start, count, workspace):
-    """Bring the impulses of so many lively blocks from `start` on back to their contacts."""
+    """Bring the impulses of so many lively blocks from `start` on back to their contacts.
+
+    Parameters
+    ----------
+    start, count : int
+        Lively blocks from start to start + count.
+    workspace : Workspace
+        Impulses [N s] go from its lively_contacts to its contacts; lanes left over are passed by.
+    """
     blocks, copies, contacts = workspace.lively_blocks, workspace.lively_contacts, workspace.contacts
     for block in range(start, start + count):
         for lane in range(WIDTH):

@@ -46,7 +46,20 @@ CHANGED, SIZE, FASTEST, NOTED, COUNT, DEEPEST, PUSHED, LIVELY_BLOCKS = range(8)
 
 @compiled_for_teams
 def contacts_of(contacts, block):
-    """Normal, impulse, target and mass (Workspace) of the contacts of a block."""
+    """Normal, impulse, target and mass (Workspace) of the contacts of a block.
+
+    Parameters
+    ----------
+    contacts : ndarray (b, 8, 8)
+        Of `Workspace`: a line for each quantity.
+    block : int
+        Which.
+
+    Returns
+    -------
+    tuple of lanes
+        Normal (3), impulse (3) [N s], target [m/s] and mass [kg] of eight contacts.
+    """
     return (
         load(contacts, block, 0), load(contacts, block, 1), load(contacts, block, 2),
         load(contacts, block, 3), load(contacts, block, 4), load(contacts, block, 5),
@@ -62,6 +75,22 @@ def new_impulse(contact, i, j, friction, relaxation):
     is what the opening lacks of its target. A gap that is open may close, so its target is below zero.
     The local Delassus operator is diagonal: normal 1/m_i + 1/m_j, tangential 7/2 of it. The change of an impulse is
     multiplied by `relaxation` before the laws cut it.
+
+    Parameters
+    ----------
+    contact : tuple of lanes
+        Of `contacts_of`.
+    i, j : tuple of lanes
+        Motion of the first and the second bodies, rows of Workspace.motion.
+    friction : lanes
+        Coefficient of each contact.
+    relaxation : lanes
+        Above one it over-relaxes.
+
+    Returns
+    -------
+    tuple of lanes
+        Impulse x, y, z [N s], and violation [m/s].
     """
     nx, ny, nz, px, py, pz, target, mass = contact
     vx, vy, vz = j[0] - i[0], j[1] - i[1], j[2] - i[2]
@@ -112,13 +141,41 @@ def push(motion, blocks, block, contact, i, j, x, y, z):
 def sweep_blocks(
     blocks, contacts, begin, count, noted_from, friction, relaxation, quiet, calm, workspace, rows, spare
 ):
-    """One Gauss-Seidel sweep over so many `blocks` of `contacts` from `begin` on; updates impulses and motion.
+    """One Gauss-Seidel sweep over some blocks; updates impulses and motion.
 
-    Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than
-    they may by more than `calm` [m/s], are noted in workspace.lively from `noted_from` on. Returns the sums of
-    squares of the change of impulse and of the impulse, the largest violation of speed [m/s], how many were noted.
-    friction: between bodies that yield, with those that do not. rows (1, 1, 8): room. spare: row of
-    workspace.noted for contacts that are not.
+    Contacts whose impulse changes by more than the root of `quiet`, and those that close faster than they may
+    by more than `calm`, are noted in workspace.lively.
+
+    Parameters
+    ----------
+    blocks : ndarray of int (b, 3, 8)
+        Contacts, first bodies, second bodies.
+    contacts : ndarray (b, 8, 8)
+        What each contact has, see `Workspace`; its impulses change in place.
+    begin, count : int
+        Blocks begin to begin + count are swept.
+    noted_from : int
+        Where in workspace.lively the noted contacts begin.
+    friction : tuple of float
+        Between bodies that yield, and with those that do not.
+    relaxation : float
+        By which the change of an impulse is multiplied.
+    quiet : float
+        Square of a change of impulse [N2 s2].
+    calm : float
+        Violation of speed [m/s].
+    workspace : Workspace
+        Whose motion changes in place.
+    rows : ndarray of int (1, 1, 8)
+        Room.
+    spare : int
+        Row of workspace.noted for contacts that are not noted.
+
+    Returns
+    -------
+    tuple
+        Sums of squares of the change of impulse and of the impulse [N2 s2], the largest violation of
+        speed [m/s], and how many contacts were noted.
     """
     motion = workspace.motion
     changed, size, fastest = zeros(), zeros(), zeros()
@@ -189,7 +246,24 @@ def guide_wall(motion, wall, drive, push):
 
 @compiled_for_teams
 def push_blocks(contacts, motion, blocks, begin, count):
-    """Give the impulses that contacts start with to their bodies. Returns the sum of their squares."""
+    """Give the impulses that contacts start with to their bodies.
+
+    Parameters
+    ----------
+    contacts : ndarray (b, 8, 8)
+        What each contact has, see `Workspace`.
+    motion : ndarray (r, 8)
+        Of the bodies; it changes in place.
+    blocks : ndarray of int (b, 3, 8)
+        Contacts, first bodies, second bodies.
+    begin, count : int
+        Blocks begin to begin + count.
+
+    Returns
+    -------
+    float
+        Sum of the squares of the impulses [N2 s2].
+    """
     size = zeros()
     for block in range(begin, begin + count):
         contact = contacts_of(contacts, block)
@@ -202,11 +276,34 @@ def push_blocks(contacts, motion, blocks, begin, count):
 
 @compiled_for_teams
 def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, ends, quiet, calm, last_block, rows):
-    """A sweep over every other slab from part[0] on, below part[1].
+    """A sweep over every other slab of some.
 
-    Over all contacts, or over the copies of those that were noted, which it gives back if it `ends` their sweeps.
-    Notes contacts anew if `quiet` or `calm` is finite (sweep_blocks).
-    friction: between spheres, with walls; all contacts of the last slab are with the last wall, which may yield.
+    Over all contacts, or over the copies of those that were noted. Notes contacts anew if `quiet` or `calm`
+    is finite.
+
+    Parameters
+    ----------
+    part : tuple of int
+        First slab, and the one before which it ends.
+    slabs : Slabs
+        Contacts in the order of slabs and blocks.
+    workspace : Workspace
+        Motion, contacts and account; they change in place.
+    friction : tuple of float
+        Between spheres, and with walls; all contacts of the last slab are with the last wall, which may
+        yield.
+    relaxation : float
+        By which the change of an impulse is multiplied.
+    everyone : bool
+        Whether all contacts are swept, or those that were noted.
+    ends : bool
+        Whether the noted ones give their impulses back after this sweep.
+    quiet, calm : float
+        As of `sweep_blocks` [N2 s2], [m/s].
+    last_block : ndarray of int (r,)
+        Room of this member alone, for `number_blocks`.
+    rows : ndarray of int (1, 1, 8)
+        Room of this member alone.
     """
     account = workspace.account
     for s in range(part[0], part[1], 2):

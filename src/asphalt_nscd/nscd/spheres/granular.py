@@ -34,7 +34,26 @@ OUT_OF_REACH = 1e30  # m or m/s
 
 @compiled_for_teams
 def normal_and_gap(i, j, position, radius, plane_point, plane_normal):
-    """(x, y, z, gap): unit normal from body i to body j, and their gap [m]."""
+    """(x, y, z, gap): unit normal from body i to body j, and their gap [m].
+
+    Parameters
+    ----------
+    i : int
+        A sphere.
+    j : int
+        A sphere, or from n on plane j - n.
+    position : ndarray (n, 3)
+        Centres [m].
+    radius : ndarray (n,)
+        [m].
+    plane_point, plane_normal : ndarray (p, 3)
+        [m], and unit normals that point to the spheres.
+
+    Returns
+    -------
+    tuple of float
+        Normal x, y, z, and the gap [m], below zero where they overlap; spheres in one place part along z.
+    """
     n = position.shape[0]
     if j < n:
         x = position[j, 0] - position[i, 0]
@@ -96,7 +115,19 @@ def near_pairs(position, radius, plane_point, plane_normal, start, other, below)
 
 @compiled_for_teams
 def pack_motion(velocity, inverse_mass, begin, end, motion):
-    """Bodies begin:end of workspace.motion."""
+    """Bodies begin:end of workspace.motion.
+
+    Parameters
+    ----------
+    velocity : ndarray (n + p, 6)
+        [m/s], linear and spin as surface velocity.
+    inverse_mass : ndarray (n + p,)
+        [1/kg], zero for planes.
+    begin, end : int
+        Bodies begin to end are written, and no others.
+    motion : ndarray (r, 8)
+        Of `Workspace`: a cache line for each body.
+    """
     for i in range(begin, end):
         for k in range(3):
             motion[i, k] = velocity[i, k]
@@ -107,7 +138,19 @@ def pack_motion(velocity, inverse_mass, begin, end, motion):
 
 @compiled_for_teams
 def pack_place(position, radius, begin, end, place):
-    """Spheres begin:end of workspace.place."""
+    """Spheres begin:end of workspace.place.
+
+    Parameters
+    ----------
+    position : ndarray (n, 3)
+        Centres [m].
+    radius : ndarray (n,)
+        [m].
+    begin, end : int
+        Spheres begin to end are written, and no others.
+    place : ndarray (r, 8)
+        Of `Workspace`: a cache line for each body.
+    """
     for i in range(begin, end):
         for k in range(3):
             place[i, k] = position[i, k]
@@ -117,7 +160,17 @@ def pack_place(position, radius, begin, end, place):
 
 @compiled_for_teams
 def pack_planes(s, plane_point, plane_normal, workspace):
-    """The rows of slab s alone (private_rows), and the place of the wall."""
+    """The rows of slab s alone (private_rows), and the place of the wall.
+
+    Parameters
+    ----------
+    s : int
+        Slab.
+    plane_point, plane_normal : ndarray (p, 3)
+        [m], and unit normals that point to the spheres.
+    workspace : Workspace
+        Whose motion and place are written in the rows of the slab, and the places of the planes.
+    """
     spheres = workspace.wall + 1 - workspace.planes
     nobody, row = private_rows(s, workspace)
     workspace.motion[nobody] = workspace.place[nobody] = 0.0
@@ -131,7 +184,17 @@ def pack_planes(s, plane_point, plane_normal, workspace):
 
 @compiled_for_teams
 def unpack_motion(motion, begin, end, velocity):
-    """The other way round."""
+    """The reverse of `pack_motion`, without the masses.
+
+    Parameters
+    ----------
+    motion : ndarray (r, 8)
+        Of `Workspace`.
+    begin, end : int
+        Bodies begin to end are written, and no others.
+    velocity : ndarray (n + p, 6)
+        [m/s], linear and spin as surface velocity.
+    """
     for i in range(begin, end):
         for k in range(3):
             velocity[i, k] = motion[i, k]
@@ -140,9 +203,22 @@ def unpack_motion(motion, begin, end, velocity):
 
 @compiled_for_teams
 def lay_in(rank, members, barrier, impulse, pair, contacts):
-    """The impulses of the list of pairs (pairs, 3) into `contacts`; run by all members of a team.
+    """Impulses from the list of pairs to the blocks of contacts; run by all members of a team.
 
     They stay there from step to step, as long as the list does.
+
+    Parameters
+    ----------
+    rank, members : int
+        Which member of how many; each does a part of the blocks.
+    barrier : ndarray
+        Where they meet.
+    impulse : ndarray (pairs, 3)
+        On the second body of each pair [N s].
+    pair : ndarray of int (8 b,)
+        Place of each contact in the list; -1 where a lane is left over, which gets zeros.
+    contacts : ndarray (b, 8, 8)
+        Of `Workspace`.
     """
     mark_started(barrier)
     begin, end = partition(rank, members, pair.shape[0] // WIDTH)
@@ -155,7 +231,21 @@ def lay_in(rank, members, barrier, impulse, pair, contacts):
 
 @compiled_for_teams
 def take_out(rank, members, barrier, impulse, pair, contacts):
-    """The other way round."""
+    """Impulses from the blocks of contacts to the list of pairs: the reverse of `lay_in`.
+
+    Parameters
+    ----------
+    rank, members : int
+        Which member of how many; each does a part of the blocks.
+    barrier : ndarray
+        Where they meet.
+    impulse : ndarray (pairs, 3)
+        Written: on the second body of each pair [N s].
+    pair : ndarray of int (8 b,)
+        Place of each contact in the list; -1 where a lane is left over.
+    contacts : ndarray (b, 8, 8)
+        Of `Workspace`.
+    """
     mark_started(barrier)
     begin, end = partition(rank, members, pair.shape[0] // WIDTH)
     for block in range(begin, end):
@@ -168,10 +258,28 @@ def take_out(rank, members, barrier, impulse, pair, contacts):
 
 @compiled_for_teams
 def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
-    """The contacts of slab s, whose impulses stand in `workspace`: pairs that may touch within the step.
+    """The contacts of a slab, whose impulses stand in `workspace`: pairs that may touch within the step.
 
-    A pair takes part when its gap, less the approach at the free velocity, is below `margin` [m]. Any other is
+    A pair takes part when its gap, less the approach at the free velocity, is below `margin`. Any other is
     given no impulse, no mass, and a target that it cannot miss.
+
+    Parameters
+    ----------
+    s : int
+        Slab.
+    slabs : Slabs
+        Pairs in the order of slabs and blocks.
+    workspace : Workspace
+        Place and motion are read; contacts are written, and in its account their number and the largest
+        overlap [m].
+    dt : float
+        Step [s].
+    recovery_speed : float
+        At most so fast is an overlap undone [m/s].
+    allowed_overlap : float
+        What stays of it [m].
+    margin : float
+        [m].
     """
     zero, one, half = zeros(), broadcast(1.0), broadcast(0.5)
     contacts = workspace.contacts
@@ -219,7 +327,21 @@ def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
 
 @compiled_for_teams
 def rebound(s, slabs, workspace, velocity, restitution):
-    """Targets of those contacts of slab s that would close within the step at the velocities of its start."""
+    """Targets of those contacts of slab s that would close within the step at the velocities of its start.
+
+    Parameters
+    ----------
+    s : int
+        Slab.
+    slabs : Slabs
+        Pairs in the order of slabs and blocks.
+    workspace : Workspace
+        Of `pack_slab`; targets [m/s] of its contacts are written.
+    velocity : ndarray (n + p, 6)
+        At the start of the step [m/s].
+    restitution : float
+        Speed after an impact over that before it (Newton).
+    """
     spheres, row = workspace.wall + 1 - workspace.planes, private_rows(s, workspace)[1]
     contacts = workspace.contacts
     for block in range(slabs.begin[s], slabs.begin[s + 1]):
