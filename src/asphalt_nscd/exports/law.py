@@ -215,6 +215,18 @@ class ExportedLaw:
 def as_wlf(shift: Arrhenius) -> WLF:
     """WLF constants of an Arrhenius shift, the same at all temperatures.
 
+    Parameters
+    ----------
+    shift : Arrhenius
+        Activation energy [J/mol] and reference temperature [degC].
+
+    Returns
+    -------
+    WLF
+        With C1 = E_a / (ln(10) R T0) and C2 = T0 [K], about the same reference temperature.
+
+    Examples
+    --------
     >>> arrhenius = Arrhenius(activation_energy=200e3, reference_temperature=15.0)
     >>> (as_wlf(arrhenius).factor([-20, 40]) / arrhenius.factor([-20, 40])).round(12).tolist()
     [1.0, 1.0]

@@ -51,7 +51,18 @@ def require_readable(path: str | Path, mend: str) -> None:
 
 
 def require_writable(folder: str | Path) -> None:
-    """Refuse a folder of results with a file in its place, or with a part into which nothing can be written."""
+    """Refuse a folder of results with a file in its place, or with a part into which nothing can be written.
+
+    Parameters
+    ----------
+    folder : path
+        Of the results; it need not exist yet, then the nearest folder above it is asked.
+
+    Raises
+    ------
+    InputError
+        For a file in its place, and for a folder, above or within it, that cannot be written to.
+    """
     folder = Path(folder)
     standing = next(place for place in (folder, *folder.parents) if place.exists())
     if not standing.is_dir():

@@ -103,6 +103,16 @@ def refuse_repeated_keys(path: str | Path) -> None:
     """Refuse a study in which a key appears twice, of which YAML silently takes the last.
 
     Anchors are refused too: a few lines of them can stand for more than any memory holds.
+
+    Parameters
+    ----------
+    path : path
+        YAML file of the study.
+
+    Raises
+    ------
+    InputError
+        For a key that appears twice or is no word, for an anchor, and for what is no YAML; with the line.
     """
 
     class Strict(yaml.SafeLoader):

@@ -99,7 +99,27 @@ def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
 
 
 def read_rows(path: str | Path, sheet: str | None = None) -> tuple[list[Row], list[str]]:
-    """Rows of a file with one table, and how they were read; see `read_sheets`."""
+    """Rows of a file with one table, and how they were read; see `read_sheets`.
+
+    Parameters
+    ----------
+    path : path
+        CSV, TSV or XLSX file.
+    sheet : str, optional
+        Name of the XLSX sheet; needed where several hold something.
+
+    Returns
+    -------
+    list of Row
+        Its rows with their numbers, without blank rows and comments.
+    list of str
+        How they were read.
+
+    Raises
+    ------
+    InputError
+        For several sheets that hold something, and whatever `read_sheets` refuses.
+    """
     sheets = read_sheets(path, sheet)
     if len(sheets) > 1:
         names = ", ".join(str(one.name) for one in sheets)

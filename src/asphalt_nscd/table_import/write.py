@@ -189,6 +189,25 @@ def for_study(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
     """The columns of a campaign that a study takes, with the temperature of the isotherm, and notes on them.
 
     A study fits one Burgers law for each isotherm, so that all tests of one must have the same temperature.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        Tests as they were read, with notes.
+    form : str
+        Of the columns, a key of `FORMS`; "records" must be reduced first.
+
+    Returns
+    -------
+    Table
+        The columns that a study takes, as text; a replicate of a specimen becomes a specimen of its own.
+    list of str
+        Notes on what was changed.
+
+    Raises
+    ------
+    InputError
+        For records, and for a temperature out of its range.
     """
     table, notes = campaign.table, list(campaign.notes)
     if form == "records":
