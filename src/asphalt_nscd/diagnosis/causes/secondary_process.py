@@ -24,15 +24,55 @@ class SecondaryProcess(Cause):
     shows_in = "tests that a law fits; in these, what the law misses would pass for a second loss peak"
 
     def places(self, observed: Observations) -> Sequence[Place]:
+        """All tests, where there are three isotherms and three frequencies or more.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        sequence
+            None for all tests, or empty.
+        """
         return (None,) if observed.isotherms.size > 2 and observed.frequencies.size > 2 else ()
 
     def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
+        """Starts of its search: a peak anywhere in the tested band, which shifts less than the mix.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests, whose band the times cover at the middle temperature.
+
+        Returns
+        -------
+        sequence of tuple of float
+            45 of log10 of the time [s], activation energy [kJ/mol] and exponent [-].
+        """
         # Its peak anywhere in the tested band at the middle temperature, shifting less than the mix.
         slow, fast = -np.log10(observed.omega.min()) + 0.5, -np.log10(observed.omega.max()) - 0.5
         times, energies, exponents = np.linspace(fast, slow, 5), (30.0, 60.0, 90.0), (0.5, 0.65, 0.8)
         return tuple(product(times.tolist(), energies, exponents))
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
+        """A Cole-Cole process added to E*; its time is that at the middle isotherm of the whole table.
+
+        Parameters
+        ----------
+        modulus : ndarray of complex (n,)
+            E* before [Pa].
+        values : ndarray (4,)
+            Strength [Pa], log10 of the time [s], activation energy [kJ/mol], exponent a [-].
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            E* + strength (i omega tau)^a / (1 + (i omega tau)^a) [Pa].
+        """
         strength, log_time, energy, exponent = values
         # Of the whole table, so that its time means the same where isotherms are left out.
         middle = float(np.median(observed.table.isotherms)) + ZERO_CELSIUS

@@ -16,11 +16,37 @@ class SelfHeating(Cause):
     confirmed_by = "a thermometer in the specimen, or the drift of the modulus during a longer test"
 
     def places(self, observed: Observations) -> Sequence[Place]:
+        """All tests, where frequencies and isotherms are several and the mix dissipates at all.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        sequence
+            None for all tests, or empty.
+        """
         several = observed.frequencies.size > 1 and observed.isotherms.size > 1
         # A table of metal dissipates nothing.
         return (None,) if several and self._power(observed.table).max() > 0.0 else ()
 
     def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
+        """Rise in proportion to omega E2 z0^2, by the measured loss; without amplitudes to omega E2.
+
+        Parameters
+        ----------
+        values : ndarray (1,)
+            Rise of the test that dissipates most in the whole table [K].
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        ndarray (n,)
+            [K].
+        """
         return values[0] * self._power(observed) / self._power(observed.table).max()
 
     @staticmethod

@@ -17,11 +17,39 @@ class StrainSoftening(Cause):
     needs = "more than one amplitude (column amplitude_m)"
 
     def places(self, observed: Observations) -> Sequence[Place]:
+        """All tests, where their amplitudes span more than a fifth of the largest.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        sequence
+            None for all tests, or empty.
+        """
         amplitude = observed.amplitude
         # Amplitudes that wobble about one setting are no sweep of the strain.
         return (None,) if amplitude is not None and np.ptp(amplitude) > 0.2 * amplitude.max() else ()
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
+        """Modulus that falls in proportion to the amplitude A.
+
+        Parameters
+        ----------
+        modulus : ndarray of complex (n,)
+            E* before [Pa].
+        values : ndarray (1,)
+            Loss s at the largest amplitude of the whole table, as a share of the modulus.
+        observed : Observations
+            Measured tests with their amplitudes [m].
+
+        Returns
+        -------
+        ndarray of complex (n,)
+            E* (1 - s A / A_max) [Pa].
+        """
         return modulus * (
             1.0 - values[0] * observed.known("amplitude") / observed.table.known("amplitude").max()
         )
