@@ -36,7 +36,17 @@ MORE = "{} more: see the reasons."
 def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
     """Label and sentences of each row, those with nothing to say left out.
 
-    left: as in `verdict.on_simulation`.
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json.
+    left : mapping of str to float, optional
+        As in `verdict.on_simulation`.
+
+    Returns
+    -------
+    list of tuple
+        In the order in which they are read.
     """
     simulated = left is not None or verdict.bonded(content)
     certain, possible = (_told(verdict.faults(content), content, wanted) for wanted in (True, False))
@@ -61,7 +71,18 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
 
 
 def text(content: Content) -> str:
-    """The rows as text of WIDTH columns."""
+    """The rows as text of WIDTH columns.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json.
+
+    Returns
+    -------
+    str
+        Labels in the first column; a blank line before the next tests and after them.
+    """
     told, lines = rows(content), []
     labels = [label for label, _ in told]
     after_orders = labels[labels.index("Next tests") + 1 :][:1] if "Next tests" in labels else []
@@ -82,7 +103,18 @@ def text(content: Content) -> str:
 
 
 def sure(rung: Content) -> bool:
-    """Whether a cause is established; an older diagnosis does not say, and then it is."""
+    """Whether a cause is established; an older diagnosis does not say, and then it is.
+
+    Parameters
+    ----------
+    rung : mapping
+        Of the ladder in diagnosis.json.
+
+    Returns
+    -------
+    bool
+        True for a certain fault or effect, False for a possible one.
+    """
     return bool(rung.get("established", True))
 
 

@@ -11,7 +11,18 @@ Content = Mapping[str, Any]
 
 
 def scatter_rows(content: Content) -> list[list[str]]:
-    """Isotherm, then between and within specimens: percent of |E*| and degrees of phase."""
+    """Isotherm, then between and within specimens: percent of |E*| and degrees of phase.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json: repeatability, where it has it.
+
+    Returns
+    -------
+    list of list of str
+        A row for each isotherm, then one for all; none without replicates.
+    """
     found = content.get("repeatability")
     if found is None:
         return []
@@ -20,7 +31,18 @@ def scatter_rows(content: Content) -> list[list[str]]:
 
 
 def measured_limits(content: Content) -> list[list[str]]:
-    """Cause, its stated limit, and at one, two and three times it how often it was named of how many tries."""
+    """Cause, its stated limit, and at one, two and three times it how often it was named of how many tries.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json, where limits were measured.
+
+    Returns
+    -------
+    list of list of str
+        The last cell counts how often another cause was named.
+    """
     rows = []
     for cause, by_times in content.get("measured_limits", {}).items():
         limit = content["detection_limits"][cause]

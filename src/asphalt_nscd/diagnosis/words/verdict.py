@@ -39,7 +39,18 @@ MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above wh
 
 
 def mixes(content: Content) -> str:
-    """What a reader must know first: specimens that are hardly of one mix; empty where they may be."""
+    """What a reader must know first: specimens that are hardly of one mix; empty where they may be.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json, with the scatter between specimens.
+
+    Returns
+    -------
+    str
+        Two sentences, where |E*| scatters between specimens by more than ONE_MIX percent.
+    """
     spread = (content.get("repeatability") or {}).get("between")
     if spread is None or spread["E_percent"] <= levels.ONE_MIX:
         return ""
@@ -50,12 +61,34 @@ def mixes(content: Content) -> str:
 
 
 def faults(content: Content) -> list[Content]:
-    """Named faults of the tests."""
+    """Named faults of the tests.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json: ladder.
+
+    Returns
+    -------
+    list of mapping
+        Rungs in the order in which the ladder took them.
+    """
     return [rung for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
 
 
 def effects(content: Content) -> list[Content]:
-    """Named effects of the mix itself beside its relaxation: what it does while it is tested."""
+    """Named effects of the mix itself beside its relaxation: what it does while it is tested.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json: ladder.
+
+    Returns
+    -------
+    list of mapping
+        Rungs in the order in which the ladder took them.
+    """
     return [
         rung
         for rung in content["ladder"]
@@ -64,7 +97,18 @@ def effects(content: Content) -> list[Content]:
 
 
 def correction(rung: Content) -> str:
-    """What to do to the tests to be rid of a fault, where it is one number."""
+    """What to do to the tests to be rid of a fault, where it is one number.
+
+    Parameters
+    ----------
+    rung : mapping
+        Of the ladder in diagnosis.json.
+
+    Returns
+    -------
+    str
+        A clause with the number; empty for a cause that no one number corrects.
+    """
     value = next(iter(rung["parameters"].values()))["value"]
     if rung["cause"] == "channel_delay":
         return f"{_less(360.0 * value, 'deg per Hz')} the phase"
@@ -85,7 +129,18 @@ def _less(value: float, unit: str) -> str:
 def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:
     """One sentence: what the simulation misses with the paper's laws, and with what was found.
 
-    left: errors in percent of "E" and "phase" that tests simulated with it have left; else those of the diagnosis.
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json.
+    left : mapping of str to float, optional
+        Errors in percent of "E" and "phase" that tests simulated with it have left; else those of the
+        diagnosis.
+
+    Returns
+    -------
+    str
+        Mean errors over the temperatures; why nothing is judged, where nothing is.
     """
     ladder = content["ladder"]
     if not ladder:
@@ -125,7 +180,18 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
 
 
 def two_laws(content: Content) -> list[str]:
-    """Where both are fitted, what the free master curve and law.json are, and why they miss by different amounts."""
+    """Where both are fitted, what the free master curve and law.json are, and why they miss by different amounts.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json.
+
+    Returns
+    -------
+    list of str
+        Two paragraphs; empty where one of the two is not fitted.
+    """
     misses = content.get("law_misses")
     spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in content["ladder"])
     if misses is None or not spectrum or bonded(content):
@@ -158,7 +224,18 @@ def _noun(rung: Content) -> str:
 
 
 def bonded(content: Content) -> bool:
-    """Whether simulations took part, whose bonds come first among what they missed."""
+    """Whether simulations took part, whose bonds come first among what they missed.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json: ladder.
+
+    Returns
+    -------
+    bool
+        By a rung of the bond mapping.
+    """
     return any(rung["cause"] == BOND_MAPPING for rung in content["ladder"])
 
 
@@ -226,7 +303,18 @@ def _beyond_bonds(content: Content) -> str:
 
 
 def alone(content: Content) -> bool:
-    """Whether nothing tells the scatter: one specimen, and none was stated."""
+    """Whether nothing tells the scatter: one specimen, and none was stated.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json: scatter and provenance.
+
+    Returns
+    -------
+    bool
+        If True, the scatter is what a smooth law leaves.
+    """
     return not content["scatter"]["from_replicates"] and not content["provenance"].get("scatter_stated")
 
 
@@ -241,7 +329,19 @@ def _left_out(content: Content) -> tuple[dict[float, float], float] | None:
 
 
 def predicted_badly(content: Content) -> str:
-    """Where the law predicts temperatures that were left out of its fit badly, between others or beyond; else empty."""
+    """Where the law predicts temperatures that were left out of its fit badly, between others or beyond; else empty.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json, with the errors at temperatures left out.
+
+    Returns
+    -------
+    str
+        "at temperatures that were not tested" or "beyond the tested temperatures"; errors above POOR
+        percent.
+    """
     found = _left_out(content)
     if found is None:
         return ""
@@ -252,7 +352,19 @@ def predicted_badly(content: Content) -> str:
 
 
 def beyond_the_tests(content: Content) -> list[str]:
-    """How far off the law is at temperatures left out of its fit, where that forbids to use it there."""
+    """How far off the law is at temperatures left out of its fit, where that forbids to use it there.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json, with the errors at temperatures left out.
+
+    Returns
+    -------
+    list of str
+        Errors at the coldest and the warmest temperature, and between them; empty where the law predicts
+        well.
+    """
     found = _left_out(content)
     if found is None or not predicted_badly(content):
         return []
@@ -281,11 +393,35 @@ def _wrong(temperature: float, content: Content) -> bool:
 
 
 def predicts_badly(gain: dict[str, Any], inner: bool) -> bool:
-    """Whether what is left out is predicted much worse than before, which may have seen it; inner: between others."""
+    """Whether what is left out is predicted much worse than before, which may have seen it.
+
+    Parameters
+    ----------
+    gain : dict
+        Of a rung: errors in percent before and after.
+    inner : bool
+        Only of temperatures between others.
+
+    Returns
+    -------
+    bool
+        For errors above POOR percent and MUCH_WORSE times those before.
+    """
     found = mean_averages(gain, inner)
     return any(errors["after"] > max(MUCH_WORSE * errors["before"], POOR) for errors in found.values())
 
 
 def files(content: Content) -> str:
-    """Which files of a folder gave no test; empty where all did."""
+    """Which files of a folder gave no test; empty where all did.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json: reading, where it has it.
+
+    Returns
+    -------
+    str
+        A sentence for each file.
+    """
     return " ".join(content.get("reading", {}).get("files_without_tests", []))
