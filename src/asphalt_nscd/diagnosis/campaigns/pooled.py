@@ -39,7 +39,18 @@ from asphalt_nscd.diagnosis.written import widening
 
 
 def of_machine(cause: Cause) -> bool:
-    """Whether a cause sits in the head or the channels, the same in all tests of a machine."""
+    """Whether a cause sits in the head or the channels, the same in all tests of a machine.
+
+    Parameters
+    ----------
+    cause : Cause
+        One of the catalogue.
+
+    Returns
+    -------
+    bool
+        True for one parameter, of head or channel, confined to no specimen and no isotherm.
+    """
     # Amplitudes add up over campaigns; the shapes of a cause would not.
     return cause.stage >= HEAD and not cause.confined_to and len(cause.parameters) == 1
 

@@ -155,7 +155,20 @@ def tail(by_chance: Vector, z: float) -> float:
 
 
 def effective(found: Scores, one_sided: NDArray[np.bool_]) -> Vector:
-    """z (k,) with the wrong sign of a one-sided effect counted as nothing."""
+    """Size of each score, the wrong sign of a one-sided effect counted as nothing.
+
+    Parameters
+    ----------
+    found : Scores
+        Score tests of k directions.
+    one_sided : ndarray of bool (k,)
+        Whether an effect cannot be below zero.
+
+    Returns
+    -------
+    ndarray (k,)
+        |z|, or z above zero.
+    """
     return np.where(one_sided, np.maximum(found.z, 0.0), np.abs(found.z))
 
 

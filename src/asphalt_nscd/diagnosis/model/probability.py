@@ -48,7 +48,28 @@ def log_odds(candidate: Candidate, observed: Observations, gain: float, std_erro
 def odds_of(
     expected: Expected, places: int, size: float, std_error: float, gain: float, one_sided: bool = False
 ) -> float:
-    """ln of the odds of an effect of this size, in the unit of what is expected, at one of several places."""
+    """ln of the odds of an effect of this size, in the unit of what is expected, at one of several places.
+
+    Parameters
+    ----------
+    expected : Expected
+        Chance that a campaign has the cause, and its usual size.
+    places : int
+        How many places share this chance.
+    size : float
+        Amplitude, in the unit of the usual size.
+    std_error : float
+        Of it; taken as the usual size where it is larger.
+    gain : float
+        Twice the gain of the log likelihood over none.
+    one_sided : bool
+        Whether only one sign can be; the prior density is then twice as large.
+
+    Returns
+    -------
+    float
+        Gain / 2 + ln(p(a) sqrt(2 pi) std_error) + ln of the prior odds.
+    """
     ways = 2.0 if one_sided else 1.0  # one sign alone has twice the density
     density = ways / (np.pi * expected.size * (1.0 + (size / expected.size) ** 2))
     chance = expected.chance / places

@@ -90,7 +90,20 @@ def of_likeliest_roughness(
 
 
 def marginal_likelihood(joint: Joint, fitted: Fitted) -> float:
-    """ln of the Laplace approximation, up to what does not depend on the roughness."""
+    """ln of the marginal likelihood by Laplace's approximation, up to what does not depend on the roughness.
+
+    Parameters
+    ----------
+    joint : Joint
+        Whose flexible spectrum has the roughness.
+    fitted : Fitted
+        Its fit: objective (-2 ln L with the priors) and precision.
+
+    Returns
+    -------
+    float
+        The larger, the likelier is this roughness.
+    """
     spectrum = joint.spectrum
     sign, curvature = np.linalg.slogdet(fitted.precision)
     # The prior of m - 2 second differences pays for its own width, else the roughest would always win.

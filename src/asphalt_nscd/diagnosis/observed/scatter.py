@@ -18,10 +18,24 @@ SCALE_FREEDOM = 8  # degrees of freedom against those of the table
 
 
 def pure_error(observed: Observations, nuisance: NDArray) -> tuple[Vector, Vector, int]:
-    """Residuals of ln|E*| and phase [rad] (n,) within conditions, and their degrees of freedom.
+    """Residuals of ln|E*| and phase within conditions, and their degrees of freedom.
 
-    nuisance (n, k) complex: what specimens may differ by other than scatter (scales, clamps, ...); it
-    is projected out, so that a cause confined to a specimen does not pass for scatter.
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+    nuisance : ndarray of complex (n, k)
+        What specimens may differ by other than scatter (scales, clamps, ...); it is projected out, so
+        that a cause confined to a specimen does not pass for scatter.
+
+    Returns
+    -------
+    ndarray (n,)
+        Of ln|E*|.
+    ndarray (n,)
+        Of the phase [rad].
+    int
+        2 n less what conditions and nuisances take; zero where nothing was repeated.
     """
     cells = np.eye(observed.cell.max() + 1)[observed.cell]
     logarithm = observed.logarithm

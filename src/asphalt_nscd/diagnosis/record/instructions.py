@@ -167,7 +167,20 @@ def _again(one: Sweep, other: Sweep) -> bool:
 
 
 def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
-    """What the diagnosis leaves open."""
+    """What the diagnosis leaves open.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    model : Possible
+        Named causes, others that may be there, and departures, with what new tests would tell of each.
+
+    Returns
+    -------
+    list of Open
+        Named causes to confirm and to tell apart, departures to repeat, then causes out of reach.
+    """
     active = tuple(range(len(diagnosis.ladder.fitted.active)))
     everything = np.ones(model.linear.nuisance.shape[0], bool)
     known = Knowledge(model.linear, [model.old]).information
@@ -279,7 +292,18 @@ def _amplitude(candidate: Candidate) -> float:
 
 
 def words_of(candidate: Candidate) -> str:
-    """`loose clamp of 2`, `temperature bias at 30 degC`."""
+    """`loose clamp of 2`, `temperature bias at 30 degC`.
+
+    Parameters
+    ----------
+    candidate : Candidate
+        A cause and where it sits.
+
+    Returns
+    -------
+    str
+        Its name, and a specimen, an isotherm [degC], or nothing for all tests.
+    """
     words, place = candidate.cause.name.replace("_", " "), candidate.place
     if place is None:
         return words

@@ -91,7 +91,18 @@ def verify(diagnosis: Diagnosis, trials: Trials, progress: Progress = lambda *_:
 
 
 def plan(diagnosis: Diagnosis) -> Iterator[Hidden]:
-    """What is to be put in: within the bounds of each cause, at every place that has a limit."""
+    """What is to be put in: within the bounds of each cause, at every place that has a limit.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found, with the limits that it states.
+
+    Yields
+    ------
+    Hidden
+        A cause, its place and amplitude; a cause that was named gets it on top of its own.
+    """
     observed, active = diagnosis.observed, {c.key: c for c in diagnosis.ladder.fitted.active}
     limits = report.physical_limits(diagnosis)
     for cause in CATALOGUE:
@@ -113,7 +124,20 @@ def plan(diagnosis: Diagnosis) -> Iterator[Hidden]:
 
 
 def put_in(diagnosis: Diagnosis, hidden: Hidden) -> Observations:
-    """The whole table, each modulus times what the cause does to that of the law."""
+    """The whole table, each modulus times what the cause does to that of the law.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Whose last fit says what a cause does to each modulus.
+    hidden : Hidden
+        What is put in.
+
+    Returns
+    -------
+    Observations
+        All tests, those left out too; their own scatter stays.
+    """
     whole, ladder = diagnosis.whole or diagnosis.observed, diagnosis.ladder
     # `apparent` asks for no scatter, which is that of the tests used and not of the whole table.
     joint = Joint(whole, ladder.joint.base, ladder.joint.noise)
@@ -195,5 +219,16 @@ def summarised(table: pd.DataFrame) -> dict[str, Any]:
 
 
 def stated_power(multiple: float) -> float:
-    """Chance to find a cause at a multiple of its limit, which is 95 % at the limit itself."""
+    """Chance to find a cause at a multiple of its limit: 95 % at the limit itself.
+
+    Parameters
+    ----------
+    multiple : float
+        Amplitude over the stated limit.
+
+    Returns
+    -------
+    float
+        Phi(multiple (c + 1.645) - c), c being the usual threshold in standard errors.
+    """
     return float(ndtr(multiple * (USUAL_THRESHOLD + Z_95) - USUAL_THRESHOLD))

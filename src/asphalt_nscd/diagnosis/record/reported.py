@@ -63,9 +63,23 @@ def mix_modulus(
 ) -> Reported:
     """E* of the mix without the named causes, by the last fit of the free curve.
 
-    Its covariance holds the scatter of single tests, that between specimens, and what the causes leave open; errors
-    by propagation of first order. |E*| is as uncertain as few specimens leave it, so that its intervals are of
-    Student's t with their degrees of freedom. temperature [degC], frequency [Hz]: vectors (n,).
+    Its covariance holds the scatter of single tests, that between specimens, and what the causes leave open;
+    errors by propagation of first order. |E*| is as uncertain as few specimens leave it, so that its
+    intervals are of Student's t with their degrees of freedom.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        What was found.
+    temperature : ndarray (n,)
+        [degC].
+    frequency : ndarray (n,)
+        [Hz].
+
+    Returns
+    -------
+    Reported
+        Ln E* with standard errors, and where the tests reach in temperature and reduced frequency.
     """
     observed = diagnosis.observed
     base, fitted = diagnosis.law_of_all()

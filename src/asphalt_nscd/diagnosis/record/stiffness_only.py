@@ -53,7 +53,20 @@ class StiffnessOnly:
     notes: tuple[str, ...]
 
     def modulus(self, temperature: Vector, frequency: Vector) -> pd.DataFrame:
-        """|E*| [MPa] of the mix at temperatures [degC] and frequencies [Hz] (n,), with 95 % intervals."""
+        """|E*| of the mix by the master curve, with 95 % intervals.
+
+        Parameters
+        ----------
+        temperature : ndarray (n,)
+            [degC].
+        frequency : ndarray (n,)
+            [Hz].
+
+        Returns
+        -------
+        DataFrame
+            temperature_C, frequency_Hz, E_MPa, E_low_MPa, E_high_MPa.
+        """
         value, slope = _log10_modulus(self.parameters, self.reference, temperature, frequency)
         specimens = self.tests["specimen"].nunique()
         variance = np.einsum("ij,jk,ik->i", slope, self.covariance, slope) * LN10**2
@@ -108,7 +121,18 @@ class StiffnessOnly:
         )
 
     def write(self, folder: Path) -> list[str]:
-        """Write stiffness.json, stiffness_residuals.csv and master_curve.csv; their names."""
+        """Write stiffness.json, stiffness_residuals.csv and master_curve.csv.
+
+        Parameters
+        ----------
+        folder : Path
+            It must exist.
+
+        Returns
+        -------
+        list of str
+            The three names.
+        """
         names = ("delta_log10_MPa", "alpha_log10_MPa", "place_log10_Hz", "slope", "log10_C1", "log10_C2_K")
         write_table(folder / "stiffness_residuals.csv", self.tests)
         write_table(folder / "master_curve.csv", self.master_curve())

@@ -295,12 +295,36 @@ def rows(observed: Observations, found: Iterable[Mapping[str, Any]]) -> NDArray[
 
 
 def sentences(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:
-    """What is odd and what to check, a sentence each without its full stop."""
+    """What is odd and what to check, a sentence each without its full stop.
+
+    Parameters
+    ----------
+    levels : list of dict
+        Of `odd`.
+    phases : list of dict
+        Of `odd_phases`.
+
+    Returns
+    -------
+    list of str
+        Isotherms in |E*| first.
+    """
     return [f"{what}: check {check}" for what, check in map(described, [*levels, *phases])]
 
 
 def of_temperatures(found: Iterable[Mapping[str, Any]]) -> list[str]:
-    """What `odd_temperatures` found and what to check first, a sentence each without its full stop."""
+    """What `odd_temperatures` found and what to check first, a sentence each without its full stop.
+
+    Parameters
+    ----------
+    found : iterable of mapping
+        Of `odd_temperatures`.
+
+    Returns
+    -------
+    list of str
+        Specimen, nominal temperature [degC] and how much warmer or colder it seems [K].
+    """
     return [
         f"at {one['temperature_C']:g} degC {specimen_named(one['specimen'])} seems {_size(one, 'kelvin', '.2g')} K "
         f"{'warmer' if one['kelvin'] > 0.0 else 'colder'} than stated"
@@ -310,7 +334,18 @@ def of_temperatures(found: Iterable[Mapping[str, Any]]) -> list[str]:
 
 
 def described(one: Mapping[str, Any]) -> tuple[str, str]:
-    """What is odd, and what to check, of one of `odd` or `odd_phases`."""
+    """What is odd, and what to check, of one of `odd` or `odd_phases`.
+
+    Parameters
+    ----------
+    one : mapping
+        With factor, delay_s or phase_deg, and interval_95 where a fit tells it.
+
+    Returns
+    -------
+    tuple of str
+        What is odd, and what to check.
+    """
     others = "what its other temperatures and the other specimens say"
     if "factor" in one:
         return (
@@ -343,18 +378,53 @@ def _size(one: Mapping[str, Any], key: str, digits: str, factor: float = 1.0) ->
 
 
 def if_sound(one: Mapping[str, Any]) -> str:
-    """What new tests show if not the specimen but its tests were odd."""
+    """What new tests show if not the specimen but its tests were odd.
+
+    Parameters
+    ----------
+    one : mapping
+        Of `odd` or `odd_phases`.
+
+    Returns
+    -------
+    str
+        A clause on |E*| or on the phase.
+    """
     if "factor" in one:
         return f"|E*| is about {1.0 / one['factor']:.2f} times the old one"
     return f"phase is about {abs(one['phase_deg']):.1f} deg {'lower' if one['phase_deg'] > 0.0 else 'higher'}"
 
 
 def place(one: Mapping[str, Any]) -> str:
-    """An odd isotherm or specimen in words."""
+    """An odd isotherm or specimen in words.
+
+    Parameters
+    ----------
+    one : mapping
+        With specimen and temperature_C; None: all its tests.
+
+    Returns
+    -------
+    str
+        For example, specimen 2 at 30 degC.
+    """
     at = "" if one["temperature_C"] is None else f" at {one['temperature_C']:g} degC"
     return specimen_named(one["specimen"]) + at
 
 
 def places(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:
-    """Each odd isotherm or specimen once, in words."""
+    """Each odd isotherm or specimen once, in words.
+
+    Parameters
+    ----------
+    levels : list of dict
+        Of `odd`.
+    phases : list of dict
+        Of `odd_phases`.
+
+    Returns
+    -------
+    list of str
+        In their order.
+    """
     return list(dict.fromkeys(map(place, [*levels, *phases])))

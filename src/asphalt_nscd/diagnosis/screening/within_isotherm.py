@@ -386,7 +386,18 @@ class _Table:
 
 
 def most_doubtful(tests: int) -> int:
-    """Of the tests of an isotherm how many may be doubtful."""
+    """How many tests of an isotherm may be doubtful: a third, and one at least.
+
+    Parameters
+    ----------
+    tests : int
+        Of the isotherm.
+
+    Returns
+    -------
+    int
+        With more doubtful ones nothing would say which are sound.
+    """
     return max(1, tests // MOST_DOUBTFUL)
 
 

@@ -56,7 +56,18 @@ def simulated(campaign: str | Path, observed: Observations) -> Logarithm:
 
 
 def over_law(campaign: str | Path) -> pd.Series:
-    """|E*| over that of the law of each sample, in its tests without broken bonds."""
+    """|E*| over that of the law of each sample, in its tests without broken bonds.
+
+    Parameters
+    ----------
+    campaign : path
+        Folder of simulated tests.
+
+    Returns
+    -------
+    Series
+        By sample, mean over its tests.
+    """
     tests = read_tests([campaign], ["broken_bonds"])
     # A broken bond softens a specimen whatever its mapping.
     whole = tests[tests["broken_bonds"] == 0]
