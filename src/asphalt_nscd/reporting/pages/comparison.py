@@ -13,7 +13,18 @@ from asphalt_nscd.reporting.pages.svg import Axis, Frame, colours, svg
 
 
 def curves(of_mixes: pd.DataFrame) -> list[str]:
-    """|E*| and phase of each mix at one temperature, with 95 % bands, as SVG."""
+    """|E*| and phase of each mix at one temperature, with 95 % bands, as SVG.
+
+    Parameters
+    ----------
+    of_mixes : DataFrame
+        Mix, frequency_Hz, temperature_C, E_MPa and phase_deg with their bounds _low and _high.
+
+    Returns
+    -------
+    list of str
+        Two charts.
+    """
     at = f"frequency (Hz), at {of_mixes['temperature_C'].iloc[0]:g} °C"
     across = Axis(at, lambda of, _: of["frequency_Hz"], log=True)
     mixes = list(of_mixes.groupby("mix", sort=False))
@@ -36,7 +47,17 @@ def _path(points: list[tuple[float, float]]) -> str:
 
 
 def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame) -> None:
-    """Write the page: ranking, curves, and a link to the diagnosis of each mix beside it."""
+    """Write the page: ranking, curves, and a link to the diagnosis of each mix beside it.
+
+    Parameters
+    ----------
+    path : Path
+        Of the page; folders of the mixes lie beside it.
+    table : DataFrame
+        A row for each mix, the stiffest first, with its ranks.
+    of_mixes : DataFrame
+        As of `curves`.
+    """
     first = table.iloc[0]
     lines = [
         # quote: the name of a mix stands within an attribute too.

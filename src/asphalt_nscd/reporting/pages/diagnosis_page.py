@@ -159,7 +159,20 @@ def sections(
 
 
 def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any]:
-    """What a laboratory reads first, as the terminal says it; of a study, with the errors of its own campaigns."""
+    """What a laboratory reads first, as the terminal says it; of a study, with the errors of its own campaigns.
+
+    Parameters
+    ----------
+    content : dict
+        Of diagnosis.json.
+    ladder : sequence of path
+        The one ladder.csv of a study; empty for a table alone.
+
+    Returns
+    -------
+    dict of str to object
+        What the template of the page asks for.
+    """
     left = left_by_the_last(read_ladder(ladder)) if ladder else None
     none = {"orders": [], "costs": ""}
     # nobody can test again a specimen that never was
@@ -194,7 +207,21 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
 
 
 def law(content: dict[str, Any], curve: Sequence[Path]) -> dict[str, Any] | None:
-    """law.json as a page shows it: its curve, its parameters, and beside it the laws that were not taken."""
+    """law.json as a page shows it: its curve, its parameters, and beside it the laws that were not taken.
+
+    Parameters
+    ----------
+    content : dict
+        Of diagnosis.json: laws; where it has it, law_parameters.
+    curve : sequence of path
+        The one master_curve.csv, or empty: then without a chart.
+
+    Returns
+    -------
+    dict of str to object, or None
+        Title, charts, parameters with their intervals, and errors of all laws; None where no law was
+        fitted.
+    """
     if "law_parameters" not in content:
         return None
     taken = next(one for one in content["laws"] if one["taken"])
@@ -223,7 +250,18 @@ def _parameter(key: str, one: dict[str, Any]) -> list[str]:
 
 
 def scatter(content: dict[str, Any]) -> str:
-    """How large the scatter of one test is taken to be, as a paragraph."""
+    """How large the scatter of one test is taken to be, as a paragraph.
+
+    Parameters
+    ----------
+    content : dict
+        Of diagnosis.json: scatter and provenance.
+
+    Returns
+    -------
+    str
+        Percent of |E*| and degrees, and how they are known.
+    """
     scatter = content["scatter"]
     sizes = (
         f"The scatter of one test is taken as {scatter['modulus_percent']:.2g} % of |E*| and "

@@ -46,9 +46,24 @@ def first_page(
 ) -> dict[str, Any]:
     """Sentences of each part, and rows of the gain.
 
-    measured, simulations, samples: one CSV table each, as the workflow makes them; diagnosis: diagnosis.json;
-    pictures: PNG, with which the page opens; ladder: ladder.csv, the errors of each campaign; beside:
-    rivals.csv, the errors of tests left out, and ensemble.csv, the gain on data that meet the paper's tables.
+    Parameters
+    ----------
+    measured, simulations, samples : sequence of path
+        One CSV table each, as the workflow makes them.
+    diagnosis : list of path
+        The one diagnosis.json.
+    pictures : list of path
+        PNG, with which the page opens.
+    ladder : sequence of path
+        The one ladder.csv, the errors of each campaign.
+    beside : sequence of path
+        rivals.csv, the errors of tests left out, and ensemble.csv, the gain on data that meet the paper's
+        tables.
+
+    Returns
+    -------
+    dict of str to object
+        What the template of the page asks for.
     """
     content = read_diagnosis(diagnosis)
     told = first(content, ladder)

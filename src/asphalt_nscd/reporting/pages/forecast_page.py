@@ -28,7 +28,20 @@ HEAD = (
 
 
 def write_page(found: Forecast, folder: Path) -> Path:
-    """Write forecast.html; its path."""
+    """Write forecast.html, with its figures in it.
+
+    Parameters
+    ----------
+    found : Forecast
+        Of a recipe.
+    folder : Path
+        The page goes there, beside the tables and the law that it links.
+
+    Returns
+    -------
+    Path
+        Of the page.
+    """
     said, points = written.summary(found), written.points(found)
     doubts = {name: size["E_percent"] for name, size in said["doubts"].items()}
     content = (
