@@ -17,7 +17,22 @@ UPRIGHT = np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]])  # normal up, tangents
 
 
 def block_on_ground(gravity: np.ndarray, friction: float, gap: float = 0.0) -> BondedSystem:
-    """A block of 0.4 kg on four corners; a second body far away is the driven one."""
+    """A block of 0.4 kg on four corners; a second body far away is the driven one.
+
+    Parameters
+    ----------
+    gravity : ndarray (3,)
+        [m/s2], in the axes of the ground.
+    friction : float
+        Between block and ground.
+    gap : float
+        Under each corner [m].
+
+    Returns
+    -------
+    BondedSystem
+        Of two bodies; the corners are bonds, which act as contacts once they are broken.
+    """
     corners = np.array([[x, y, -4e-3] for x in (-0.02, 0.02) for y in (-0.015, 0.015)])
     centres = np.array([[0.0, 0, 0], [9.0, 0, 0]])
     operator = opening_operator(
@@ -30,7 +45,24 @@ def block_on_ground(gravity: np.ndarray, friction: float, gap: float = 0.0) -> B
 
 
 def slide(slope: float, friction: float, steps: int = 40, dt: float = 1e-3) -> np.ndarray:
-    """Velocity (3,) [m/s] of the block after so many steps from rest, gravity leaning by `slope` [rad]."""
+    """Velocity of the block on a slope, stepped from rest.
+
+    Parameters
+    ----------
+    slope : float
+        By which gravity leans [rad], between the two tangents.
+    friction : float
+        Between block and ground.
+    steps : int
+        How many.
+    dt : float
+        Step [s].
+
+    Returns
+    -------
+    ndarray (3,)
+        [m/s]; zero below the angle of friction.
+    """
     # downhill lies between the tangents: a law for each tangent alone would pass along one of them
     gravity = G * np.array([np.sin(slope) * 0.6, np.sin(slope) * 0.8, -np.cos(slope)])
     system, law = block_on_ground(gravity, friction), elastic(1e9)

@@ -48,12 +48,38 @@ SLIDING = [
 
 
 def bitumen(modulus: float) -> Matrix:
-    """Of this Young's modulus [Pa]."""
+    """A nearly incompressible matrix: its bulk modulus is 2.5 GPa.
+
+    Parameters
+    ----------
+    modulus : float
+        Young's [Pa].
+
+    Returns
+    -------
+    Matrix
+        Of one film.
+    """
     return Matrix(np.array(modulus), 2.5e9)
 
 
 def pair(gap: float, ratio: float = 1.0, side: float = 0.9) -> Films:
-    """One film; the larger sphere has the radius 1, gap and side are relative to the smaller one."""
+    """One film between two spheres, of which the larger one has the radius 1.
+
+    Parameters
+    ----------
+    gap : float
+        Over the radius of the smaller sphere.
+    ratio : float
+        Radius of the smaller over that of the larger sphere.
+    side : float
+        Radius of the facet, a disc, over that of the smaller sphere.
+
+    Returns
+    -------
+    Films
+        A single one.
+    """
     return Films(*np.array([[1.0], [ratio], [gap * ratio], [np.pi * (side * ratio) ** 2]]))
 
 
@@ -149,13 +175,37 @@ def network() -> list[Row]:
 
 
 def solid_fraction(prism: Specimen) -> float:
-    """Volume of the spheres over that of the prism."""
+    """Volume of the spheres over that of the prism.
+
+    Parameters
+    ----------
+    prism : Specimen
+        Of spheres that do not overlap.
+
+    Returns
+    -------
+    float
+        Without a unit.
+    """
     of = prism.geometry
     return float(4.0 / 3.0 * np.pi * (prism.radius**3).sum() / (of.width * of.thickness * of.h))
 
 
 def young(prism: Specimen, solid: Matrix) -> float:
-    """Young's modulus [Pa] of the network of films."""
+    """Young's modulus of a network of films.
+
+    Parameters
+    ----------
+    prism : Specimen
+        Spheres of stone, and the bonds between them and to the plates.
+    solid : Matrix
+        What fills the gaps.
+
+    Returns
+    -------
+    float
+        Of the prism pulled between its plates [Pa].
+    """
     bonds, n = prism.network, prism.radius.size
     radius = np.append(prism.radius, [0.0, 0.0])  # plates are planes
     films = Films(radius[bonds.first], radius[bonds.second], bonds.gap, bonds.area)
@@ -166,7 +216,20 @@ def young(prism: Specimen, solid: Matrix) -> float:
 
 
 def bounds(solid: Matrix, fraction: float) -> tuple[float, float]:
-    """Young's modulus [Pa] by Hashin & Shtrikman, lower and upper."""
+    """Young's modulus of stone in a matrix by Hashin & Shtrikman.
+
+    Parameters
+    ----------
+    solid : Matrix
+        The softer of the two.
+    fraction : float
+        Of the stone.
+
+    Returns
+    -------
+    tuple of float
+        Lower and upper bound [Pa].
+    """
     soft, hard = (float(solid.bulk), float(solid.shear)), (STONE.bulk, STONE.shear)
     found = []
     for (k, g), (bulk, shear), share in ((soft, hard, fraction), (hard, soft, 1.0 - fraction)):

@@ -54,12 +54,38 @@ def specimen() -> BondedSystem:
 
 
 def place(step: int) -> float:
-    """Displacement [m] of the actuator at the end of a step."""
+    """Where the actuator stands: a sine whose amplitude grows with time.
+
+    Parameters
+    ----------
+    step : int
+        Number of the step.
+
+    Returns
+    -------
+    float
+        At its end [m].
+    """
     return GROWTH * step / PERIOD * np.sin(2 * np.pi * step / PERIOD)
 
 
 def stepper_of(method: str, scheme: Scheme, most_enrichments: int) -> CondensedStepper | ReducedStepper:
-    """At rest."""
+    """A stepper of the beam at rest.
+
+    Parameters
+    ----------
+    method : str
+        "full" or "reduced".
+    scheme : Scheme
+        It tells the step that the stepper takes, DT / a.
+    most_enrichments : int
+        Of the reduced model, before it hands over to the full system.
+
+    Returns
+    -------
+    CondensedStepper or ReducedStepper
+        Nothing is broken yet.
+    """
     system, dt = specimen(), DT / scheme.a
     if method == "full":
         return CondensedStepper(system, QUICK_LAW, dt, CondensedState.at_rest(system, QUICK_LAW))
@@ -73,7 +99,22 @@ def stepper_of(method: str, scheme: Scheme, most_enrichments: int) -> CondensedS
 
 @cache
 def fractured(method: str, name: str, most_enrichments: int = 30) -> Run:
-    """The run by "full" or "reduced" up to the step in which the hundredth bond breaks."""
+    """The run by "full" or "reduced" up to the step in which the hundredth bond breaks.
+
+    Parameters
+    ----------
+    method : str
+        "full" or "reduced".
+    name : str
+        Of the scheme.
+    most_enrichments : int
+        Of the reduced model, before it hands over to the full system.
+
+    Returns
+    -------
+    Run
+        Forces [N], bonds in the order in which they broke, and the energy account.
+    """
     scheme, run = Scheme.named(name, 2 * np.pi / PERIOD), Run()
     march = March(stepper_of(method, scheme, most_enrichments), scheme, QUICK_LAW, DT)
     while len(run.broken) < BREAKS and len(run.force) < LIMIT:

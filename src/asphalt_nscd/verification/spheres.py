@@ -25,7 +25,28 @@ def balls(
     gravity: ArrayLike = (0.0, 0.0, -G),
     box: tuple[float, float, float] = (1.0, 1.0, 1.0),
 ) -> GranularBed:
-    """Spheres of 2600 kg/m3 at rest in a box of walls."""
+    """Spheres of 2600 kg/m3 at rest in a box of walls.
+
+    Parameters
+    ----------
+    position : array_like (n, 3)
+        Centres [m].
+    radius : array_like (n,) or float
+        [m].
+    friction : float
+        Between spheres, and with walls.
+    restitution : float
+        Of impacts.
+    gravity : array_like (3,)
+        [m/s2].
+    box : tuple of float
+        Length, width and height [m].
+
+    Returns
+    -------
+    GranularBed
+        At rest.
+    """
     position = np.atleast_2d(np.asarray(position, float))
     radius = np.broadcast_to(radius, len(position)).astype(float)
     bed = GranularBed.in_box(position, radius, box, 2600.0, friction, restitution)
@@ -34,31 +55,90 @@ def balls(
 
 
 def advanced(bed: GranularBed, steps: int, numerics: PouringNumerics = TIGHT) -> GranularBed:
-    """The same after so many steps."""
+    """The same after so many steps.
+
+    Parameters
+    ----------
+    bed : GranularBed
+        It changes in place.
+    steps : int
+        How many.
+    numerics : PouringNumerics
+        With the time step [s].
+
+    Returns
+    -------
+    GranularBed
+        The bed that was given.
+    """
     for _ in range(steps):
         bed.advance(numerics)
     return bed
 
 
 def masses(bed: GranularBed) -> np.ndarray:
-    """(n,) kg."""
+    """Mass of each sphere; planes are left out.
+
+    Parameters
+    ----------
+    bed : GranularBed
+        Of n spheres.
+
+    Returns
+    -------
+    ndarray (n,)
+        [kg].
+    """
     return 1.0 / bed.inverse_mass[: bed.radius.size]
 
 
 def momentum(bed: GranularBed) -> np.ndarray:
-    """Linear momentum (3,) [N s]."""
+    """Linear momentum of the spheres: constant without walls and gravity.
+
+    Parameters
+    ----------
+    bed : GranularBed
+        Of n spheres.
+
+    Returns
+    -------
+    ndarray (3,)
+        [N s].
+    """
     return masses(bed) @ bed.velocity[: bed.radius.size, :3]
 
 
 def angular_momentum(bed: GranularBed) -> np.ndarray:
-    """About the origin (3,) [N m s]."""
+    """Angular momentum of the spheres about the origin, their spin included.
+
+    Parameters
+    ----------
+    bed : GranularBed
+        Its spins are surface velocities, so that m 2/5 r s is that of a sphere.
+
+    Returns
+    -------
+    ndarray (3,)
+        [N m s].
+    """
     n, m = bed.radius.size, masses(bed)[:, None]
     v, s = bed.velocity[:n, :3], bed.velocity[:n, 3:]
     return (m * np.cross(bed.position, v) + 0.4 * m * bed.radius[:, None] * s).sum(axis=0)
 
 
 def energy(bed: GranularBed) -> float:
-    """Kinetic and potential [J]."""
+    """Kinetic and potential energy of the spheres.
+
+    Parameters
+    ----------
+    bed : GranularBed
+        Of n spheres.
+
+    Returns
+    -------
+    float
+        [J]; zero of the potential energy at the origin.
+    """
     return bed.kinetic_energy() - float(masses(bed) @ (bed.position @ bed.gravity))
 
 
@@ -225,7 +305,18 @@ def cloud() -> list[Row]:
 
 
 def thrown(members: int) -> bytes:
-    """Positions, velocities and impulses of spheres under a driven plate, in twelve slabs or more, at every step."""
+    """Positions, velocities and impulses of spheres under a driven plate, in twelve slabs or more, at every step.
+
+    Parameters
+    ----------
+    members : int
+        Of the team that steps it; the answer must not depend on it.
+
+    Returns
+    -------
+    bytes
+        All bits, so that nothing is rounded where two runs are compared.
+    """
     box = (0.09, 0.014, 0.03)
     position, radius = random_lattice(
         np.array([2e-3, 4e-3]), np.array([500, 40]), box, np.random.default_rng(3)
