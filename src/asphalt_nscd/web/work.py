@@ -66,7 +66,18 @@ class Job:
         there.close()
 
     def look(self, wait: float = 0.0) -> str:
-        """Take what the process said meanwhile; the state. wait [s]: for the next word of it."""
+        """Take what the process said meanwhile.
+
+        Parameters
+        ----------
+        wait : float
+            For its next word [s].
+
+        Returns
+        -------
+        str
+            The state: running, done, failed or cancelled.
+        """
         while self.state == "running":
             if time.monotonic() > self._until:
                 self.stop("failed", TOO_LONG)
@@ -94,7 +105,15 @@ class Job:
             pass
 
     def stop(self, state: str = "cancelled", why: str = "") -> None:
-        """End a running job, and say in which state and why."""
+        """End a job, if it is running.
+
+        Parameters
+        ----------
+        state : str
+            In which it ends.
+        why : str
+            A sentence for the page.
+        """
         if self.state == "running":
             self._process.kill()
             self._process.join(5.0)
@@ -127,7 +146,20 @@ def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, outpu
 
 
 def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
-    """How the files were read: sentences, the first tests, and for each column of the user's what it is taken for."""
+    """How the files were read: sentences, the first tests, and for each column of the user's what it is taken for.
+
+    Parameters
+    ----------
+    paths : sequence of path
+        Files that the user dropped.
+    choices : Choices
+        What the user says of columns and test.
+
+    Returns
+    -------
+    dict of str to object
+        What the page shows of them, in values that JSON can hold.
+    """
     from asphalt_nscd.table_import.campaign import read_campaign
 
     campaign, form = read_campaign(paths, None, choices.columns, choices.measured_in)

@@ -16,6 +16,16 @@ def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
 
     A job that could not say anything was ended from outside; its log is made to say so. Of a damaged file that one
     job set aside, others at the same time say that it is not there, which is left out.
+
+    Parameters
+    ----------
+    snakemake_logs : iterable of path
+        Of one run of the workflow; they name the log of each failed job.
+
+    Returns
+    -------
+    list of str
+        Sentences, each with the log that holds it in brackets.
     """
     run = "\n".join(map(_text, snakemake_logs))
     said = []
