@@ -35,6 +35,11 @@ def draw(test: list[Path], specimen: list[Path]) -> Figure:
     -------
     Figure
         In the size of a journal column.
+
+    Raises
+    ------
+    InputError
+        For a test without velocities, as the harmonic method makes it.
     """
     path = the_only(test, "test")
     record = load(path, "test")

@@ -44,6 +44,11 @@ def draw(model: list[Path], specimen: list[Path]) -> Figure:
     -------
     Figure
         In the size of a journal column.
+
+    Raises
+    ------
+    InputError
+        For a model of another specimen.
     """
     condensed, cut = load(the_only(model, "model"), "model"), load(the_only(specimen, "specimen"), "specimen")
     if condensed.attributes["name"] != Path(specimen[0]).stem:

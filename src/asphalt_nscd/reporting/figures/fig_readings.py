@@ -35,6 +35,11 @@ def draw(readings: list[Path], simulations: list[Path]) -> Figure:
     -------
     Figure
         In the size of a journal column.
+
+    Raises
+    ------
+    InputError
+        Where no simulation is of the specimen of the readings.
     """
     other = read_tests(readings, texts=["head", "law_source"])
     other["reading"] = "blocked"
