@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from test_diagnose import LAW, table
 
-from asphalt_nscd.diagnosis.model import start
+from asphalt_nscd.diagnosis.model import laboratory, start
 from asphalt_nscd.diagnosis.model.joint import Joint
 from asphalt_nscd.diagnosis.observed import scatter
-from asphalt_nscd.diagnosis.search import laboratory
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 
 NOISE = 0.01, np.radians(0.3), 0.03

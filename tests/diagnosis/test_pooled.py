@@ -8,8 +8,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from asphalt_nscd.diagnosis.campaigns import pooled
 from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.machine import pooled
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.rheology.parabolic import HuetSayegh

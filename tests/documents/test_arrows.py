@@ -52,7 +52,7 @@ ROOMS = {
     "simulation": ["observed", "causes", "model", "search"],
     "next_tests": ["observed", "causes", "model", "screening", "search"],
     "words": ["observed", "causes", "model", "screening", "simulation", "next_tests"],
-    "campaigns": ["observed", "causes", "model", "search", "words"],
+    "machine": ["observed", "causes", "model", "search", "words"],
     "record": ["observed", "causes", "model", "screening", "search", "simulation", "next_tests", "words"],
 }
 

@@ -1,5 +1,7 @@
 """Eqs. (1)-(5): limits, an independent quadrature, and the exact inverse."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -20,6 +22,15 @@ PAPER = Geometry(b=25e-3, B=56e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.23
 
 def with_foot(foot: float) -> Geometry:
     return Geometry(b=25e-3, B=foot, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
+
+
+def test_mass_that_moves_with_the_head_of_a_prism():
+    """By the kinetic energy of a cantilever in its static deflection, (3 x^2 h - x^3) / (2 h^3)."""
+    prism = replace(PAPER, b=0.05, B=0.05)
+    x = np.linspace(0.0, 1.0, 100_001)
+    share = np.trapezoid((1.5 * x**2 - 0.5 * x**3) ** 2, x)
+    assert mass_factor(prism) == pytest.approx(share * prism.mass + prism.mobile_mass, rel=1e-9)
+    assert mass_factor(replace(PAPER, b=0.0499, B=0.05)) == mass_factor(PAPER)
 
 
 def test_form_and_mass_factor_of_the_paper():

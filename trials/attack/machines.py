@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.api.tables import campaign_in
-from asphalt_nscd.diagnosis.campaigns.pooled import Pooled, pool
+from asphalt_nscd.diagnosis.machine.pooled import Pooled, pool
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
 

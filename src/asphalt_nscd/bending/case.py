@@ -231,6 +231,8 @@ class RunOptions:
         the run then makes its steps one by one.
     most_broken : float
         Share of the bonds that may break before the run ends in a sentence.
+    most_closed : float
+        Share of the gaps that may be closed at once before it does.
     """
 
     progress: Progress = lambda done, total: None
@@ -238,6 +240,7 @@ class RunOptions:
     checkpoint: Checkpoint | None = None
     frames: int = 0
     most_broken: float = 1.0
+    most_closed: float = 1.0
 
 
 @dataclass(frozen=True)

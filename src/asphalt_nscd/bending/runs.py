@@ -277,21 +277,30 @@ def _full_stepper(
     state: CondensedState,
     devices: HeadDevices,
     actuator: float = 0.0,
-    most_broken: float = 1.0,
+    options: RunOptions = RunOptions(),
 ) -> CondensedStepper:
-    """Steps the full system until the specimen is in two pieces, or more than a share of its bonds broke."""
+    """Steps the full system until the specimen is in two pieces, or fails by the shares of the options."""
     from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
 
     def on_break(broken: Sequence[int]) -> None:
         model.require_whole(broken)
-        if len(broken) > most_broken * model.bonds:
+        if len(broken) > options.most_broken * model.bonds:
             raise InputError(
                 f"{model.name}: the specimen fails, {len(broken)} of {counted(model.bonds, 'bond')} broke; lower the "
                 "load or raise the strength of the bonds."
             )
 
     stepper = CondensedStepper(model.system, law, dt, state, devices, actuator)
-    stepper.on_break = on_break
+
+    def on_contact(touching: Sequence[int]) -> None:
+        # hundreds of contacts at once take half a minute a step
+        if len(touching) > options.most_closed * model.bonds:
+            raise InputError(
+                f"{model.name}: the specimen is crushed, {counted(len(touching), 'gap')} of {model.bonds} closed; "
+                "strains are no longer small: lower the load, or take a stiffer law."
+            )
+
+    stepper.on_break, stepper.on_contact = on_break, on_contact
     return stepper
 
 
@@ -307,7 +316,7 @@ def _in_one_call(
         state = stepper.full_state()
         # the full system goes on from where the last accepted step ended
         path = np.concatenate([[0.0], driven])[done:]
-        full = _full_stepper(whole, law, stepper.dt, state, stepper.devices, path[0], options.most_broken)
+        full = _full_stepper(whole, law, stepper.dt, state, stepper.devices, path[0], options)
         rest = _follow(full, path, whole.layers, options, lambda: stepper.certify(full))
         force = np.concatenate([accepted.force, rest.force])
         velocity = np.concatenate([accepted.velocity @ layers, rest.velocity])

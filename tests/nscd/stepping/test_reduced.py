@@ -140,3 +140,12 @@ def test_naive_twin_of_the_bounds(beam_system):
         np.testing.assert_allclose(found, wanted, rtol=1e-13)  # processors differ in the last bit
         gap = (beam_system.gap - np.abs(model.opening[::3, a])).min()
         assert model.bounds.smallest_gap(unit) == pytest.approx(gap, rel=1e-13)
+
+
+def test_a_direction_whose_square_vanishes_adds_nothing(beam_system):
+    """1e-170 squared is zero: divided by its length of zero it ended in NaN."""
+    basis = ritz_basis(beam_system, 1)
+    extra = np.zeros((basis.shape[0], 3))
+    extra[beam_system.free[:3], [0, 1, 2]] = [1.0, 1e-170, 2.0]
+    larger = append_columns(beam_system, basis, extra)
+    assert larger.shape[1] == basis.shape[1] + 2 and np.isfinite(larger).all()

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.criteria import CONFIDENCE, HIDES, USUAL_THRESHOLD, Z_95
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE, HIDES, SURVIVES, USUAL_THRESHOLD, Z_95
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.next_tests import fixed_orders
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, Possible, possible
@@ -33,7 +33,6 @@ from asphalt_nscd.files.words import joined, specimen_named
 
 MOST = 5
 LEAST = 0.3  # nats, below which a sweep tells nothing
-SURVIVES = 2.0  # standard errors that a cause keeps without what it hangs on
 FOUND = (USUAL_THRESHOLD + Z_95) ** 2  # strength of a cause that is found in 19 of 20 cases
 KEPT = (SURVIVES + Z_95) ** 2
 # With 2 ln of the Bayes factor scattering by 2 d about d^2: d^2 - 1.645 * 2 d = 6 at d^2 = 21.

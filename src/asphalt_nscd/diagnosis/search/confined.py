@@ -25,13 +25,12 @@ from asphalt_nscd.diagnosis.criteria import (
     POSSIBLE,
     TORN,
 )
-from asphalt_nscd.diagnosis.model import chance, discrepancy, likelihood
+from asphalt_nscd.diagnosis.model import chance, discrepancy, laboratory, likelihood
 from asphalt_nscd.diagnosis.model.fit_beside import State
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted
 from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate, Reduced
 from asphalt_nscd.diagnosis.model.probability import log_odds, odds_of, shares
 from asphalt_nscd.diagnosis.observed.noise import Noise
-from asphalt_nscd.diagnosis.search import laboratory
 from asphalt_nscd.diagnosis.search.with_discrepancy import Survey
 from asphalt_nscd.diagnosis.written import interval_95, with_interval
 

@@ -14,6 +14,7 @@ from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAM
 from asphalt_nscd.diagnosis.model import chance, start
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.joint import Fitted, Joint
+from asphalt_nscd.diagnosis.model.laboratory import Laboratory, with_laboratory
 from asphalt_nscd.diagnosis.model.probability import stated
 from asphalt_nscd.diagnosis.observed import copies, scatter
 from asphalt_nscd.diagnosis.observed.noise import Noise
@@ -21,7 +22,6 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.screening import causality, suspects, within_isotherm
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.search.doubts import Key
-from asphalt_nscd.diagnosis.search.laboratory import Laboratory, with_laboratory
 from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.written import shown
 from asphalt_nscd.measurements.reduction import require_enough

@@ -76,7 +76,8 @@ class CondensedStepper:
     Of the last step: `missing` (d,) [N, N m], what the equations of motion lack, which is the driving force
     where the motion is driven and rounding elsewhere; `utilisation`, the largest of a bond; `contact`,
     (reactions [N], openings [m/s]) (3 c,) of the gaps that closed, or None. `on_break` is called with the
-    broken bonds when one more breaks; an error that it raises ends the step.
+    broken bonds when one more breaks, `on_contact` with the gaps that close before their reactions are
+    found; an error that one raises ends the step.
 
     Parameters
     ----------
@@ -112,6 +113,7 @@ class CondensedStepper:
         self._following = np.empty(0), -1
         self._responses: tuple[dict[int, np.ndarray], int] = {}, -1
         self.on_break: Callable[[list[int]], None] = lambda broken: None
+        self.on_contact: Callable[[list[int]], None] = lambda touching: None
 
     @property
     def weight(self) -> np.ndarray:
@@ -286,6 +288,7 @@ class CondensedStepper:
         # reactions move bodies, so that other gaps may close: the set only grows, so that this ends
         while not np.isin(closing, touching).all():
             touching = sorted({*touching, *closing.tolist()})
+            self.on_contact(touching)
             rows = (3 * np.asarray(touching)[:, None] + np.arange(3)).ravel()
             normal = system.operator[rows]
             response = self._response(touching)

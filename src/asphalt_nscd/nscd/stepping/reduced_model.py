@@ -174,6 +174,12 @@ class Columns:
                 break
             stretched = self._stretch(extra)
             length = np.linalg.norm(stretched, axis=0)
+            if not length.all():  # columns of 1e-160 have squares of zero
+                extra, stretched, length = (
+                    extra[:, length > 0.0],
+                    stretched[:, length > 0.0],
+                    length[length > 0.0],
+                )
             for part, known in zip(parts, self._stretched, strict=True):
                 share = known.T @ stretched
                 extra, stretched = extra - part @ share, stretched - known @ share

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtrc
 
-from asphalt_nscd.diagnosis.campaigns.common_faults import Common, Part, Pooled
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause
 from asphalt_nscd.diagnosis.criteria import (
@@ -28,6 +27,7 @@ from asphalt_nscd.diagnosis.criteria import (
     TWENTY_TIMES,
     Z_95,
 )
+from asphalt_nscd.diagnosis.machine.common_faults import Common, Part, Pooled
 from asphalt_nscd.diagnosis.model import chance, fit_beside, likelihood
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
